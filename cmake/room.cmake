@@ -1,0 +1,45 @@
+# The floors of the house: a room may link only rooms of lower floors.
+set(TRIPTYCH_FLOORS
+  core=0 scene=1 record=1 technique=2 reference=2 judge=2 measure=3 report=3 backend=4 suite=4 app=5)
+
+function(triptych_floor room out)
+  string(REGEX REPLACE "^(backend|suite)_.*" "\\1" kind "${room}")
+  foreach(entry IN LISTS TRIPTYCH_FLOORS)
+    if(entry MATCHES "^${kind}=([0-9]+)$")
+      set(${out} ${CMAKE_MATCH_1} PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+  message(FATAL_ERROR "room '${room}' has no floor; add it to TRIPTYCH_FLOORS in cmake/room.cmake")
+endfunction()
+
+# triptych_room(NAME SOURCES file... [ROOMS room...] [PUBLIC lib...] [PRIVATE lib...])
+# A static library triptych_NAME that sees the headers of the rooms it names and no others above it.
+function(triptych_room name)
+  cmake_parse_arguments(arg "" "" "SOURCES;ROOMS;PUBLIC;PRIVATE" ${ARGN})
+  triptych_floor(${name} own)
+  add_library(triptych_${name} STATIC ${arg_SOURCES})
+  target_include_directories(triptych_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+  target_link_libraries(triptych_${name} PRIVATE triptych_options)
+  foreach(room IN LISTS arg_ROOMS)
+    triptych_floor(${room} other)
+    if(NOT other LESS own)
+      message(FATAL_ERROR "room '${name}' (floor ${own}) may not use '${room}' (floor ${other})")
+    endif()
+    target_link_libraries(triptych_${name} PUBLIC triptych_${room})
+  endforeach()
+  target_link_libraries(triptych_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+endfunction()
+
+# triptych_test(NAME SOURCES file... ROOMS room... [LABELS label...] [LIBS lib...])
+# One GoogleTest program; its cases are found by CTest.
+function(triptych_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;ROOMS;LABELS;LIBS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE triptych_options GTest::gmock GTest::gtest_main ${arg_LIBS})
+  foreach(room IN LISTS arg_ROOMS)
+    target_link_libraries(${name} PRIVATE triptych_${room})
+  endforeach()
+  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+                       PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 300)
+endfunction()

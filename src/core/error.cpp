@@ -1,0 +1,35 @@
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+namespace triptych::core {
+namespace {
+
+std::string describe(const FilePlace& place, const std::string& message) {
+  std::string text = place.file;
+  if (place.line > 0) text += fmt::format(":{}", place.line);
+  if (place.column > 0) text += fmt::format(":{}", place.column);
+  return text.empty() ? message : text + ": " + message;
+}
+
+std::string_view file_name(std::string_view path) {
+  const auto slash = path.find_last_of('/');
+  return slash == std::string_view::npos ? path : path.substr(slash + 1);
+}
+
+}  // namespace
+
+InputError::InputError(FilePlace place, const std::string& message)
+    : Error(describe(place, message)), place_(std::move(place)) {}
+
+ApiError::ApiError(std::string call, std::string code, const std::string& detail,
+                   std::source_location place)
+    : Error(fmt::format("{} returned {} at {}:{}{}{}", call, code, file_name(place.file_name()),
+                        place.line(), detail.empty() ? "" : ": ", detail)),
+      call_(std::move(call)),
+      code_(std::move(code)) {}
+
+}  // namespace triptych::core

@@ -1,0 +1,75 @@
+#pragma once
+// The verdict on a run, from records and baselines alone.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/image.hpp"
+#include "judge/baselines.hpp"
+#include "record/store.hpp"
+
+namespace triptych::judge {
+
+enum class Check : std::uint8_t { image, counters, statistics, timing };
+[[nodiscard]] std::string_view name_of(Check check);
+[[nodiscard]] Check check(std::string_view name);  // throws InputError
+
+enum class Verdict : std::uint8_t {
+  pass,
+  improved,      // passes, and is better than the baseline beyond doubt
+  advisory,      // worth knowing, decides nothing: too few stored runs, another driver version
+  skipped,       // the device cannot do this; the reason is the message
+  waived,        // a regression that waivers.json excuses until its expiry
+  cannot_judge,  // no baseline, nothing measured, noise: never a pass
+  regression
+};
+[[nodiscard]] std::string_view name_of(Verdict verdict);
+
+// One answer about one configuration on one device (both empty where the finding is about the whole plan).
+struct Finding {
+  Check check = Check::image;
+  Verdict verdict = Verdict::pass;
+  std::string test;           // test id, Record::test_id
+  std::string device;
+  std::string configuration;
+  std::string message;        // one line: what, by how much, against which bound, what to do about it
+  std::map<std::string, double> numbers;  // "max_error", "bound", "rmse", "ratio", …
+};
+
+struct GateResult {
+  std::string plan;
+  std::string run;
+  std::vector<Finding> findings;  // worst first, then by device and configuration
+  [[nodiscard]] core::ExitCode exit_code() const;
+  [[nodiscard]] std::string headline() const;  // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices"
+};
+
+struct TruthPair {
+  core::Image truth;
+  core::Image bound;  // per pixel, same value in all channels
+};
+
+struct GateRequest {
+  std::string plan;
+  std::set<Check> checks;                      // empty: all
+  std::vector<std::string> devices;            // globs; empty: all in the run
+  std::vector<std::string> required_devices;   // globs; each must match a device that measured something
+  // The truth for a record's scene with the bound that holds for the record's path. Computed by the
+  // suite, cached in the store by the caller.
+  std::function<TruthPair(const record::Record&)> truth;
+  std::string today;  // ISO date, for the expiry of waivers
+};
+
+// Throws InputError for a corrupt baseline (file and line), never because of what was measured.
+[[nodiscard]] GateResult judge_run(const record::Store& store, const std::string& run,
+                                   const Baselines& baselines, const GateRequest& request);
+
+}  // namespace triptych::judge

@@ -1,0 +1,120 @@
+#pragma once
+// The contract between everything above and one API. A backend is spoken to in techniques, never in API
+// commands: devices → open → supports → prepare → frame → image.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/image.hpp"
+#include "record/record.hpp"
+#include "scene/volume_scene.hpp"
+#include "technique/catalogue.hpp"
+#include "technique/volume/raycast_parameters.hpp"
+
+namespace triptych::measure {
+
+struct VolumeWork {
+  scene::VolumeScene scene;
+  technique::RaycastOptions options;
+};
+
+// What is to be drawn and how.
+struct Work {
+  std::string technique;  // catalogue id
+  std::variant<VolumeWork> scene;
+};
+
+// A frame is made for one purpose only.
+enum class Purpose : std::uint8_t {
+  timing,      // nothing is counted
+  statistics,  // pipeline statistics are queried; its time is never used
+  counters     // a build of the device code that counts; never timed
+};
+
+struct Frame {
+  // Steady clock from submitting the work to knowing it done. Read-back is outside.
+  double wall_ns = 0;
+  std::optional<double> device_ns;  // only for Purpose::timing, where the device tells
+  record::Counts counts;            // statistics or counters; what cannot be told is absent
+};
+
+// A technique with its scene, ready to be drawn again and again: data uploaded, device code compiled.
+// Destroying it frees everything on the device.
+class Prepared {
+ public:
+  Prepared() = default;
+  Prepared(const Prepared&) = delete;
+  Prepared& operator=(const Prepared&) = delete;
+  virtual ~Prepared() = default;
+
+  // Draws one frame and waits for it without spinning. Throws ApiError, DeviceLost.
+  [[nodiscard]] virtual Frame frame(Purpose purpose) = 0;
+  // The picture of the last frame, read back.
+  [[nodiscard]] virtual core::Image image() = 0;
+  // Hash of the device code of the timed build, with the options it was built with.
+  [[nodiscard]] virtual std::string kernel_hash() const = 0;
+};
+
+// The path a backend takes when a plan leaves `voxel` and `sampler` out: its fastest that holds the image
+// bound.
+struct VolumePath {
+  scene::VoxelFormat voxel = scene::VoxelFormat::f32;
+  technique::Sampler sampler = technique::Sampler::manual;
+};
+
+class Device {
+ public:
+  Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  virtual ~Device() = default;
+
+  [[nodiscard]] virtual const record::Device& info() const = 0;
+
+  // Empty when the device can do it, else the reason: a feature it lacks, a limit the scene exceeds
+  // (both numbers named), memory it does not have.
+  [[nodiscard]] virtual std::optional<std::string> unsupported(const Work& work) const = 0;
+
+  // `native` is the smallest format that holds the data exactly.
+  [[nodiscard]] virtual VolumePath default_path(scene::VoxelFormat native) const = 0;
+
+  // Largest error of this device's trilinear filter, as a share of the difference between neighbouring
+  // voxels, found by a probe when the device was opened; 0 within rounding for Sampler::manual.
+  [[nodiscard]] virtual double filter_weight_error(const VolumePath& path) const = 0;
+
+  // Throws NotSupported, ApiError, DeviceLost.
+  [[nodiscard]] virtual std::unique_ptr<Prepared> prepare(const Work& work) = 0;
+};
+
+// What a loader says of one platform or device that cannot be used.
+struct Broken {
+  std::string what;    // "OpenCL platform Clover"
+  std::string reason;
+};
+
+struct Listing {
+  std::vector<record::Device> devices;
+  std::vector<Broken> broken;
+};
+
+class Backend {
+ public:
+  Backend() = default;
+  Backend(const Backend&) = delete;
+  Backend& operator=(const Backend&) = delete;
+  virtual ~Backend() = default;
+
+  [[nodiscard]] virtual std::string_view api() const = 0;
+  // Everything the loaders list. Never throws: a platform that is broken or empty costs only itself and
+  // is named in `broken`; no loader at all gives one `broken` entry.
+  [[nodiscard]] virtual Listing list() const = 0;
+  // Throws NotSupported when there is no such device, ApiError when it cannot be opened.
+  [[nodiscard]] virtual std::unique_ptr<Device> open(std::string_view device_id) const = 0;
+};
+
+}  // namespace triptych::measure

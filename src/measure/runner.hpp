@@ -1,0 +1,66 @@
+#pragma once
+// Runs a plan: one worker process per device, supervised; records are stored as they are made.
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/plan.hpp"
+#include "measure/protocol.hpp"
+#include "record/store.hpp"
+
+namespace triptych::measure {
+
+// Plants a fault in what is measured, to prove that the gate catches it: a technique::Fault by name,
+// "slowdown:PERCENT" (real extra work), "crash", "hang", "device_lost".
+struct Plant {
+  std::string fault;
+  std::string only;  // glob over configuration keys and device ids; empty: everywhere
+};
+
+struct RunOptions {
+  Protocol protocol;
+  std::chrono::seconds limit{60};  // of one configuration; a worker past it is killed and replaced
+  bool resume = false;             // continue the plan's latest run: what has a record is left alone
+  std::vector<Plant> plants;
+  // Command that starts a worker for a device; the device id is appended.
+  std::vector<std::string> worker_command;
+};
+
+struct Progress {
+  std::string device;
+  std::string configuration;
+  int done = 0;
+  int total = 0;
+  std::chrono::seconds left{0};
+  const record::Record* record = nullptr;  // of the configuration just done
+};
+
+struct RunResult {
+  std::string run;  // id in the store
+  int measured = 0;
+  int skipped = 0;
+  int failed = 0;   // failed, crashed, hung or lost
+  double wall_ns = 0;
+  double overhead_ns = 0;
+};
+
+// Every configuration of the plan on every device, devices one after the other so that none disturbs
+// another's timing. A crash, a hang or a lost device costs one configuration.
+[[nodiscard]] RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices,
+                                 const Suite& suite, record::Store& store, const RunOptions& options,
+                                 const std::function<void(const Progress&)>& on_progress);
+
+// The worker's side: serves one device over the two file descriptors until the first is closed. Returns
+// the process's exit code.
+[[nodiscard]] int serve_worker(const Backend& backend, std::string_view device_id,
+                               const FindSuite& find_suite, int request_fd, int answer_fd);
+
+// Processor, cores, memory, operating system, kernel, compiler, version of Triptych.
+[[nodiscard]] std::map<std::string, std::string> system_facts();
+
+}  // namespace triptych::measure

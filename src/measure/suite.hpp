@@ -1,0 +1,65 @@
+#pragma once
+// The contract between plans and a suite: which factors there are, and what a configuration means.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/backend.hpp"
+
+namespace triptych::measure {
+
+enum class FactorKind : std::uint8_t {
+  choice,  // one of `levels`
+  number,  // a finite real number within [minimum, maximum]
+  text     // checked by Suite::check
+};
+
+struct Factor {
+  std::string name;
+  FactorKind kind = FactorKind::text;
+  std::vector<std::string> levels;  // choice only
+  double minimum = 0;               // number only
+  double maximum = 0;
+  std::string standard;  // its value when a plan leaves it out; "auto": the device's default path
+  bool of_scene = true;  // decides the picture, or only how it is computed
+  std::string summary;   // one line with unit and source, for --help and docs
+};
+
+// Factor → value as canonical text ("0.5", "orbit_y:1/8"); every factor of the suite is present.
+using Configuration = std::map<std::string, std::string>;
+
+class Suite {
+ public:
+  Suite() = default;
+  Suite(const Suite&) = delete;
+  Suite& operator=(const Suite&) = delete;
+  virtual ~Suite() = default;
+
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  [[nodiscard]] virtual const std::vector<Factor>& factors() const = 0;
+  // Checks a value beyond its kind; throws InputError saying what was expected.
+  virtual void check(const Factor& factor, std::string_view value) const = 0;
+
+  // The plans that come with the suite: short name ("quick") and YAML text.
+  [[nodiscard]] virtual std::vector<std::string_view> plan_names() const = 0;
+  [[nodiscard]] virtual std::string_view plan_text(std::string_view plan) const = 0;
+
+  // Empty when the data of the configuration is here, else why not (a file that is absent).
+  [[nodiscard]] virtual std::string missing_data(const Configuration& configuration) const = 0;
+
+  // Builds what is to be drawn; "auto" levels are resolved with the device and written back into
+  // `configuration`. The suite keeps the last data set loaded, so that neighbours in a plan share it.
+  [[nodiscard]] virtual Work work(Configuration& configuration, const Device& device) = 0;
+  // A work for calibrating clocks and devices: lasts about `target_ms` on a slow device, tells nothing.
+  [[nodiscard]] virtual Work calibration(technique::Work kind) = 0;
+};
+
+// Canonical text of the factors of a configuration that decide the picture: "camera=…,data=…".
+[[nodiscard]] std::string scene_key(const Suite& suite, const Configuration& configuration);
+
+}  // namespace triptych::measure

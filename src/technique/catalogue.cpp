@@ -1,0 +1,45 @@
+#include "technique/catalogue.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "triptych_technique_embedded.hpp"
+
+namespace triptych::technique {
+namespace {
+
+std::vector<Technique> parse(std::string_view text) {
+  std::vector<Technique> result;
+  for (const core::Json& entry : core::Json::parse(text).at("techniques")) {
+    result.push_back({.id = entry.at("id"),
+                      .suite = entry.at("suite"),
+                      .work = entry.at("work") == "draw" ? Work::draw : Work::compute,
+                      .apis = entry.at("apis"),
+                      .summary = entry.at("summary")});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string_view name_of(Work work) { return work == Work::draw ? "draw" : "compute"; }
+
+const std::vector<Technique>& catalogue() {
+  static const std::vector<Technique> techniques = parse(embedded("catalogue.json"));
+  return techniques;
+}
+
+const Technique& technique(std::string_view id) {
+  const auto& all = catalogue();
+  const auto found = std::ranges::find(all, id, &Technique::id);
+  if (found != all.end()) return *found;
+  std::vector<std::string_view> ids;
+  for (const Technique& each : all) ids.push_back(each.id);
+  throw core::InputError(
+      fmt::format("unknown technique '{}'; there are: {}", id, fmt::join(ids, ", ")));
+}
+
+}  // namespace triptych::technique

@@ -1,0 +1,68 @@
+// Volume maths in the common subset of C++, GLSL and OpenCL C. Pure functions of scalars by value; the
+// includer defines the TRI_ macros (prelude.hpp, prelude.glsl, the OpenCL backend's prelude.cl).
+
+// Parameter range [near, far] in which o + t·d lies in [0, extent]; near > far where it never does.
+// A direction of ±0 never divides: the ray lies in the slab for all t or for none.
+TRI_FN TRI_FLOAT2 tri_slab(float o, float d, float extent) {
+  const float huge = 3.0e38f;
+  if (d == 0.0f) {
+    return (o >= 0.0f && o <= extent) ? TRI_MAKE_FLOAT2(-huge, huge) : TRI_MAKE_FLOAT2(huge, -huge);
+  }
+  float a = (0.0f - o) / d;
+  float b = (extent - o) / d;
+  return (a < b) ? TRI_MAKE_FLOAT2(a, b) : TRI_MAKE_FLOAT2(b, a);
+}
+
+// Number of samples of a ray whose length is `steps` steps, the last one partial: ⌈steps⌉, 0 for an
+// empty or invalid range.
+TRI_FN int tri_sample_count(float steps) {
+  if (!(steps > 0.0f)) return 0;
+  return TRI_INT(TRI_CEIL(steps < 2.0e9f ? steps : 2.0e9f));
+}
+
+// Share of a whole step that the i-th sample stands for: 1 but for the last one.
+TRI_FN float tri_step_share(float steps, int i) {
+  float left = steps - TRI_TO_FLOAT(i);
+  return left < 1.0f ? (left > 0.0f ? left : 0.0f) : 1.0f;
+}
+
+// Position of a normalised value among the 256 entry centres, clamped to [0, 255]; NaN gives 0.
+TRI_FN float tri_table_position(float x) {
+  float u = x * 256.0f - 0.5f;
+  return u > 0.0f ? (u < 255.0f ? u : 255.0f) : 0.0f;
+}
+
+// log2(1 − alpha) for alpha in [0, 1), without cancellation for small alpha:
+// log(m) = 2·atanh((m−1)/(m+1)) on m in [√½, √2), where m − 1 is −alpha itself while no exponent is
+// split off. Truncating after t⁹ errs below 3e-10 relative; rounding below 4·2⁻²⁴ relative.
+TRI_FN float tri_log2_1m(float alpha) {
+  float y = 1.0f - alpha;
+  int bits = TRI_AS_INT(y);
+  int e = ((bits - 0x3f3504f3) >> 23);  // 0x3f3504f3 is √½
+  float m = TRI_AS_FLOAT(bits - e * 8388608);
+  float d = e == 0 ? 0.0f - alpha : m - 1.0f;
+  float t = d / (m + 1.0f);
+  float q = t * t;
+  float p = 2.8853900818f + q * (0.9617966939f + q * (0.5770780164f + q * (0.4121985831f + q * 0.3205988980f)));
+  return TRI_TO_FLOAT(e) + t * p;
+}
+
+// 1 − 2^z for z ≤ 0, without cancellation for small |z|: with n = round(z), 2^z = 2^n·(1 + w) and
+// 1 − 2^z = (1 − 2^n) − 2^n·w, w = 2^(z−n) − 1 by its series to degree 7 (error below 2e-9 relative).
+TRI_FN float tri_1m_exp2(float z) {
+  float c = z > -126.0f ? z : -126.0f;
+  float n = TRI_FLOOR(c + 0.5f);
+  float f = c - n;
+  float w = f * (0.6931471806f + f * (0.2402265070f + f * (0.0555041087f + f * (0.0096181291f +
+            f * (0.0013333558f + f * (0.0001540353f + f * 0.0000152527f))))));
+  float scale = TRI_AS_FLOAT((TRI_INT(n) + 127) * 8388608);
+  return (1.0f - scale) - scale * w;
+}
+
+// Opacity of `steps` voxel lengths whose single one has opacity alpha: 1 − (1 − alpha)^steps.
+// Exact for alpha = 0 and alpha = 1 (steps > 0); relative error below 8·2⁻²⁴.
+TRI_FN float tri_opacity(float alpha, float steps) {
+  if (!(alpha > 0.0f) || !(steps > 0.0f)) return 0.0f;
+  if (alpha >= 1.0f) return 1.0f;
+  return tri_1m_exp2(steps * tri_log2_1m(alpha));
+}

@@ -1,0 +1,21 @@
+// Mirrors technique::RaycastParameters (raycast_parameters.hpp), where the meaning of each field stands.
+// The backend's prelude defines TRI_BINDING(n) and the compile-time constants
+//   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, TRI_FAULT   (integers).
+layout(std140) TRI_BINDING(0) uniform Parameters {
+  vec4 eye;
+  vec4 ray_centre;
+  vec4 ray_right;
+  vec4 ray_up;
+  vec4 inverse_spacing;
+  vec4 value_map;
+  vec4 shading;
+  vec4 background;
+  ivec4 volume_size;
+  ivec4 brick_grid;
+  ivec4 viewport;
+} u;
+
+TRI_BINDING(1) uniform sampler3D volume_texture;
+TRI_BINDING(2) uniform sampler1D transfer_texture;  // 256 RGBA32F entries, read by texelFetch
+layout(std430) TRI_BINDING(3) readonly buffer Bricks { uint brick_visible[]; };
+layout(std430) TRI_BINDING(5) writeonly buffer Counters { uint counters[]; };

@@ -1,0 +1,224 @@
+// Front-to-back raycasting of one pixel: the body shared by Vulkan and GL, by compute and fragment.
+// Positions are in voxels, lengths along the ray in steps: sample i stands at p0 + (i+½)·g.
+
+const int fault_half_voxel_shift = 1;
+const int fault_flipped_axis = 2;
+const int fault_extra_sample = 3;
+const int fault_uncorrected_opacity = 4;
+const int fault_coarse_filter = 5;
+
+// Counted only where TRI_COUNT is 1; the timed build drops it.
+uint count_samples = 0u;
+uint count_nonzero = 0u;
+uint count_bricks_visited = 0u;
+uint count_bricks_skipped = 0u;
+uint count_terminated = 0u;
+
+// Trilinear by hand: texels floor(q), floor(q)+1 with q = p − ½, clamped to the edge.
+float fetch_manual(vec3 p) {
+  vec3 q = p - 0.5;
+  vec3 base = floor(q);
+  vec3 f = q - base;
+  if (TRI_FAULT == fault_coarse_filter) f = floor(f * 256.0 + 0.5) / 256.0;
+  ivec3 last = u.volume_size.xyz - 1;
+  ivec3 a = clamp(ivec3(base), ivec3(0), last);
+  ivec3 b = clamp(ivec3(base) + 1, ivec3(0), last);
+  float v000 = texelFetch(volume_texture, ivec3(a.x, a.y, a.z), 0).r;
+  float v100 = texelFetch(volume_texture, ivec3(b.x, a.y, a.z), 0).r;
+  float v010 = texelFetch(volume_texture, ivec3(a.x, b.y, a.z), 0).r;
+  float v110 = texelFetch(volume_texture, ivec3(b.x, b.y, a.z), 0).r;
+  float v001 = texelFetch(volume_texture, ivec3(a.x, a.y, b.z), 0).r;
+  float v101 = texelFetch(volume_texture, ivec3(b.x, a.y, b.z), 0).r;
+  float v011 = texelFetch(volume_texture, ivec3(a.x, b.y, b.z), 0).r;
+  float v111 = texelFetch(volume_texture, ivec3(b.x, b.y, b.z), 0).r;
+  vec4 x0 = vec4(v000, v010, v001, v011);
+  vec4 x1 = vec4(v100, v110, v101, v111);
+  vec4 x = x0 + f.x * (x1 - x0);
+  vec2 y = x.xz + f.y * (x.yw - x.xz);
+  return y.x + f.z * (y.y - y.x);
+}
+
+float fetch_hardware(vec3 p) {
+  if (TRI_FAULT == fault_coarse_filter) {
+    vec3 q = p - 0.5;
+    p = floor(q) + floor(fract(q) * 256.0 + 0.5) / 256.0 + 0.5;
+  }
+  return textureLod(volume_texture, p / vec3(u.volume_size.xyz), 0.0).r;
+}
+
+// Normalised value at p.
+float field(vec3 p) {
+  if (TRI_FAULT == fault_half_voxel_shift) p.x += 0.5;
+  if (TRI_FAULT == fault_flipped_axis) p.y = float(u.volume_size.y) - p.y;
+  float stored = TRI_MANUAL_SAMPLER == 1 ? fetch_manual(p) : fetch_hardware(p);
+  return stored * u.value_map.x + u.value_map.y;
+}
+
+vec4 transfer(float x) {
+  float position = tri_table_position(x);
+  int k = min(int(position), 254);
+  vec4 a = texelFetch(transfer_texture, k, 0);
+  vec4 b = texelFetch(transfer_texture, k + 1, 0);
+  return a + (position - float(k)) * (b - a);
+}
+
+// Headlight shading (scene::Shading): d is the world direction of the ray.
+vec3 shade(vec3 colour, vec3 p, vec3 d) {
+  vec3 g = vec3(field(p + vec3(1, 0, 0)) - field(p - vec3(1, 0, 0)),
+                field(p + vec3(0, 1, 0)) - field(p - vec3(0, 1, 0)),
+                field(p + vec3(0, 0, 1)) - field(p - vec3(0, 0, 1)));
+  g *= 0.5 * u.inverse_spacing.w * u.inverse_spacing.xyz;
+  float cosine = abs(dot(g, d)) / max(sqrt(dot(g, g)), u.ray_up.w);
+  float highlight = cosine;
+  for (int i = 0; i < u.volume_size.w; ++i) highlight *= highlight;
+  return colour * (u.shading.x + u.shading.y * cosine) + u.shading.z * highlight;
+}
+
+struct Ray {
+  vec3 p0;      // where the ray enters the box, voxels
+  vec3 g;       // one step, voxels
+  vec3 d;       // unit direction, world
+  float steps;  // length inside the box, steps
+};
+
+Ray make_ray(ivec2 pixel) {
+  vec2 ndc = (2.0 * (vec2(pixel) + 0.5)) / vec2(u.viewport.xy) - 1.0;
+  vec3 d = u.ray_centre.xyz + ndc.x * u.ray_right.xyz - ndc.y * u.ray_up.xyz;
+  d = d / sqrt(dot(d, d));
+  vec3 v = d * u.inverse_spacing.xyz;
+  vec3 size = vec3(u.volume_size.xyz);
+  vec2 x = tri_slab(u.eye.x, v.x, size.x);
+  vec2 y = tri_slab(u.eye.y, v.y, size.y);
+  vec2 z = tri_slab(u.eye.z, v.z, size.z);
+  float t0 = max(max(x.x, y.x), max(z.x, 0.0));
+  float t1 = min(min(x.y, y.y), z.y);
+  Ray ray;
+  ray.d = d;
+  ray.g = v * u.eye.w;
+  ray.p0 = u.eye.xyz + t0 * v;
+  ray.steps = t1 > t0 ? (t1 - t0) / u.eye.w : 0.0;
+  return ray;
+}
+
+// A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed from the
+// brick's index, not accumulated, so that they do not drift.
+struct Walk {
+  ivec3 brick;
+  ivec3 direction;  // −1 or +1 per axis
+  vec3 inverse_g;
+  float leave;      // where the ray leaves the brick, steps
+  int axis;         // through which face
+  bool outside;     // rounding led out of the grid: the rest of the ray is taken as visible
+};
+
+void aim(inout Walk walk, Ray ray) {
+  vec3 face = vec3((walk.brick + max(walk.direction, ivec3(0))) * u.brick_grid.w);
+  vec3 at = (face - ray.p0) * walk.inverse_g;
+  at.x = ray.g.x == 0.0 ? 3.0e38 : at.x;
+  at.y = ray.g.y == 0.0 ? 3.0e38 : at.y;
+  at.z = ray.g.z == 0.0 ? 3.0e38 : at.z;
+  walk.axis = at.x <= at.y ? (at.x <= at.z ? 0 : 2) : (at.y <= at.z ? 1 : 2);
+  walk.leave = min(at.x, min(at.y, at.z));
+}
+
+Walk start_walk(Ray ray) {
+  Walk walk;
+  walk.brick = clamp(ivec3(floor(ray.p0 / float(u.brick_grid.w))), ivec3(0), u.brick_grid.xyz - 1);
+  walk.direction = ivec3(ray.g.x < 0.0 ? -1 : 1, ray.g.y < 0.0 ? -1 : 1, ray.g.z < 0.0 ? -1 : 1);
+  walk.inverse_g = 1.0 / ray.g;
+  walk.outside = false;
+  aim(walk, ray);
+  return walk;
+}
+
+void next_brick(inout Walk walk, Ray ray) {
+  walk.brick.x += walk.axis == 0 ? walk.direction.x : 0;
+  walk.brick.y += walk.axis == 1 ? walk.direction.y : 0;
+  walk.brick.z += walk.axis == 2 ? walk.direction.z : 0;
+  walk.outside = any(lessThan(walk.brick, ivec3(0))) || any(greaterThanEqual(walk.brick, u.brick_grid.xyz));
+  aim(walk, ray);
+}
+
+bool visible(Walk walk) {
+  if (walk.outside) return true;
+  return brick_visible[walk.brick.x + u.brick_grid.x * (walk.brick.y + u.brick_grid.y * walk.brick.z)] != 0u;
+}
+
+// The first sample at or behind `limit` that lies beyond the brick. A sample within rounding of the face
+// may be counted to either side: the brick's border of one voxel covers half a voxel of error.
+int samples_before(Walk walk, int limit) {
+  if (walk.outside || !(walk.leave < float(limit))) return limit;
+  return clamp(int(ceil(walk.leave - 0.5)), 0, limit);
+}
+
+// Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the ray.
+ivec2 next_run(inout Walk walk, Ray ray, int begin, int end) {
+  while (begin < end && !visible(walk)) {
+    begin = max(begin, samples_before(walk, end));
+    next_brick(walk, ray);
+    if (TRI_COUNT == 1) { count_bricks_visited++; count_bricks_skipped++; }
+  }
+  int stop = begin;
+  while (stop < end && visible(walk)) {
+    stop = max(stop, samples_before(walk, end));
+    next_brick(walk, ray);
+    if (TRI_COUNT == 1) count_bricks_visited++;
+  }
+  return ivec2(begin, stop);
+}
+
+// Premultiplied RGBA of the pixel.
+vec4 raycast(ivec2 pixel) {
+  Ray ray = make_ray(pixel);
+  int count = tri_sample_count(ray.steps);
+  if (TRI_FAULT == fault_extra_sample && count > 0) { count += 1; ray.steps = float(count); }
+  vec3 colour = vec3(0.0);
+  float transmittance = 1.0;
+  float step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
+  bool skipping = u.brick_grid.w > 0;
+  Walk walk;
+  if (skipping) walk = start_walk(ray);
+  int i = 0;
+  while (i < count) {
+    int stop = count;
+    if (skipping) {
+      ivec2 run = next_run(walk, ray, i, count);
+      i = run.x;
+      stop = run.y;
+    }
+    for (; i < stop; ++i) {
+      vec3 p = ray.p0 + (float(i) + 0.5) * ray.g;
+      vec4 c = transfer(field(p));
+      if (TRI_COUNT == 1) count_samples++;
+      if (TRI_SPEED_OF_LIGHT == 1) {
+        colour += c.rgb;
+        transmittance += c.a;
+        continue;
+      }
+      if (c.a > 0.0) {
+        if (TRI_COUNT == 1) count_nonzero++;
+        if (TRI_SHADING == 1) c.rgb = shade(c.rgb, p, ray.d);
+        float weight = transmittance * tri_opacity(c.a, step_voxels * tri_step_share(ray.steps, i));
+        colour += weight * c.rgb;
+        transmittance -= weight;
+        if (transmittance < u.ray_right.w) {
+          if (TRI_COUNT == 1) count_terminated = 1u;
+          count = 0;  // ends both loops
+          break;
+        }
+      }
+    }
+  }
+  if (TRI_COUNT == 1) {
+    int total = tri_sample_count(ray.steps);
+    int at = 8 * (pixel.y * u.viewport.x + pixel.x);
+    counters[at] = total > 0 ? 1u : 0u;
+    counters[at + 1] = count_samples;
+    counters[at + 2] = count_nonzero;
+    counters[at + 3] = count_bricks_visited;
+    counters[at + 4] = count_bricks_skipped;
+    counters[at + 5] = count_terminated;
+    counters[at + 6] = uint(total) - count_samples;
+  }
+  return vec4(colour, 1.0 - transmittance) + transmittance * u.background;
+}

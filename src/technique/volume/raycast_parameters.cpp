@@ -1,0 +1,66 @@
+#include "technique/volume/raycast_parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "technique/volume/bricks.hpp"
+
+namespace triptych::technique {
+namespace {
+
+std::array<float, 4> pack(const glm::dvec3& v, double w) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
+          static_cast<float>(w)};
+}
+
+}  // namespace
+
+std::string_view name_of(Sampler sampler) {
+  return sampler == Sampler::hardware ? "hardware" : "manual";
+}
+std::string_view name_of(Skip skip) { return skip == Skip::none ? "none" : "bricks"; }
+
+Sampler sampler(std::string_view name) {
+  if (name == "hardware") return Sampler::hardware;
+  if (name == "manual") return Sampler::manual;
+  throw core::InputError(fmt::format("sampler '{}': expected hardware or manual", name));
+}
+
+Skip skip(std::string_view name) {
+  if (name == "none") return Skip::none;
+  if (name == "bricks") return Skip::bricks;
+  throw core::InputError(fmt::format("skip '{}': expected none or bricks", name));
+}
+
+RaycastParameters raycast_parameters(const scene::VolumeScene& scene, const RaycastOptions& options,
+                                     double stored_maximum) {
+  const scene::VoxelGrid& grid = *scene.grid;
+  const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
+  const double half = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360);
+  const double aspect = static_cast<double>(scene.width) / scene.height;
+  const auto bricks = brick_counts(grid.size);
+  const scene::Shading& light = scene.shading;
+  return {
+      .eye = pack(scene.camera.eye / spacing, scene.step_world()),
+      .ray_centre = pack(scene.camera.forward, scene.step_voxels),
+      .ray_right = pack(scene.camera.right() * (half * aspect), options.ert),
+      .ray_up = pack(scene.camera.up * half, light.gradient_floor),
+      .inverse_spacing = pack(1.0 / spacing, scene.smallest_spacing()),
+      .value_map = {static_cast<float>(grid.scale * stored_maximum), static_cast<float>(grid.offset),
+                    0, 0},
+      .shading = {static_cast<float>(light.ambient), static_cast<float>(light.diffuse),
+                  static_cast<float>(light.specular), 0},
+      .background = scene.background,
+      .volume_size = {grid.size[0], grid.size[1], grid.size[2],
+                      std::countr_zero(static_cast<unsigned>(light.exponent))},
+      .brick_grid = {bricks[0], bricks[1], bricks[2],
+                     options.skip == Skip::bricks ? brick_edge : 0},
+      .viewport = {scene.width, scene.height, 1, 0},
+  };
+}
+
+}  // namespace triptych::technique

@@ -1,0 +1,73 @@
+#pragma once
+// How a volume may be raycast, and what the kernels of every API are given.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "scene/volume_scene.hpp"
+
+namespace triptych::technique {
+
+enum class Sampler : std::uint8_t { hardware, manual };  // who interpolates between voxels
+enum class Skip : std::uint8_t { none, bricks };         // what empty space is skipped by
+[[nodiscard]] std::string_view name_of(Sampler sampler);
+[[nodiscard]] std::string_view name_of(Skip skip);
+[[nodiscard]] Sampler sampler(std::string_view name);  // throws InputError
+[[nodiscard]] Skip skip(std::string_view name);        // throws InputError
+
+// Faults that can be planted to prove that the gate catches them. Kernels take the number as a
+// compile-time constant, so that an unplanted kernel holds no trace of them.
+enum class Fault : std::uint8_t {
+  none = 0,
+  half_voxel_shift = 1,     // the volume is read half a voxel off along x
+  flipped_axis = 2,         // y is read mirrored
+  extra_sample = 3,         // one whole sample too many at the end of each ray
+  uncorrected_opacity = 4,  // opacity is taken per sample, not per voxel length
+  coarse_filter = 5         // interpolation weights are rounded to 8 bits
+};
+
+// The choices that change the picture by no more than its bound.
+struct RaycastOptions {
+  Sampler sampler = Sampler::manual;
+  Skip skip = Skip::bricks;
+  double ert = 1.0 / 512;  // stop below this transmittance; 0: never
+  Fault fault = Fault::none;
+  // Every extra_work_stride-th row is drawn a second time: a planted slowdown of 1/stride by real work;
+  // 0: none.
+  int extra_work_stride = 0;
+};
+
+// Mirrors parameters.glsl (std140) and parameters.cl: four-byte scalars in groups of four only.
+// Lengths along a ray are counted in steps, positions in voxels (voxel centres at i+½).
+struct RaycastParameters {
+  std::array<float, 4> eye;         // xyz: eye/spacing; w: h, the step in world units
+  std::array<float, 4> ray_centre;  // xyz: forward, world; w: h / smallest spacing, the step in voxels
+  std::array<float, 4> ray_right;   // xyz: right · aspect · tan(fov/2); w: ERT ε
+  std::array<float, 4> ray_up;      // xyz: up · tan(fov/2); w: gradient floor
+  std::array<float, 4> inverse_spacing;  // xyz: 1/spacing; w: smallest spacing
+  std::array<float, 4> value_map;        // x, y: normalised = stored·x + y; z, w: 0
+  std::array<float, 4> shading;          // ambient, diffuse, specular, 0
+  std::array<float, 4> background;       // premultiplied RGBA
+  std::array<std::int32_t, 4> volume_size;  // voxels; w: log2 of the specular exponent
+  std::array<std::int32_t, 4> brick_grid;   // bricks per axis; w: brick edge in voxels, 0: no skipping
+  std::array<std::int32_t, 4> viewport;     // width, height, row stride, 0
+};
+static_assert(sizeof(RaycastParameters) == 11 * 16);
+static_assert(offsetof(RaycastParameters, volume_size) == 8 * 16);
+
+// The stored integer of a u8 or u16 grid arrives in a shader as itself (buffer) or over its maximum
+// (UNORM texture): `stored_maximum` is 1 or 255 or 65535 accordingly.
+[[nodiscard]] RaycastParameters raycast_parameters(const scene::VolumeScene& scene,
+                                                   const RaycastOptions& options,
+                                                   double stored_maximum);
+
+// The counters a counting kernel leaves per pixel, in this order.
+inline constexpr std::array<std::string_view, 7> raycast_counters{
+    "rays_hit",       "samples",         "samples_nonzero", "bricks_visited",
+    "bricks_skipped", "rays_terminated", "samples_saved"};
+// Unsigned 32-bit integers per pixel in the counters' buffer; the eighth is padding.
+inline constexpr std::size_t raycast_counter_stride = 8;
+
+}  // namespace triptych::technique
