@@ -1,6 +1,6 @@
 #pragma once
-// The contract between everything above and one API. A backend is spoken to in techniques, never in API
-// commands: devices → open → supports → prepare → frame → image.
+// The contract between everything above and one API. A backend is spoken to in techniques, never in
+// API commands: devices → open → supports → prepare → frame → image.
 
 #include <cstdint>
 #include <memory>
@@ -43,8 +43,8 @@ struct Frame {
   record::Counts counts;            // statistics or counters; what cannot be told is absent
 };
 
-// A technique with its scene, ready to be drawn again and again: data uploaded, device code compiled.
-// Destroying it frees everything on the device.
+// A technique with its scene, ready to be drawn again and again: data uploaded, device code
+// compiled. Destroying it frees everything on the device.
 class Prepared {
  public:
   Prepared() = default;
@@ -60,8 +60,8 @@ class Prepared {
   [[nodiscard]] virtual std::string kernel_hash() const = 0;
 };
 
-// The path a backend takes when a plan leaves `voxel` and `sampler` out: its fastest that holds the image
-// bound.
+// The path a backend takes when a plan leaves `voxel` and `sampler` out: its fastest that holds the
+// image bound.
 struct VolumePath {
   scene::VoxelFormat voxel = scene::VoxelFormat::f32;
   technique::Sampler sampler = technique::Sampler::manual;
@@ -83,8 +83,9 @@ class Device {
   // `native` is the smallest format that holds the data exactly.
   [[nodiscard]] virtual VolumePath default_path(scene::VoxelFormat native) const = 0;
 
-  // Largest error of this device's trilinear filter, as a share of the difference between neighbouring
-  // voxels, found by a probe when the device was opened; 0 within rounding for Sampler::manual.
+  // Largest error of this device's trilinear filter, as a share of the difference between
+  // neighbouring voxels, found by a probe when the device was opened; 0 within rounding for
+  // Sampler::manual.
   [[nodiscard]] virtual double filter_weight_error(const VolumePath& path) const = 0;
 
   // Throws NotSupported, ApiError, DeviceLost.
@@ -93,7 +94,7 @@ class Device {
 
 // What a loader says of one platform or device that cannot be used.
 struct Broken {
-  std::string what;    // "OpenCL platform Clover"
+  std::string what;  // "OpenCL platform Clover"
   std::string reason;
 };
 
@@ -110,8 +111,8 @@ class Backend {
   virtual ~Backend() = default;
 
   [[nodiscard]] virtual std::string_view api() const = 0;
-  // Everything the loaders list. Never throws: a platform that is broken or empty costs only itself and
-  // is named in `broken`; no loader at all gives one `broken` entry.
+  // Everything the loaders list. Never throws: a platform that is broken or empty costs only itself
+  // and is named in `broken`; no loader at all gives one `broken` entry.
   [[nodiscard]] virtual Listing list() const = 0;
   // Throws NotSupported when there is no such device, ApiError when it cannot be opened.
   [[nodiscard]] virtual std::unique_ptr<Device> open(std::string_view device_id) const = 0;

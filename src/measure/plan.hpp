@@ -12,19 +12,20 @@
 namespace triptych::measure {
 
 struct Plan {
-  std::string name;   // "volume/quick", or the file's name without its ending
+  std::string name;  // "volume/quick", or the file's name without its ending
   std::string suite;
-  std::vector<Configuration> configurations;  // in order: data varies slowest, then pipelines, then views
-  std::vector<std::string> varied;            // factors with more than one value
+  std::vector<Configuration>
+      configurations;               // in order: data varies slowest, then pipelines, then views
+  std::vector<std::string> varied;  // factors with more than one value
 };
 
 // Overrides from the command line: "--set factor=a,b".
 using Overrides = std::vector<std::pair<std::string, std::vector<std::string>>>;
 using FindSuite = std::function<Suite&(std::string_view name)>;  // throws InputError
 
-// `name_or_file`: "SUITE/PLAN" or a YAML file. Throws InputError with file, line and column for an unknown
-// or duplicate factor, a wrong type or level (the nearest known name is suggested), an empty list, a
-// duplicate value.
+// `name_or_file`: "SUITE/PLAN" or a YAML file. Throws InputError with file, line and column for an
+// unknown or duplicate factor, a wrong type or level (the nearest known name is suggested), an
+// empty list, a duplicate value.
 [[nodiscard]] Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
                              const FindSuite& find_suite);
 
@@ -32,7 +33,8 @@ using FindSuite = std::function<Suite&(std::string_view name)>;  // throws Input
 // `technique`, `data` and `camera`, sorted by name: identifies a configuration within its suite.
 [[nodiscard]] std::string configuration_key(const Suite& suite, const Configuration& configuration);
 
-// "i/n" → every n-th configuration beginning with the i-th, 1 ≤ i ≤ n, cut along data sets where it can.
+// "i/n" → every n-th configuration beginning with the i-th, 1 ≤ i ≤ n, cut along data sets where it
+// can.
 void keep_shard(Plan& plan, int index, int count);
 
 }  // namespace triptych::measure

@@ -1,5 +1,6 @@
 #pragma once
-// How one configuration is measured. Knows no API: it is tested with the null backend's scripted clock.
+// How one configuration is measured. Knows no API: it is tested with the null backend's scripted
+// clock.
 
 #include <cstdint>
 #include <optional>
@@ -12,12 +13,13 @@
 
 namespace triptych::measure {
 
-// The paper's protocol (Bruder et al.): warm-up frames that also tell how many frames fill the least wall
-// time, timed frames, one frame for pipeline statistics, one for our counters, the wall-clock loop.
+// The paper's protocol (Bruder et al.): warm-up frames that also tell how many frames fill the
+// least wall time, timed frames, one frame for pipeline statistics, one for our counters, the
+// wall-clock loop.
 struct Protocol {
-  int warm_up_frames = 4;          // at least
+  int warm_up_frames = 4;  // at least
   int timed_frames = 8;
-  double least_loop_ns = 100e6;    // of the wall-clock loop
+  double least_loop_ns = 100e6;  // of the wall-clock loop
   int most_loop_frames = 1000;
   bool statistics = true;
   bool counters = true;
@@ -28,16 +30,17 @@ struct Measurement {
   core::Image image;      // of the last timed frame
 };
 
-// Drives one prepared technique through the protocol; Google Benchmark drives the timed loop. `work_kind`
-// picks the clock in `clocks`. `name` becomes the benchmark's name.
+// Drives one prepared technique through the protocol; Google Benchmark drives the timed loop.
+// `work_kind` picks the clock in `clocks`. `name` becomes the benchmark's name.
 [[nodiscard]] Measurement measure(Prepared& prepared, const Protocol& protocol,
                                   technique::Work work_kind,
                                   const std::vector<record::ClockTrust>& clocks,
                                   const std::string& name);
 
-// Device time of a calibration work against its wall time, frame by frame. Trusted when every frame's
-// ratio lies in [1 − tolerance, 1 + tolerance_above]: device time may leave out launch and wake-up, but
-// a clock that reads 0, or less than most of the wall time, or more than it, is not believed.
+// Device time of a calibration work against its wall time, frame by frame. Trusted when every
+// frame's ratio lies in [1 − tolerance, 1 + tolerance_above]: device time may leave out launch and
+// wake-up, but a clock that reads 0, or less than most of the wall time, or more than it, is not
+// believed.
 [[nodiscard]] record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind);
 
 }  // namespace triptych::measure

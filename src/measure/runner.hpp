@@ -15,8 +15,8 @@
 
 namespace triptych::measure {
 
-// Plants a fault in what is measured, to prove that the gate catches it: a technique::Fault by name,
-// "slowdown:PERCENT" (real extra work), "crash", "hang", "device_lost".
+// Plants a fault in what is measured, to prove that the gate catches it: a technique::Fault by
+// name, "slowdown:PERCENT" (real extra work), "crash", "hang", "device_lost".
 struct Plant {
   std::string fault;
   std::string only;  // glob over configuration keys and device ids; empty: everywhere
@@ -25,7 +25,7 @@ struct Plant {
 struct RunOptions {
   Protocol protocol;
   std::chrono::seconds limit{60};  // of one configuration; a worker past it is killed and replaced
-  bool resume = false;             // continue the plan's latest run: what has a record is left alone
+  bool resume = false;  // continue the plan's latest run: what has a record is left alone
   std::vector<Plant> plants;
   // Command that starts a worker for a device; the device id is appended.
   std::vector<std::string> worker_command;
@@ -44,19 +44,20 @@ struct RunResult {
   std::string run;  // id in the store
   int measured = 0;
   int skipped = 0;
-  int failed = 0;   // failed, crashed, hung or lost
+  int failed = 0;  // failed, crashed, hung or lost
   double wall_ns = 0;
   double overhead_ns = 0;
 };
 
-// Every configuration of the plan on every device, devices one after the other so that none disturbs
-// another's timing. A crash, a hang or a lost device costs one configuration.
+// Every configuration of the plan on every device, devices one after the other so that none
+// disturbs another's timing. A crash, a hang or a lost device costs one configuration.
 [[nodiscard]] RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices,
-                                 const Suite& suite, record::Store& store, const RunOptions& options,
+                                 const Suite& suite, record::Store& store,
+                                 const RunOptions& options,
                                  const std::function<void(const Progress&)>& on_progress);
 
-// The worker's side: serves one device over the two file descriptors until the first is closed. Returns
-// the process's exit code.
+// The worker's side: serves one device over the two file descriptors until the first is closed.
+// Returns the process's exit code.
 [[nodiscard]] int serve_worker(const Backend& backend, std::string_view device_id,
                                const FindSuite& find_suite, int request_fd, int answer_fd);
 

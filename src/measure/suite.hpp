@@ -53,9 +53,11 @@ class Suite {
   [[nodiscard]] virtual std::string missing_data(const Configuration& configuration) const = 0;
 
   // Builds what is to be drawn; "auto" levels are resolved with the device and written back into
-  // `configuration`. The suite keeps the last data set loaded, so that neighbours in a plan share it.
+  // `configuration`. The suite keeps the last data set loaded, so that neighbours in a plan share
+  // it.
   [[nodiscard]] virtual Work work(Configuration& configuration, const Device& device) = 0;
-  // A work for calibrating clocks and devices: lasts about `target_ms` on a slow device, tells nothing.
+  // A work for calibrating clocks and devices: lasts about `target_ms` on a slow device, tells
+  // nothing.
   [[nodiscard]] virtual Work calibration(technique::Work kind) = 0;
 };
 

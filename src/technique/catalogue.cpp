@@ -25,7 +25,9 @@ std::vector<Technique> parse(std::string_view text) {
 
 }  // namespace
 
-std::string_view name_of(Work work) { return work == Work::draw ? "draw" : "compute"; }
+std::string_view name_of(Work work) {
+  return work == Work::draw ? "draw" : "compute";
+}
 
 const std::vector<Technique>& catalogue() {
   static const std::vector<Technique> techniques = parse(embedded("catalogue.json"));

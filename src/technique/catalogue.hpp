@@ -21,6 +21,7 @@ struct Technique {
 };
 
 [[nodiscard]] const std::vector<Technique>& catalogue();
-[[nodiscard]] const Technique& technique(std::string_view id);  // throws InputError, naming those there are
+[[nodiscard]] const Technique& technique(
+    std::string_view id);  // throws InputError, naming those there are
 
 }  // namespace triptych::technique

@@ -21,7 +21,8 @@ Span with_border(int b, int n) {
 
 std::array<int, 3> brick_counts(const std::array<int, 3>& size) {
   std::array<int, 3> counts{};
-  std::ranges::transform(size, counts.begin(), [](int n) { return (n + brick_edge - 1) / brick_edge; });
+  std::ranges::transform(size, counts.begin(),
+                         [](int n) { return (n + brick_edge - 1) / brick_edge; });
   return counts;
 }
 

@@ -22,7 +22,9 @@ std::array<float, 4> pack(const glm::dvec3& v, double w) {
 std::string_view name_of(Sampler sampler) {
   return sampler == Sampler::hardware ? "hardware" : "manual";
 }
-std::string_view name_of(Skip skip) { return skip == Skip::none ? "none" : "bricks"; }
+std::string_view name_of(Skip skip) {
+  return skip == Skip::none ? "none" : "bricks";
+}
 
 Sampler sampler(std::string_view name) {
   if (name == "hardware") return Sampler::hardware;
@@ -50,8 +52,8 @@ RaycastParameters raycast_parameters(const scene::VolumeScene& scene, const Rayc
       .ray_right = pack(scene.camera.right() * (half * aspect), options.ert),
       .ray_up = pack(scene.camera.up * half, light.gradient_floor),
       .inverse_spacing = pack(1.0 / spacing, scene.smallest_spacing()),
-      .value_map = {static_cast<float>(grid.scale * stored_maximum), static_cast<float>(grid.offset),
-                    0, 0},
+      .value_map = {static_cast<float>(grid.scale * stored_maximum),
+                    static_cast<float>(grid.offset), 0, 0},
       .shading = {static_cast<float>(light.ambient), static_cast<float>(light.diffuse),
                   static_cast<float>(light.specular), 0},
       .background = scene.background,

@@ -34,25 +34,27 @@ struct RaycastOptions {
   Skip skip = Skip::bricks;
   double ert = 1.0 / 512;  // stop below this transmittance; 0: never
   Fault fault = Fault::none;
-  // Every extra_work_stride-th row is drawn a second time: a planted slowdown of 1/stride by real work;
-  // 0: none.
+  // Every extra_work_stride-th row is drawn a second time: a planted slowdown of 1/stride by real
+  // work; 0: none.
   int extra_work_stride = 0;
 };
 
 // Mirrors parameters.glsl (std140) and parameters.cl: four-byte scalars in groups of four only.
 // Lengths along a ray are counted in steps, positions in voxels (voxel centres at i+½).
 struct RaycastParameters {
-  std::array<float, 4> eye;         // xyz: eye/spacing; w: h, the step in world units
-  std::array<float, 4> ray_centre;  // xyz: forward, world; w: h / smallest spacing, the step in voxels
-  std::array<float, 4> ray_right;   // xyz: right · aspect · tan(fov/2); w: ERT ε
-  std::array<float, 4> ray_up;      // xyz: up · tan(fov/2); w: gradient floor
-  std::array<float, 4> inverse_spacing;  // xyz: 1/spacing; w: smallest spacing
-  std::array<float, 4> value_map;        // x, y: normalised = stored·x + y; z, w: 0
-  std::array<float, 4> shading;          // ambient, diffuse, specular, 0
-  std::array<float, 4> background;       // premultiplied RGBA
+  std::array<float, 4> eye;  // xyz: eye/spacing; w: h, the step in world units
+  std::array<float, 4>
+      ray_centre;  // xyz: forward, world; w: h / smallest spacing, the step in voxels
+  std::array<float, 4> ray_right;           // xyz: right · aspect · tan(fov/2); w: ERT ε
+  std::array<float, 4> ray_up;              // xyz: up · tan(fov/2); w: gradient floor
+  std::array<float, 4> inverse_spacing;     // xyz: 1/spacing; w: smallest spacing
+  std::array<float, 4> value_map;           // x, y: normalised = stored·x + y; z, w: 0
+  std::array<float, 4> shading;             // ambient, diffuse, specular, 0
+  std::array<float, 4> background;          // premultiplied RGBA
   std::array<std::int32_t, 4> volume_size;  // voxels; w: log2 of the specular exponent
-  std::array<std::int32_t, 4> brick_grid;   // bricks per axis; w: brick edge in voxels, 0: no skipping
-  std::array<std::int32_t, 4> viewport;     // width, height, row stride, 0
+  std::array<std::int32_t, 4>
+      brick_grid;                        // bricks per axis; w: brick edge in voxels, 0: no skipping
+  std::array<std::int32_t, 4> viewport;  // width, height, row stride, 0
 };
 static_assert(sizeof(RaycastParameters) == 11 * 16);
 static_assert(offsetof(RaycastParameters, volume_size) == 8 * 16);
