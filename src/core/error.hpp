@@ -1,6 +1,6 @@
 #pragma once
-// Typed errors. They are thrown where the cause is known and caught once per configuration (worker) or
-// once per command (app), where they become a record or an exit code.
+// Typed errors. They are thrown where the cause is known and caught once per configuration (worker)
+// or once per command (app), where they become a record or an exit code.
 
 #include <cstdint>
 #include <optional>
@@ -39,7 +39,8 @@ class InputError : public Error {
   FilePlace place_;
 };
 
-// Reading or writing failed for a reason outside the content: read-only folder, full disk. Exit code 3.
+// Reading or writing failed for a reason outside the content: read-only folder, full disk. Exit
+// code 3.
 class IoError : public Error {
  public:
   using Error::Error;

@@ -8,9 +8,9 @@
 
 namespace triptych::core {
 
-// Linear float RGBA, premultiplied, row-major, top row first: pixel (x, y) starts at 4·(y·width + x).
-// Particle images also carry depth (distance along the view axis in world units, +inf for none) and the
-// particle's index in its file (no_particle for none); both are empty otherwise.
+// Linear float RGBA, premultiplied, row-major, top row first: pixel (x, y) starts at 4·(y·width +
+// x). Particle images also carry depth (distance along the view axis in world units, +inf for none)
+// and the particle's index in its file (no_particle for none); both are empty otherwise.
 struct Image {
   int width = 0;
   int height = 0;

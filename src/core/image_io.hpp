@@ -1,6 +1,6 @@
 #pragma once
-// Image files: OpenEXR for keeping (32-bit float R, G, B, A; particles also Z and id, uint32), PNG for
-// looking.
+// Image files: OpenEXR for keeping (32-bit float R, G, B, A; particles also Z and id, uint32), PNG
+// for looking.
 
 #include <cstddef>
 #include <filesystem>

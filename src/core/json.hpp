@@ -1,5 +1,6 @@
 #pragma once
-// The one spelling of JSON in this project. Headers that only name the type include <nlohmann/json_fwd.hpp>.
+// The one spelling of JSON in this project. Headers that only name the type include
+// <nlohmann/json_fwd.hpp>.
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,7 @@
 #pragma once
-// Random numbers whose sequence is the same on every machine and standard library. The distributions of
-// <random> are not (their algorithms are left to the implementation), so they are not used.
+// Random numbers whose sequence is the same on every machine and standard library. The
+// distributions of <random> are not (their algorithms are left to the implementation), so they are
+// not used.
 
 #include <cstdint>
 

@@ -1,13 +1,13 @@
 #pragma once
-// baselines/<suite>/<plan>/ : what was accepted. Text, sorted, one line per value, so that a change can be
-// reviewed. `accept` is the only writer.
+// baselines/<suite>/<plan>/ : what was accepted. Text, sorted, one line per value, so that a change
+// can be reviewed. `accept` is the only writer.
 //   images/<scene hash>.exr        the truth of each scene as it was accepted, device-independent
 //   images.json                    scene → {file, content hash}
 //   counters.json                  configuration → counter → value
-//   bits/<device key>.json         configuration → {image hash, kernel hash}: same device, same bits
-//   statistics/<driver>.json       configuration → statistic → value
-//   timings/<device key>.json      configuration → one median per accepted run, with clock and kernel hash
-//   history.json                   every accept: date, reason, devices, what changed
+//   bits/<device key>.json         configuration → {image hash, kernel hash}: same device, same
+//   bits statistics/<driver>.json       configuration → statistic → value timings/<device key>.json
+//   configuration → one median per accepted run, with clock and kernel hash history.json every
+//   accept: date, reason, devices, what changed
 // and baselines/waivers.json: device, test, reason, expiry.
 
 #include <filesystem>
@@ -45,8 +45,8 @@ struct Waiver {
 
 class Baselines {
  public:
-  // The folder need not exist: everything is then absent, `present()` is false. Files are read when they
-  // are first asked for. Throws InputError with file and line for one that is corrupt.
+  // The folder need not exist: everything is then absent, `present()` is false. Files are read when
+  // they are first asked for. Throws InputError with file and line for one that is corrupt.
   Baselines(std::filesystem::path root, std::string_view plan);
 
   [[nodiscard]] bool present() const;
@@ -80,10 +80,10 @@ struct AcceptRequest {
   std::function<core::Image(const record::Record&)> truth;
 };
 
-// Writes what a run measured as the new baselines; returns one line per changed file. Refuses (InputError)
-// a blank reason, a run with planted faults, a run that measured nothing. Timings are appended (the last
-// 20 runs per device key are kept), everything else is replaced. Each file is written aside and renamed,
-// so that a full disk or a kill leaves the old one whole.
+// Writes what a run measured as the new baselines; returns one line per changed file. Refuses
+// (InputError) a blank reason, a run with planted faults, a run that measured nothing. Timings are
+// appended (the last 20 runs per device key are kept), everything else is replaced. Each file is
+// written aside and renamed, so that a full disk or a kill leaves the old one whole.
 [[nodiscard]] std::vector<std::string> accept(const record::Store& store, const std::string& run,
                                               const std::filesystem::path& root,
                                               const AcceptRequest& request);

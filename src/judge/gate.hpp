@@ -33,14 +33,15 @@ enum class Verdict : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
 
-// One answer about one configuration on one device (both empty where the finding is about the whole plan).
+// One answer about one configuration on one device (both empty where the finding is about the whole
+// plan).
 struct Finding {
   Check check = Check::image;
   Verdict verdict = Verdict::pass;
-  std::string test;           // test id, Record::test_id
+  std::string test;  // test id, Record::test_id
   std::string device;
   std::string configuration;
-  std::string message;        // one line: what, by how much, against which bound, what to do about it
+  std::string message;  // one line: what, by how much, against which bound, what to do about it
   std::map<std::string, double> numbers;  // "max_error", "bound", "rmse", "ratio", …
 };
 
@@ -49,7 +50,8 @@ struct GateResult {
   std::string run;
   std::vector<Finding> findings;  // worst first, then by device and configuration
   [[nodiscard]] core::ExitCode exit_code() const;
-  [[nodiscard]] std::string headline() const;  // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices"
+  [[nodiscard]] std::string headline()
+      const;  // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices"
 };
 
 struct TruthPair {
@@ -59,9 +61,10 @@ struct TruthPair {
 
 struct GateRequest {
   std::string plan;
-  std::set<Check> checks;                      // empty: all
-  std::vector<std::string> devices;            // globs; empty: all in the run
-  std::vector<std::string> required_devices;   // globs; each must match a device that measured something
+  std::set<Check> checks;            // empty: all
+  std::vector<std::string> devices;  // globs; empty: all in the run
+  std::vector<std::string>
+      required_devices;  // globs; each must match a device that measured something
   // The truth for a record's scene with the bound that holds for the record's path. Computed by the
   // suite, cached in the store by the caller.
   std::function<TruthPair(const record::Record&)> truth;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/image.hpp"
 #include "measure/backend.hpp"
 
 namespace triptych::measure {
@@ -59,6 +60,24 @@ class Suite {
   // A work for calibrating clocks and devices: lasts about `target_ms` on a slow device, tells
   // nothing.
   [[nodiscard]] virtual Work calibration(technique::Work kind) = 0;
+};
+
+// The right picture of a configuration and, per pixel in all four channels, how far a device's may be
+// from it.
+struct Truth {
+  core::Image image;
+  core::Image bound;
+};
+
+// A suite whose pictures can be judged.
+class SuiteWithTruth : public Suite {
+ public:
+  // `precision`: what Record::precision tells of the device's path. Throws as Suite::work does.
+  [[nodiscard]] virtual Truth truth(const Configuration& configuration,
+                                    const std::map<std::string, double>& precision) = 0;
+  // Two configurations with the same text share their truth and bound.
+  [[nodiscard]] virtual std::string truth_key(const Configuration& configuration,
+                                              const std::map<std::string, double>& precision) = 0;
 };
 
 // Canonical text of the factors of a configuration that decide the picture: "camera=…,data=…".

@@ -1,6 +1,6 @@
 #pragma once
-// What was measured: one Record per configuration, device and run. Everything above (judge, report) works
-// from records alone, on a machine without any of the devices.
+// What was measured: one Record per configuration, device and run. Everything above (judge, report)
+// works from records alone, on a machine without any of the devices.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,39 +22,41 @@ enum class Outcome : std::uint8_t {
   lost      // the device was lost
 };
 [[nodiscard]] std::string_view name_of(Outcome outcome);
+[[nodiscard]] Outcome outcome(std::string_view name);  // throws InputError
 
 // What identifies a device. `id` is "<api>:<driver>[#n]".
 struct Device {
   std::string id;
-  std::string api;             // "opencl", "vulkan", "gl", "null"
-  std::string name;            // as the driver gives it
+  std::string api;   // "opencl", "vulkan", "gl", "null"
+  std::string name;  // as the driver gives it
   std::string vendor;
   std::string driver;          // name of the driver
   std::string driver_version;  // as the driver gives it, on one line
   std::string api_version;
-  std::string cpu_features;    // on CPU devices, the features code is generated for; else empty
-  std::map<std::string, std::string> environment;  // variables that are set and change code generation
-  std::map<std::string, std::string> limits;       // in the API's own names
+  std::string cpu_features;  // on CPU devices, the features code is generated for; else empty
+  std::map<std::string, std::string>
+      environment;                            // variables that are set and change code generation
+  std::map<std::string, std::string> limits;  // in the API's own names
 
   // id, driver version, API version, CPU features, environment: what timings and bits depend on.
   // One line of text; `key_hash` is a short file name made of it.
   [[nodiscard]] std::string key() const;
   [[nodiscard]] std::string key_hash() const;
-  // id and driver version: what pipeline statistics depend on.
+  // id and driver version: what pipeline statistics depend on. Also a file name: readable, then a hash.
   [[nodiscard]] std::string statistics_key() const;
   bool operator==(const Device&) const = default;
 };
 
-// Trust in a device's clock, per kind of work ("compute", "draw"): device time of a calibration workload
-// over its wall-clock time, as median and the range seen.
+// Trust in a device's clock, per kind of work ("compute", "draw"): device time of a calibration
+// workload over its wall-clock time, as median and the range seen.
 struct ClockTrust {
   std::string work;
   bool offered = false;  // the device reports a time at all
   bool trusted = false;
-  double ratio = 0;      // median of device/wall; meaningless unless offered
+  double ratio = 0;  // median of device/wall; meaningless unless offered
   double ratio_low = 0;
   double ratio_high = 0;
-  std::string verdict;   // one line, for people
+  std::string verdict;  // one line, for people
   bool operator==(const ClockTrust&) const = default;
 };
 
@@ -65,39 +67,40 @@ struct ClockTrust {
 using Counts = std::map<std::string, std::uint64_t>;
 
 struct Record {
-  std::string run;            // id of the run (one `triptych run`), see Run
+  std::string run;  // id of the run (one `triptych run`), see Run
   std::string suite;
-  std::string plan;           // "volume/quick" or the file's name
-  std::string configuration;  // canonical "factor=value,…" of all factors with more than the default
-  std::string scene;          // canonical text of the factors that decide the picture
+  std::string plan;  // "volume/quick" or the file's name
+  std::string
+      configuration;  // canonical "factor=value,…" of all factors with more than the default
+  std::string scene;  // canonical text of the factors that decide the picture
   std::string technique;
-  std::string device;         // Device::id
+  std::string device;                          // Device::id
   std::map<std::string, std::string> factors;  // every factor, defaults resolved
 
   Outcome outcome = Outcome::failed;
-  std::string reason;         // for every outcome but measured
-  std::string planted;        // name of a planted fault; such a record is never accepted as a baseline
+  std::string reason;   // for every outcome but measured
+  std::string planted;  // name of a planted fault; such a record is never accepted as a baseline
 
-  // Times in nanoseconds, one value per timed frame. The clock that counts is device time where it is
-  // trusted for this kind of work, else the wall clock.
+  // Times in nanoseconds, one value per timed frame. The clock that counts is device time where it
+  // is trusted for this kind of work, else the wall clock.
   std::vector<double> wall_ns;
-  std::vector<double> device_ns;   // empty where the device tells no time
+  std::vector<double> device_ns;  // empty where the device tells no time
   bool device_clock_trusted = false;
   int warm_up_frames = 0;
-  int frames_per_100ms = 0;        // as the warm-up found
-  double loop_wall_ns = 0;         // the closing wall-clock loop, whole
+  int frames_per_100ms = 0;  // as the warm-up found
+  double loop_wall_ns = 0;   // the closing wall-clock loop, whole
   int loop_frames = 0;
-  double prepare_ns = 0;           // data, pipelines, upload
-  double overhead_ns = 0;          // wall clock of this configuration outside device work and warm-up
+  double prepare_ns = 0;   // data, pipelines, upload
+  double overhead_ns = 0;  // wall clock of this configuration outside device work and warm-up
   std::uint64_t peak_memory_bytes = 0;  // of the worker so far
 
-  Counts counters;                 // ours; empty unless a counting frame was made
-  Counts statistics;               // the driver's
-  std::string image;               // content hash, key of Store::image(); empty when there is none
-  std::string data_hash;           // content hash of the scene's data
-  std::string kernel_hash;         // content hash of the device code
+  Counts counters;          // ours; empty unless a counting frame was made
+  Counts statistics;        // the driver's
+  std::string image;        // content hash, key of Store::image(); empty when there is none
+  std::string data_hash;    // content hash of the scene's data
+  std::string kernel_hash;  // content hash of the device code
   std::map<std::string, double> precision;  // facts for the image bound, e.g. "filter_weight_error"
-  std::string benchmark_json;      // the entry of Google Benchmark's own output for this configuration
+  std::string benchmark_json;  // the entry of Google Benchmark's own output for this configuration
 
   // The samples that count, and the name of their clock: "device" or "wall".
   [[nodiscard]] const std::vector<double>& time_ns() const;
@@ -108,19 +111,21 @@ struct Record {
 
 // One `triptych run` on one machine.
 struct Run {
-  std::string id;          // unique: time and random digits
+  std::string id;  // unique: time and random digits
   std::string plan;
   std::string started_at;  // ISO 8601, UTC
-  std::map<std::string, std::string> system;  // processor, cores, memory, OS, kernel, compiler, version of Triptych
+  std::map<std::string, std::string>
+      system;  // processor, cores, memory, OS, kernel, compiler, version of Triptych
 };
 
 // Minimum, quartiles, median, maximum of samples (linear interpolation between order statistics);
-// absent for none.
+// absent for none. A sample that is not a number is no sample.
 struct Summary {
   double minimum, lower_quartile, median, upper_quartile, maximum;
 };
 [[nodiscard]] std::optional<Summary> summarise(const std::vector<double>& samples);
-[[nodiscard]] double percentile(std::vector<double> samples, double share);  // share in [0, 1]; samples not empty
+[[nodiscard]] double percentile(std::vector<double> samples,
+                                double share);  // share in [0, 1]; samples not empty
 
 void to_json(nlohmann::json& json, const Device& device);
 void from_json(const nlohmann::json& json, Device& device);

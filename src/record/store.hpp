@@ -1,7 +1,7 @@
 #pragma once
-// The store: one SQLite file (WAL) holding runs, devices with their clocks, records with every raw sample,
-// and images. Records are appended in their own transaction as they are made, so a killed run loses at
-// most the one in flight.
+// The store: one SQLite file (WAL) holding runs, devices with their clocks, records with every raw
+// sample, and images. Records are appended in their own transaction as they are made, so a killed
+// run loses at most the one in flight.
 
 #include <cstddef>
 #include <filesystem>
@@ -19,7 +19,7 @@ namespace triptych::record {
 // A reference picture of a scene with the bound per pixel within which a device's picture must lie.
 struct TruthImage {
   std::string scene;
-  std::string version;           // of the renderer and its error model; another version is rendered anew
+  std::string version;  // of the renderer and its error model; another version is rendered anew
   std::vector<std::byte> image;  // EXR
   std::vector<std::byte> bound;  // EXR, the same in every channel
 };
@@ -29,8 +29,8 @@ class Store {
   static constexpr int schema_version = 1;
   enum class Mode { read, append };  // append creates the file when it is missing
 
-  // Throws IoError (cannot open, read-only, disk full) and InputError (not a store, or of another schema
-  // version: says which one it is, which one is expected and what to do).
+  // Throws IoError (cannot open, read-only, disk full) and InputError (not a store, or of another
+  // schema version: says which one it is, which one is expected and what to do).
   Store(const std::filesystem::path& file, Mode mode);
   ~Store();
   Store(Store&&) noexcept;
@@ -39,23 +39,29 @@ class Store {
   Store& operator=(const Store&) = delete;
 
   void add_run(const Run& run);
-  void add_device(const std::string& run, const Device& device, const std::vector<ClockTrust>& clocks);
-  void add_image(std::string_view hash, std::span<const std::byte> exr);  // known hashes are left alone
-  void add_record(const Record& record);  // replaces the one of the same run, configuration and device
+  void add_device(const std::string& run, const Device& device,
+                  const std::vector<ClockTrust>& clocks);
+  void add_image(std::string_view hash,
+                 std::span<const std::byte> exr);  // known hashes are left alone
+  void add_record(
+      const Record& record);  // replaces the one of the same run, configuration and device
   void set_truth(const TruthImage& truth);
 
-  [[nodiscard]] std::vector<Run> runs() const;                 // oldest first
+  [[nodiscard]] std::vector<Run> runs() const;  // oldest first
   [[nodiscard]] std::optional<Run> latest_run(std::string_view plan) const;
   struct DeviceEntry {
     Device device;
     std::vector<ClockTrust> clocks;
   };
   [[nodiscard]] std::vector<DeviceEntry> devices(std::string_view run) const;
-  [[nodiscard]] std::vector<Record> records(std::string_view run) const;  // by device, then as added
+  [[nodiscard]] std::vector<Record> records(
+      std::string_view run) const;  // by device, then as added
   [[nodiscard]] bool has_record(std::string_view run, std::string_view configuration,
                                 std::string_view device) const;
-  [[nodiscard]] std::vector<std::byte> image(std::string_view hash) const;  // throws InputError if unknown
-  [[nodiscard]] std::optional<TruthImage> truth(std::string_view scene, std::string_view version) const;
+  [[nodiscard]] std::vector<std::byte> image(
+      std::string_view hash) const;  // throws InputError if unknown
+  [[nodiscard]] std::optional<TruthImage> truth(std::string_view scene,
+                                                std::string_view version) const;
 
  private:
   struct State;

@@ -10,15 +10,16 @@
 namespace triptych::reference {
 
 // What the arithmetic of a device may do wrong; each term is derived where the suite states it
-// (suites/volume/tolerance.hpp). All are worst cases per operation, carried along each ray to first order.
+// (suites/volume/tolerance.hpp). All are worst cases per operation, carried along each ray to first
+// order.
 struct ErrorModel {
   double position_error_voxels = 0;  // of a sample's place, per axis
-  double value_error = 0;            // of a fetched normalised value, absolute, beside filter_weight_error
-  double filter_weight_error = 0;    // of interpolation weights: times the spread of the eight voxels
-  double table_error = 0;            // of a looked-up colour or opacity, absolute
-  double opacity_error = 0;          // of the step-corrected opacity, relative
-  double compositing_error = 0;      // of each multiply–add into colour and transmittance, relative
-  double ert = 0;                    // ε at which a device may stop
+  double value_error = 0;  // of a fetched normalised value, absolute, beside filter_weight_error
+  double filter_weight_error = 0;  // of interpolation weights: times the spread of the eight voxels
+  double table_error = 0;          // of a looked-up colour or opacity, absolute
+  double opacity_error = 0;        // of the step-corrected opacity, relative
+  double compositing_error = 0;    // of each multiply–add into colour and transmittance, relative
+  double ert = 0;                  // ε at which a device may stop
 };
 
 struct Truth {
@@ -36,7 +37,8 @@ struct Truth {
                                   int threads = 0);
 
 // The same ray integral with the step refined until two halvings change no channel by more than
-// `tolerance`, extrapolated: the limit of step → 0 for this grid and table. For orders of convergence.
+// `tolerance`, extrapolated: the limit of step → 0 for this grid and table. For orders of
+// convergence.
 [[nodiscard]] Truth render_volume_converged(const scene::VolumeScene& scene, double tolerance,
                                             int threads = 0);
 

@@ -6,8 +6,8 @@
 
 namespace triptych::scene {
 
-// A pinhole camera in world units, right-handed, y up. Pixel (x, y) of a w×h image, top row first, looks
-// along   forward + (2(x+½)/w − 1)·aspect·tan(fov/2)·right + (1 − 2(y+½)/h)·tan(fov/2)·up,
+// A pinhole camera in world units, right-handed, y up. Pixel (x, y) of a w×h image, top row first,
+// looks along   forward + (2(x+½)/w − 1)·aspect·tan(fov/2)·right + (1 − 2(y+½)/h)·tan(fov/2)·up,
 // with right = forward × up and aspect = w/h. forward, up and right are unit and orthogonal.
 struct Camera {
   glm::dvec3 eye{0, 0, 0};
@@ -28,11 +28,11 @@ struct Box {
 };
 
 // The `camera` factor: "PATH:i/n" with PATH one of orbit_x, orbit_y, orbit_z, orbit_-x, orbit_-y,
-// orbit_-z, diagonal_xyz (and the other three diagonals diagonal_-xyz, diagonal_x-yz, diagonal_xy-z),
-// path_x, path_y, path_z, path_sin_x, path_sin_y, path_sin_z; 0 ≤ i < n; or "random:SEED": a seeded view
-// that is drawn again until at least `random_view_coverage` of the box's eight-times-subdivided cells
-// have their centre inside the frustum.
-// Throws InputError for anything else.
+// orbit_-z, diagonal_xyz (and the other three diagonals diagonal_-xyz, diagonal_x-yz,
+// diagonal_xy-z), path_x, path_y, path_z, path_sin_x, path_sin_y, path_sin_z; 0 ≤ i < n; or
+// "random:SEED": a seeded view that is drawn again until at least `random_view_coverage` of the
+// box's eight-times-subdivided cells have their centre inside the frustum. Throws InputError for
+// anything else.
 [[nodiscard]] Camera camera_at(std::string_view spec, const Box& box, double fov_y_deg);
 inline constexpr double random_view_coverage = 0.3;
 [[nodiscard]] std::array<std::string_view, 16> camera_paths();

@@ -16,8 +16,8 @@ struct GeneratorInfo {
   std::string_view summary;
 };
 
-// uniform_box, gradient_box, frequency_box, mandelbulb, marschner_lobb, nested_shells, sparse_field,
-// gaussian_blob.
+// uniform_box, gradient_box, frequency_box, mandelbulb, marschner_lobb, nested_shells,
+// sparse_field, gaussian_blob.
 [[nodiscard]] std::vector<GeneratorInfo> volume_generators();
 
 // Throws InputError for an unknown name or a size outside 1…4096 per axis.

@@ -7,9 +7,9 @@
 
 namespace triptych::scene {
 
-// 256 entries of straight (not premultiplied) RGBA in [0, 1]. Entry k stands at (k+½)/256; between entry
-// centres all four channels are linear, outside they are constant. Alpha is the opacity of one voxel
-// length (the smallest spacing): a step of s voxels has opacity 1 − (1−α)^s.
+// 256 entries of straight (not premultiplied) RGBA in [0, 1]. Entry k stands at (k+½)/256; between
+// entry centres all four channels are linear, outside they are constant. Alpha is the opacity of
+// one voxel length (the smallest spacing): a step of s voxels has opacity 1 − (1−α)^s.
 struct TransferFunction {
   std::string name;
   std::array<std::array<float, 4>, 256> entries{};

@@ -16,16 +16,17 @@ enum class ScalarType : std::uint8_t { u8, i8, u16, i16, f32, f64 };
 [[nodiscard]] std::string_view name_of(ScalarType type);
 
 // A scalar field on a regular grid, values as stored in the file, native byte order, x fastest:
-// voxel (i, j, k) is element i + nx·(j + ny·k). Voxel centres lie at (i+½)·spacing, the volume fills
-// [0, size·spacing] in world units, values are clamped to the edge outside the outermost centres.
+// voxel (i, j, k) is element i + nx·(j + ny·k). Voxel centres lie at (i+½)·spacing, the volume
+// fills [0, size·spacing] in world units, values are clamped to the edge outside the outermost
+// centres.
 struct Volume {
   std::string name;  // the `data` factor: a file name or generate:NAME:SIZE
   std::array<int, 3> size{};
   std::array<double, 3> spacing{1, 1, 1};
   ScalarType type = ScalarType::u8;
   std::vector<std::byte> voxels;
-  // The values mapped to 0 and 1 of the transfer function: minimum and maximum over the finite voxels of
-  // a file; a generator states its own. lo == hi is allowed: every voxel then maps to 0.
+  // The values mapped to 0 and 1 of the transfer function: minimum and maximum over the finite
+  // voxels of a file; a generator states its own. lo == hi is allowed: every voxel then maps to 0.
   double range_lo = 0;
   double range_hi = 1;
 
@@ -41,8 +42,8 @@ enum class VoxelFormat : std::uint8_t { u8, u16, f32 };
 
 // Voxels as uploaded. The normalised value, 0..1 over the range, is
 //   x = stored·scale + offset     (stored: the integer, or the float itself)
-// u8 and u16 hold 8- and 16-bit integer files exactly whatever their range; f32 holds x itself, clamped
-// to [0, 1], NaN as 0.
+// u8 and u16 hold 8- and 16-bit integer files exactly whatever their range; f32 holds x itself,
+// clamped to [0, 1], NaN as 0.
 struct VoxelGrid {
   VoxelFormat format = VoxelFormat::f32;
   std::array<int, 3> size{};
@@ -62,13 +63,14 @@ struct VoxelGrid {
 // The smallest format that holds every value of this type exactly; f64 becomes f32.
 [[nodiscard]] VoxelFormat lossless_format(ScalarType type);
 
-// Converts; where the format is too small for the type, values are rounded to its steps over the range.
-// Consumes the volume's voxels where the representation is the same, to keep one copy in memory.
+// Converts; where the format is too small for the type, values are rounded to its steps over the
+// range. Consumes the volume's voxels where the representation is the same, to keep one copy in
+// memory.
 [[nodiscard]] VoxelGrid encode(Volume&& volume, VoxelFormat format);
 
-// `data` as in a plan: "generate:NAME:SIZE" or "generate:NAME:NXxNYxNZ" (scene/generators.hpp), or a file:
-// .nrrd/.nhdr, .dat (with its .raw). A relative file is looked for as it is, then in each of `folders`.
-// Throws InputError with file and line, IoError when nothing is there.
+// `data` as in a plan: "generate:NAME:SIZE" or "generate:NAME:NXxNYxNZ" (scene/generators.hpp), or
+// a file: .nrrd/.nhdr, .dat (with its .raw). A relative file is looked for as it is, then in each
+// of `folders`. Throws InputError with file and line, IoError when nothing is there.
 [[nodiscard]] Volume load_volume(std::string_view data,
                                  const std::vector<std::filesystem::path>& folders = {});
 

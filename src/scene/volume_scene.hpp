@@ -8,11 +8,12 @@
 
 namespace triptych::scene {
 
-// Headlight shading: the light stands in the eye, so with n the unit gradient and d the ray direction
+// Headlight shading: the light stands in the eye, so with n the unit gradient and d the ray
+// direction
 //   c' = c·(ambient + diffuse·|n·d|) + specular·|n·d|^exponent
-// where n·d is replaced by (g·d)/max(|g|, gradient_floor): g is the gradient of the normalised value per
-// smallest spacing, from central differences one voxel to either side. The floor keeps the shading
-// continuous where the field is flat.
+// where n·d is replaced by (g·d)/max(|g|, gradient_floor): g is the gradient of the normalised
+// value per smallest spacing, from central differences one voxel to either side. The floor keeps
+// the shading continuous where the field is flat.
 struct Shading {
   bool enabled = false;
   double ambient = 0.3;
@@ -23,8 +24,8 @@ struct Shading {
 };
 
 // Everything that decides the picture, and nothing about how it is computed.
-// Samples stand at t₀ + (i+½)·h, h = step_voxels · smallest spacing, t₀ where the ray enters the box; the
-// i-th stands for the length min(h, t₁ − t₀ − i·h), so that only the last one is partial.
+// Samples stand at t₀ + (i+½)·h, h = step_voxels · smallest spacing, t₀ where the ray enters the
+// box; the i-th stands for the length min(h, t₁ − t₀ − i·h), so that only the last one is partial.
 struct VolumeScene {
   std::shared_ptr<const VoxelGrid> grid;
   TransferFunction transfer_function;

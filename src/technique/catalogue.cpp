@@ -17,6 +17,7 @@ std::vector<Technique> parse(std::string_view text) {
     result.push_back({.id = entry.at("id"),
                       .suite = entry.at("suite"),
                       .work = entry.at("work") == "draw" ? Work::draw : Work::compute,
+                      .picture = entry.at("picture"),
                       .apis = entry.at("apis"),
                       .summary = entry.at("summary")});
   }

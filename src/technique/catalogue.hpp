@@ -16,6 +16,7 @@ struct Technique {
   std::string id;     // also the file stem in every backend's folder
   std::string suite;  // "volume" or "particles"
   Work work = Work::compute;
+  bool picture = true;  // draws the scene; false for a bound on speed, whose image means nothing
   std::vector<std::string> apis;  // where the technique exists at all
   std::string summary;
 };

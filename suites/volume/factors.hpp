@@ -1,0 +1,24 @@
+#pragma once
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "measure/suite.hpp"
+
+namespace triptych::volume_suite {
+
+// The factors of the suite with their levels and defaults.
+[[nodiscard]] const std::vector<measure::Factor>& volume_factors();
+
+// Checks the values whose kind alone does not say what is right: camera, data, transfer function,
+// viewport. Throws InputError saying what was expected.
+void check_value(const measure::Factor& factor, std::string_view value,
+                 const std::vector<std::filesystem::path>& folders);
+
+// "N" or "WxH" → {width, height}; throws InputError.
+[[nodiscard]] std::array<int, 2> parse_viewport(std::string_view value);
+
+// The paper's field of view for volumes, in degrees.
+inline constexpr double field_of_view = 90;
+
+}  // namespace triptych::volume_suite

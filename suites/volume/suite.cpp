@@ -1,0 +1,198 @@
+#include "suites/volume/suite.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <utility>
+
+#include "core/error.hpp"
+#include "reference/volume.hpp"
+#include "suites/volume/factors.hpp"
+#include "suites/volume/tolerance.hpp"
+#include "triptych_suite_volume_embedded.hpp"
+
+namespace triptych::volume_suite {
+namespace {
+
+using measure::Configuration;
+
+double as_number(const Configuration& configuration, const std::string& factor) {
+  return std::strtod(configuration.at(factor).c_str(), nullptr);
+}
+
+class VolumeSuite final : public measure::SuiteWithTruth {
+ public:
+  explicit VolumeSuite(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
+
+  std::string_view name() const override { return "volume"; }
+  const std::vector<measure::Factor>& factors() const override { return volume_factors(); }
+  void check(const measure::Factor& factor, std::string_view value) const override {
+    check_value(factor, value, folders_);
+  }
+
+  std::vector<std::string_view> plan_names() const override;
+  std::string_view plan_text(std::string_view plan) const override;
+  std::string missing_data(const Configuration& configuration) const override;
+  measure::Work work(Configuration& configuration, const measure::Device& device) override;
+  measure::Work calibration(technique::Work kind) override;
+  measure::Truth truth(const Configuration& configuration,
+                       const std::map<std::string, double>& precision) override;
+  std::string truth_key(const Configuration& configuration,
+                        const std::map<std::string, double>& precision) override;
+
+ private:
+  // The last data set loaded: neighbours in a plan share it.
+  struct Loaded {
+    std::string data;
+    scene::VoxelFormat native = scene::VoxelFormat::f32;
+    std::shared_ptr<const scene::VoxelGrid> grid;
+  };
+  using ChooseFormat = std::function<scene::VoxelFormat(scene::VoxelFormat native)>;
+
+  const Loaded& load(const std::string& data, const ChooseFormat& choose);
+  scene::VolumeScene scene(const Configuration& configuration,
+                           std::shared_ptr<const scene::VoxelGrid> grid) const;
+
+  std::vector<std::filesystem::path> folders_;
+  Loaded loaded_;
+};
+
+std::vector<std::string_view> VolumeSuite::plan_names() const {
+  std::vector<std::string_view> names;
+  for (const std::string_view file : embedded_names())
+    names.push_back(file.substr(0, file.rfind('.')));
+  return names;
+}
+
+std::string_view VolumeSuite::plan_text(std::string_view plan) const {
+  return embedded(std::string(plan) + ".yaml");
+}
+
+std::string VolumeSuite::missing_data(const Configuration& configuration) const {
+  const std::string& data = configuration.at("data");
+  if (scene::is_present(data, folders_)) return {};
+  return fmt::format(
+      "data file '{}' is not here; set TRIPTYCH_DATA to the folder that holds volumes/", data);
+}
+
+const VolumeSuite::Loaded& VolumeSuite::load(const std::string& data, const ChooseFormat& choose) {
+  if (loaded_.grid && loaded_.data == data && choose(loaded_.native) == loaded_.grid->format) {
+    return loaded_;
+  }
+  loaded_ = {};  // frees the old one before the new one is loaded
+  scene::Volume volume = scene::load_volume(data, folders_);
+  const scene::VoxelFormat native = scene::lossless_format(volume.type);
+  loaded_ = {.data = data,
+             .native = native,
+             .grid = std::make_shared<const scene::VoxelGrid>(
+                 scene::encode(std::move(volume), choose(native)))};
+  return loaded_;
+}
+
+scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
+                                      std::shared_ptr<const scene::VoxelGrid> grid) const {
+  const auto [width, height] = parse_viewport(configuration.at("viewport"));
+  return {
+      .grid = grid,
+      .transfer_function =
+          scene::load_transfer_function(configuration.at("transfer_function"), folders_),
+      .camera =
+          scene::camera_at(configuration.at("camera"), scene::bounding_box(*grid), field_of_view),
+      .width = width,
+      .height = height,
+      .step_voxels = as_number(configuration, "step"),
+      .shading = {.enabled = configuration.at("shading") == "gradient"},
+  };
+}
+
+measure::Work VolumeSuite::work(Configuration& configuration, const measure::Device& device) {
+  measure::VolumePath path;
+  const auto choose = [&](scene::VoxelFormat native) {
+    path = device.default_path(native);
+    if (configuration.at("voxel") != "auto")
+      path.voxel = scene::voxel_format(configuration.at("voxel"));
+    return path.voxel;
+  };
+  const Loaded& loaded = load(configuration.at("data"), choose);
+  choose(loaded.native);
+  if (configuration.at("sampler") != "auto") {
+    path.sampler = technique::sampler(configuration.at("sampler"));
+  }
+  configuration["voxel"] = scene::name_of(path.voxel);
+  configuration["sampler"] = technique::name_of(path.sampler);
+  return {
+      .technique = configuration.at("technique"),
+      .scene = measure::VolumeWork{.scene = scene(configuration, loaded.grid),
+                                   .options = {.sampler = path.sampler,
+                                               .skip = technique::skip(configuration.at("skip")),
+                                               .ert = as_number(configuration, "ert")}}};
+}
+
+measure::Work VolumeSuite::calibration(technique::Work kind) {
+  // A field without empty space, sampled finely: some ten milliseconds on a slow device.
+  scene::Volume volume = scene::generate_volume("uniform_box", {32, 32, 32});
+  scene::VolumeScene scene{
+      .grid = std::make_shared<const scene::VoxelGrid>(
+          scene::encode(std::move(volume), scene::VoxelFormat::f32)),
+      .transfer_function = scene::load_transfer_function("haze"),
+      .width = 384,
+      .height = 384,
+      .step_voxels = 0.125,
+  };
+  scene.camera = scene::camera_at("orbit_y:1/8", scene.box(), 60);
+  return {.technique = kind == technique::Work::draw ? "raycast_fragment" : "raycast",
+          .scene = measure::VolumeWork{
+              .scene = std::move(scene),
+              .options = {
+                  .sampler = technique::Sampler::manual, .skip = technique::Skip::none, .ert = 0}}};
+}
+
+// Half a step of the voxel format where it cannot hold the data's own values, in normalised value.
+double storage_step(const Configuration& configuration, scene::VoxelFormat native) {
+  if (configuration.at("voxel") == "auto") return 0;
+  const scene::VoxelFormat format = scene::voxel_format(configuration.at("voxel"));
+  if (scene::bytes_of(format) >= scene::bytes_of(native)) return 0;
+  return format == scene::VoxelFormat::u8 ? 1.0 / 255 : 1.0 / 65535;
+}
+
+reference::ErrorModel model_of(const Configuration& configuration, const scene::VolumeScene& scene,
+                               const std::map<std::string, double>& precision,
+                               scene::VoxelFormat native) {
+  const auto probed = precision.find("filter_weight_error");
+  return error_model(scene, {.ert = as_number(configuration, "ert"),
+                             .filter_weight_error = probed == precision.end() ? 0 : probed->second,
+                             .storage_step = storage_step(configuration, native)});
+}
+
+measure::Truth VolumeSuite::truth(const Configuration& configuration,
+                                  const std::map<std::string, double>& precision) {
+  const Loaded& loaded =
+      load(configuration.at("data"), [](scene::VoxelFormat native) { return native; });
+  const scene::VolumeScene pictured = scene(configuration, loaded.grid);
+  const reference::Truth truth = reference::render_volume(
+      pictured, model_of(configuration, pictured, precision, loaded.native));
+  return {.image = truth.image(), .bound = truth.bound_image()};
+}
+
+std::string VolumeSuite::truth_key(const Configuration& configuration,
+                                   const std::map<std::string, double>& precision) {
+  const Loaded& loaded =
+      load(configuration.at("data"), [](scene::VoxelFormat native) { return native; });
+  const scene::VolumeScene pictured = scene(configuration, loaded.grid);
+  const reference::ErrorModel model = model_of(configuration, pictured, precision, loaded.native);
+  return fmt::format("reference {} data {} model {:a} {:a} {:a} {:a} {:a} {:a} {:a}",
+                     reference::volume_version, loaded.grid->hash, model.position_error_voxels,
+                     model.value_error, model.filter_weight_error, model.table_error,
+                     model.opacity_error, model.compositing_error, model.ert);
+}
+
+}  // namespace
+
+std::unique_ptr<measure::SuiteWithTruth> make_suite(
+    std::vector<std::filesystem::path> data_folders) {
+  return std::make_unique<VolumeSuite>(std::move(data_folders));
+}
+
+}  // namespace triptych::volume_suite

@@ -1,0 +1,43 @@
+#pragma once
+// How far a right picture may be from the truth, derived from what the arithmetic of a device may
+// do. No number here was chosen by looking at an image.
+
+#include "reference/volume.hpp"
+#include "scene/volume_scene.hpp"
+
+namespace triptych::volume_suite {
+
+// What of a path decides its precision.
+struct PathPrecision {
+  double ert = 0;                  // ε at which rays may end
+  double filter_weight_error = 0;  // of the device's sampler, as probed (measure::Device)
+  double storage_step = 0;  // normalised value per step of a voxel format too small for the data
+};
+
+// u = 2⁻²⁴, the unit roundoff of float; every basic operation errs by at most u relative
+// (division 2.5 ulp = 5u where an API allows it). The count for each term:
+//
+// position, voxels per axis. eye/spacing is rounded once: u·|e|. The direction is a sum of three
+// products
+//   (≤ 6u of its length with ndc's 4 operations) and is normalised (dot 3u, square root ≤ 5u
+//   halved, division 5u), then scaled by 1/spacing (2u): ≤ 20u of its length. The entry t₀ = (face
+//   − e)/v inherits that, one subtraction and one division: ≤ 26u; e + t₀·v adds two: the entry
+//   point is off by at most 48u·t₀|v|. A sample adds (i+½)·g, g = v·h: ≤ 24u of the way inside.
+//   With D the distance of the eye to the farthest corner of the box, L the box's diagonal, all in
+//   voxels:
+//       u·(|e| + 48·max(D − L, 0) + 24·L + L)
+//   (t₀|v| ≤ D; the part of D inside the box is counted with L.)
+// value, normalised. Three nested interpolations a + f·(b − a), 3u each of the largest stored
+// value, then
+//   stored·scale + offset, 2u: 11u·M, M = |scale|·stored_max + |offset|; a u of the table position
+//   256·x − ½ twice more: 13u·M. Half a storage step where the voxel format loses values.
+// filter. The probed error of the weights, rounded up to a power of two; never less than u.
+// table. Interpolation between two entries: 3u.
+// opacity, relative. tri_opacity is stated to 8u, its exponent's two factors 2u each, the share of
+// the
+//   step 2u: 14u.
+// compositing, relative per sample. weight u, product u, sum u, transmittance u: 4u.
+[[nodiscard]] reference::ErrorModel error_model(const scene::VolumeScene& scene,
+                                                const PathPrecision& path);
+
+}  // namespace triptych::volume_suite
