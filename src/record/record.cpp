@@ -1,1 +1,157 @@
+#include "record/record.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+
+namespace triptych::record {
+namespace {
+
+constexpr std::array<std::pair<Outcome, std::string_view>, 6> outcome_names{{
+    {Outcome::measured, "measured"},
+    {Outcome::skipped, "skipped"},
+    {Outcome::failed, "failed"},
+    {Outcome::crashed, "crashed"},
+    {Outcome::hung, "hung"},
+    {Outcome::lost, "lost"},
+}};
+
+// Keeps a key one line and its parts apart: "; " stands only between parts.
+std::string one_line(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '\n') {
+      result += "\\n";
+    } else if (c == '\r') {
+      result += "\\r";
+    } else {
+      if (c == '\\' || c == ';') result += '\\';
+      result += c;
+    }
+  }
+  return result;
+}
+
+// Letters and digits in lower case; every run of other characters as one '-', none at the ends.
+std::string slug(std::string_view text, std::size_t longest) {
+  std::string result;
+  for (const char c : text) {
+    const bool upper = c >= 'A' && c <= 'Z';
+    const bool kept = upper || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.';
+    if (kept) {
+      result += upper ? static_cast<char>(c - 'A' + 'a') : c;
+    } else if (!result.empty() && result.back() != '-') {
+      result += '-';
+    }
+    if (result.size() == longest) break;
+  }
+  while (!result.empty() && (result.back() == '-' || result.back() == '.')) result.pop_back();
+  return result;
+}
+
+// The alphabet of test ids is [a-z0-9_.:-]: CTest and JUnit readers split and quote on the rest.
+std::string test_id_part(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c >= 'A' && c <= 'Z') {
+      result += static_cast<char>(c - 'A' + 'a');
+    } else {
+      const bool kept = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == ':' ||
+                        c == '-' || c == '_';
+      result += kept ? c : '_';
+    }
+  }
+  return result;
+}
+
+// Linear interpolation between the order statistics around share·(n−1).
+double quantile_of_sorted(const std::vector<double>& sorted, double share) {
+  const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  const double weight = place - static_cast<double>(below);
+  // Not a + w·(b−a): with an infinite b that would be NaN at w = 0.
+  return weight == 0 ? sorted[below] : (1 - weight) * sorted[below] + weight * sorted[above];
+}
+
+std::vector<double> sorted_numbers(std::vector<double> samples) {
+  std::erase_if(samples, [](double sample) { return std::isnan(sample); });
+  std::ranges::sort(samples);
+  return samples;
+}
+
+}  // namespace
+
+std::string_view name_of(Outcome outcome) {
+  return std::ranges::find(outcome_names, outcome, &std::pair<Outcome, std::string_view>::first)
+      ->second;
+}
+
+Outcome outcome(std::string_view name) {
+  const auto* const found =
+      std::ranges::find(outcome_names, name, &std::pair<Outcome, std::string_view>::second);
+  if (found == outcome_names.end()) {
+    throw core::InputError(fmt::format(
+        "unknown outcome '{}'; expected measured, skipped, failed, crashed, hung or lost", name));
+  }
+  return found->first;
+}
+
+std::string Device::key() const {
+  std::string key = fmt::format("{}; driver {}; API {}", one_line(id), one_line(driver_version),
+                                one_line(api_version));
+  if (!cpu_features.empty()) key += "; CPU " + one_line(cpu_features);
+  for (const auto& [variable, value] : environment) {
+    key += fmt::format("; {}={}", one_line(variable), one_line(value));
+  }
+  return key;
+}
+
+std::string Device::key_hash() const {
+  return fmt::format("{}-{}", slug(id, 48), core::content_hash(key()).substr(0, 16));
+}
+
+std::string Device::statistics_key() const {
+  const std::string exact = one_line(id) + "; " + one_line(driver_version);
+  return fmt::format("{}-{}-{}", slug(id, 48), slug(driver_version, 48),
+                     core::content_hash(exact).substr(0, 8));
+}
+
+const std::vector<double>& Record::time_ns() const {
+  return clock() == "device" ? device_ns : wall_ns;
+}
+
+std::string_view Record::clock() const {
+  return device_clock_trusted && !device_ns.empty() ? "device" : "wall";
+}
+
+std::string Record::test_id(std::string_view check) const {
+  const std::size_t slash = plan.find_last_of('/');
+  const std::string_view last = slash == std::string::npos
+                                    ? std::string_view(plan)
+                                    : std::string_view(plan).substr(slash + 1);
+  return fmt::format("{}.{}.{}.{}", test_id_part(suite), test_id_part(last), test_id_part(check),
+                     test_id_part(device));
+}
+
+std::optional<Summary> summarise(const std::vector<double>& samples) {
+  const std::vector<double> sorted = sorted_numbers(samples);
+  if (sorted.empty()) return std::nullopt;
+  return Summary{sorted.front(), quantile_of_sorted(sorted, 0.25), quantile_of_sorted(sorted, 0.5),
+                 quantile_of_sorted(sorted, 0.75), sorted.back()};
+}
+
+double percentile(std::vector<double> samples, double share) {
+  const std::vector<double> sorted = sorted_numbers(std::move(samples));
+  return sorted.empty() ? std::numeric_limits<double>::quiet_NaN()
+                        : quantile_of_sorted(sorted, share);
+}
+
+}  // namespace triptych::record

@@ -42,7 +42,8 @@ struct Device {
   // One line of text; `key_hash` is a short file name made of it.
   [[nodiscard]] std::string key() const;
   [[nodiscard]] std::string key_hash() const;
-  // id and driver version: what pipeline statistics depend on. Also a file name: readable, then a hash.
+  // id and driver version: what pipeline statistics depend on. Also a file name: readable, then a
+  // hash.
   [[nodiscard]] std::string statistics_key() const;
   bool operator==(const Device&) const = default;
 };

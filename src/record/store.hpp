@@ -1,8 +1,9 @@
 #pragma once
 // The store: one SQLite file (WAL) holding runs, devices with their clocks, records with every raw
 // sample, and images. Records are appended in their own transaction as they are made, so a killed
-// run loses at most the one in flight.
+// run loses at most the one in flight. The tables and example queries are in docs/store.md.
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -30,14 +31,20 @@ class Store {
   enum class Mode { read, append };  // append creates the file when it is missing
 
   // Throws IoError (cannot open, read-only, disk full) and InputError (not a store, or of another
-  // schema version: says which one it is, which one is expected and what to do).
-  Store(const std::filesystem::path& file, Mode mode);
+  // schema version: says which one it is, which one is expected and what to do). Every call waits
+  // up to `busy_limit` for another process that is writing, then throws IoError. A store in a
+  // read-only folder can be read unless its writer was killed there: its log, which then holds the
+  // last records, cannot be replayed. One Store is used by one thread at a time.
+  Store(const std::filesystem::path& file, Mode mode,
+        std::chrono::milliseconds busy_limit = std::chrono::seconds(10));
   ~Store();
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
+  // What is already there under the same key is replaced. Devices and records of a run that was not
+  // added are refused with InputError.
   void add_run(const Run& run);
   void add_device(const std::string& run, const Device& device,
                   const std::vector<ClockTrust>& clocks);

@@ -1,0 +1,232 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "record/record.hpp"
+
+namespace triptych::record {
+namespace {
+
+using core::Json;
+
+// --- writing
+// ---------------------------------------------------------------------------------------
+
+Json encode(double value) {
+  if (std::isfinite(value)) return value;
+  if (std::isnan(value)) return "nan";
+  return value > 0 ? "inf" : "-inf";
+}
+
+Json encode(const std::string& text) {
+  // nlohmann's printer is the one place that knows how to mend UTF-8; valid text comes back as it
+  // was.
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+template <typename T>
+requires std::is_integral_v<T> Json encode(T value) {
+  return value;
+}
+
+template <typename T>
+Json encode(const std::vector<T>& values) {
+  Json result = Json::array();
+  for (const T& value : values) result.push_back(encode(value));
+  return result;
+}
+
+template <typename T>
+Json encode(const std::map<std::string, T>& values) {
+  Json result = Json::object();
+  for (const auto& [name, value] : values) {
+    result[encode(name).template get<std::string>()] = encode(value);
+  }
+  return result;
+}
+
+// --- reading
+// ---------------------------------------------------------------------------------------
+
+void decode(const Json& json, double& value) {
+  if (json == "nan") {
+    value = std::numeric_limits<double>::quiet_NaN();
+  } else if (json == "inf") {
+    value = std::numeric_limits<double>::infinity();
+  } else if (json == "-inf") {
+    value = -std::numeric_limits<double>::infinity();
+  } else if (json.is_number()) {
+    value = json.get<double>();
+  } else {
+    throw core::InputError("expected a number");
+  }
+}
+
+void decode(const Json& json, std::string& value) {
+  if (!json.is_string()) throw core::InputError("expected text");
+  value = json.get<std::string>();
+}
+
+void decode(const Json& json, bool& value) {
+  if (!json.is_boolean()) throw core::InputError("expected true or false");
+  value = json.get<bool>();
+}
+
+template <typename T>
+requires std::is_integral_v<T>
+void decode(const Json& json, T& value) {
+  // A number below zero is refused too: every integer of a record counts something.
+  if (!json.is_number_unsigned() ||
+      json.get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<T>::max())) {
+    throw core::InputError("expected a whole number, 0 or more");
+  }
+  value = json.get<T>();
+}
+
+template <typename T>
+void decode(const Json& json, std::vector<T>& values) {
+  if (!json.is_array()) throw core::InputError("expected a list");
+  values.clear();
+  for (const Json& each : json) decode(each, values.emplace_back());
+}
+
+template <typename T>
+void decode(const Json& json, std::map<std::string, T>& values) {
+  if (!json.is_object()) throw core::InputError("expected an object");
+  values.clear();
+  for (const auto& [name, each] : json.items()) decode(each, values[name]);
+}
+
+template <typename T>
+void read(const Json& json, const char* name, T& value) {
+  if (!json.is_object()) throw core::InputError("expected an object");
+  const auto found = json.find(name);
+  if (found == json.end()) return;
+  try {
+    decode(*found, value);
+  } catch (const core::InputError& error) {
+    throw core::InputError(fmt::format("'{}': {}", name, error.what()));
+  }
+}
+
+// --- one list of fields per type, for both directions
+// -------------------------------------------------
+
+template <typename Visit>
+void visit_fields(auto& device, Visit&& visit) requires
+    std::is_same_v<std::remove_cvref_t<decltype(device)>, Device> {
+  visit("id", device.id);
+  visit("api", device.api);
+  visit("name", device.name);
+  visit("vendor", device.vendor);
+  visit("driver", device.driver);
+  visit("driver_version", device.driver_version);
+  visit("api_version", device.api_version);
+  visit("cpu_features", device.cpu_features);
+  visit("environment", device.environment);
+  visit("limits", device.limits);
+}
+
+template <typename Visit>
+void visit_fields(auto& trust, Visit&& visit) requires
+    std::is_same_v<std::remove_cvref_t<decltype(trust)>, ClockTrust> {
+  visit("work", trust.work);
+  visit("offered", trust.offered);
+  visit("trusted", trust.trusted);
+  visit("ratio", trust.ratio);
+  visit("ratio_low", trust.ratio_low);
+  visit("ratio_high", trust.ratio_high);
+  visit("verdict", trust.verdict);
+}
+
+// `outcome` is not in the list: it travels by its name.
+template <typename Visit>
+void visit_fields(auto& record, Visit&& visit) requires
+    std::is_same_v<std::remove_cvref_t<decltype(record)>, Record> {
+  visit("run", record.run);
+  visit("suite", record.suite);
+  visit("plan", record.plan);
+  visit("configuration", record.configuration);
+  visit("scene", record.scene);
+  visit("technique", record.technique);
+  visit("device", record.device);
+  visit("factors", record.factors);
+  visit("reason", record.reason);
+  visit("planted", record.planted);
+  visit("wall_ns", record.wall_ns);
+  visit("device_ns", record.device_ns);
+  visit("device_clock_trusted", record.device_clock_trusted);
+  visit("warm_up_frames", record.warm_up_frames);
+  visit("frames_per_100ms", record.frames_per_100ms);
+  visit("loop_wall_ns", record.loop_wall_ns);
+  visit("loop_frames", record.loop_frames);
+  visit("prepare_ns", record.prepare_ns);
+  visit("overhead_ns", record.overhead_ns);
+  visit("peak_memory_bytes", record.peak_memory_bytes);
+  visit("counters", record.counters);
+  visit("statistics", record.statistics);
+  visit("image", record.image);
+  visit("data_hash", record.data_hash);
+  visit("kernel_hash", record.kernel_hash);
+  visit("precision", record.precision);
+  visit("benchmark_json", record.benchmark_json);
+}
+
+template <typename Visit>
+void visit_fields(auto& run,
+                  Visit&& visit) requires std::is_same_v<std::remove_cvref_t<decltype(run)>, Run> {
+  visit("id", run.id);
+  visit("plan", run.plan);
+  visit("started_at", run.started_at);
+  visit("system", run.system);
+}
+
+template <typename T>
+void write_fields(Json& json, const T& value) {
+  json = Json::object();
+  visit_fields(value, [&](const char* name, const auto& field) { json[name] = encode(field); });
+}
+
+template <typename T>
+void read_fields(const Json& json, T& value) {
+  visit_fields(value, [&](const char* name, auto& field) { read(json, name, field); });
+}
+
+}  // namespace
+
+void to_json(Json& json, const Device& device) {
+  write_fields(json, device);
+}
+void from_json(const Json& json, Device& device) {
+  read_fields(json, device);
+}
+void to_json(Json& json, const ClockTrust& trust) {
+  write_fields(json, trust);
+}
+void from_json(const Json& json, ClockTrust& trust) {
+  read_fields(json, trust);
+}
+void to_json(Json& json, const Run& run) {
+  write_fields(json, run);
+}
+void from_json(const Json& json, Run& run) {
+  read_fields(json, run);
+}
+
+void to_json(Json& json, const Record& record) {
+  write_fields(json, record);
+  json["outcome"] = name_of(record.outcome);
+}
+
+void from_json(const Json& json, Record& record) {
+  read_fields(json, record);
+  std::string name(name_of(record.outcome));
+  read(json, "outcome", name);
+  record.outcome = outcome(name);
+}
+
+}  // namespace triptych::record

@@ -1,0 +1,33 @@
+#pragma once
+// The file under a Store: opening it, its schema, and what SQLite's errors mean to our callers.
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <chrono>
+#include <filesystem>
+#include <utility>
+
+#include "record/store.hpp"
+
+namespace triptych::record {
+
+// A connection to a file that is a store of our schema version; errors as Store's constructor has
+// them.
+[[nodiscard]] SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode mode,
+                                               std::chrono::milliseconds busy_limit);
+
+// Throws IoError or InputError for an error of SQLite on `file`.
+[[noreturn]] void throw_store_error(const std::filesystem::path& file,
+                                    const SQLite::Exception& error);
+
+// Runs `action`, its SQLite errors turned into ours.
+template <typename Action>
+decltype(auto) on_store(const std::filesystem::path& file, Action&& action) {
+  try {
+    return std::forward<Action>(action)();
+  } catch (const SQLite::Exception& error) {
+    throw_store_error(file, error);
+  }
+}
+
+}  // namespace triptych::record

@@ -1,0 +1,114 @@
+#pragma once
+// Values in and out of SQL statements. Used by store.cpp alone.
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace triptych::record {
+
+// ------------------------------------------------------------------------
+
+// Parameters are bound in the order in which they are given.
+class Binder {
+ public:
+  explicit Binder(SQLite::Statement& statement) : statement_(statement) {}
+
+  Binder& operator<<(std::string_view text) {
+    statement_.bind(++index_, std::string(text));
+    return *this;
+  }
+  Binder& operator<<(const std::optional<double>& number) {
+    ++index_;
+    if (number) {
+      statement_.bind(index_, *number);  // NaN becomes NULL
+    } else {
+      statement_.bind(index_);
+    }
+    return *this;
+  }
+  // Unsigned 64-bit numbers keep their bits: those of 2⁶³ and more read as negative in SQL.
+  template <typename T>
+  requires std::integral<T> Binder& operator<<(T number) {
+    statement_.bind(++index_, static_cast<std::int64_t>(number));
+    return *this;
+  }
+  Binder& operator<<(std::span<const std::byte> bytes) {
+    constexpr std::size_t largest = std::numeric_limits<int>::max();
+    if (bytes.size() > largest) throw core::InputError("an image of 2 GiB or more cannot be kept");
+    // SQLite takes a null pointer for NULL, an empty blob needs another one.
+    const void* data = bytes.empty() ? static_cast<const void*>("") : bytes.data();
+    statement_.bind(++index_, data, static_cast<int>(bytes.size()));
+    return *this;
+  }
+
+ private:
+  SQLite::Statement& statement_;
+  int index_ = 0;
+};
+
+// Columns are read in the order of the query.
+class Reader {
+ public:
+  explicit Reader(SQLite::Statement& row) : row_(row) {}
+
+  Reader& operator>>(std::string& text) {
+    text = row_.getColumn(index_++).getString();
+    return *this;
+  }
+  Reader& operator>>(double& number) {
+    const SQLite::Column column = row_.getColumn(index_++);
+    number = column.isNull() ? std::numeric_limits<double>::quiet_NaN() : column.getDouble();
+    return *this;
+  }
+  Reader& operator>>(bool& flag) {
+    flag = row_.getColumn(index_++).getInt() != 0;
+    return *this;
+  }
+  Reader& operator>>(int& number) {
+    number = row_.getColumn(index_++).getInt();
+    return *this;
+  }
+  Reader& operator>>(std::uint64_t& number) {
+    number = static_cast<std::uint64_t>(row_.getColumn(index_++).getInt64());
+    return *this;
+  }
+  Reader& operator>>(std::vector<std::byte>& bytes) {
+    const SQLite::Column column = row_.getColumn(index_++);
+    const auto* data = static_cast<const std::byte*>(column.getBlob());
+    bytes.assign(data, data + column.getBytes());
+    return *this;
+  }
+
+ private:
+  SQLite::Statement& row_;
+  int index_ = 0;
+};
+
+template <typename... Values>
+SQLite::Statement prepared(const SQLite::Database& database, const std::string& sql,
+                           const Values&... values) {
+  SQLite::Statement statement(database, sql);
+  Binder binder(statement);
+  (binder << ... << values);
+  return statement;
+}
+
+template <typename... Values>
+void execute(const SQLite::Database& database, const std::string& sql, const Values&... values) {
+  SQLite::Statement statement = prepared(database, sql, values...);
+  while (statement.executeStep()) {
+  }
+}
+
+}  // namespace triptych::record
