@@ -1,0 +1,68 @@
+#include "app/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace triptych::app {
+
+CLI::App* Commands::add(const std::string& name, const std::string& summary,
+                        std::function<core::ExitCode()> run) {
+  CLI::App* command = program.add_subcommand(name, summary);
+  command->callback([this, run = std::move(run)] { chosen = run; });
+  return command;
+}
+
+void PlanArguments::add_to(CLI::App& command) {
+  command.add_option("PLAN", plan, "A YAML file, or SUITE/PLAN such as volume/quick")->required();
+  command.add_option("--set", set,
+                     "factor=a,b: replaces the plan's values of a factor (repeatable)");
+  command.add_option("--shard", shard, "i/n: only the i-th of n parts of the plan");
+}
+
+measure::Plan PlanArguments::load(const measure::FindSuite& find_suite) const {
+  measure::Plan loaded = measure::load_plan(plan, parse_overrides(set), find_suite);
+  if (!shard.empty()) {
+    int index = 0;
+    int count = 0;
+    char rest = 0;
+    if (std::sscanf(shard.c_str(), "%d/%d%c", &index, &count, &rest) != 2 || index < 1 ||
+        index > count) {
+      throw core::InputError(fmt::format("--shard {}: expected i/n with 1 <= i <= n", shard));
+    }
+    measure::keep_shard(loaded, index, count);
+  }
+  return loaded;
+}
+
+measure::Overrides parse_overrides(const std::vector<std::string>& set) {
+  measure::Overrides overrides;
+  for (const std::string& each : set) {
+    const auto equals = each.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == each.size()) {
+      throw core::InputError(fmt::format("--set {}: expected factor=value or factor=a,b", each));
+    }
+    std::vector<std::string> values{""};
+    for (const char c : each.substr(equals + 1)) {
+      if (c == ',') {
+        values.emplace_back();
+      } else {
+        values.back() += c;
+      }
+    }
+    overrides.emplace_back(each.substr(0, equals), std::move(values));
+  }
+  return overrides;
+}
+
+std::vector<measure::Plant> parse_plants(const std::vector<std::string>& plants) {
+  std::vector<measure::Plant> parsed;
+  for (const std::string& each : plants) {
+    const auto at = each.find('@');
+    parsed.push_back({.fault = each.substr(0, at),
+                      .only = at == std::string::npos ? std::string{} : each.substr(at + 1)});
+  }
+  return parsed;
+}
+
+}  // namespace triptych::app

@@ -1,0 +1,49 @@
+#pragma once
+// What several commands take, spelled once.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "measure/plan.hpp"
+#include "measure/runner.hpp"
+
+namespace triptych::app {
+
+// A command adds itself to the program; what it does runs after parsing and returns the exit code.
+struct Commands {
+  CLI::App& program;
+  std::function<core::ExitCode()> chosen;
+
+  // Adds a command whose work is `run`.
+  CLI::App* add(const std::string& name, const std::string& summary,
+                std::function<core::ExitCode()> run);
+};
+
+struct PlanArguments {
+  std::string plan;
+  std::vector<std::string> set;  // "factor=a,b"
+  std::string shard;             // "i/n"
+
+  void add_to(CLI::App& command);
+  // Throws core::InputError.
+  [[nodiscard]] measure::Plan load(const measure::FindSuite& find_suite) const;
+};
+
+// "factor=a,b" → {factor, {a, b}}; throws core::InputError.
+[[nodiscard]] measure::Overrides parse_overrides(const std::vector<std::string>& set);
+
+// "FAULT" or "FAULT@GLOB".
+[[nodiscard]] std::vector<measure::Plant> parse_plants(const std::vector<std::string>& plants);
+
+void add_devices_command(Commands& commands);
+void add_list_command(Commands& commands);
+void add_run_commands(Commands& commands);  // run, worker
+void add_render_command(Commands& commands);
+void add_gate_commands(Commands& commands);  // gate, accept
+void add_report_command(Commands& commands);
+void add_test_commands(Commands& commands);  // what CTest calls
+
+}  // namespace triptych::app

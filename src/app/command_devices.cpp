@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+#include "app/arguments.hpp"
+#include "app/listing.hpp"
+#include "app/paths.hpp"
+#include "app/registry.hpp"
+#include "core/json.hpp"
+
+namespace triptych::app {
+namespace {
+
+struct Greeted {
+  record::Device device;
+  std::vector<record::ClockTrust> clocks;
+  std::string refused;  // why it could not be opened
+};
+
+Greeted greet(const record::Device& device, const std::string& suite) {
+  const measure::Greeting greeting =
+      measure::greet({own_program(), "worker", "--device"}, device.id, suite, {"compute", "draw"});
+  return {.device = greeting.hello ? greeting.hello->device : device,
+          .clocks = greeting.hello ? greeting.hello->clocks : std::vector<record::ClockTrust>{},
+          .refused = greeting.refused};
+}
+
+void print_text(const std::vector<Greeted>& greeted, const std::vector<measure::Broken>& broken) {
+  for (const Greeted& each : greeted) {
+    fmt::print("{}\n  {} ({}), driver {}, {}\n", each.device.id, each.device.name,
+               each.device.vendor, each.device.driver_version, each.device.api_version);
+    if (!each.refused.empty()) fmt::print("  cannot be used: {}\n", each.refused);
+    for (const record::ClockTrust& clock : each.clocks) {
+      fmt::print("  clock for {}: {}\n", clock.work, clock.verdict);
+    }
+    std::string limits;
+    for (const auto& [name, value] : each.device.limits)
+      limits += fmt::format(" {}={}", name, value);
+    if (!limits.empty()) fmt::print("  limits:{}\n", limits);
+    for (const auto& [name, value] : each.device.environment) {
+      fmt::print("  environment: {}={}\n", name, value);
+    }
+  }
+  for (const measure::Broken& each : broken)
+    fmt::print("not usable: {}: {}\n", each.what, each.reason);
+}
+
+void print_json(const std::vector<Greeted>& greeted, const std::vector<measure::Broken>& broken) {
+  core::Json json{{"devices", core::Json::array()}, {"broken", core::Json::array()}};
+  for (const Greeted& each : greeted) {
+    core::Json entry = each.device;
+    entry["key"] = each.device.key();
+    entry["clocks"] = each.clocks;
+    if (!each.refused.empty()) entry["refused"] = each.refused;
+    json["devices"].push_back(std::move(entry));
+  }
+  for (const measure::Broken& each : broken) {
+    json["broken"].push_back({{"what", each.what}, {"reason", each.reason}});
+  }
+  fmt::print("{}\n", json.dump(2));
+}
+
+core::ExitCode devices(bool json) {
+  const Registry registry = make_registry();
+  const measure::Listing listing = list_devices(registry);
+  const std::string suite(registry.suites.front()->name());
+  std::vector<Greeted> greeted;
+  for (const record::Device& device : listing.devices) greeted.push_back(greet(device, suite));
+  if (json) {
+    print_json(greeted, listing.broken);
+  } else {
+    print_text(greeted, listing.broken);
+  }
+  return greeted.empty() ? core::ExitCode::cannot_judge : core::ExitCode::pass;
+}
+
+}  // namespace
+
+void add_devices_command(Commands& commands) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App* command =
+      commands.add("devices", "List what is here, what it can do and whose clocks are trusted",
+                   [json] { return devices(*json); });
+  command->add_flag("--json", *json, "For machines");
+}
+
+}  // namespace triptych::app

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/arguments.hpp"
+#include "app/paths.hpp"
+#include "app/registry.hpp"
+#include "app/truth.hpp"
+#include "judge/gate.hpp"
+#include "report/junit.hpp"
+#include "report/markdown.hpp"
+
+namespace triptych::app {
+namespace {
+
+struct GateArguments {
+  std::string plan;
+  std::string store = "triptych.sqlite";
+  std::string baselines = default_baselines().string();
+  std::vector<std::string> checks;
+  std::vector<std::string> devices;
+  std::vector<std::string> required;
+  std::string junit;
+  std::string markdown;
+  bool json = false;
+};
+
+struct AcceptArguments {
+  std::string plan;
+  std::string store = "triptych.sqlite";
+  std::string baselines = default_baselines().string();
+  std::string reason;
+  std::string only;
+};
+
+// Id of the plan's latest run; throws NotSupported (nothing to judge) when there is none.
+std::string latest_run(const record::Store& store, const std::string& plan,
+                       const std::string& file) {
+  const std::optional<record::Run> run = store.latest_run(plan);
+  if (run) return run->id;
+  throw core::NotSupported(
+      fmt::format("{} holds no run of {}: measure first with `triptych run {} --store {}`", file,
+                  plan, plan, file));
+}
+
+void print_text(const judge::GateResult& result) {
+  std::map<judge::Verdict, int> counts;
+  for (const judge::Finding& finding : result.findings) {
+    ++counts[finding.verdict];
+    if (finding.verdict == judge::Verdict::pass) continue;
+    fmt::print("{:<12} {} {}: {}\n", judge::name_of(finding.verdict), finding.test,
+               finding.configuration, finding.message);
+  }
+  for (const auto& [verdict, count] : counts) fmt::print("{} {}  ", count, judge::name_of(verdict));
+  fmt::print("\n{}\n", result.headline());
+}
+
+core::ExitCode gate(const GateArguments& arguments) {
+  const Registry registry = make_registry();
+  record::Store store(arguments.store, record::Store::Mode::append);
+  Truths truths(registry, store);
+  judge::GateRequest request{
+      .plan = arguments.plan,
+      .checks = {},
+      .devices = arguments.devices,
+      .required_devices = arguments.required,
+      .truth = [&](const record::Record& record) { return truths.of(record); },
+      .today = today(),
+  };
+  for (const std::string& name : arguments.checks) request.checks.insert(judge::check(name));
+  const judge::Baselines baselines(arguments.baselines, arguments.plan);
+  const judge::GateResult result = judge::judge_run(
+      store, latest_run(store, arguments.plan, arguments.store), baselines, request);
+  if (!arguments.junit.empty()) write_text(arguments.junit, report::junit(result));
+  if (!arguments.markdown.empty()) write_text(arguments.markdown, report::markdown(result));
+  if (arguments.json) {
+    fmt::print("{}\n", judge::to_json(result).dump(2));
+  } else {
+    print_text(result);
+  }
+  return result.exit_code();
+}
+
+core::ExitCode accept(const AcceptArguments& arguments) {
+  const Registry registry = make_registry();
+  record::Store store(arguments.store, record::Store::Mode::append);
+  Truths truths(registry, store);
+  const std::vector<std::string> changes = judge::accept(
+      store, latest_run(store, arguments.plan, arguments.store), arguments.baselines,
+      {.plan = arguments.plan,
+       .reason = arguments.reason,
+       .only = arguments.only,
+       .date = today(),
+       .truth = [&](const record::Record& record) { return truths.of(record).truth; }});
+  for (const std::string& change : changes) fmt::print("{}\n", change);
+  fmt::print("{} changes under {}; review them before you commit\n", changes.size(),
+             arguments.baselines);
+  return core::ExitCode::pass;
+}
+
+}  // namespace
+
+void add_gate_commands(Commands& commands) {
+  auto arguments = std::make_shared<GateArguments>();
+  CLI::App* command =
+      commands.add("gate", "Judge a plan's latest run: truth, baselines, statistics",
+                   [arguments] { return gate(*arguments); });
+  command->add_option("PLAN", arguments->plan, "SUITE/PLAN as it was run")->required();
+  command->add_option("--store", arguments->store)->capture_default_str();
+  command->add_option("--baselines", arguments->baselines, "Folder of the baselines");
+  command
+      ->add_option("--check", arguments->checks, "image,counters,statistics,timing (default: all)")
+      ->delimiter(',');
+  command->add_option("--device", arguments->devices, "Glob: judge only these (repeatable)");
+  command->add_option("--require", arguments->required,
+                      "Glob: a device that must have measured something (repeatable)");
+  command->add_option("--junit", arguments->junit, "Write JUnit XML");
+  command->add_option("--markdown", arguments->markdown, "Write a Markdown summary");
+  command->add_flag("--json", arguments->json, "Print every finding as JSON");
+
+  auto accepted = std::make_shared<AcceptArguments>();
+  CLI::App* accepting = commands.add("accept", "Make a plan's latest run the baseline",
+                                     [accepted] { return accept(*accepted); });
+  accepting->add_option("PLAN", accepted->plan)->required();
+  accepting->add_option("--reason", accepted->reason, "Why; kept in history.json")->required();
+  accepting->add_option("--only", accepted->only, "Glob over configurations");
+  accepting->add_option("--store", accepted->store)->capture_default_str();
+  accepting->add_option("--baselines", accepted->baselines, "Folder of the baselines");
+}
+
+}  // namespace triptych::app

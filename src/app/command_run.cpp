@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "app/arguments.hpp"
+#include "app/listing.hpp"
+#include "app/paths.hpp"
+#include "app/registry.hpp"
+#include "measure/process.hpp"
+
+namespace triptych::app {
+namespace {
+
+struct RunArguments {
+  PlanArguments plan;
+  std::vector<std::string> devices;
+  std::string store = "triptych.sqlite";
+  bool resume = false;
+  int limit_s = 60;
+  std::vector<std::string> plants;
+};
+
+std::string outcome_text(const record::Record& record) {
+  if (record.outcome != record::Outcome::measured) {
+    return fmt::format("{}: {}", record::name_of(record.outcome), record.reason);
+  }
+  const auto summary = record::summarise(record.time_ns());
+  return summary ? fmt::format("{:.3f} ms ({})", summary->median / 1e6, record.clock())
+                 : "measured";
+}
+
+// A line that rewrites itself on a terminal, a line per configuration elsewhere.
+void show(const measure::Progress& progress) {
+  static const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  const std::string what = progress.record != nullptr ? outcome_text(*progress.record) : "";
+  if (terminal) {
+    fmt::print(stderr, "\r\033[K{}/{} {} {} {} left {} s", progress.done, progress.total,
+               progress.device, progress.configuration, what, progress.left.count());
+    if (progress.done == progress.total) fmt::print(stderr, "\n");
+  } else if (progress.record != nullptr) {
+    fmt::print(stderr, "{}/{} {} {}: {}\n", progress.done, progress.total, progress.device,
+               progress.configuration, what);
+  }
+}
+
+core::ExitCode run(const RunArguments& arguments) {
+  const Registry registry = make_registry();
+  const measure::Plan plan = arguments.plan.load(registry.find_suite());
+  const std::vector<std::string> devices =
+      choose_devices(list_devices(registry), arguments.devices);
+  require_writable(std::filesystem::path(arguments.store).parent_path());
+  record::Store store(arguments.store, record::Store::Mode::append);
+  const measure::RunOptions options{
+      .limit = std::chrono::seconds(arguments.limit_s),
+      .resume = arguments.resume,
+      .plants = parse_plants(arguments.plants),
+      .worker_command = {own_program(), "worker", "--device"},
+  };
+  const measure::RunResult result =
+      measure::run_plan(plan, devices, registry.suite(plan.suite), store, options, show);
+  fmt::print(
+      "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
+      plan.name, result.run, arguments.store, result.measured, result.skipped, result.failed,
+      result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
+  return result.measured + result.failed > 0 ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+}
+
+core::ExitCode serve(const std::string& device) {
+  const Registry registry = make_registry();
+  const std::string api = device.substr(0, device.find(':'));
+  return static_cast<core::ExitCode>(
+      measure::serve_worker(registry.backend(api), device, registry.find_suite(),
+                            measure::Process::child_request_fd, measure::Process::child_answer_fd));
+}
+
+void add_worker_command(Commands& commands) {
+  auto device = std::make_shared<std::string>();
+  CLI::App* worker = commands.add("worker", "Serve one device (started by run)",
+                                  [device] { return serve(*device); });
+  worker->add_option("--device", *device)->required();
+  worker->group("");  // not shown: only `run` starts it
+  auto api = std::make_shared<std::string>();
+  CLI::App* listing = commands.add(
+      "list-api", "List the devices of one API (started by devices)",
+      [api] { return answer_listing(make_registry(), *api, measure::Process::child_answer_fd); });
+  listing->add_option("API", *api)->required();
+  listing->group("");
+}
+
+}  // namespace
+
+void add_run_commands(Commands& commands) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command = commands.add("run", "Measure a plan on the devices of this machine",
+                                   [arguments] { return run(*arguments); });
+  arguments->plan.add_to(*command);
+  command->add_option("--device", arguments->devices,
+                      "Glob over device ids (repeatable; default: all)");
+  command->add_option("--store", arguments->store, "SQLite file for the records")
+      ->capture_default_str();
+  command->add_flag("--resume", arguments->resume, "Go on with the plan's latest run in the store");
+  command
+      ->add_option("--limit", arguments->limit_s,
+                   "Seconds after which a configuration counts as hung")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 86400));
+  command->add_option(
+      "--plant", arguments->plants,
+      "Plant a fault to prove that the gate catches it: half_voxel_shift, flipped_axis, "
+      "extra_sample, uncorrected_opacity, coarse_filter, slowdown:PERCENT, crash, hang, "
+      "device_lost; FAULT@GLOB limits it to configurations or devices");
+  add_worker_command(commands);
+}
+
+}  // namespace triptych::app

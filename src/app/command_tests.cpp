@@ -1,0 +1,249 @@
+// What CTest needs: the list of tests, made when tests are run by asking which devices are here,
+// and the command behind each of them. CTest fixtures make each device measure a plan once; the
+// checks judge what it left in the store.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdlib>
+#include <memory>
+
+#include "app/arguments.hpp"
+#include "app/listing.hpp"
+#include "app/paths.hpp"
+#include "app/registry.hpp"
+#include "app/truth.hpp"
+#include "core/image_io.hpp"
+#include "judge/gate.hpp"
+#include "judge/image_metrics.hpp"
+
+namespace triptych::app {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::array checks{"image", "counters", "statistics", "timing"};
+
+struct Test {
+  std::string name;
+  std::vector<std::string> command;  // arguments of triptych
+  std::vector<std::string> labels;
+  std::vector<std::string> requires_fixtures;
+  std::string sets_up;
+  std::string lock;
+};
+
+// [=[…]=] takes any text as it is.
+std::string quoted(const std::vector<std::string>& words, std::string_view separator) {
+  std::string text;
+  for (const std::string& word : words) {
+    if (!text.empty()) text += separator;
+    text += "[=[" + word + "]=]";
+  }
+  return text;
+}
+
+std::string as_cmake(const Test& test) {
+  std::string text = fmt::format("add_test([=[{}]=] [=[{}]=] {})\n", test.name, own_program(),
+                                 quoted(test.command, " "));
+  text += fmt::format(
+      "set_tests_properties([=[{}]=] PROPERTIES\n  LABELS [=[{}]=] SKIP_RETURN_CODE 77 "
+      "TIMEOUT 900",
+      test.name, fmt::join(test.labels, ";"));
+  if (!test.requires_fixtures.empty()) {
+    text += fmt::format("\n  FIXTURES_REQUIRED [=[{}]=]", fmt::join(test.requires_fixtures, ";"));
+  }
+  if (!test.sets_up.empty()) text += fmt::format("\n  FIXTURES_SETUP [=[{}]=]", test.sets_up);
+  if (!test.lock.empty()) text += fmt::format("\n  RESOURCE_LOCK [=[{}]=]", test.lock);
+  return text + ")\n";
+}
+
+struct PlanTests {
+  std::string suite;
+  std::string plan;  // "volume/quick"
+  std::string stem;  // "volume.quick"
+  fs::path store;
+};
+
+void add_plan(std::vector<Test>& tests, const PlanTests& plan,
+              const std::vector<record::Device>& devices) {
+  const std::string store = plan.store.string();
+  tests.push_back({.name = plan.stem + ".start",
+                   .command = {"test-start", "--store", store},
+                   .labels = {plan.suite, "device"},
+                   .requires_fixtures = {},
+                   .sets_up = plan.stem});
+  std::vector<std::string> measured;
+  for (const record::Device& device : devices) {
+    const std::string fixture = plan.stem + "." + device.id;
+    measured.push_back(fixture);
+    tests.push_back(
+        {.name = plan.stem + ".measure." + device.id,
+         .command = {"test-measure", plan.plan, "--device", device.id, "--store", store},
+         .labels = {plan.suite, "measure", "device", device.api, device.id},
+         .requires_fixtures = {plan.stem},
+         .sets_up = fixture,
+         .lock = device.id});
+    for (const char* check : checks) {
+      tests.push_back({.name = fmt::format("{}.{}.{}", plan.stem, check, device.id),
+                       .command = {"test-check", plan.plan, "--check", check, "--device", device.id,
+                                   "--store", store},
+                       .labels = {plan.suite, check, "device", device.api, device.id},
+                       .requires_fixtures = {fixture},
+                       .sets_up = {},
+                       .lock = {}});
+    }
+  }
+  tests.push_back({.name = plan.stem + ".agreement",
+                   .command = {"test-check", plan.plan, "--check", "image", "--store", store},
+                   .labels = {plan.suite, "image", "agreement", "device"},
+                   .requires_fixtures = measured,
+                   .sets_up = {},
+                   .lock = {}});
+}
+
+core::ExitCode register_tests(const fs::path& out, const fs::path& folder,
+                              const std::vector<std::string>& plans) {
+  const Registry registry = make_registry();
+  const measure::Listing listing = list_devices(registry);
+  std::vector<Test> tests;
+  for (const std::string& plan : plans) {
+    const std::string suite = plan.substr(0, plan.find('/'));
+    std::string stem = plan;
+    stem.replace(plan.find('/'), 1, ".");
+    add_plan(tests, {suite, plan, stem, folder / (stem + ".sqlite")}, listing.devices);
+  }
+  std::string text = "# Made by asking triptych which devices are here.\n";
+  for (const Test& test : tests) text += as_cmake(test);
+  write_text(out, text);
+  return core::ExitCode::pass;
+}
+
+core::ExitCode start(const fs::path& store) {
+  require_writable(store.parent_path());
+  for (const char* suffix : {"", "-wal", "-shm"}) fs::remove(store.string() + suffix);
+  return core::ExitCode::pass;
+}
+
+struct CheckArguments {
+  std::string plan;
+  std::string check;
+  std::string device;
+  std::string store;
+};
+
+void print_measurement(std::string_view name, double value) {
+  fmt::print("<CTestMeasurement type=\"numeric/double\" name=\"{}\">{}</CTestMeasurement>\n", name,
+             value);
+}
+
+void print_picture(std::string_view name, const fs::path& file, const core::Image& image) {
+  core::write_png(image, file);
+  fmt::print("<CTestMeasurementFile type=\"image/png\" name=\"{}\">{}</CTestMeasurementFile>\n",
+             name, fs::absolute(file).string());
+}
+
+// The three pictures of the worst configuration, beside the store.
+void print_pictures(const record::Store& store, const std::string& run, Truths& truths,
+                    const judge::Finding& worst) {
+  for (const record::Record& record : store.records(run)) {
+    if (record.configuration != worst.configuration || record.device != worst.device) continue;
+    if (record.image.empty()) return;
+    const core::Image image = core::decode_exr(store.image(record.image));
+    const judge::TruthPair& truth = truths.of(record);
+    const fs::path folder = fs::temp_directory_path();
+    std::string stem = worst.test;
+    for (char& c : stem) c = c == ':' ? '_' : c;
+    const auto file = [&](const char* what) {
+      return folder / fmt::format("{}.{}.png", stem, what);
+    };
+    print_picture("TestImage", file("test"), image);
+    print_picture("ValidImage", file("valid"), truth.truth);
+    print_picture("DifferenceImage", file("difference"), judge::difference(image, truth.truth));
+    return;
+  }
+}
+
+core::ExitCode check(const CheckArguments& arguments) {
+  const Registry registry = make_registry();
+  record::Store store(arguments.store, record::Store::Mode::append);
+  Truths truths(registry, store);
+  const auto run = store.latest_run(arguments.plan);
+  if (!run) throw core::NotSupported("nothing was measured");
+  judge::GateRequest request{
+      .plan = arguments.plan,
+      .checks = {judge::check(arguments.check)},
+      .devices = {},
+      .required_devices = {},
+      .truth = [&](const record::Record& record) { return truths.of(record); },
+      .today = today()};
+  if (!arguments.device.empty()) request.devices = {arguments.device};
+  const judge::GateResult result = judge::judge_run(
+      store, run->id, judge::Baselines(default_baselines(), arguments.plan), request);
+  bool judged = false;
+  std::string reason;
+  for (const judge::Finding& finding : result.findings) {
+    if (finding.verdict == judge::Verdict::pass) {
+      judged = true;
+    } else {
+      fmt::print("{} {}: {}\n", judge::name_of(finding.verdict), finding.configuration,
+                 finding.message);
+      if (reason.empty()) reason = finding.message;
+    }
+  }
+  if (!result.findings.empty()) {
+    const judge::Finding& worst = result.findings.front();
+    for (const auto& [name, value] : worst.numbers) print_measurement(name, value);
+    if (arguments.check == "image" && !worst.device.empty()) {
+      print_pictures(store, run->id, truths, worst);
+    }
+  }
+  const core::ExitCode code = result.exit_code();
+  fmt::print("{}\n", result.headline());
+  // A check that only advises has judged nothing: a skip, with its reason, not a pass.
+  if (code == core::ExitCode::cannot_judge || code == core::ExitCode::pass) {
+    const bool only_advice =
+        !judged && std::ranges::none_of(result.findings, [](const judge::Finding& f) {
+          return f.verdict == judge::Verdict::cannot_judge || f.verdict == judge::Verdict::improved;
+        });
+    if (only_advice) {
+      fmt::print("skipped: {}\n", reason);
+      return core::ExitCode::skip;
+    }
+  }
+  return code;
+}
+
+}  // namespace
+
+void add_test_commands(Commands& commands) {
+  struct Registering {
+    std::string out;
+    std::string folder;
+    std::vector<std::string> plans;
+  };
+  auto registering = std::make_shared<Registering>();
+  CLI::App* tests =
+      commands.add("ctest", "Write the CTest file for the devices of this machine", [registering] {
+        return register_tests(registering->out, registering->folder, registering->plans);
+      });
+  tests->add_option("PLAN", registering->plans)->required();
+  tests->add_option("--out", registering->out, "The file to write")->required();
+  tests->add_option("--folder", registering->folder, "Where stores are kept")->required();
+
+  auto store = std::make_shared<std::string>();
+  CLI::App* starting = commands.add("test-start", "Forget what an earlier test run measured",
+                                    [store] { return start(*store); });
+  starting->add_option("--store", *store)->required();
+  starting->group("");
+
+  auto checked = std::make_shared<CheckArguments>();
+  CLI::App* checking = commands.add("test-check", "One check as a CTest test",
+                                    [checked] { return check(*checked); });
+  checking->add_option("PLAN", checked->plan)->required();
+  checking->add_option("--check", checked->check)->required();
+  checking->add_option("--device", checked->device);
+  checking->add_option("--store", checked->store)->required();
+  checking->group("");
+}
+
+}  // namespace triptych::app

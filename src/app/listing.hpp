@@ -1,0 +1,24 @@
+#pragma once
+// Which devices are here. Every API is asked in a process of its own, so that a driver that crashes
+// or hangs while it is being listed costs only itself.
+
+#include <string>
+#include <vector>
+
+#include "app/registry.hpp"
+#include "core/error.hpp"
+
+namespace triptych::app {
+
+[[nodiscard]] measure::Listing list_devices(const Registry& registry);
+
+// Ids of the devices that match any of the globs (all for none), in listing order. Throws
+// core::NotSupported naming what is there when nothing matches.
+[[nodiscard]] std::vector<std::string> choose_devices(const measure::Listing& listing,
+                                                      const std::vector<std::string>& globs);
+
+// What the process started for one API does: sends its listing to `answer_fd`.
+[[nodiscard]] core::ExitCode answer_listing(const Registry& registry, const std::string& api,
+                                            int answer_fd);
+
+}  // namespace triptych::app

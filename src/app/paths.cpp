@@ -1,0 +1,68 @@
+#include "app/paths.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <climits>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <system_error>
+
+#include "core/error.hpp"
+
+namespace triptych::app {
+namespace fs = std::filesystem;
+
+std::vector<fs::path> data_folders() {
+  const char* root = std::getenv("TRIPTYCH_DATA");
+  if (root == nullptr || *root == '\0') return {};
+  const fs::path folder(root);
+  return {folder, folder / "volumes", folder / "particles"};
+}
+
+fs::path default_baselines() {
+  if (fs::is_directory("baselines")) return "baselines";
+  return fs::path(TRIPTYCH_SOURCE_FOLDER) / "baselines";
+}
+
+std::string own_program() {
+  return fs::read_symlink("/proc/self/exe").string();
+}
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  return fmt::format("{:04}-{:02}-{:02}", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday);
+}
+
+void require_writable(const fs::path& folder) {
+  const fs::path where = folder.empty() ? fs::path(".") : folder;
+  std::error_code error;
+  fs::create_directories(where, error);
+  if (!error && ::access(where.c_str(), W_OK) != 0) error = {errno, std::generic_category()};
+  if (error) {
+    throw core::IoError(fmt::format("cannot write into {}: {}; choose another folder",
+                                    where.string(), error.message()));
+  }
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  require_writable(file.parent_path());
+  const fs::path aside = file.string() + ".new";
+  std::ofstream out(aside, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (out) fs::rename(aside, file, error);
+  if (!out || error) {
+    fs::remove(aside, error);
+    throw core::IoError(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
+  }
+}
+
+}  // namespace triptych::app

@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace triptych::app {
+
+// Folders in which data files are looked for: $TRIPTYCH_DATA and its volumes/ and particles/.
+[[nodiscard]] std::vector<std::filesystem::path> data_folders();
+
+// Where baselines are unless told otherwise: ./baselines if it is there, else the one of the source
+// tree.
+[[nodiscard]] std::filesystem::path default_baselines();
+
+// This program's own file, to start workers with.
+[[nodiscard]] std::string own_program();
+
+// Today, UTC, "YYYY-MM-DD".
+[[nodiscard]] std::string today();
+
+// Throws core::IoError when a file could not be created in the folder (made if it is missing), so
+// that nothing is measured that could not be kept.
+void require_writable(const std::filesystem::path& folder);
+
+// Writes a text file aside and renames it. Throws core::IoError.
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace triptych::app

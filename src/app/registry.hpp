@@ -1,0 +1,26 @@
+#pragma once
+// Every backend and every suite of this build.
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "measure/backend.hpp"
+#include "measure/plan.hpp"
+#include "measure/suite.hpp"
+
+namespace triptych::app {
+
+struct Registry {
+  std::vector<std::unique_ptr<measure::Backend>> backends;
+  std::vector<std::unique_ptr<measure::SuiteWithTruth>> suites;
+
+  // Both throw core::InputError naming those there are.
+  [[nodiscard]] measure::SuiteWithTruth& suite(std::string_view name) const;
+  [[nodiscard]] const measure::Backend& backend(std::string_view api) const;
+  [[nodiscard]] measure::FindSuite find_suite() const;
+};
+
+[[nodiscard]] Registry make_registry();
+
+}  // namespace triptych::app

@@ -1,0 +1,47 @@
+#include "app/truth.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/image_io.hpp"
+
+namespace triptych::app {
+namespace {
+
+// Every record with this text has the same truth and bound; cheaper than Suite::truth_key, which
+// loads the data to know that it has not changed.
+std::string memory_key(const record::Record& record) {
+  std::string key = record.suite + " " + record.scene;
+  for (const char* factor : {"ert", "voxel"}) {
+    const auto found = record.factors.find(factor);
+    if (found != record.factors.end()) key += " " + found->second;
+  }
+  for (const auto& [name, value] : record.precision) key += fmt::format(" {}={}", name, value);
+  return key;
+}
+
+}  // namespace
+
+const judge::TruthPair& Truths::of(const record::Record& record) {
+  const std::string key = memory_key(record);
+  const auto found = known_.find(key);
+  if (found != known_.end()) return found->second;
+  return known_.emplace(key, find_or_render(record)).first->second;
+}
+
+judge::TruthPair Truths::find_or_render(const record::Record& record) {
+  measure::SuiteWithTruth& suite = registry_.suite(record.suite);
+  const std::string version = suite.truth_key(record.factors, record.precision);
+  if (const auto stored = store_.truth(record.scene, version)) {
+    return {.truth = core::decode_exr(stored->image), .bound = core::decode_exr(stored->bound)};
+  }
+  measure::Truth truth = suite.truth(record.factors, record.precision);
+  store_.set_truth({.scene = record.scene,
+                    .version = version,
+                    .image = core::encode_exr(truth.image),
+                    .bound = core::encode_exr(truth.bound)});
+  return {.truth = std::move(truth.image), .bound = std::move(truth.bound)};
+}
+
+}  // namespace triptych::app

@@ -1,0 +1,18 @@
+# Read by CTest when tests are run: asks the program which devices are here and registers, for every plan
+# and device, the measuring and the checks of what was measured.
+# Set before: TRIPTYCH_PROGRAM, TRIPTYCH_PLANS, TRIPTYCH_TEST_FOLDER.
+if(NOT EXISTS "${TRIPTYCH_PROGRAM}")
+  add_test(triptych.not_built "${TRIPTYCH_PROGRAM}")
+  return()
+endif()
+set(triptych_tests "${TRIPTYCH_TEST_FOLDER}/tests.cmake")
+execute_process(
+  COMMAND "${TRIPTYCH_PROGRAM}" ctest ${TRIPTYCH_PLANS}
+          --out "${triptych_tests}" --folder "${TRIPTYCH_TEST_FOLDER}"
+  RESULT_VARIABLE triptych_result ERROR_VARIABLE triptych_error)
+if(triptych_result EQUAL 0)
+  include("${triptych_tests}")
+else()
+  message("triptych ctest: ${triptych_error}")
+  add_test(triptych.no_device_listed "${TRIPTYCH_PROGRAM}" devices)
+endif()

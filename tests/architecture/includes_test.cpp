@@ -1,0 +1,109 @@
+// Includes go only downwards, backends and suites do not know each other, and no API is spoken
+// outside its backend.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <optional>
+
+#include "source_tree.hpp"
+
+namespace triptych::architecture {
+namespace {
+
+const std::vector<std::string> code_endings{".hpp", ".cpp", ".h", ".in"};
+
+// Floors as CMake enforces them for links: one list, in cmake/room.cmake.
+std::map<std::string, int> floors() {
+  const std::string text = read(source_folder / "cmake/room.cmake");
+  static const std::regex pattern(R"(\b([a-z]+)=(\d+)\b)");
+  std::map<std::string, int> found;
+  for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end; ++i) {
+    found[(*i)[1]] = std::stoi((*i)[2]);
+  }
+  return found;
+}
+
+// The room an include names: "scene", "backend" for backends/…, "suite" for suites/….
+std::optional<std::string> room_of_include(const std::string& include,
+                                           const std::map<std::string, int>& known) {
+  const std::string first = include.substr(0, include.find('/'));
+  if (first == "backends") return "backend";
+  if (first == "suites") return "suite";
+  if (include.find('/') != std::string::npos && known.contains(first)) return first;
+  return std::nullopt;
+}
+
+void expect_downwards(const std::string& folder, const std::string& room) {
+  const auto known = floors();
+  ASSERT_TRUE(known.contains(room)) << room;
+  for (const auto& file : files_below(folder, code_endings)) {
+    for (const std::string& include : includes_of(file)) {
+      const auto other = room_of_include(include, known);
+      const bool own = other == room && (include.starts_with(folder + "/") ||
+                                         ("src/" + include).starts_with(folder + "/"));
+      if (!other || own) continue;
+      EXPECT_LT(known.at(*other), known.at(room)) << file << " includes " << include;
+    }
+  }
+}
+
+TEST(Includes, FloorsAreRead) {
+  EXPECT_GE(floors().size(), 10U);
+}
+
+TEST(Includes, RoomsLookOnlyDownwards) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder / "src")) {
+    const std::string room = entry.path().filename().string();
+    expect_downwards("src/" + room, room);
+  }
+}
+
+TEST(Includes, BackendsAndSuitesStandAlone) {
+  for (const std::string kind : {"backend", "suite"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(source_folder / (kind + "s"))) {
+      if (!entry.is_directory()) continue;
+      expect_downwards(kind + "s/" + entry.path().filename().string(), kind);
+    }
+  }
+}
+
+TEST(Includes, ReferenceNeverSeesTechniques) {
+  for (const auto& file : files_below("src/reference", code_endings)) {
+    for (const std::string& include : includes_of(file)) {
+      EXPECT_FALSE(include.starts_with("technique/")) << file;
+    }
+  }
+}
+
+TEST(Includes, NoApiHeaderOutsideItsBackend) {
+  static const std::map<std::string, std::regex> headers{
+      {"opencl", std::regex(R"(CL/.*)")},
+      {"vulkan", std::regex(R"(vulkan/.*)")},
+      {"gl", std::regex(R"((EGL|GL|GLES\w*|glad|KHR)/.*)")},
+  };
+  for (const std::string folder : {"src", "backends", "suites"}) {
+    for (const auto& file : files_below(folder, code_endings)) {
+      for (const auto& [api, header] : headers) {
+        const auto home = source_folder / "backends" / api;
+        if (file.string().starts_with(home.string())) continue;
+        for (const std::string& include : includes_of(file)) {
+          EXPECT_FALSE(std::regex_match(include, header)) << file << " includes " << include;
+        }
+      }
+    }
+  }
+}
+
+TEST(Files, NoPathOfAMachine) {
+  static const std::regex path(R"((^|[^A-Za-z0-9_.])/(home|work|Users)/)", std::regex::multiline);
+  for (const std::string folder : {"src", "backends", "suites", "ci", "docs", "cmake"}) {
+    for (const auto& file :
+         files_below(folder, {".hpp", ".cpp", ".md", ".cmake", ".txt", ".cl", ".glsl"})) {
+      EXPECT_FALSE(std::regex_search(read(file), path)) << file;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace triptych::architecture

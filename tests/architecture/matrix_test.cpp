@@ -1,0 +1,62 @@
+// Every technique is implemented on every backend or carries its reason.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "source_tree.hpp"
+#include "technique/catalogue.hpp"
+
+namespace triptych::architecture {
+namespace {
+
+const std::vector<std::string> apis{"opencl", "vulkan", "gl"};
+
+// Lines "technique: reason" of a backend's unsupported.txt; # begins a comment.
+std::map<std::string, std::string> unsupported(const std::string& api) {
+  std::map<std::string, std::string> reasons;
+  std::istringstream text(read(source_folder / "backends" / api / "unsupported.txt"));
+  for (std::string line; std::getline(text, line);) {
+    const auto colon = line.find(':');
+    if (line.empty() || line[0] == '#') continue;
+    EXPECT_NE(colon, std::string::npos) << api << ": expected 'technique: reason', got " << line;
+    if (colon != std::string::npos) reasons[line.substr(0, colon)] = line.substr(colon + 1);
+  }
+  return reasons;
+}
+
+bool implemented(const std::string& api, const std::string& technique) {
+  const auto files = files_below("backends/" + api, {".cpp"});
+  return std::ranges::any_of(files, [&](const auto& file) { return file.stem() == technique; });
+}
+
+TEST(Matrix, CatalogueIsThere) {
+  EXPECT_GE(technique::catalogue().size(), 3U);
+}
+
+TEST(Matrix, EveryCellIsImplementedOrExplained) {
+  for (const std::string& api : apis) {
+    const auto reasons = unsupported(api);
+    for (const technique::Technique& each : technique::catalogue()) {
+      const bool there = implemented(api, each.id);
+      const bool explained = reasons.contains(each.id) && reasons.at(each.id).size() > 10;
+      EXPECT_NE(there, explained) << api << "/" << each.id
+                                  << (there ? " is implemented and called unsupported"
+                                            : " is missing without a reason");
+      EXPECT_EQ(there, std::ranges::count(each.apis, api) == 1)
+          << api << "/" << each.id << " differs from its catalogue line";
+    }
+  }
+}
+
+TEST(Matrix, UnsupportedNamesOnlyTechniquesThereAre) {
+  for (const std::string& api : apis) {
+    for (const auto& [technique, reason] : unsupported(api)) {
+      EXPECT_NO_THROW(static_cast<void>(technique::technique(technique))) << api;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace triptych::architecture
