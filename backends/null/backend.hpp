@@ -1,0 +1,110 @@
+#pragma once
+// A backend without an API: devices that play a script. Measuring, supervising and judging are
+// tested with it, because here the true answer is known. Nothing is rendered: pictures are patterns
+// that depend on what decides a picture (data, camera, step, …) and on nothing else, or images
+// given in the script; times and counts are computed from the work and a seed.
+//
+// Its devices "null:scripted", "null:scripted#1", … are listed only when the environment variable
+// TRIPTYCH_NULL_SCRIPT holds a script ("{}" will do), or when a Script is given: an ordinary run
+// does not show them, and a worker process inherits the script of its parent.
+//
+// TRIPTYCH_NULL_SCRIPT is a JSON object; every key is optional, an unknown one is an error:
+//   {
+//     "seed": 1,                  of noise and outliers
+//     "devices": [1, 1.7],        one device per entry: the factor on its times
+//     "driver_version": "1",      part of the device's key
+//     "base_ns": 100000,          a frame takes base_ns + ns_per_sample · samples, where
+//     "ns_per_sample": 1,           samples = width · height · longest edge in voxels / step
+//     "warm_up_factor": 1,        on the first frame after a prepare
+//     "noise": 0,                 relative standard deviation of every time
+//     "outlier_share": 0,         share of frames that take outlier_factor as long
+//     "outlier_factor": 3,
+//     "device_over_wall": 0.98,   what the device's clock tells, over the wall time: a clock that
+//     lies
+//                                 says 0, 0.1 or 3; null: it tells no time
+//     "counts": true,             false: neither counters nor statistics are told
+//     "sleep": false,             true: a frame really lasts what it says
+//     "filter_weight_error": 0,   of the hardware sampler
+//     "images": {"GLOB": "FILE.exr"},           replayed instead of the pattern
+//     "failures": [{"kind": "crash", "at": "frame", "frame": 2, "only": "GLOB"}]
+//   }
+// Kinds of failure: crash (abort), exit (the process ends with code 0), hang (never returns),
+// device_lost, api_error, not_supported (thrown; at "supports": the reason given), wrong_image (the
+// picture is off by 0.25), nan_image. Places ("at"): open, supports, prepare, frame, image. "frame"
+// counts a Prepared's frames from 0 and is any when left out. GLOBs, as fnmatch(3) has them, match
+// describe(work); at "open" they match the device id.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/image.hpp"
+#include "measure/backend.hpp"
+
+namespace triptych::null_backend {
+
+enum class FailureKind : std::uint8_t {
+  crash,
+  exit,
+  hang,
+  device_lost,
+  api_error,
+  not_supported,
+  wrong_image,
+  nan_image
+};
+enum class Place : std::uint8_t { open, supports, prepare, frame, image };
+
+struct Failure {
+  FailureKind kind = FailureKind::crash;
+  Place at = Place::frame;
+  std::optional<int> frame;  // Place::frame only
+  std::string only = "*";
+};
+
+// The calls made on devices of a script, in order: "open null:scripted", "prepare raycast",
+// "frame timing", "frame statistics", "frame counters", "image", "destroy". Not for several
+// threads.
+using CallLog = std::vector<std::string>;
+
+// The keys of TRIPTYCH_NULL_SCRIPT, and what only a program can give.
+struct Script {
+  std::uint64_t seed = 1;
+  std::vector<double> devices{1};
+  std::string driver_version = "1";
+  double base_ns = 1e5;
+  double ns_per_sample = 1;
+  double warm_up_factor = 1;
+  double noise = 0;
+  double outlier_share = 0;
+  double outlier_factor = 3;
+  std::optional<double> device_over_wall = 0.98;
+  bool counts = true;
+  bool sleep = false;
+  double filter_weight_error = 0;
+  std::vector<std::pair<std::string, std::string>>
+      images;                     // glob → EXR file; the first match counts
+  std::vector<Failure> failures;  // likewise
+
+  std::shared_ptr<CallLog> log;                           // none: nothing is logged
+  std::function<core::Image(const measure::Work&)> draw;  // instead of the pattern
+};
+
+// Throws InputError, naming the key and what was expected.
+[[nodiscard]] Script parse_script(std::string_view json);
+
+// One line, "technique=raycast,data=…,step=0.5,ert=0,sampler=manual,skip=none,shading=0,width=64,
+// height=64,eye=0/0/2,fault=0,extra_work_stride=0": what the globs of a script are matched against.
+[[nodiscard]] std::string describe(const measure::Work& work);
+
+// The script of TRIPTYCH_NULL_SCRIPT; without one, a backend that has no devices. A script that
+// cannot be read is named in Listing::broken, and thrown as InputError by open().
+[[nodiscard]] std::unique_ptr<measure::Backend> make_backend();
+[[nodiscard]] std::unique_ptr<measure::Backend> make_backend(Script script);
+
+}  // namespace triptych::null_backend

@@ -1,0 +1,251 @@
+#include "backends/null/device.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <thread>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "core/image_io.hpp"
+#include "core/random.hpp"
+#include "technique/catalogue.hpp"
+
+namespace triptych::null_backend {
+namespace {
+
+std::uint64_t number_of(const std::string& text) {
+  return std::stoull(core::content_hash(text).substr(0, 16), nullptr, 16);
+}
+
+const measure::VolumeWork& volume_of(const measure::Work& work) {
+  return std::get<measure::VolumeWork>(work.scene);
+}
+
+double pixels_of(const measure::VolumeWork& work) {
+  return static_cast<double>(work.scene.width) * static_cast<double>(work.scene.height);
+}
+
+// How many samples a raycaster would take about: what times and counts are made of.
+double samples_of(const measure::VolumeWork& work) {
+  int longest = 1;
+  if (work.scene.grid) longest = std::ranges::max(work.scene.grid->size);
+  return pixels_of(work) * longest / work.scene.step_voxels;
+}
+
+// Nearly normal, mean 0, variance 1: twelve uniform numbers. Needs no function whose bits may
+// differ.
+double normal(core::Random& random) {
+  double sum = -6;
+  for (int i = 0; i < 12; ++i) sum += random.uniform();
+  return sum;
+}
+
+double frame_ns(const Script& script, const measure::Work& work, double device_factor,
+                const std::string& subject, int frame) {
+  const measure::VolumeWork& volume = volume_of(work);
+  double ns = device_factor * (script.base_ns + script.ns_per_sample * samples_of(volume));
+  if (volume.options.extra_work_stride > 0) ns *= 1 + 1.0 / volume.options.extra_work_stride;
+  if (frame == 0) ns *= script.warm_up_factor;
+  core::Random random(script.seed ^ number_of(fmt::format("{},frame={}", subject, frame)));
+  ns *= std::max(0.01, 1 + script.noise * normal(random));
+  if (random.uniform() < script.outlier_share) ns *= script.outlier_factor;
+  return ns;
+}
+
+record::Counts counters_of(const measure::VolumeWork& work) {
+  const auto rays = static_cast<std::uint64_t>(pixels_of(work));
+  const auto samples = static_cast<std::uint64_t>(samples_of(work));
+  const bool bricks = work.options.skip != technique::Skip::none;
+  const bool ends_early = work.options.ert > 0;
+  return {{"rays_hit", rays},
+          {"samples", samples},
+          {"samples_nonzero", samples / 2},
+          {"bricks_visited", bricks ? samples / 8 : 0},
+          {"bricks_skipped", bricks ? samples / 16 : 0},
+          {"rays_terminated", ends_early ? rays / 4 : 0},
+          {"samples_saved", ends_early ? samples / 8 : 0}};
+}
+
+record::Counts statistics_of(const measure::Work& work) {
+  const auto pixels = static_cast<std::uint64_t>(pixels_of(volume_of(work)));
+  if (technique::technique(work.technique).work == technique::Work::compute) {
+    return {{"compute_invocations", pixels}};
+  }
+  return {{"input_assembly_vertices", 3}, {"input_assembly_primitives", 1},
+          {"vertex_invocations", 3},      {"clipping_invocations", 1},
+          {"clipping_primitives", 1},     {"fragment_invocations", pixels}};
+}
+
+// Everything that decides a picture, and nothing about how it is computed.
+std::string picture_key(const scene::VolumeScene& scene) {
+  const scene::Camera& c = scene.camera;
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", scene.grid ? scene.grid->name : "",
+                     scene.transfer_function.name, scene.step_voxels, scene.shading.enabled,
+                     c.eye.x, c.eye.y, c.eye.z, c.forward.x, c.forward.y, c.forward.z, c.up.x,
+                     c.fov_y_deg);
+}
+
+// Slopes in x and y whose strength and ground depend on the scene; a planted fault of the technique
+// shows in it as it would in a picture.
+core::Image pattern(const measure::VolumeWork& work) {
+  const scene::VolumeScene& scene = work.scene;
+  core::Random random(number_of(picture_key(scene)));
+  core::Image image(scene.width, scene.height);
+  const auto fault = static_cast<double>(work.options.fault);
+  for (int channel = 0; channel < 4; ++channel) {
+    const double ground = random.uniform(0.1, 0.4) + 0.02 * fault;
+    const double along_x = random.uniform(0, 0.25);
+    const double along_y = random.uniform(0, 0.25);
+    for (int y = 0; y < scene.height; ++y) {
+      for (int x = 0; x < scene.width; ++x) {
+        const auto i = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) +
+                            static_cast<std::size_t>(x));
+        image.rgba[i + static_cast<std::size_t>(channel)] = static_cast<float>(
+            ground + along_x * (x + 0.5) / scene.width + along_y * (y + 0.5) / scene.height);
+      }
+    }
+  }
+  return image;
+}
+
+core::Image picture(const Script& script, const measure::Work& work, const std::string& subject) {
+  if (script.draw) return script.draw(work);
+  for (const auto& [glob, file] : script.images) {
+    if (matches(glob, subject)) return core::read_exr(file);
+  }
+  return pattern(volume_of(work));
+}
+
+class NullPrepared final : public measure::Prepared {
+ public:
+  NullPrepared(std::shared_ptr<const Script> script, measure::Work work, std::string subject,
+               double device_factor)
+      : script_(std::move(script)),
+        work_(std::move(work)),
+        subject_(std::move(subject)),
+        device_factor_(device_factor) {}
+
+  ~NullPrepared() override { log_call(*script_, "destroy"); }
+
+  measure::Frame frame(measure::Purpose purpose) override {
+    const char* const name = purpose == measure::Purpose::timing       ? "timing"
+                             : purpose == measure::Purpose::statistics ? "statistics"
+                                                                       : "counters";
+    log_call(*script_, fmt::format("frame {}", name));
+    const int number = frames_++;
+    play_failure(*script_, Place::frame, subject_, number);
+    measure::Frame frame;
+    frame.wall_ns = frame_ns(*script_, work_, device_factor_, subject_, number);
+    if (script_->sleep) {
+      std::this_thread::sleep_for(std::chrono::duration<double, std::nano>(frame.wall_ns));
+    }
+    if (purpose == measure::Purpose::timing) {
+      if (script_->device_over_wall) frame.device_ns = frame.wall_ns * *script_->device_over_wall;
+    } else if (script_->counts) {
+      frame.counts = purpose == measure::Purpose::counters ? counters_of(volume_of(work_))
+                                                           : statistics_of(work_);
+    }
+    return frame;
+  }
+
+  core::Image image() override {
+    log_call(*script_, "image");
+    if (frames_ == 0) throw core::Error("the picture was asked for before a frame was drawn");
+    play_failure(*script_, Place::image, subject_);
+    core::Image image = picture(*script_, work_, subject_);
+    const std::optional<FailureKind> failure = image_failure(*script_, subject_);
+    if (failure == FailureKind::nan_image) {
+      std::ranges::fill(image.rgba, std::numeric_limits<float>::quiet_NaN());
+    } else if (failure == FailureKind::wrong_image) {
+      for (float& channel : image.rgba) channel += 0.25F;
+    }
+    return image;
+  }
+
+  std::string kernel_hash() const override {
+    const technique::RaycastOptions& options = volume_of(work_).options;
+    return core::content_hash(
+        fmt::format("null {} {} {} {} {} {}", script_->driver_version, work_.technique,
+                    technique::name_of(options.sampler), technique::name_of(options.skip),
+                    static_cast<int>(options.fault), options.extra_work_stride));
+  }
+
+ private:
+  std::shared_ptr<const Script> script_;
+  measure::Work work_;
+  std::string subject_;
+  double device_factor_;
+  int frames_ = 0;
+};
+
+class NullDevice final : public measure::Device {
+ public:
+  NullDevice(std::shared_ptr<const Script> script, std::size_t index)
+      : script_(std::move(script)),
+        info_(devices_of(*script_).at(index)),
+        factor_(script_->devices.at(index)) {}
+
+  const record::Device& info() const override { return info_; }
+
+  std::optional<std::string> unsupported(const measure::Work& work) const override {
+    try {
+      static_cast<void>(technique::technique(work.technique));
+      play_failure(*script_, Place::supports, describe(work));
+    } catch (const core::NotSupported& reason) {
+      return reason.what();
+    } catch (const core::InputError& unknown) {
+      return unknown.what();
+    }
+    return std::nullopt;
+  }
+
+  measure::VolumePath default_path(scene::VoxelFormat native) const override {
+    return {.voxel = native, .sampler = technique::Sampler::manual};
+  }
+
+  double filter_weight_error(const measure::VolumePath& path) const override {
+    return path.sampler == technique::Sampler::hardware ? script_->filter_weight_error : 0;
+  }
+
+  std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override {
+    log_call(*script_, "prepare " + work.technique);
+    if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
+    std::string subject = describe(work);
+    play_failure(*script_, Place::prepare, subject);
+    return std::make_unique<NullPrepared>(script_, work, std::move(subject), factor_);
+  }
+
+ private:
+  std::shared_ptr<const Script> script_;
+  record::Device info_;
+  double factor_;
+};
+
+}  // namespace
+
+std::vector<record::Device> devices_of(const Script& script) {
+  std::vector<record::Device> devices;
+  for (std::size_t i = 0; i < script.devices.size(); ++i) {
+    record::Device& device = devices.emplace_back();
+    device.id = i == 0 ? "null:scripted" : fmt::format("null:scripted#{}", i);
+    device.api = "null";
+    device.name = "Scripted device";
+    device.vendor = "Triptych";
+    device.driver = "scripted";
+    device.driver_version = script.driver_version;
+    device.api_version = "1";
+  }
+  return devices;
+}
+
+std::unique_ptr<measure::Device> make_device(std::shared_ptr<const Script> script,
+                                             std::size_t index) {
+  return std::make_unique<NullDevice>(std::move(script), index);
+}
+
+}  // namespace triptych::null_backend

@@ -1,0 +1,210 @@
+#include <fmt/ranges.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "backends/null/device.hpp"
+#include "core/error.hpp"
+#include "core/json.hpp"
+
+namespace triptych::null_backend {
+namespace {
+
+using core::Json;
+
+constexpr std::array<std::string_view, 8> kind_names{"crash",       "exit",      "hang",
+                                                     "device_lost", "api_error", "not_supported",
+                                                     "wrong_image", "nan_image"};
+constexpr std::array<std::string_view, 5> place_names{"open", "supports", "prepare", "frame",
+                                                      "image"};
+
+[[noreturn]] void refuse(std::string_view key, std::string_view expected) {
+  throw core::InputError(fmt::format("null script: '{}': expected {}", key, expected));
+}
+
+template <typename Enum, std::size_t n>
+Enum level(const Json& value, std::string_view key, const std::array<std::string_view, n>& names) {
+  const auto* const found =
+      value.is_string() ? std::ranges::find(names, value.get<std::string>()) : names.end();
+  if (found == names.end()) refuse(key, fmt::format("one of {}", fmt::join(names, ", ")));
+  return static_cast<Enum>(found - names.begin());
+}
+
+double number(const Json& value, std::string_view key, double minimum) {
+  if (!value.is_number() || value.get<double>() < minimum) {
+    refuse(key, fmt::format("a number, {} or more", minimum));
+  }
+  return value.get<double>();
+}
+
+bool flag(const Json& value, std::string_view key) {
+  if (!value.is_boolean()) refuse(key, "true or false");
+  return value.get<bool>();
+}
+
+std::string text(const Json& value, std::string_view key) {
+  if (!value.is_string()) refuse(key, "text");
+  return value.get<std::string>();
+}
+
+Failure parse_failure(const Json& json) {
+  if (!json.is_object() || !json.contains("kind")) refuse("failures", "objects with a \"kind\"");
+  Failure failure;
+  failure.kind = level<FailureKind>(json.at("kind"), "kind", kind_names);
+  const bool of_image =
+      failure.kind == FailureKind::wrong_image || failure.kind == FailureKind::nan_image;
+  if (of_image) failure.at = Place::image;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "at") {
+      failure.at = level<Place>(value, key, place_names);
+    } else if (key == "frame") {
+      if (!value.is_number_unsigned()) refuse(key, "a whole number, 0 or more");
+      failure.frame = value.get<int>();
+    } else if (key == "only") {
+      failure.only = text(value, key);
+    } else if (key != "kind") {
+      refuse(key, "no such key in a failure (there are: kind, at, frame, only)");
+    }
+  }
+  if (of_image && failure.at != Place::image)
+    refuse("at", "\"image\" for a failure of the picture");
+  return failure;
+}
+
+std::vector<double> parse_devices(const Json& value) {
+  if (!value.is_array() || value.empty()) refuse("devices", "a list of factors on time");
+  std::vector<double> devices;
+  for (const Json& each : value) devices.push_back(number(each, "devices", 0));
+  return devices;
+}
+
+// False where there is no such key.
+bool parse_number(const std::string& key, const Json& value, Script& script) {
+  const std::array<std::pair<std::string_view, double Script::*>, 7> numbers{{
+      {"base_ns", &Script::base_ns},
+      {"ns_per_sample", &Script::ns_per_sample},
+      {"warm_up_factor", &Script::warm_up_factor},
+      {"noise", &Script::noise},
+      {"outlier_share", &Script::outlier_share},
+      {"outlier_factor", &Script::outlier_factor},
+      {"filter_weight_error", &Script::filter_weight_error},
+  }};
+  for (const auto& [name, member] : numbers) {
+    if (key != name) continue;
+    script.*member = number(value, key, 0);
+    return true;
+  }
+  return false;
+}
+
+void parse_key(const std::string& key, const Json& value, Script& script) {
+  if (parse_number(key, value, script)) return;
+  if (key == "seed") {
+    if (!value.is_number_unsigned()) refuse(key, "a whole number, 0 or more");
+    script.seed = value.get<std::uint64_t>();
+  } else if (key == "devices") {
+    script.devices = parse_devices(value);
+  } else if (key == "driver_version") {
+    script.driver_version = text(value, key);
+  } else if (key == "device_over_wall") {
+    script.device_over_wall.reset();
+    if (!value.is_null()) script.device_over_wall = number(value, key, 0);
+  } else if (key == "counts") {
+    script.counts = flag(value, key);
+  } else if (key == "sleep") {
+    script.sleep = flag(value, key);
+  } else if (key == "images") {
+    if (!value.is_object()) refuse(key, "an object, glob to EXR file");
+    for (const auto& [glob, file] : value.items()) {
+      script.images.emplace_back(glob, text(file, key));
+    }
+  } else if (key == "failures") {
+    if (!value.is_array()) refuse(key, "a list");
+    for (const Json& each : value) script.failures.push_back(parse_failure(each));
+  } else {
+    refuse(key, "no such key; backends/null/backend.hpp lists them");
+  }
+}
+
+[[noreturn]] void hang() {
+  for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+void play(FailureKind kind) {
+  switch (kind) {
+    case FailureKind::crash:
+      std::abort();
+    case FailureKind::exit:
+      std::_Exit(0);
+    case FailureKind::hang:
+      hang();
+    case FailureKind::device_lost:
+      throw core::DeviceLost("null_frame", "NULL_DEVICE_LOST", "scripted");
+    case FailureKind::api_error:
+      throw core::ApiError("null_frame", "NULL_ERROR", "scripted");
+    case FailureKind::not_supported:
+      throw core::NotSupported("the script says that this is not supported");
+    case FailureKind::wrong_image:
+    case FailureKind::nan_image:
+      break;  // of the picture: image_failure()
+  }
+}
+
+}  // namespace
+
+Script parse_script(std::string_view json) {
+  const Json parsed = Json::parse(json, nullptr, false);
+  if (!parsed.is_object()) throw core::InputError("null script: expected a JSON object");
+  Script script;
+  for (const auto& [key, value] : parsed.items()) parse_key(key, value, script);
+  return script;
+}
+
+std::string describe(const measure::Work& work) {
+  return std::visit(
+      [&](const measure::VolumeWork& volume) {
+        const scene::VolumeScene& scene = volume.scene;
+        const technique::RaycastOptions& options = volume.options;
+        return fmt::format(
+            "technique={},data={},step={},ert={},sampler={},skip={},shading={},width={},height={},"
+            "eye={:.4g}/{:.4g}/{:.4g},fault={},extra_work_stride={}",
+            work.technique, scene.grid ? scene.grid->name : "", scene.step_voxels, options.ert,
+            technique::name_of(options.sampler), technique::name_of(options.skip),
+            scene.shading.enabled ? 1 : 0, scene.width, scene.height, scene.camera.eye.x,
+            scene.camera.eye.y, scene.camera.eye.z, static_cast<int>(options.fault),
+            options.extra_work_stride);
+      },
+      work.scene);
+}
+
+bool matches(const std::string& glob, const std::string& subject) {
+  return fnmatch(glob.c_str(), subject.c_str(), 0) == 0;
+}
+
+void play_failure(const Script& script, Place at, const std::string& subject, int frame) {
+  for (const Failure& failure : script.failures) {
+    if (failure.at != at || !matches(failure.only, subject)) continue;
+    if (at == Place::frame && failure.frame && *failure.frame != frame) continue;
+    play(failure.kind);
+    return;
+  }
+}
+
+std::optional<FailureKind> image_failure(const Script& script, const std::string& subject) {
+  for (const Failure& failure : script.failures) {
+    const bool of_image =
+        failure.kind == FailureKind::wrong_image || failure.kind == FailureKind::nan_image;
+    if (of_image && matches(failure.only, subject)) return failure.kind;
+  }
+  return std::nullopt;
+}
+
+void log_call(const Script& script, std::string call) {
+  if (script.log) script.log->push_back(std::move(call));
+}
+
+}  // namespace triptych::null_backend

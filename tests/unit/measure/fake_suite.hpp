@@ -1,0 +1,126 @@
+#pragma once
+// A suite for tests of plans and runs: small, with a factor of every kind, and works that only the
+// null backend can play.
+
+#include <array>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "measure/suite.hpp"
+
+namespace triptych::measure {
+
+class FakeSuite final : public Suite {
+ public:
+  std::string_view name() const override { return "fake"; }
+
+  const std::vector<Factor>& factors() const override { return factors_; }
+
+  // `data` is any name but "nonsense", `viewport` a whole number.
+  void check(const Factor& factor, std::string_view value) const override {
+    if (factor.name == "data" && value == "nonsense") {
+      throw core::InputError("expected a file or generate:NAME:SIZE");
+    }
+    if (factor.name == "viewport" &&
+        value.find_first_not_of("0123456789") != std::string_view::npos) {
+      throw core::InputError("expected a size in pixels");
+    }
+  }
+
+  std::vector<std::string_view> plan_names() const override { return {"quick", "broken"}; }
+
+  std::string_view plan_text(std::string_view plan) const override {
+    if (plan == "quick") {
+      return "suite: fake\n"
+             "technique: [raycast, raycast_fragment]\n"
+             "data: [cube, ball]\n"
+             "step: [0.5, 1.0]\n"
+             "camera: [orbit_y:1/8, random:7]\n"
+             "viewport: 8\n";
+    }
+    if (plan == "broken") return "suite: fake\nstep: [0.5\n";
+    return {};
+  }
+
+  std::string missing_data(const Configuration& configuration) const override {
+    return configuration.at("data") == "absent" ? "absent: no such file" : "";
+  }
+
+  Work work(Configuration& configuration, const Device& device) override {
+    auto grid = std::make_shared<scene::VoxelGrid>();
+    grid->name = configuration.at("data");
+    grid->hash = core::content_hash(grid->name);
+    grid->size = {2, 2, 2};
+    grid->data.resize(8 * sizeof(float));
+    VolumeWork volume;
+    volume.scene.grid = std::move(grid);
+    volume.scene.step_voxels = std::strtod(configuration.at("step").c_str(), nullptr);
+    volume.scene.width = std::atoi(configuration.at("viewport").c_str());
+    volume.scene.height = volume.scene.width;
+    // Another camera is another picture; where it stands matters to nobody here.
+    volume.scene.camera.eye.x = static_cast<double>(
+        std::stoul(core::content_hash(configuration.at("camera")).substr(0, 4), nullptr, 16));
+    volume.options.ert = std::strtod(configuration.at("ert").c_str(), nullptr);
+    volume.options.skip =
+        configuration.at("skip") == "bricks" ? technique::Skip::bricks : technique::Skip::none;
+    if (configuration.at("sampler") == "auto") {
+      configuration["sampler"] =
+          std::string(technique::name_of(device.default_path(scene::VoxelFormat::f32).sampler));
+    }
+    volume.options.sampler = technique::sampler(configuration.at("sampler"));
+    return {.technique = configuration.at("technique"), .scene = std::move(volume)};
+  }
+
+  Work calibration(technique::Work kind) override {
+    VolumeWork volume;
+    volume.scene.width = 64;
+    volume.scene.height = 64;
+    return {.technique = kind == technique::Work::draw ? "raycast_fragment" : "raycast",
+            .scene = std::move(volume)};
+  }
+
+ private:
+  std::vector<Factor> factors_{
+      {.name = "technique",
+       .kind = FactorKind::choice,
+       .levels = {"raycast", "raycast_fragment"},
+       .standard = "raycast",
+       .of_scene = false,
+       .summary = "how it is drawn"},
+      {.name = "data", .standard = "cube", .summary = "what is drawn"},
+      {.name = "sampler",
+       .kind = FactorKind::choice,
+       .levels = {"hardware", "manual"},
+       .standard = "auto",
+       .of_scene = false,
+       .summary = "who interpolates"},
+      {.name = "step",
+       .kind = FactorKind::number,
+       .minimum = 0.01,
+       .maximum = 16,
+       .standard = "1",
+       .summary = "in voxels"},
+      {.name = "skip",
+       .kind = FactorKind::choice,
+       .levels = {"none", "bricks"},
+       .standard = "bricks",
+       .of_scene = false,
+       .summary = "empty space"},
+      {.name = "ert",
+       .kind = FactorKind::number,
+       .minimum = 0,
+       .maximum = 0.5,
+       .standard = "0",
+       .of_scene = false,
+       .summary = "early ray termination"},
+      {.name = "camera", .standard = "orbit_y:0/8", .summary = "view"},
+      {.name = "viewport", .standard = "16", .summary = "pixels"},
+  };
+};
+
+}  // namespace triptych::measure
