@@ -1,0 +1,206 @@
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/image_io.hpp"
+
+namespace triptych::core {
+namespace {
+
+constexpr std::array<const char*, 4> colour_channels{"R", "G", "B", "A"};
+constexpr const char* depth_channel = "Z";
+constexpr const char* id_channel = "id";
+
+class MemoryOut : public Imf::OStream {
+ public:
+  MemoryOut() : Imf::OStream("memory") {}
+  void write(const char data[], int count) override {
+    const auto n = static_cast<std::size_t>(count);
+    if (bytes_.size() < place_ + n) bytes_.resize(place_ + n);
+    std::memcpy(bytes_.data() + place_, data, n);
+    place_ += n;
+  }
+  std::uint64_t tellp() override { return place_; }
+  void seekp(std::uint64_t place) override { place_ = place; }
+  [[nodiscard]] std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::size_t place_ = 0;
+};
+
+class MemoryIn : public Imf::IStream {
+ public:
+  explicit MemoryIn(std::span<const std::byte> bytes) : Imf::IStream("memory"), bytes_(bytes) {}
+  bool read(char data[], int count) override {
+    const auto n = static_cast<std::size_t>(count);
+    if (count < 0 || place_ > bytes_.size() || n > bytes_.size() - place_) {
+      throw std::runtime_error(
+          fmt::format("ends after {} bytes where more are expected", bytes_.size()));
+    }
+    std::memcpy(data, bytes_.data() + place_, n);
+    place_ += n;
+    return place_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return place_; }
+  void seekg(std::uint64_t place) override { place_ = place; }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t place_ = 0;
+};
+
+// The pixels of an image as OpenEXR addresses them, with the data window's corner at (x, y).
+class Planes {
+ public:
+  Planes(const Image& image, int x, int y)
+      : width_(static_cast<std::size_t>(image.width)),
+        corner_(static_cast<std::ptrdiff_t>(y) * image.width + x) {}
+
+  // OpenEXR takes the same untyped pointer for reading and writing.
+  [[nodiscard]] Imf::Slice slice(Imf::PixelType type, const void* first, std::size_t step) const {
+    const auto base = reinterpret_cast<std::uintptr_t>(first) -
+                      static_cast<std::uintptr_t>(corner_) * static_cast<std::uintptr_t>(step);
+    return {type, reinterpret_cast<char*>(base), step, step * width_};
+  }
+
+ private:
+  std::size_t width_;
+  std::ptrdiff_t corner_;
+};
+
+Imf::FrameBuffer frame_of(const Image& image, int x, int y) {
+  const Planes planes(image, x, y);
+  Imf::FrameBuffer frame;
+  for (std::size_t c = 0; c < colour_channels.size(); ++c) {
+    frame.insert(colour_channels.at(c),
+                 planes.slice(Imf::FLOAT, image.rgba.data() + c, 4 * sizeof(float)));
+  }
+  if (!image.depth.empty()) {
+    frame.insert(depth_channel, planes.slice(Imf::FLOAT, image.depth.data(), sizeof(float)));
+  }
+  if (!image.ids.empty()) {
+    frame.insert(id_channel, planes.slice(Imf::UINT, image.ids.data(), sizeof(std::uint32_t)));
+  }
+  return frame;
+}
+
+void require_consistent(const Image& image) {
+  const std::size_t n = image.pixel_count();
+  const bool plausible = image.width > 0 && image.height > 0 && image.rgba.size() == 4 * n &&
+                         (image.depth.empty() || image.depth.size() == n) &&
+                         (image.ids.empty() || image.ids.size() == n);
+  if (!plausible) {
+    throw InputError(fmt::format(
+        "an image of {}x{} pixels with {} colour values, {} depths and {} ids cannot become an EXR",
+        image.width, image.height, image.rgba.size(), image.depth.size(), image.ids.size()));
+  }
+}
+
+void require_channels(const Imf::ChannelList& channels) {
+  for (const char* name : colour_channels) {
+    if (channels.findChannel(name) == nullptr) {
+      throw std::runtime_error(fmt::format("has no channel {}; expected R, G, B and A", name));
+    }
+  }
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+    if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) {
+      throw std::runtime_error(fmt::format("channel {} is subsampled", channel.name()));
+    }
+  }
+  const Imf::Channel* ids = channels.findChannel(id_channel);
+  if (ids != nullptr && ids->type != Imf::UINT) {
+    throw std::runtime_error("channel id is not of type uint");
+  }
+}
+
+// An image of the header's size. A header may claim any size: what no compression of this file's
+// length could hold is refused before memory is asked for.
+Image allocate(const Imf::Header& header, std::size_t file_bytes) {
+  constexpr std::int64_t largest_side = 1 << 16;
+  constexpr std::size_t most_pixels_per_byte = 4096;
+  const Imath::Box2i window = header.dataWindow();
+  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+  const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+  const bool possible =
+      width > 0 && height > 0 && width <= largest_side && height <= largest_side &&
+      static_cast<std::size_t>(width * height) / most_pixels_per_byte <= file_bytes;
+  if (!possible) {
+    throw std::runtime_error(
+        fmt::format("states {}x{} pixels, which {} bytes cannot hold", width, height, file_bytes));
+  }
+  Image image(static_cast<int>(width), static_cast<int>(height));
+  if (header.channels().findChannel(depth_channel) != nullptr) {
+    image.depth.resize(image.pixel_count());
+  }
+  if (header.channels().findChannel(id_channel) != nullptr) image.ids.resize(image.pixel_count());
+  return image;
+}
+
+Image decode(std::span<const std::byte> bytes) {
+  MemoryIn stream(bytes);
+  Imf::InputFile file(stream, 0);
+  if (!file.isComplete()) throw std::runtime_error("was not written to its end");
+  require_channels(file.header().channels());
+  Image image = allocate(file.header(), bytes.size());
+  const Imath::Box2i window = file.header().dataWindow();
+  file.setFrameBuffer(frame_of(image, window.min.x, window.min.y));
+  file.readPixels(window.min.y, window.max.y);
+  return image;
+}
+
+// OpenEXR's messages may span lines; ours are one.
+Image decode(std::span<const std::byte> bytes, const FilePlace& place) {
+  try {
+    return decode(bytes);
+  } catch (const std::exception& error) {
+    std::string reason = error.what();
+    std::replace(reason.begin(), reason.end(), '\n', ' ');
+    throw InputError(place, fmt::format("not a usable EXR image: {}", reason));
+  }
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_exr(const Image& image) {
+  require_consistent(image);
+  Imf::Header header(image.width, image.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  for (const char* name : colour_channels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+  if (!image.depth.empty()) header.channels().insert(depth_channel, Imf::Channel(Imf::FLOAT));
+  if (!image.ids.empty()) header.channels().insert(id_channel, Imf::Channel(Imf::UINT));
+  MemoryOut stream;
+  {
+    Imf::OutputFile file(stream, header, 0);
+    file.setFrameBuffer(frame_of(image, 0, 0));
+    file.writePixels(image.height);
+  }  // the table of line offsets is written here
+  return stream.take();
+}
+
+void write_exr(const Image& image, const std::filesystem::path& file) {
+  write_file(encode_exr(image), file);
+}
+
+Image read_exr(const std::filesystem::path& file) {
+  return decode(read_file(file), FilePlace{.file = file.string()});
+}
+
+Image decode_exr(std::span<const std::byte> bytes) {
+  return decode(bytes, FilePlace{});
+}
+
+}  // namespace triptych::core

@@ -1,7 +1,32 @@
 #pragma once
 // Seeded generators: the same voxels on every machine, compiler and standard library. They use only
 // + − × ÷ and sqrt of IEEE doubles, which are exactly rounded, and tables or polynomials built from
-// them; never the C library's sin, pow or exp, whose last bits differ between implementations.
+// them (scene/exact_math.hpp); never the C library's sin, pow or exp, whose last bits differ
+// between implementations.
+//
+// Fields are sampled at voxel centres: u = (i+½)/nx, v = (j+½)/ny, w = (k+½)/nz are the places in
+// the unit cube, (x, y, z) = 2(u, v, w) − 1. Spacing is 1. "u8 of f" is floor(255·f + ½), likewise
+// u16.
+//
+//   uniform_box    f32, range 0..1       ½ everywhere
+//   gradient_box   u16, range 0..nx+ny+nz−3   i + j + k: 0 in one corner, the maximum in the
+//   opposite frequency_box  f32, range 0..1       ½ + ½·s(u)·s(v)·s(w), s(t) = sin(2π·12·t)
+//   mandelbulb     u8,  range 0..255     u8 of max(0, 1 − d/0.4), d the distance estimate ½·r·ln
+//   r/r'
+//                                        to the set z ← z⁸ + c (White and Nylander's power) over
+//                                        [−1.2, 1.2]³; 255 inside
+//   marschner_lobb f32, range 0..1       (1 − sin(πz/2) + ¼(1 + cos(12π·cos(πρ/2)))) / 2.5,
+//                                        ρ = √(x²+y²) (Marschner and Lobb 1994: f = 6, α = ¼)
+//   nested_shells  u16, range 0..65535   u16 of Σ a·b((√(x²+y²+z²) − r)/0.08), b(t) = (1 − t²)²
+//   inside
+//                                        |t| < 1 and 0 outside, (r, a) = (0.3, 1), (0.6, 0.7),
+//                                        (0.9, 0.4)
+//   sparse_field   u8,  range 0..255     u8 of the largest of 40 blobs b(distance/radius), centres
+//   in
+//                                        [0.1, 0.9]³, radii 0.04…0.08 of the unit cube, seeded; 0
+//                                        elsewhere (about 95 % of the voxels)
+//   gaussian_blob  f32, range 0..1       exp(−q²/(2σ²)), q the distance in voxels from the volume's
+//                                        centre, σ = min(nx, ny, nz)/8 voxels
 
 #include <array>
 #include <string_view>
@@ -16,11 +41,11 @@ struct GeneratorInfo {
   std::string_view summary;
 };
 
-// uniform_box, gradient_box, frequency_box, mandelbulb, marschner_lobb, nested_shells,
-// sparse_field, gaussian_blob.
+// The eight above, in that order.
 [[nodiscard]] std::vector<GeneratorInfo> volume_generators();
 
-// Throws InputError for an unknown name or a size outside 1…4096 per axis.
+// Throws InputError for an unknown name or a size outside 1…4096 per axis. The volume's name is
+// generate:NAME:SIZE.
 [[nodiscard]] Volume generate_volume(std::string_view name, std::array<int, 3> size);
 
 }  // namespace triptych::scene

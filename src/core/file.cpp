@@ -1,0 +1,126 @@
+#include "core/file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace triptych::core {
+namespace {
+
+[[noreturn]] void fail(std::string_view what, const std::filesystem::path& file, int code) {
+  throw IoError(
+      fmt::format("{}: {}: {}", file.string(), what, std::generic_category().message(code)));
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) noexcept : fd_(fd) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  [[nodiscard]] int get() const noexcept { return fd_; }
+  [[nodiscard]] int release() noexcept { return std::exchange(fd_, -1); }
+
+ private:
+  int fd_;
+};
+
+// Removes a file that was not completed.
+class Unfinished {
+ public:
+  explicit Unfinished(std::filesystem::path file) : file_(std::move(file)) {}
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+  ~Unfinished() {
+    std::error_code ignored;
+    if (!file_.empty()) std::filesystem::remove(file_, ignored);
+  }
+  void finished() noexcept { file_.clear(); }
+
+ private:
+  std::filesystem::path file_;
+};
+
+// Some file systems report a full disk only when the file is closed. Errors name `target`, the file
+// the caller knows.
+void write_and_close(Descriptor& out, std::span<const std::byte> bytes,
+                     const std::filesystem::path& target) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(out.get(), bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("cannot write", target, errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  if (::close(out.release()) != 0) fail("cannot write", target, errno);
+}
+
+void write_in_place(std::span<const std::byte> bytes, const std::filesystem::path& target) {
+  Descriptor out(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
+  if (out.get() < 0) fail("cannot write", target, errno);
+  write_and_close(out, bytes, target);
+}
+
+}  // namespace
+
+std::vector<std::byte> read_file(const std::filesystem::path& file) {
+  const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat facts {};
+  if (in.get() < 0 || ::fstat(in.get(), &facts) != 0) fail("cannot read", file, errno);
+  if (S_ISDIR(facts.st_mode)) fail("cannot read", file, EISDIR);
+  // One byte more than the stated size, so that the end is seen without growing the buffer.
+  std::vector<std::byte> bytes(static_cast<std::size_t>(facts.st_size) + 1);
+  std::size_t filled = 0;
+  for (;;) {
+    const ssize_t got = ::read(in.get(), bytes.data() + filled, bytes.size() - filled);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail("cannot read", file, errno);
+    if (got == 0) break;
+    filled += static_cast<std::size_t>(got);
+    if (filled == bytes.size()) bytes.resize(2 * bytes.size());
+  }
+  bytes.resize(filled);
+  return bytes;
+}
+
+void write_file(std::span<const std::byte> bytes, const std::filesystem::path& file) {
+  std::error_code none;
+  const auto target = std::filesystem::is_symlink(file, none)
+                          ? std::filesystem::weakly_canonical(file, none)
+                          : file;
+  const auto status = std::filesystem::status(target, none);
+  if (std::filesystem::is_directory(status)) fail("cannot write", file, EISDIR);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    write_in_place(bytes, target);
+    return;
+  }
+  // A name of its own for each writer, so that two of them cannot mix their bytes.
+  std::filesystem::path aside;
+  int fd = -1;
+  for (int attempt = 0; fd < 0 && (attempt == 0 || errno == EEXIST); ++attempt) {
+    aside = target;
+    aside += fmt::format(".{}-{}.part", ::getpid(), attempt);
+    fd = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  }
+  Descriptor out(fd);
+  if (out.get() < 0) fail("cannot write", file, errno);
+  Unfinished guard(aside);
+  write_and_close(out, bytes, file);
+  if (::rename(aside.c_str(), target.c_str()) != 0) fail("cannot write", file, errno);
+  guard.finished();
+}
+
+void write_file(std::string_view text, const std::filesystem::path& file) {
+  write_file(std::as_bytes(std::span(text.data(), text.size())), file);
+}
+
+}  // namespace triptych::core

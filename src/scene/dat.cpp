@@ -1,0 +1,119 @@
+#include "scene/dat.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "scene/raw_voxels.hpp"
+#include "scene/text_lines.hpp"
+
+namespace triptych::scene {
+namespace {
+
+struct Entry {
+  std::string value;
+  core::FilePlace place;
+};
+
+class Description {
+ public:
+  explicit Description(const std::filesystem::path& file) : file_(file.string()) {
+    const auto bytes = core::read_file(file);
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    core::FilePlace place{.file = file_};
+    for (const std::string_view line : split_lines(text)) {
+      ++place.line;
+      if (!trimmed(line).empty()) add(line, place);
+    }
+  }
+
+  [[nodiscard]] const Entry* find(const std::string& key) const {
+    const auto found = entries_.find(key);
+    return found == entries_.end() ? nullptr : &found->second;
+  }
+  [[nodiscard]] const Entry& require(const std::string& key, std::string_view spelling) const {
+    const Entry* entry = find(key);
+    if (entry == nullptr) {
+      throw core::InputError({.file = file_}, fmt::format("has no line '{}: …'", spelling));
+    }
+    return *entry;
+  }
+
+ private:
+  static constexpr std::array<std::string_view, 11> known{
+      "objectfilename", "resolution",     "format",  "slicethickness",
+      "endianness",     "taggedfilename", "nbrtags", "objecttype",
+      "objectmodel",    "gridtype",       "modality"};
+
+  void add(std::string_view line, const core::FilePlace& place) {
+    const std::size_t colon = line.find(':');
+    if (colon == std::string_view::npos) throw core::InputError(place, "expected 'Key: value'");
+    const std::string key = lower_case(trimmed(line.substr(0, colon)));
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      throw core::InputError(
+          place, fmt::format("unknown key '{}'; expected ObjectFileName, Resolution, Format, "
+                             "SliceThickness or Endianness",
+                             trimmed(line.substr(0, colon))));
+    }
+    const Entry entry{std::string(trimmed(line.substr(colon + 1))), place};
+    if (!entries_.emplace(key, entry).second) {
+      throw core::InputError(place, fmt::format("key '{}' is given twice", key));
+    }
+  }
+
+  std::string file_;
+  std::map<std::string, Entry> entries_;
+};
+
+ScalarType parse_format(const Entry& entry) {
+  static constexpr std::array<std::pair<std::string_view, ScalarType>, 6> formats{
+      {{"uchar", ScalarType::u8},
+       {"char", ScalarType::i8},
+       {"ushort", ScalarType::u16},
+       {"short", ScalarType::i16},
+       {"float", ScalarType::f32},
+       {"double", ScalarType::f64}}};
+  for (const auto& [name, type] : formats) {
+    if (name == lower_case(entry.value)) return type;
+  }
+  throw core::InputError(
+      entry.place, fmt::format("unknown format '{}'; expected UCHAR, CHAR, USHORT, SHORT, FLOAT or "
+                               "DOUBLE",
+                               entry.value));
+}
+
+bool parse_endianness(const Entry* entry) {
+  if (entry == nullptr || lower_case(entry->value) == "little") return false;
+  if (lower_case(entry->value) == "big") return true;
+  throw core::InputError(
+      entry->place, fmt::format("unknown endianness '{}'; expected LITTLE or BIG", entry->value));
+}
+
+}  // namespace
+
+Volume read_dat(const std::filesystem::path& file) {
+  const Description description(file);
+  const Entry& resolution = description.require("resolution", "Resolution");
+  const Entry& data = description.require("objectfilename", "ObjectFileName");
+  Volume volume;
+  volume.size = parse_sizes(resolution.value, resolution.place);
+  volume.type = parse_format(description.require("format", "Format"));
+  if (const Entry* spacing = description.find("slicethickness")) {
+    volume.spacing = parse_spacings(spacing->value, spacing->place);
+  }
+  RawVoxels source;
+  source.file = data_file_beside(file, data.value, data.place);
+  source.big_endian = parse_endianness(description.find("endianness"));
+  source.sizes_place = resolution.place;
+  read_voxels(volume, source);
+  return volume;
+}
+
+}  // namespace triptych::scene

@@ -1,0 +1,18 @@
+#pragma once
+// Elementary functions with the same bits on every machine: built from + − × ÷, floor and exact
+// scaling by powers of two, because the C library's sin, exp and log differ in their last bits
+// between implementations. Accuracy: a few units in the 16th digit.
+
+namespace triptych::scene {
+
+// sin and cos of an angle in turns (1 = 360°). Exact at multiples of a quarter turn, odd and even.
+[[nodiscard]] double sine_turns(double turns);
+[[nodiscard]] double cosine_turns(double turns);
+
+// e^x; 0 below −700 (where results would become denormal), x ≤ 700.
+[[nodiscard]] double exponential(double x);
+
+// Natural logarithm of a positive, finite number.
+[[nodiscard]] double logarithm(double x);
+
+}  // namespace triptych::scene

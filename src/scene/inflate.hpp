@@ -1,0 +1,34 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace triptych::scene {
+
+// Decompresses a gzip stream (RFC 1952, one member or several) piece by piece into the caller's
+// memory.
+class Inflater {
+ public:
+  // `source` fills a buffer and returns how many bytes were left, 0 at the end. `name` is the file
+  // named in errors.
+  Inflater(std::function<std::size_t(std::span<std::byte>)> source, std::string name);
+  Inflater(Inflater&&) noexcept;
+  Inflater& operator=(Inflater&&) noexcept;
+  ~Inflater();
+
+  // Fills `out` and returns its size, or less where the stream ended properly. Throws InputError
+  // for a stream that is damaged, ends early, fails its check sum or is followed by anything else.
+  std::size_t read(std::span<std::byte> out);
+
+  // Reads and drops so many bytes, or all where there are fewer.
+  void skip(std::uint64_t count);
+
+ private:
+  struct Stream;
+  std::unique_ptr<Stream> stream_;
+};
+
+}  // namespace triptych::scene

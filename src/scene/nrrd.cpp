@@ -1,0 +1,348 @@
+#include "scene/nrrd.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "scene/raw_voxels.hpp"
+#include "scene/text_lines.hpp"
+
+namespace triptych::scene {
+namespace {
+
+struct Field {
+  std::string value;
+  core::FilePlace place;
+};
+
+// The fields of a header by their canonical names.
+class Header {
+ public:
+  explicit Header(const std::filesystem::path& file);
+
+  [[nodiscard]] const Field* find(const std::string& name) const {
+    const auto found = fields_.find(name);
+    return found == fields_.end() ? nullptr : &found->second;
+  }
+  [[nodiscard]] const Field& require(const std::string& name) const {
+    const Field* field = find(name);
+    if (field == nullptr) {
+      throw core::InputError({.file = file_}, fmt::format("the header has no field '{}'", name));
+    }
+    return *field;
+  }
+  // Where the blank line ends, if there is one.
+  [[nodiscard]] std::optional<std::uint64_t> data_start() const noexcept { return data_start_; }
+  [[nodiscard]] core::FilePlace last_line() const { return {.file = file_, .line = lines_}; }
+
+ private:
+  void add(std::string_view line, const core::FilePlace& place);
+
+  std::string file_;
+  std::map<std::string, Field> fields_;
+  std::optional<std::uint64_t> data_start_;
+  int lines_ = 0;
+};
+
+// The start of a file, as much of it as a header may take.
+std::string read_start(const std::filesystem::path& file) {
+  constexpr std::size_t longest_header = std::size_t{1} << 20;
+  std::ifstream in(file, std::ios::binary);
+  std::string text(longest_header, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad() || (!in && in.gcount() == 0 && !in.eof())) {
+    throw core::IoError(file.string() + ": cannot be read");
+  }
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
+}
+
+Header::Header(const std::filesystem::path& file) : file_(file.string()) {
+  const std::string start = read_start(file);
+  std::string_view rest = start;
+  while (!rest.empty()) {
+    const std::size_t length = std::min(rest.find('\n'), rest.size());
+    std::string_view line = rest.substr(0, length);
+    rest.remove_prefix(std::min(length + 1, rest.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    const core::FilePlace place{.file = file_, .line = ++lines_};
+    if (lines_ == 1) {
+      if (line.size() != 8 || !line.starts_with("NRRD000") || line[7] < '1' || line[7] > '5') {
+        throw core::InputError(place, "not an NRRD file; expected NRRD0001 … NRRD0005");
+      }
+    } else if (line.empty()) {
+      data_start_ = start.size() - rest.size();
+      return;
+    } else if (!line.starts_with('#')) {
+      add(line, place);
+    }
+  }
+  if (lines_ == 0) throw core::InputError({.file = file_}, "is empty; expected an NRRD header");
+}
+
+std::string canonical(std::string_view name) {
+  const std::string lower = lower_case(trimmed(name));
+  static constexpr std::array<std::array<std::string_view, 2>, 10> aliases{
+      {{"datafile", "data file"},
+       {"lineskip", "line skip"},
+       {"byteskip", "byte skip"},
+       {"blocksize", "block size"},
+       {"axismins", "axis mins"},
+       {"axismaxs", "axis maxs"},
+       {"centers", "centerings"},
+       {"oldmin", "old min"},
+       {"oldmax", "old max"},
+       {"sampleunits", "sample units"}}};
+  for (const auto& [alias, spelling] : aliases) {
+    if (lower == alias) return std::string(spelling);
+  }
+  return lower;
+}
+
+void Header::add(std::string_view line, const core::FilePlace& place) {
+  static constexpr std::array<std::string_view, 29> known{"dimension",
+                                                          "type",
+                                                          "sizes",
+                                                          "encoding",
+                                                          "endian",
+                                                          "data file",
+                                                          "line skip",
+                                                          "byte skip",
+                                                          "spacings",
+                                                          "space directions",
+                                                          "content",
+                                                          "number",
+                                                          "block size",
+                                                          "min",
+                                                          "max",
+                                                          "old min",
+                                                          "old max",
+                                                          "axis mins",
+                                                          "axis maxs",
+                                                          "centerings",
+                                                          "labels",
+                                                          "units",
+                                                          "kinds",
+                                                          "thicknesses",
+                                                          "space",
+                                                          "space dimension",
+                                                          "space units",
+                                                          "space origin",
+                                                          "measurement frame"};
+  const std::size_t colon = line.find(':');
+  if (colon == std::string_view::npos) {
+    throw core::InputError(place, "expected 'field: value', 'key:=value' or a comment");
+  }
+  if (line.substr(colon).starts_with(":=")) return;
+  const std::string name = canonical(line.substr(0, colon));
+  if (name != "sample units" && std::find(known.begin(), known.end(), name) == known.end()) {
+    throw core::InputError(place, fmt::format("unknown NRRD field '{}'", line.substr(0, colon)));
+  }
+  if (!fields_.emplace(name, Field{std::string(trimmed(line.substr(colon + 1))), place}).second) {
+    throw core::InputError(place, fmt::format("field '{}' is given twice", name));
+  }
+}
+
+ScalarType parse_type(const Field& field) {
+  struct Spelling {
+    ScalarType type;
+    std::array<std::string_view, 6> names;
+  };
+  static constexpr std::array<Spelling, 6> spellings{{
+      {ScalarType::i8, {"signed char", "int8", "int8_t"}},
+      {ScalarType::u8, {"uchar", "unsigned char", "uint8", "uint8_t"}},
+      {ScalarType::i16,
+       {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+      {ScalarType::u16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
+      {ScalarType::f32, {"float"}},
+      {ScalarType::f64, {"double"}},
+  }};
+  const std::string name = lower_case(field.value);
+  for (const Spelling& spelling : spellings) {
+    if (!name.empty() &&
+        std::find(spelling.names.begin(), spelling.names.end(), name) != spelling.names.end()) {
+      return spelling.type;
+    }
+  }
+  throw core::InputError(
+      field.place,
+      fmt::format(
+          "type '{}' is not supported; expected int8, uint8, int16, uint16, float or double",
+          field.value));
+}
+
+RawEncoding parse_encoding(const Field& field) {
+  const std::string name = lower_case(field.value);
+  if (name == "raw") return RawEncoding::plain;
+  if (name == "gzip" || name == "gz") return RawEncoding::gzip;
+  throw core::InputError(
+      field.place,
+      fmt::format("encoding '{}' is not supported; expected raw or gzip", field.value));
+}
+
+bool parse_big_endian(const Header& header, ScalarType type) {
+  const Field* field = header.find("endian");
+  if (field == nullptr) {
+    if (bytes_of(type) == 1) return false;
+    throw core::InputError(header.require("type").place,
+                           "values of several bytes need a field 'endian'");
+  }
+  const std::string name = lower_case(field->value);
+  if (name == "little") return false;
+  if (name == "big") return true;
+  throw core::InputError(field->place,
+                         fmt::format("endian '{}'; expected little or big", field->value));
+}
+
+using Vector = std::array<double, 3>;
+
+// One "(a,b,c)", taken off the front of `text`.
+Vector take_vector(std::string_view& text, const core::FilePlace& place) {
+  const std::size_t open = text.find_first_not_of(" \t");
+  const std::size_t close = text.find(')');
+  if (open == std::string_view::npos || text[open] != '(' || close == std::string_view::npos) {
+    throw core::InputError(place, "expected three vectors (a,b,c) (d,e,f) (g,h,i)");
+  }
+  std::string inside(text.substr(open + 1, close - open - 1));
+  std::replace(inside.begin(), inside.end(), ',', ' ');
+  text.remove_prefix(close + 1);
+  const auto words = split_words(inside);
+  Vector vector{};
+  if (words.size() != vector.size()) {
+    throw core::InputError(place, fmt::format("a vector of {} numbers; expected 3", words.size()));
+  }
+  for (std::size_t c = 0; c < vector.size(); ++c) {
+    const auto number = parse_number<double>(words[c]);
+    if (!number || !std::isfinite(*number)) {
+      throw core::InputError(place, fmt::format("'{}'; expected a finite number", words[c]));
+    }
+    vector.at(c) = *number;
+  }
+  return vector;
+}
+
+double dot(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+std::array<double, 3> parse_directions(const Field& field) {
+  constexpr double largest_cosine = 1e-3;
+  std::string_view text = field.value;
+  std::array<Vector, 3> axes{};
+  std::array<double, 3> spacing{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    axes.at(i) = take_vector(text, field.place);
+    spacing.at(i) = usable_spacing(std::sqrt(dot(axes.at(i), axes.at(i))), field.place);
+  }
+  if (!trimmed(text).empty()) {
+    throw core::InputError(field.place, fmt::format("unexpected '{}' after three vectors", text));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    if (std::abs(dot(axes.at(i), axes.at(j))) > largest_cosine * spacing.at(i) * spacing.at(j)) {
+      throw core::InputError(field.place,
+                             fmt::format("axes {} and {} are not perpendicular; sheared grids are "
+                                         "not supported",
+                                         i, j));
+    }
+  }
+  return spacing;
+}
+
+std::array<double, 3> parse_spacing(const Header& header) {
+  const Field* spacings = header.find("spacings");
+  const Field* directions = header.find("space directions");
+  if (spacings != nullptr && directions != nullptr) {
+    throw core::InputError(directions->place,
+                           "'space directions' and 'spacings' exclude each other");
+  }
+  if (directions != nullptr) return parse_directions(*directions);
+  if (spacings != nullptr) return parse_spacings(spacings->value, spacings->place);
+  return {1, 1, 1};
+}
+
+void require_three_axes(const Field& dimension) {
+  if (parse_number<int>(dimension.value) != 3) {
+    throw core::InputError(dimension.place,
+                           fmt::format("dimension '{}'; expected 3 axes", dimension.value));
+  }
+}
+
+std::int64_t parse_skip(const Field* field, std::int64_t lowest, std::string_view expected) {
+  if (field == nullptr) return 0;
+  const auto count = parse_number<std::int64_t>(field->value);
+  if (!count || *count < lowest) {
+    throw core::InputError(field->place, fmt::format("'{}'; expected {}", field->value, expected));
+  }
+  return *count;
+}
+
+// Where `count` lines from `start` on end.
+std::uint64_t skip_lines(const std::filesystem::path& file, std::uint64_t start, std::int64_t count,
+                         const core::FilePlace& place) {
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(start));
+  for (std::int64_t i = 0; i < count; ++i) {
+    in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    if (!in || in.eof()) {
+      throw core::InputError(
+          place, fmt::format("{} has only {} lines to skip", file.filename().string(), i));
+    }
+  }
+  return static_cast<std::uint64_t>(in.tellg());
+}
+
+RawVoxels locate(const Header& header, const std::filesystem::path& file) {
+  RawVoxels source;
+  source.encoding = parse_encoding(header.require("encoding"));
+  source.sizes_place = header.require("sizes").place;
+  if (const Field* data = header.find("data file")) {
+    if (data->value == "LIST" || data->value.find('%') != std::string::npos) {
+      throw core::InputError(data->place, "data spread over several files are not supported");
+    }
+    source.file = data_file_beside(file, data->value, data->place);
+  } else if (header.data_start()) {
+    source.file = file;
+    source.start = *header.data_start();
+  } else {
+    throw core::InputError(header.last_line(),
+                           "the header ends without the blank line before the data");
+  }
+  const Field* lines = header.find("line skip");
+  const std::int64_t line_count = parse_skip(lines, 0, "a whole number from 0 on");
+  if (line_count > 0) {
+    source.start = skip_lines(source.file, source.start, line_count, lines->place);
+  }
+  const bool plain = source.encoding == RawEncoding::plain;
+  source.skip = parse_skip(header.find("byte skip"), plain ? RawVoxels::at_end : 0,
+                           plain ? "a whole number from 0 on, or -1" : "a whole number from 0 on");
+  return source;
+}
+
+}  // namespace
+
+Volume read_nrrd(const std::filesystem::path& file) {
+  const Header header(file);
+  require_three_axes(header.require("dimension"));
+  Volume volume;
+  volume.type = parse_type(header.require("type"));
+  const Field& sizes = header.require("sizes");
+  volume.size = parse_sizes(sizes.value, sizes.place);
+  volume.spacing = parse_spacing(header);
+  RawVoxels source = locate(header, file);
+  source.big_endian = parse_big_endian(header, volume.type);
+  read_voxels(volume, source);
+  return volume;
+}
+
+}  // namespace triptych::scene

@@ -1,0 +1,47 @@
+#pragma once
+// The voxels behind a header: bytes of a file, plain or gzip-compressed, brought into native order.
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "scene/volume.hpp"
+
+namespace triptych::scene {
+
+enum class RawEncoding : std::uint8_t { plain, gzip };
+
+struct RawVoxels {
+  static constexpr std::int64_t at_end = -1;
+
+  std::filesystem::path file;
+  std::uint64_t start = 0;  // where the data, skipped bytes included, begin in the file
+  // Bytes to leave out before the voxels, of the decompressed stream; at_end: the voxels are the
+  // last bytes of a plain file.
+  std::int64_t skip = 0;
+  RawEncoding encoding = RawEncoding::plain;
+  bool big_endian = false;
+  core::FilePlace sizes_place;  // where the header states the sizes; named when the bytes disagree
+};
+
+// Fills volume.voxels, whose size and type are set, and its range from the finite voxels (0..0 when
+// there is none). One copy of the voxels is held, and none is allocated before the file is known to
+// be long enough. Throws InputError when the data are shorter or longer than size and type say or
+// the gzip stream is broken, IoError when the file cannot be read.
+void read_voxels(Volume& volume, const RawVoxels& source);
+
+// Parts of a header that all formats share; errors carry `place`.
+[[nodiscard]] std::array<int, 3> parse_sizes(std::string_view text, const core::FilePlace& place);
+[[nodiscard]] std::array<double, 3> parse_spacings(std::string_view text,
+                                                   const core::FilePlace& place);
+// A spacing must be a positive number, neither NaN nor infinite.
+[[nodiscard]] double usable_spacing(double spacing, const core::FilePlace& place);
+
+// The file that a header names, relative to the header's folder. Throws InputError when it is not
+// there.
+[[nodiscard]] std::filesystem::path data_file_beside(const std::filesystem::path& header,
+                                                     std::string_view name,
+                                                     const core::FilePlace& place);
+
+}  // namespace triptych::scene

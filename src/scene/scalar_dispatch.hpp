@@ -1,0 +1,41 @@
+#pragma once
+// From the run-time scalar type of a volume to code compiled for it.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#include "scene/volume.hpp"
+
+namespace triptych::scene {
+
+// Calls `use` with a zero of the C++ type that stores `type`, and returns what it returns.
+template <typename Use>
+decltype(auto) with_scalar_type(ScalarType type, Use&& use) {
+  switch (type) {
+    case ScalarType::u8:
+      return use(std::uint8_t{});
+    case ScalarType::i8:
+      return use(std::int8_t{});
+    case ScalarType::u16:
+      return use(std::uint16_t{});
+    case ScalarType::i16:
+      return use(std::int16_t{});
+    case ScalarType::f32:
+      return use(float{});
+    case ScalarType::f64:
+      break;
+  }
+  return use(double{});
+}
+
+// Element `index` of untyped storage.
+template <typename Scalar>
+Scalar load_scalar(const std::byte* storage, std::size_t index) {
+  Scalar value;
+  std::memcpy(&value, storage + index * sizeof(Scalar), sizeof(Scalar));
+  return value;
+}
+
+}  // namespace triptych::scene

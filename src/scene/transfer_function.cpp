@@ -1,0 +1,168 @@
+#include "scene/transfer_function.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "scene/find_file.hpp"
+#include "scene/text_lines.hpp"
+
+namespace triptych::scene {
+namespace {
+
+using Entry = std::array<float, 4>;
+using Entries = std::array<Entry, 256>;
+
+// A preset is piecewise linear in the normalised value x between these points.
+struct ControlPoint {
+  double x = 0;
+  std::array<double, 4> rgba{};
+};
+
+// Opacities of a few per cent per voxel: a hundred voxels deep still lets the background through.
+// The lowest eighth, where scanners put air, is exactly transparent.
+constexpr std::array<ControlPoint, 7> haze{{
+    {0.00, {0.05, 0.10, 0.30, 0}},
+    {0.125, {0.08, 0.20, 0.55, 0}},
+    {0.25, {0.15, 0.45, 0.80, 0.003}},
+    {0.45, {0.35, 0.80, 0.75, 0.010}},
+    {0.65, {0.95, 0.80, 0.40, 0.022}},
+    {0.85, {0.98, 0.45, 0.20, 0.040}},
+    {1.00, {1.00, 0.90, 0.80, 0.060}},
+}};
+
+// Shells at 0.29, 0.45 and from 0.65 up, each opaque within a few voxels, nothing between or below.
+constexpr std::array<ControlPoint, 12> surfaces{{
+    {0.00, {0.80, 0.45, 0.30, 0}},
+    {0.25, {0.85, 0.52, 0.36, 0}},
+    {0.29, {0.90, 0.60, 0.42, 0.30}},
+    {0.33, {0.92, 0.66, 0.46, 0}},
+    {0.40, {0.55, 0.70, 0.35, 0}},
+    {0.45, {0.35, 0.70, 0.50, 0.60}},
+    {0.50, {0.25, 0.65, 0.62, 0}},
+    {0.60, {0.90, 0.85, 0.70, 0}},
+    {0.66, {0.96, 0.91, 0.80, 0.85}},
+    {0.72, {0.98, 0.94, 0.86, 0.98}},
+    {0.90, {1.00, 0.97, 0.92, 0.98}},
+    {1.00, {0.70, 0.85, 1.00, 0.98}},
+}};
+
+Entry interpolate(std::span<const ControlPoint> points, double x) {
+  const auto after = std::find_if(points.begin() + 1, points.end() - 1,
+                                  [x](const ControlPoint& p) { return x < p.x; });
+  const ControlPoint& a = *(after - 1);
+  const ControlPoint& b = *after;
+  const double t = (x - a.x) / (b.x - a.x);
+  Entry entry;
+  for (std::size_t c = 0; c < 4; ++c) {
+    entry.at(c) = static_cast<float>(a.rgba.at(c) * (1 - t) + b.rgba.at(c) * t);
+  }
+  return entry;
+}
+
+Entries tabulate(std::span<const ControlPoint> points) {
+  Entries entries;
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    entries.at(k) = interpolate(points, (static_cast<double>(k) + 0.5) / 256);
+  }
+  return entries;
+}
+
+struct Preset {
+  std::string_view name;
+  std::span<const ControlPoint> points;
+};
+
+constexpr std::array<Preset, 2> presets{{{"haze", haze}, {"surfaces", surfaces}}};
+
+Entries from_bytes(std::span<const std::byte> bytes) {
+  Entries entries;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    entries.at(i / 4).at(i % 4) = static_cast<float>(std::to_integer<int>(bytes[i]) / 255.0);
+  }
+  return entries;
+}
+
+std::array<double, 4> parse_entry(std::string_view text, const core::FilePlace& place) {
+  const auto words = split_words(text);
+  if (words.size() != 4) {
+    throw core::InputError(place, fmt::format("expected 'R G B A', got {} words", words.size()));
+  }
+  std::array<double, 4> entry{};
+  for (std::size_t c = 0; c < 4; ++c) {
+    const auto number = parse_number<double>(words[c]);
+    if (!number || !(*number >= 0 && *number <= 255)) {
+      throw core::InputError(
+          place, fmt::format("'{}' is no channel value; expected a number in 0..255", words[c]));
+    }
+    entry.at(c) = *number;
+  }
+  return entry;
+}
+
+Entries from_text(std::string_view text, const std::string& file) {
+  std::vector<std::array<double, 4>> values;
+  double largest = 0;
+  core::FilePlace place{.file = file};
+  for (const std::string_view line : split_lines(text)) {
+    ++place.line;
+    if (split_words(line).empty() || line.starts_with('#')) continue;
+    if (values.size() == 256) throw core::InputError(place, "more than 256 entries");
+    values.push_back(parse_entry(line, place));
+    largest = std::max(largest, *std::max_element(values.back().begin(), values.back().end()));
+  }
+  if (values.size() != 256) {
+    throw core::InputError(
+        place, fmt::format("the file ends after {} entries; expected 256", values.size()));
+  }
+  Entries entries;
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      entries.at(k).at(c) = static_cast<float>(values[k].at(c) / (largest > 1 ? 255 : 1));
+    }
+  }
+  return entries;
+}
+
+Entries from_file(const std::filesystem::path& file) {
+  const std::vector<std::byte> bytes = core::read_file(file);
+  // No text of 256 entries is this short: four digits, three blanks and a line end each make 2047
+  // bytes.
+  if (bytes.size() == 4 * std::tuple_size_v<Entries>) return from_bytes(bytes);
+  return from_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+}
+
+}  // namespace
+
+TransferFunction load_transfer_function(std::string_view name,
+                                        const std::vector<std::filesystem::path>& folders) {
+  TransferFunction result;
+  result.name = name;
+  for (const Preset& preset : presets) {
+    if (preset.name == name) {
+      result.entries = tabulate(preset.points);
+      return result;
+    }
+  }
+  const auto file = find_file(name, folders);
+  if (!file) {
+    throw core::InputError(fmt::format(
+        "transfer function '{}' is neither a preset (haze, surfaces) nor a file that is here",
+        name));
+  }
+  result.entries = from_file(*file);
+  return result;
+}
+
+std::vector<std::string_view> transfer_function_presets() {
+  std::vector<std::string_view> names;
+  for (const Preset& preset : presets) names.push_back(preset.name);
+  return names;
+}
+
+}  // namespace triptych::scene

@@ -1,0 +1,235 @@
+#include "scene/volume.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "scene/scalar_dispatch.hpp"
+
+namespace triptych::scene {
+namespace {
+
+std::size_t count_of(const std::array<int, 3>& size) {
+  return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+         static_cast<std::size_t>(size[2]);
+}
+
+// Maps values to 0..1 over a range, clamped; NaN and an empty range give 0. The result is never −0,
+// so that equal fields have equal bits.
+class Normaliser {
+ public:
+  Normaliser(double lo, double hi)
+      // Halved where hi − lo would overflow; by 1 nothing is rounded.
+      : unit_(std::isfinite(hi - lo) ? 1.0 : 0.5), lo_(lo * unit_), extent_(hi * unit_ - lo_) {}
+
+  [[nodiscard]] double operator()(double value) const {
+    if (!(extent_ > 0)) return 0;
+    const double x = (value * unit_ - lo_) / extent_;
+    if (!(x > 0)) return 0;
+    return x < 1 ? x : 1;
+  }
+
+ private:
+  double unit_;
+  double lo_;
+  double extent_;
+};
+
+// Converts element by element, in place where both types have one size.
+template <typename From, typename To, typename Convert>
+std::vector<std::byte> convert(std::vector<std::byte>&& voxels, Convert&& each) {
+  const std::size_t n = voxels.size() / sizeof(From);
+  std::vector<std::byte> fresh;
+  if constexpr (sizeof(From) != sizeof(To)) fresh.resize(n * sizeof(To));
+  std::vector<std::byte>& out = sizeof(From) == sizeof(To) ? voxels : fresh;
+  for (std::size_t i = 0; i < n; ++i) {
+    const To result = each(load_scalar<From>(voxels.data(), i));
+    std::memcpy(out.data() + i * sizeof(To), &result, sizeof(To));
+  }
+  return std::move(out);
+}
+
+// How an integer of type From is kept as an unsigned one: signed types are shifted to start at 0.
+template <typename From>
+inline constexpr int shift_of = std::is_signed_v<From> ? -int{std::numeric_limits<From>::min()} : 0;
+
+template <typename From, typename To>
+void encode_exactly(Volume& volume, VoxelGrid& grid) {
+  const double extent = volume.range_hi - volume.range_lo;
+  grid.scale = extent > 0 ? 1 / extent : 0;
+  grid.offset = extent > 0 ? (-shift_of<From> - volume.range_lo) / extent : 0;
+  if constexpr (std::is_same_v<From, To>) {
+    grid.data = std::move(volume.voxels);
+  } else {
+    grid.data = convert<From, To>(std::move(volume.voxels), [](From value) {
+      return static_cast<To>(int{value} + shift_of<From>);
+    });
+  }
+}
+
+template <typename From, typename To>
+void encode_rounded(Volume& volume, VoxelGrid& grid) {
+  constexpr double steps = std::numeric_limits<To>::max();
+  const Normaliser normalise(volume.range_lo, volume.range_hi);
+  grid.scale = 1 / steps;
+  grid.offset = 0;
+  grid.data = convert<From, To>(std::move(volume.voxels), [&](From value) {
+    return static_cast<To>(std::floor(normalise(static_cast<double>(value)) * steps + 0.5));
+  });
+}
+
+template <typename From>
+void encode_float(Volume& volume, VoxelGrid& grid) {
+  const Normaliser normalise(volume.range_lo, volume.range_hi);
+  grid.scale = 1;
+  grid.offset = 0;
+  grid.data = convert<From, float>(std::move(volume.voxels), [&](From value) {
+    return static_cast<float>(normalise(static_cast<double>(value)));
+  });
+}
+
+template <typename From>
+void encode_from(Volume& volume, VoxelGrid& grid) {
+  constexpr bool fits_u8 = std::is_integral_v<From> && sizeof(From) == 1;
+  switch (grid.format) {
+    case VoxelFormat::u8:
+      if constexpr (fits_u8) return encode_exactly<From, std::uint8_t>(volume, grid);
+      return encode_rounded<From, std::uint8_t>(volume, grid);
+    case VoxelFormat::u16:
+      if constexpr (std::is_integral_v<From>)
+        return encode_exactly<From, std::uint16_t>(volume, grid);
+      return encode_rounded<From, std::uint16_t>(volume, grid);
+    case VoxelFormat::f32:
+      return encode_float<From>(volume, grid);
+  }
+}
+
+std::string hash_of(const VoxelGrid& grid) {
+  return core::content_hash(fmt::format(
+      "{} {}x{}x{} spacing {:a} {:a} {:a} scale {:a} offset {:a} voxels {}", name_of(grid.format),
+      grid.size[0], grid.size[1], grid.size[2], grid.spacing[0], grid.spacing[1], grid.spacing[2],
+      grid.scale, grid.offset, core::content_hash(grid.data)));
+}
+
+}  // namespace
+
+std::size_t bytes_of(ScalarType type) {
+  return with_scalar_type(type, [](auto zero) { return sizeof(zero); });
+}
+
+std::string_view name_of(ScalarType type) {
+  switch (type) {
+    case ScalarType::u8:
+      return "u8";
+    case ScalarType::i8:
+      return "i8";
+    case ScalarType::u16:
+      return "u16";
+    case ScalarType::i16:
+      return "i16";
+    case ScalarType::f32:
+      return "f32";
+    case ScalarType::f64:
+      return "f64";
+  }
+  return {};
+}
+
+std::size_t Volume::voxel_count() const noexcept {
+  return count_of(size);
+}
+
+double Volume::value(std::size_t index) const {
+  return with_scalar_type(type, [&](auto zero) {
+    return static_cast<double>(load_scalar<decltype(zero)>(voxels.data(), index));
+  });
+}
+
+std::string_view name_of(VoxelFormat format) {
+  switch (format) {
+    case VoxelFormat::u8:
+      return "u8";
+    case VoxelFormat::u16:
+      return "u16";
+    case VoxelFormat::f32:
+      return "f32";
+  }
+  return {};
+}
+
+VoxelFormat voxel_format(std::string_view name) {
+  for (const auto format : {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32}) {
+    if (name_of(format) == name) return format;
+  }
+  throw core::InputError(fmt::format("unknown voxel format '{}'; expected u8, u16 or f32", name));
+}
+
+std::size_t bytes_of(VoxelFormat format) {
+  switch (format) {
+    case VoxelFormat::u8:
+      return 1;
+    case VoxelFormat::u16:
+      return 2;
+    case VoxelFormat::f32:
+      return 4;
+  }
+  return 0;
+}
+
+std::size_t VoxelGrid::voxel_count() const noexcept {
+  return count_of(size);
+}
+
+double VoxelGrid::normalised(std::size_t index) const {
+  switch (format) {
+    case VoxelFormat::u8:
+      return load_scalar<std::uint8_t>(data.data(), index) * scale + offset;
+    case VoxelFormat::u16:
+      return load_scalar<std::uint16_t>(data.data(), index) * scale + offset;
+    case VoxelFormat::f32:
+      return static_cast<double>(load_scalar<float>(data.data(), index)) * scale + offset;
+  }
+  return 0;
+}
+
+VoxelFormat lossless_format(ScalarType type) {
+  switch (type) {
+    case ScalarType::u8:
+    case ScalarType::i8:
+      return VoxelFormat::u8;
+    case ScalarType::u16:
+    case ScalarType::i16:
+      return VoxelFormat::u16;
+    case ScalarType::f32:
+    case ScalarType::f64:
+      return VoxelFormat::f32;
+  }
+  return VoxelFormat::f32;
+}
+
+VoxelGrid encode(Volume&& volume, VoxelFormat format) {
+  if (volume.voxels.size() != volume.voxel_count() * bytes_of(volume.type)) {
+    throw core::InputError(fmt::format("volume {} has {} bytes of voxels; expected {}x{}x{} of {}",
+                                       volume.name, volume.voxels.size(), volume.size[0],
+                                       volume.size[1], volume.size[2], name_of(volume.type)));
+  }
+  VoxelGrid grid;
+  grid.format = format;
+  grid.size = volume.size;
+  grid.spacing = volume.spacing;
+  grid.range_lo = volume.range_lo;
+  grid.range_hi = volume.range_hi;
+  grid.name = volume.name;
+  with_scalar_type(volume.type, [&](auto zero) { encode_from<decltype(zero)>(volume, grid); });
+  volume.voxels = {};
+  grid.hash = hash_of(grid);
+  return grid;
+}
+
+}  // namespace triptych::scene
