@@ -1,1 +1,115 @@
+#include "reference/volume.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "reference/composite.hpp"
+#include "reference/drawing.hpp"
+#include "reference/field.hpp"
+#include "reference/opacity.hpp"
+#include "reference/ray.hpp"
+#include "reference/shading.hpp"
+#include "reference/table.hpp"
+
+namespace triptych::reference {
+
+namespace {
+
+// Draws pixels of one scene; one per thread.
+template <typename Stored>
+class Raycaster {
+ public:
+  Raycaster(const scene::VolumeScene& scene, const ErrorModel& model, const Field<Stored>& field,
+            const Table& table)
+      : scene_(scene),
+        model_(model),
+        field_(field),
+        table_(table),
+        rays_(scene, model.position_error_voxels),
+        compositor_(model, scene.background),
+        smallest_spacing_(scene.smallest_spacing()),
+        gradient_scale_(gradient_scale(*scene.grid)) {}
+
+  [[nodiscard]] Pixel operator()(int x, int y) {
+    compositor_.start();
+    if (const std::optional<Ray> ray = rays_(x, y)) walk(*ray);
+    return compositor_.finish();
+  }
+
+ private:
+  // All lengths below are in voxel lengths, so that they are the exponents of the opacity.
+  void walk(const Ray& ray) {
+    const double step = scene_.step_voxels;
+    const StepLength chord{ray.length / smallest_spacing_, ray.shortest / smallest_spacing_,
+                           ray.longest / smallest_spacing_};
+    const glm::dvec3 stride = ray.voxels_per_unit * scene_.step_world();
+    const auto count = static_cast<std::int64_t>(std::ceil(chord.longest / step));
+    for (std::int64_t i = 0; i < count; ++i) {
+      const double index = static_cast<double>(i);
+      const glm::dvec3 p = ray.entry + (index + 0.5) * stride;
+      const Bounded x = field_.at(p, ray.position_error);
+      if (table_.transparent(x)) continue;
+      const StepLength length{std::clamp(chord.nominal - index * step, 0.0, step),
+                              std::clamp(chord.shortest - index * step, 0.0, step),
+                              std::clamp(chord.longest - index * step, 0.0, step)};
+      if (!add(ray, p, x, length)) return;
+    }
+  }
+
+  bool add(const Ray& ray, const glm::dvec3& p, const Bounded& x, const StepLength& length) {
+    Looked looked = table_.look_up(x);
+    const StepOpacity opacity = step_opacity(looked, length, model_.opacity_error);
+    if (scene_.shading.enabled) {
+      const double rounding = model_.compositing_error;
+      shade(looked,
+            headlight_cosine(field_, ray, p, gradient_scale_, scene_.shading.gradient_floor,
+                             rounding),
+            scene_.shading, rounding);
+    }
+    return compositor_.add(looked, opacity);
+  }
+
+  const scene::VolumeScene& scene_;
+  const ErrorModel& model_;
+  const Field<Stored>& field_;
+  const Table& table_;
+  RayMaker rays_;
+  Compositor compositor_;
+  double smallest_spacing_;
+  glm::dvec3 gradient_scale_;
+};
+
+}  // namespace
+
+Truth render_volume(const scene::VolumeScene& scene, const ErrorModel& model, int threads) {
+  check(scene);
+  return with_stored_type(scene.grid->format, [&]<typename Stored>(Stored) {
+    const Field<Stored> field(*scene.grid, model);
+    const Table table(scene.transfer_function, model.table_error);
+    return draw(scene, threads, [&] { return Raycaster<Stored>(scene, model, field, table); });
+  });
+}
+
+core::Image Truth::image() const {
+  core::Image image(width, height);
+  std::transform(rgba.begin(), rgba.end(), image.rgba.begin(),
+                 [](double value) { return static_cast<float>(value); });
+  return image;
+}
+
+core::Image Truth::bound_image() const {
+  core::Image image(width, height);
+  for (std::size_t i = 0; i < bound.size(); ++i) {
+    auto rounded = static_cast<float>(bound[i]);
+    if (static_cast<double>(rounded) < bound[i]) {
+      rounded = std::nextafter(rounded, std::numeric_limits<float>::infinity());
+    }
+    std::fill_n(image.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, rounded);
+  }
+  return image;
+}
+
+}  // namespace triptych::reference

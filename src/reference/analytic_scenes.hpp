@@ -1,0 +1,63 @@
+#pragma once
+// Scenes whose every pixel is known in closed form (closed_forms.hpp), ready to be drawn on a
+// device. A perspective camera sees them from anywhere: each pixel's own ray and chord enter the
+// formula.
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "scene/volume_scene.hpp"
+
+namespace triptych::reference {
+
+// What a midpoint renderer of step h does on each (errors against the closed form):
+enum class AnalyticProblem {
+  v1_constant,    // homogeneous box                          exact for every h
+  v2_ramp,        // τ = k·z, colour linear in z              order 2 in h
+  v3_segment,     // τ and colour linear in z, τ falling      order 2 in h
+  v4_gaussian,    // Gaussian blob in the middle of the box   order 2 in h and in the voxel size
+  v5_atmosphere,  // τ = τ₀·e^(−z/H), constant colour         order 2 in h
+  v6_layers,  // two homogeneous layers across z          ≤ 1 and erratic in h: the edge limits it
+};
+[[nodiscard]] std::string_view name_of(AnalyticProblem problem);
+
+struct AnalyticOptions {
+  std::array<int, 3> size{32, 32, 32};  // voxels; v6_layers needs an even number along z
+  std::array<double, 3> spacing{1, 1, 1};
+  int width = 32;
+  int height = 32;
+  double step_voxels = 1;
+  std::optional<scene::Camera>
+      camera;  // none: from outside, oblique to all axes, all of the box in view
+  std::array<float, 4> background{0, 0, 0, 0};
+};
+
+struct AnalyticPixel {
+  std::array<double, 4> rgba{};  // premultiplied, background included
+  // Largest difference of any channel between this closed form and the exact integral over the
+  // scene's own grid and table, by which it is represented with finitely many floats.
+  double model_error = 0;
+};
+
+// Grids vary with position as the table needs it: a voxel holds x = (½ + 255·g)/256, so that table
+// entry k is at g = k/255. The problems along z have g = z/L at voxel centres, thus exactly linear
+// between the first and the last; outside, in the outermost half voxels, the field is constant, and
+// so is τ in the closed form. v4_gaussian has g = e^(−r²/2σ²), σ a tenth of the smallest extent;
+// v6_layers g = 0 and 1.
+//
+// The model's error, with u the smallest spacing and α(g) = 1 − e^(−u·τ(g)): interpolating α over
+// 1/255 errs by at most (1/255)²/8·max|α''|; rounding to float adds 2⁻²⁴·(α + |α'|); both become
+// one of τ divided by u·(1 − α), and one of the picture multiplied by the chord, as no |c − colour
+// behind| exceeds 1. v4_gaussian adds that of trilinear interpolation, Σ Δᵢ²/8·|∂ᵢ²g|, integrated
+// along the ray; v6_layers the transition, 1/255 voxel thick.
+struct AnalyticScene {
+  scene::VolumeScene scene;
+  std::function<AnalyticPixel(int x, int y)> exact;
+};
+
+// Throws InputError for an odd number of layers in v6_layers or a size below 1.
+[[nodiscard]] AnalyticScene analytic_scene(AnalyticProblem problem, const AnalyticOptions& options);
+
+}  // namespace triptych::reference

@@ -1,0 +1,80 @@
+#pragma once
+// What the renderers of this room have in common: checking a scene and filling a picture.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+
+#include "core/error.hpp"
+#include "reference/composite.hpp"
+#include "reference/rows.hpp"
+#include "reference/volume.hpp"
+#include "scene/volume_scene.hpp"
+
+namespace triptych::reference {
+
+// Throws InputError for a scene that no picture is defined for.
+inline void check(const scene::VolumeScene& scene) {
+  if (!scene.grid) throw core::InputError("the scene has no volume");
+  const scene::VoxelGrid& grid = *scene.grid;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (grid.size[axis] < 1 || !(grid.spacing[axis] > 0)) {
+      throw core::InputError("a volume needs at least one voxel and a positive spacing per axis");
+    }
+  }
+  if (grid.data.size() != grid.voxel_count() * scene::bytes_of(grid.format)) {
+    throw core::InputError("the volume's data does not match its size and format");
+  }
+  if (!(scene.step_voxels > 0)) throw core::InputError("the step must be positive");
+  if (scene.width < 0 || scene.height < 0) throw core::InputError("negative viewport");
+}
+
+// Calls function(Stored{}) with the type of one voxel.
+template <typename Function>
+auto with_stored_type(scene::VoxelFormat format, Function&& function) {
+  switch (format) {
+    case scene::VoxelFormat::u8:
+      return function(std::uint8_t{});
+    case scene::VoxelFormat::u16:
+      return function(std::uint16_t{});
+    case scene::VoxelFormat::f32:
+      break;
+  }
+  return function(float{});
+}
+
+// Factor from a difference over two voxels to the gradient per smallest spacing, per axis.
+inline glm::dvec3 gradient_scale(const scene::VoxelGrid& grid) {
+  const double smallest = *std::min_element(grid.spacing.begin(), grid.spacing.end());
+  return {smallest / grid.spacing[0], smallest / grid.spacing[1], smallest / grid.spacing[2]};
+}
+
+// Fills a picture with `Pixel caster(x, y)`; every thread makes its own caster.
+template <typename MakeCaster>
+Truth draw(const scene::VolumeScene& scene, int threads, const MakeCaster& make_caster) {
+  Truth truth;
+  truth.width = scene.width;
+  truth.height = scene.height;
+  const auto width = static_cast<std::size_t>(scene.width);
+  const auto pixels = width * static_cast<std::size_t>(scene.height);
+  truth.rgba.resize(4 * pixels);
+  truth.bound.resize(pixels);
+  for_each_row(scene.height, threads, [&]() -> RowWorker {
+    // Shared, for std::function asks for a copyable callable.
+    auto caster = std::make_shared<decltype(make_caster())>(make_caster());
+    return [&truth, width, caster](int y) {
+      for (std::size_t x = 0; x < width; ++x) {
+        const Pixel pixel = (*caster)(static_cast<int>(x), y);
+        const std::size_t index = static_cast<std::size_t>(y) * width + x;
+        std::copy(pixel.rgba.begin(), pixel.rgba.end(),
+                  truth.rgba.begin() + static_cast<std::ptrdiff_t>(4 * index));
+        truth.bound[index] = pixel.bound;
+      }
+    };
+  });
+  return truth;
+}
+
+}  // namespace triptych::reference

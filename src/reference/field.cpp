@@ -1,0 +1,155 @@
+#include "reference/field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace triptych::reference {
+
+template <typename Stored>
+Field<Stored>::Field(const scene::VoxelGrid& grid, const ErrorModel& model)
+    : data_(grid.data.data()),
+      size_(grid.size),
+      scale_(grid.scale),
+      offset_(grid.offset),
+      value_error_(model.value_error),
+      filter_weight_error_(model.filter_weight_error) {
+  if (model.position_error_voxels == 0 && model.filter_weight_error == 0) return;
+  double lo = stored(0);
+  double hi = lo;
+  const auto count = static_cast<std::ptrdiff_t>(grid.voxel_count());
+  for (std::ptrdiff_t i = 1; i < count; ++i) {
+    const double value = stored(i);
+    lo = std::min(lo, value);
+    hi = std::max(hi, value);
+  }
+  range_ = hi - lo;
+}
+
+template <typename Stored>
+double Field<Stored>::stored(std::ptrdiff_t index) const {
+  Stored value;
+  std::memcpy(&value, data_ + index * static_cast<std::ptrdiff_t>(sizeof(Stored)), sizeof(Stored));
+  return static_cast<double>(value);
+}
+
+template <typename Stored>
+typename Field<Stored>::Place Field<Stored>::place(double p, int axis) const {
+  // Beyond half a voxel outside the field is constant, so far positions may move there.
+  const double q =
+      std::clamp(p - 0.5, -1.0, static_cast<double>(size_[static_cast<std::size_t>(axis)]));
+  const int base = static_cast<int>(q + 1.0) - 1;  // ⌊q⌋, q ≥ −1
+  return {base, q - static_cast<double>(base)};
+}
+
+template <typename Stored>
+typename Field<Stored>::Corners Field<Stored>::corners(const std::array<int, 3>& base) const {
+  std::array<std::ptrdiff_t, 3> a;
+  std::array<std::ptrdiff_t, 3> b;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    a[axis] = std::clamp(base[axis], 0, size_[axis] - 1);
+    b[axis] = std::clamp(base[axis] + 1, 0, size_[axis] - 1);
+  }
+  const std::ptrdiff_t nx = size_[0];
+  const std::ptrdiff_t ny = size_[1];
+  const std::ptrdiff_t row00 = nx * (a[1] + ny * a[2]);
+  const std::ptrdiff_t row10 = nx * (b[1] + ny * a[2]);
+  const std::ptrdiff_t row01 = nx * (a[1] + ny * b[2]);
+  const std::ptrdiff_t row11 = nx * (b[1] + ny * b[2]);
+  return {stored(row00 + a[0]), stored(row00 + b[0]), stored(row10 + a[0]), stored(row10 + b[0]),
+          stored(row01 + a[0]), stored(row01 + b[0]), stored(row11 + a[0]), stored(row11 + b[0])};
+}
+
+namespace {
+
+double interpolate(const std::array<double, 8>& v, double fx, double fy, double fz) {
+  const double x00 = v[0] + fx * (v[1] - v[0]);
+  const double x10 = v[2] + fx * (v[3] - v[2]);
+  const double x01 = v[4] + fx * (v[5] - v[4]);
+  const double x11 = v[6] + fx * (v[7] - v[6]);
+  const double y0 = x00 + fy * (x10 - x00);
+  const double y1 = x01 + fy * (x11 - x01);
+  return y0 + fz * (y1 - y0);
+}
+
+double largest(double a, double b, double c, double d) {
+  return std::max(std::max(std::abs(a), std::abs(b)), std::max(std::abs(c), std::abs(d)));
+}
+
+}  // namespace
+
+template <typename Stored>
+void Field<Stored>::Slopes::widen(const Corners& v) {
+  const double x = largest(v[1] - v[0], v[3] - v[2], v[5] - v[4], v[7] - v[6]);
+  const double y = largest(v[2] - v[0], v[3] - v[1], v[6] - v[4], v[7] - v[5]);
+  const double z = largest(v[4] - v[0], v[5] - v[1], v[6] - v[2], v[7] - v[3]);
+  per_axis = {std::max(per_axis.x, x), std::max(per_axis.y, y), std::max(per_axis.z, z)};
+  const double lo = std::min(std::min(std::min(v[0], v[1]), std::min(v[2], v[3])),
+                             std::min(std::min(v[4], v[5]), std::min(v[6], v[7])));
+  const double hi = std::max(std::max(std::max(v[0], v[1]), std::max(v[2], v[3])),
+                             std::max(std::max(v[4], v[5]), std::max(v[6], v[7])));
+  spread = std::max(spread, hi - lo);
+}
+
+// Over every cell that the position may fall into; errors below half a voxel.
+template <typename Stored>
+typename Field<Stored>::Slopes Field<Stored>::slopes_around(const std::array<Place, 3>& places,
+                                                            const glm::dvec3& e) const {
+  std::array<int, 3> first;
+  std::array<int, 3> last;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double error = e[static_cast<int>(axis)];
+    first[axis] = places[axis].base - (places[axis].f <= error ? 1 : 0);
+    last[axis] = places[axis].base + (places[axis].f >= 1.0 - error ? 1 : 0);
+  }
+  Slopes slopes;
+  for (int k = first[2]; k <= last[2]; ++k) {
+    for (int j = first[1]; j <= last[1]; ++j) {
+      for (int i = first[0]; i <= last[0]; ++i) slopes.widen(corners({i, j, k}));
+    }
+  }
+  return slopes;
+}
+
+template <typename Stored>
+double Field<Stored>::at(const glm::dvec3& p) const {
+  const Place x = place(p.x, 0);
+  const Place y = place(p.y, 1);
+  const Place z = place(p.z, 2);
+  return interpolate(corners({x.base, y.base, z.base}), x.f, y.f, z.f) * scale_ + offset_;
+}
+
+template <typename Stored>
+Bounded Field<Stored>::at(const glm::dvec3& p, const glm::dvec3& e) const {
+  const std::array<Place, 3> places{place(p.x, 0), place(p.y, 1), place(p.z, 2)};
+  const Corners v = corners({places[0].base, places[1].base, places[2].base});
+  Bounded result;
+  result.value = interpolate(v, places[0].f, places[1].f, places[2].f) * scale_ + offset_;
+
+  double error = range_;
+  if (e.x < 0.5 && e.y < 0.5 && e.z < 0.5) {
+    const auto interior = [&](std::size_t axis) {
+      const double margin = e[static_cast<int>(axis)];
+      return places[axis].f > margin && places[axis].f < 1.0 - margin;
+    };
+    Slopes slopes;
+    if (interior(0) && interior(1) && interior(2)) {
+      slopes.widen(v);
+    } else {
+      slopes = slopes_around(places, e);
+    }
+    error = slopes.per_axis.x * e.x + slopes.per_axis.y * e.y + slopes.per_axis.z * e.z +
+            filter_weight_error_ * slopes.spread;
+  }
+  // Whatever the weights, a device's value stays within the range of the voxels.
+  result.error = std::min(error, range_) * std::abs(scale_) + value_error_;
+  return result;
+}
+
+template class Field<std::uint8_t>;
+template class Field<std::uint16_t>;
+template class Field<float>;
+
+}  // namespace triptych::reference

@@ -1,0 +1,70 @@
+#pragma once
+// The normalised field: trilinear between voxel centres, clamped to the edge.
+
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+
+#include "reference/volume.hpp"
+#include "scene/volume.hpp"
+
+namespace triptych::reference {
+
+// A value and the most by which the error model lets a device's value differ from it.
+struct Bounded {
+  double value = 0;
+  double error = 0;
+};
+
+// Reads the grid in place; Stored is what one voxel of it is: std::uint8_t, std::uint16_t or float.
+// Interpolates stored values, which are exact, and maps the result. Positions in voxels.
+template <typename Stored>
+class Field {
+ public:
+  // The grid must outlive the field. Reads every voxel once where the model has a position error.
+  Field(const scene::VoxelGrid& grid, const ErrorModel& model);
+
+  [[nodiscard]] double at(const glm::dvec3& p) const;
+
+  // The error is Σ over axes of (largest difference of neighbours in any cell that a device may
+  // read instead) × position error, for a trilinear field is Lipschitz with just these constants;
+  // plus filter_weight_error × spread of the eight voxels, plus value_error.
+  [[nodiscard]] Bounded at(const glm::dvec3& p, const glm::dvec3& position_error) const;
+
+ private:
+  // Where p falls along one axis: between voxels base and base + 1 (before clamping), at fraction
+  // f.
+  struct Place {
+    int base = 0;
+    double f = 0;
+  };
+  using Corners = std::array<double, 8>;  // bit 0: x, bit 1: y, bit 2: z
+
+  // How fast the field may change: the largest difference of two neighbours per axis and of any
+  // two.
+  struct Slopes {
+    glm::dvec3 per_axis{};
+    double spread = 0;
+    void widen(const Corners& corners);
+  };
+
+  [[nodiscard]] Place place(double p, int axis) const;
+  [[nodiscard]] double stored(std::ptrdiff_t index) const;
+  [[nodiscard]] Corners corners(const std::array<int, 3>& base) const;
+  [[nodiscard]] Slopes slopes_around(const std::array<Place, 3>& places,
+                                     const glm::dvec3& position_error) const;
+
+  const std::byte* data_;
+  std::array<int, 3> size_;
+  double scale_;
+  double offset_;
+  double value_error_;
+  double filter_weight_error_;
+  double range_ = 0;  // largest minus smallest stored value
+};
+
+extern template class Field<std::uint8_t>;
+extern template class Field<std::uint16_t>;
+extern template class Field<float>;
+
+}  // namespace triptych::reference

@@ -1,0 +1,51 @@
+#include "reference/opacity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace triptych::reference {
+
+double step_opacity(double alpha, double steps) {
+  if (!(steps > 0.0) || !(alpha > 0.0)) return 0.0;
+  if (alpha >= 1.0) return 1.0;
+  if (steps == 1.0) return alpha;
+  return -std::expm1(steps * std::log1p(-alpha));
+}
+
+namespace {
+
+// Where the change of alpha is small against what is left of 1, the mean value theorem spares two
+// more powers: with δ the change, r = δ/(1−α), s the steps, the derivative s·(1−α)^(s−1) on [α−δ,
+// α+δ] is largest at α+δ for s < 1 and at α−δ for s ≥ 1; either way at most s·(1−α)^s/(1−α)·(1 + z
+// + 2z²) with z = max(1, s)·r ≤ 1/20. Returns a negative number where that does not hold.
+double small_change(const Looked& looked, double steps, double nominal) {
+  const double left = 1.0 - looked.alpha;
+  const double change = std::max(looked.alpha_hi - looked.alpha, looked.alpha - looked.alpha_lo);
+  const double z = std::max(1.0, steps) * change;
+  if (!(z <= 0.05 * left)) return -1.0;
+  if (left <= 0.0) return 0.0;
+  const double y = z / left;
+  return steps * (1.0 - nominal) / left * change * (1.0 + y + 2.0 * y * y);
+}
+
+}  // namespace
+
+StepOpacity step_opacity(const Looked& looked, const StepLength& steps, double relative_error) {
+  StepOpacity opacity;
+  opacity.nominal = step_opacity(looked.alpha, steps.nominal);
+  opacity.lo = opacity.hi = opacity.nominal;
+  const bool whole = steps.shortest == steps.nominal && steps.longest == steps.nominal;
+  const double change = whole ? small_change(looked, steps.nominal, opacity.nominal) : -1.0;
+  if (change >= 0.0) {
+    opacity.lo -= change;
+    opacity.hi += change;
+  } else {
+    opacity.lo = step_opacity(looked.alpha_lo, steps.shortest);
+    opacity.hi = step_opacity(looked.alpha_hi, steps.longest);
+  }
+  opacity.lo = std::max(opacity.lo * (1.0 - relative_error), 0.0);
+  opacity.hi = std::min(opacity.hi * (1.0 + relative_error), 1.0);
+  return opacity;
+}
+
+}  // namespace triptych::reference

@@ -1,0 +1,75 @@
+#pragma once
+// Headlight shading (scene::Shading) of one sample, with its error.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "reference/field.hpp"
+#include "reference/ray.hpp"
+#include "reference/table.hpp"
+#include "scene/volume_scene.hpp"
+
+namespace triptych::reference {
+
+// |g·d|/max(|g|, floor) and its error. With δ the largest error of g and m the denominator, a
+// device's denominator is at least m' = max(floor, |g| − δ), so that
+//   |cos' − cos| ≤ |δ|/m' + |g·d|·|m − m'|/(m·m') ≤ (1 + cos)·|δ|/m'.
+// The dot product, the root, the division and the unit direction err by at most eight roundings of
+// a quantity that is at most 1.
+template <typename Stored>
+[[nodiscard]] Bounded headlight_cosine(const Field<Stored>& field, const Ray& ray,
+                                       const glm::dvec3& p, const glm::dvec3& voxels_per_axis,
+                                       double floor, double rounding) {
+  glm::dvec3 gradient{0.0};
+  glm::dvec3 error{0.0};
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec3 one{0.0};
+    one[axis] = 1.0;
+    const Bounded above = field.at(p + one, ray.position_error);
+    const Bounded below = field.at(p - one, ray.position_error);
+    gradient[axis] = 0.5 * voxels_per_axis[axis] * (above.value - below.value);
+    error[axis] = 0.5 * voxels_per_axis[axis] * (above.error + below.error);
+  }
+  const double length = glm::length(gradient);
+  const double change = glm::length(error);
+  Bounded cosine;
+  cosine.value = std::abs(glm::dot(gradient, ray.direction)) / std::max(length, floor);
+  const double least = std::max(floor, length - change);
+  if (change > 0.0) cosine.error = (1.0 + cosine.value) * change / least;
+  cosine.error = std::min(cosine.error + 8.0 * rounding, 1.0);
+  return cosine;
+}
+
+[[nodiscard]] inline double power(double base, int exponent) {
+  double result = base;
+  for (int n = 1; n < exponent; n *= 2) result *= result;
+  return result;
+}
+
+// Replaces the looked-up colour by the shaded one. `rounding` is the relative error of one
+// operation; squaring doubles a relative error, so the highlight has `exponent` of them, its sum
+// four more.
+inline void shade(Looked& looked, const Bounded& cosine, const scene::Shading& shading,
+                  double rounding) {
+  const double cosine_hi = std::min(cosine.value + cosine.error, 1.0);
+  const double cosine_lo = std::max(cosine.value - cosine.error, 0.0);
+  const double highlight = power(cosine.value, shading.exponent);
+  const double highest = power(cosine_hi, shading.exponent);
+  const double highlight_error =
+      std::max(highest - highlight, highlight - power(cosine_lo, shading.exponent)) +
+      shading.exponent * rounding * highest;
+  const double factor = shading.ambient + shading.diffuse * cosine.value;
+  const double factor_hi = shading.ambient + shading.diffuse * cosine_hi;
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const double colour = looked.colour[channel];
+    looked.colour[channel] = colour * factor + shading.specular * highlight;
+    looked.colour_error[channel] =
+        looked.colour_error[channel] * factor_hi + colour * shading.diffuse * cosine.error +
+        shading.specular * highlight_error + 4.0 * rounding * looked.colour[channel];
+  }
+}
+
+}  // namespace triptych::reference

@@ -1,0 +1,45 @@
+#pragma once
+// The transfer function as a function of the normalised value, and its range over an interval.
+
+#include <array>
+#include <cstddef>
+
+#include "reference/field.hpp"
+#include "scene/transfer_function.hpp"
+
+namespace triptych::reference {
+
+// What a value looks up, and what a value within its error may look up.
+struct Looked {
+  std::array<double, 3> colour{};        // straight
+  std::array<double, 3> colour_error{};  // largest difference from it
+  double alpha = 0;                      // per voxel length
+  double alpha_lo = 0;
+  double alpha_hi = 0;
+};
+
+class Table {
+ public:
+  Table(const scene::TransferFunction& function, double table_error);
+
+  // Straight RGBA at x.
+  [[nodiscard]] std::array<double, 4> at(double x) const;
+
+  // Extremes over [x − error, x + error] of the piecewise linear function itself (its ends and the
+  // entries between), so that neither a kink nor a spike escapes, widened by table_error.
+  [[nodiscard]] Looked look_up(const Bounded& x) const;
+
+  // Whether every entry that takes part anywhere in [x − error, x + error] is fully transparent.
+  // Interpolating zeros gives zero in any arithmetic, so table_error plays no part.
+  [[nodiscard]] bool transparent(const Bounded& x) const;
+
+ private:
+  static constexpr std::size_t entries = 256;
+  [[nodiscard]] static double position(double x);  // among the entry centres, 0 … 255
+
+  std::array<std::array<double, 4>, entries> rgba_{};
+  std::array<std::size_t, entries> next_visible_{};  // first entry from here on with alpha > 0
+  double table_error_;
+};
+
+}  // namespace triptych::reference
