@@ -1,6 +1,7 @@
 // Mirrors technique::RaycastParameters (raycast_parameters.hpp), where the meaning of each field stands.
 // The backend's prelude defines TRI_BINDING(n) and the compile-time constants
-//   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, TRI_FAULT   (integers).
+//   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT   (integers),
+// which may be specialization constants, and the macro TRI_COUNT (0 or 1).
 layout(std140) TRI_BINDING(0) uniform Parameters {
   vec4 eye;
   vec4 ray_centre;
@@ -18,4 +19,6 @@ layout(std140) TRI_BINDING(0) uniform Parameters {
 TRI_BINDING(1) uniform sampler3D volume_texture;
 TRI_BINDING(2) uniform sampler1D transfer_texture;  // 256 RGBA32F entries, read by texelFetch
 layout(std430) TRI_BINDING(3) readonly buffer Bricks { uint brick_visible[]; };
+#if TRI_COUNT
 layout(std430) TRI_BINDING(5) writeonly buffer Counters { uint counters[]; };
+#endif

@@ -209,7 +209,7 @@ vec4 raycast(ivec2 pixel) {
       }
     }
   }
-  if (TRI_COUNT == 1) {
+#if TRI_COUNT
     int total = tri_sample_count(ray.steps);
     int at = 8 * (pixel.y * u.viewport.x + pixel.x);
     counters[at] = total > 0 ? 1u : 0u;
@@ -219,6 +219,6 @@ vec4 raycast(ivec2 pixel) {
     counters[at + 4] = count_bricks_skipped;
     counters[at + 5] = count_terminated;
     counters[at + 6] = uint(total) - count_samples;
-  }
+#endif
   return vec4(colour, 1.0 - transmittance) + transmittance * u.background;
 }

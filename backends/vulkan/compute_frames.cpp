@@ -1,0 +1,92 @@
+#include "backends/vulkan/compute_frames.hpp"
+
+#include <span>
+
+#include "backends/vulkan/errors.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+constexpr std::string_view timed_shader = "raycast.comp.spv";
+constexpr std::string_view counting_shader = "raycast_counting.comp.spv";
+
+std::uint32_t groups(int size, std::uint32_t group) {
+  return (static_cast<std::uint32_t>(size) + group - 1) / group;
+}
+
+vk::DeviceSize output_bytes(const scene::VolumeScene& scene) {
+  return 4 * sizeof(float) * static_cast<vk::DeviceSize>(scene.width) *
+         static_cast<vk::DeviceSize>(scene.height);
+}
+
+}  // namespace
+
+ComputeFrames::ComputeFrames(const Gpu& gpu, const Instance& instance,
+                             const measure::VolumeWork& work, const Constants& constants)
+    : gpu_(gpu),
+      instance_(instance),
+      constants_(constants),
+      width_(work.scene.width),
+      height_(work.scene.height),
+      extra_work_stride_(work.options.extra_work_stride),
+      output_(gpu, output_bytes(work.scene),
+              vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc,
+              Place::device),
+      resources_(gpu, work, &output_),
+      pipeline_(make_compute_pipeline(gpu, resources_.layout(), timed_shader, constants)),
+      counting_pipeline_(nullptr),
+      frames_(gpu, vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations,
+              [this](const vk::raii::CommandBuffer& commands) { record_timed(commands); }) {
+  instance_.check_validation();
+}
+
+void ComputeFrames::record_timed(const vk::raii::CommandBuffer& commands) const {
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+  dispatch(commands, Pass::whole, height_);
+  if (extra_work_stride_ == 0) return;
+  barrier(commands);
+  dispatch(commands, Pass::strided, (height_ + extra_work_stride_ - 1) / extra_work_stride_);
+}
+
+void ComputeFrames::dispatch(const vk::raii::CommandBuffer& commands, Pass pass, int rows) const {
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *resources_.layout().pipeline, 0,
+                              resources_.set(pass), {});
+  commands.dispatch(groups(width_, constants_.group_width), groups(rows, constants_.group_height),
+                    1);
+}
+
+void ComputeFrames::prepare_counters() {
+  resources_.bind_counters();
+  counting_pipeline_ =
+      make_compute_pipeline(gpu_, resources_.layout(), counting_shader, constants_);
+  frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *counting_pipeline_);
+    dispatch(commands, Pass::counting, height_);
+  });
+}
+
+measure::Frame ComputeFrames::frame(measure::Purpose purpose) {
+  return translated([&] {
+    const bool counting = purpose == measure::Purpose::counters;
+    if (counting && !frames_.can_count()) prepare_counters();
+    measure::Frame frame = frames_.submit(purpose);
+    if (counting) frame.counts = resources_.read_counters();
+    instance_.check_validation();
+    return frame;
+  });
+}
+
+core::Image ComputeFrames::image() {
+  return translated([&] {
+    core::Image image(width_, height_);
+    download(gpu_, output_, std::as_writable_bytes(std::span(image.rgba)));
+    instance_.check_validation();
+    return image;
+  });
+}
+
+std::string ComputeFrames::kernel_hash() const {
+  return code_hash(timed_shader, constants_);
+}
+
+}  // namespace triptych::vulkan_backend

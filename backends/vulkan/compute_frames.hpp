@@ -1,0 +1,38 @@
+#pragma once
+#include <memory>
+
+#include "backends/vulkan/frames.hpp"
+#include "backends/vulkan/instance.hpp"
+#include "backends/vulkan/volume_resources.hpp"
+
+namespace triptych::vulkan_backend {
+
+// A volume technique in a compute kernel, one invocation per pixel.
+class ComputeFrames final : public measure::Prepared {
+ public:
+  ComputeFrames(const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work,
+                const Constants& constants);
+
+  [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
+  [[nodiscard]] core::Image image() override;
+  [[nodiscard]] std::string kernel_hash() const override;
+
+ private:
+  void record_timed(const vk::raii::CommandBuffer& commands) const;
+  void dispatch(const vk::raii::CommandBuffer& commands, Pass pass, int rows) const;
+  void prepare_counters();
+
+  const Gpu& gpu_;
+  const Instance& instance_;
+  Constants constants_;
+  int width_;
+  int height_;
+  int extra_work_stride_;
+  Buffer output_;
+  VolumeResources resources_;
+  vk::raii::Pipeline pipeline_;
+  vk::raii::Pipeline counting_pipeline_;  // null until a counting frame is asked for
+  Frames frames_;
+};
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,72 @@
+#include "backends/vulkan/descriptors.hpp"
+
+#include <array>
+
+namespace triptych::vulkan_backend {
+
+Layout make_layout(const Gpu& gpu, vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings) {
+  vk::raii::DescriptorSetLayout set(
+      gpu.device, vk::DescriptorSetLayoutCreateInfo{.bindingCount = bindings.size(),
+                                                    .pBindings = bindings.data()});
+  vk::raii::PipelineLayout pipeline(
+      gpu.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &*set});
+  return {std::move(set), std::move(pipeline)};
+}
+
+vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets) {
+  const std::array<vk::DescriptorPoolSize, 3> sizes{{
+      {.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = sets},
+      {.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 2 * sets},
+      {.type = vk::DescriptorType::eStorageBuffer, .descriptorCount = 3 * sets},
+  }};
+  return {gpu.device,
+          vk::DescriptorPoolCreateInfo{.maxSets = sets,
+                                       .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
+                                       .pPoolSizes = sizes.data()}};
+}
+
+std::vector<vk::DescriptorSet> allocate_sets(const Gpu& gpu, const vk::raii::DescriptorPool& pool,
+                                             const Layout& layout, std::uint32_t count) {
+  const std::vector<vk::DescriptorSetLayout> layouts(count, *layout.set);
+  return (*gpu.device)
+      .allocateDescriptorSets(
+          vk::DescriptorSetAllocateInfo{
+              .descriptorPool = *pool, .descriptorSetCount = count, .pSetLayouts = layouts.data()},
+          *gpu.device.getDispatcher());
+}
+
+void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
+                 vk::DescriptorType type, const Buffer& buffer) {
+  const vk::DescriptorBufferInfo info{.buffer = buffer.get(), .range = VK_WHOLE_SIZE};
+  gpu.device.updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
+                                                         .dstBinding = binding,
+                                                         .descriptorCount = 1,
+                                                         .descriptorType = type,
+                                                         .pBufferInfo = &info},
+                                  {});
+}
+
+void bind_texture(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding, const Image& image,
+                  const vk::raii::Sampler& sampler) {
+  const vk::DescriptorImageInfo info{.sampler = *sampler,
+                                     .imageView = image.view(),
+                                     .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+  gpu.device.updateDescriptorSets(
+      vk::WriteDescriptorSet{.dstSet = set,
+                             .dstBinding = binding,
+                             .descriptorCount = 1,
+                             .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                             .pImageInfo = &info},
+      {});
+}
+
+vk::raii::Sampler make_sampler(const Gpu& gpu, vk::Filter filter) {
+  constexpr auto edge = vk::SamplerAddressMode::eClampToEdge;
+  return {gpu.device, vk::SamplerCreateInfo{.magFilter = filter,
+                                            .minFilter = filter,
+                                            .addressModeU = edge,
+                                            .addressModeV = edge,
+                                            .addressModeW = edge}};
+}
+
+}  // namespace triptych::vulkan_backend

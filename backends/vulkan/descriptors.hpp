@@ -1,0 +1,34 @@
+#pragma once
+// Descriptors: what device code finds at its bindings. One set per pipeline everywhere.
+
+#include <vector>
+
+#include "backends/vulkan/memory.hpp"
+
+namespace triptych::vulkan_backend {
+
+struct Layout {
+  vk::raii::DescriptorSetLayout set;
+  vk::raii::PipelineLayout pipeline;
+};
+[[nodiscard]] Layout make_layout(const Gpu& gpu,
+                                 vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings);
+
+// Room for this many sets of any layout here.
+[[nodiscard]] vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets);
+// The sets are freed with the pool.
+[[nodiscard]] std::vector<vk::DescriptorSet> allocate_sets(const Gpu& gpu,
+                                                           const vk::raii::DescriptorPool& pool,
+                                                           const Layout& layout,
+                                                           std::uint32_t count);
+
+void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
+                 vk::DescriptorType type, const Buffer& buffer);
+// The image must be in eShaderReadOnlyOptimal when it is used.
+void bind_texture(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding, const Image& image,
+                  const vk::raii::Sampler& sampler);
+
+// Texture coordinates are normalised and clamped to the edge.
+[[nodiscard]] vk::raii::Sampler make_sampler(const Gpu& gpu, vk::Filter filter);
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,34 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "backends/vulkan/devices.hpp"
+#include "backends/vulkan/gpu.hpp"
+#include "backends/vulkan/instance.hpp"
+#include "measure/backend.hpp"
+
+namespace triptych::vulkan_backend {
+
+// An open physical device.
+class Device final : public measure::Device {
+ public:
+  // Probes the texture filter of every voxel format. Throws core::NotSupported, core::ApiError.
+  Device(std::unique_ptr<const Instance> instance, Candidate candidate);
+
+  [[nodiscard]] const record::Device& info() const override { return info_; }
+  [[nodiscard]] std::optional<std::string> unsupported(const measure::Work& work) const override;
+  [[nodiscard]] measure::VolumePath default_path(scene::VoxelFormat native) const override;
+  [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override;
+  [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
+
+ private:
+  [[nodiscard]] std::optional<double> hardware_error(scene::VoxelFormat format) const;
+
+  std::unique_ptr<const Instance> instance_;
+  record::Device info_;
+  Gpu gpu_;
+  std::array<std::optional<double>, 3> filter_errors_;  // by VoxelFormat
+};
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,161 @@
+#include "backends/vulkan/devices.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "backends/vulkan/errors.hpp"
+#include "measure/cpu_features.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+constexpr std::array<std::string_view, 9> code_variables{
+    "LP_NUM_THREADS",  "LP_NATIVE_VECTOR_WIDTH",    "GALLIVM_PERF",
+    "GALLIVM_DEBUG",   "GALLIUM_OVERRIDE_CPU_CAPS", "VK_ICD_FILENAMES",
+    "VK_DRIVER_FILES", "NODEVICE_SELECT",           "TRIPTYCH_VULKAN_VALIDATION"};
+
+std::string version_text(std::uint32_t version) {
+  return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                     VK_API_VERSION_PATCH(version));
+}
+
+// Lower-case letters, digits and dashes, for drivers without a short name of their own.
+std::string slug(std::string_view text) {
+  std::string result;
+  for (const char each : text) {
+    const auto c = static_cast<unsigned char>(each);
+    if (std::isalnum(c) != 0) {
+      result += static_cast<char>(std::tolower(c));
+    } else if (!result.empty() && result.back() != '-') {
+      result += '-';
+    }
+  }
+  while (result.ends_with('-')) result.pop_back();
+  return result;
+}
+
+std::string short_name(vk::DriverId driver, std::string_view driver_name) {
+  using enum vk::DriverId;
+  static constexpr std::array<std::pair<vk::DriverId, std::string_view>, 12> names{{
+      {eMesaLlvmpipe, "lavapipe"},
+      {eGoogleSwiftshader, "swiftshader"},
+      {eNvidiaProprietary, "nvidia"},
+      {eMesaNvk, "nvk"},
+      {eMesaRadv, "radv"},
+      {eAmdOpenSource, "amdvlk"},
+      {eAmdProprietary, "amd"},
+      {eIntelOpenSourceMESA, "anv"},
+      {eIntelProprietaryWindows, "intel"},
+      {eMesaTurnip, "turnip"},
+      {eMesaV3Dv, "v3dv"},
+      {eMoltenvk, "moltenvk"},
+  }};
+  const auto* found =
+      std::ranges::find(names, driver, &std::pair<vk::DriverId, std::string_view>::first);
+  return found != names.end() ? std::string(found->second) : slug(driver_name);
+}
+
+std::string vendor_name(std::uint32_t id) {
+  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 8> names{{
+      {0x1002, "AMD"},
+      {0x1010, "Imagination"},
+      {0x106B, "Apple"},
+      {0x10DE, "NVIDIA"},
+      {0x13B5, "Arm"},
+      {0x5143, "Qualcomm"},
+      {0x8086, "Intel"},
+      {0x10005, "Mesa"},
+  }};
+  const auto* found =
+      std::ranges::find(names, id, &std::pair<std::uint32_t, std::string_view>::first);
+  return found != names.end() ? std::string(found->second) : fmt::format("{:#06x}", id);
+}
+
+std::map<std::string, std::string> limits_of(const vk::raii::PhysicalDevice& device) {
+  const vk::PhysicalDeviceProperties properties = device.getProperties();
+  const vk::PhysicalDeviceFeatures features = device.getFeatures();
+  const vk::PhysicalDeviceMemoryProperties memory = device.getMemoryProperties();
+  const vk::PhysicalDeviceLimits& limits = properties.limits;
+  const auto yes_no = [](vk::Bool32 value) { return value == VK_TRUE ? "yes" : "no"; };
+  std::map<std::string, std::string> result{
+      {"deviceType", vk::to_string(properties.deviceType)},
+      {"maxImageDimension2D", fmt::to_string(limits.maxImageDimension2D)},
+      {"maxImageDimension3D", fmt::to_string(limits.maxImageDimension3D)},
+      {"maxStorageBufferRange", fmt::to_string(limits.maxStorageBufferRange)},
+      {"maxComputeWorkGroupInvocations", fmt::to_string(limits.maxComputeWorkGroupInvocations)},
+      {"subTexelPrecisionBits", fmt::to_string(limits.subTexelPrecisionBits)},
+      {"timestampPeriod", fmt::to_string(limits.timestampPeriod)},
+      {"timestampComputeAndGraphics", yes_no(limits.timestampComputeAndGraphics)},
+      {"geometryShader", yes_no(features.geometryShader)},
+      {"tessellationShader", yes_no(features.tessellationShader)},
+      {"pipelineStatisticsQuery", yes_no(features.pipelineStatisticsQuery)},
+      {"fragmentStoresAndAtomics", yes_no(features.fragmentStoresAndAtomics)},
+      {"shaderFloat64", yes_no(features.shaderFloat64)},
+  };
+  for (std::uint32_t heap = 0; heap < memory.memoryHeapCount; ++heap) {
+    result.emplace(fmt::format("memoryHeaps[{}]", heap),
+                   fmt::format("{} B {}", memory.memoryHeaps[heap].size,
+                               vk::to_string(memory.memoryHeaps[heap].flags)));
+  }
+  return result;
+}
+
+bool tells_driver(const vk::raii::PhysicalDevice& device, std::uint32_t api_version) {
+  if (api_version >= VK_API_VERSION_1_2) return true;
+  const auto extensions = device.enumerateDeviceExtensionProperties();
+  return std::ranges::any_of(extensions, [](const vk::ExtensionProperties& each) {
+    return std::string_view(each.extensionName.data()) == VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME;
+  });
+}
+
+Candidate candidate(vk::raii::PhysicalDevice device) {
+  const vk::PhysicalDeviceProperties properties = device.getProperties();
+  const std::string vendor = vendor_name(properties.vendorID);
+  record::Device info{.id = "vulkan:" + slug(vendor),
+                      .api = "vulkan",
+                      .name = properties.deviceName.data(),
+                      .vendor = vendor,
+                      .driver = vendor,
+                      .driver_version = version_text(properties.driverVersion),
+                      .api_version = version_text(properties.apiVersion),
+                      .cpu_features = {},
+                      .environment = measure::set_variables(code_variables),
+                      .limits = limits_of(device)};
+  if (properties.deviceType == vk::PhysicalDeviceType::eCpu) {
+    info.cpu_features = measure::cpu_features();
+  }
+  if (properties.apiVersion < VK_API_VERSION_1_1) {
+    return {std::move(device), std::move(info),
+            fmt::format("Vulkan {}; 1.1 is needed", version_text(properties.apiVersion))};
+  }
+  if (tells_driver(device, properties.apiVersion)) {
+    const auto driver =
+        device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
+            .get<vk::PhysicalDeviceDriverProperties>();
+    info.driver = driver.driverName.data();
+    info.id = "vulkan:" + short_name(driver.driverID, info.driver);
+    const std::string_view version = driver.driverInfo.data();
+    if (!version.empty()) info.driver_version = version.substr(0, version.find('\n'));
+  }
+  return {std::move(device), std::move(info), {}};
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates(std::vector<vk::raii::PhysicalDevice> devices) {
+  std::vector<Candidate> result;
+  std::map<std::string, int> seen;
+  for (vk::raii::PhysicalDevice& device : devices) {
+    Candidate each = translated([&] { return candidate(std::move(device)); });
+    const int number = ++seen[each.info.id];
+    if (number > 1) each.info.id += fmt::format("#{}", number);
+    result.push_back(std::move(each));
+  }
+  return result;
+}
+
+}  // namespace triptych::vulkan_backend

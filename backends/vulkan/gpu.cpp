@@ -1,0 +1,92 @@
+#include "backends/vulkan/gpu.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+// The first family that computes and, if there is one, draws as well.
+std::uint32_t choose_family(const std::vector<vk::QueueFamilyProperties>& families,
+                            const char* device_name) {
+  constexpr auto both = vk::QueueFlagBits::eCompute | vk::QueueFlagBits::eGraphics;
+  for (const vk::QueueFlags wanted :
+       {vk::QueueFlags(both), vk::QueueFlags(vk::QueueFlagBits::eCompute)}) {
+    for (std::uint32_t family = 0; family < families.size(); ++family) {
+      if ((families[family].queueFlags & wanted) == wanted) return family;
+    }
+  }
+  throw core::NotSupported(fmt::format("{} has no queue for compute work", device_name));
+}
+
+}  // namespace
+
+Gpu open_gpu(const vk::raii::PhysicalDevice& physical) {
+  const vk::PhysicalDeviceProperties properties = physical.getProperties();
+  const auto families = physical.getQueueFamilyProperties();
+  const std::uint32_t family = choose_family(families, properties.deviceName.data());
+  const vk::PhysicalDeviceFeatures offered = physical.getFeatures();
+  const vk::PhysicalDeviceFeatures features{
+      .pipelineStatisticsQuery = offered.pipelineStatisticsQuery,
+      .fragmentStoresAndAtomics = offered.fragmentStoresAndAtomics};
+  constexpr float priority = 1.0F;
+  const vk::DeviceQueueCreateInfo queue{
+      .queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};
+  vk::raii::Device device(physical, vk::DeviceCreateInfo{.queueCreateInfoCount = 1,
+                                                         .pQueueCreateInfos = &queue,
+                                                         .pEnabledFeatures = &features});
+  vk::raii::Queue work = device.getQueue(family, 0);
+  vk::raii::CommandPool commands(device, vk::CommandPoolCreateInfo{.queueFamilyIndex = family});
+  return Gpu{.physical = physical,
+             .properties = properties,
+             .memory = physical.getMemoryProperties(),
+             .features = features,
+             .family = family,
+             .draws = bool(families[family].queueFlags & vk::QueueFlagBits::eGraphics),
+             .timestamp_bits = families[family].timestampValidBits,
+             .device = std::move(device),
+             .queue = std::move(work),
+             .commands = std::move(commands)};
+}
+
+vk::raii::CommandBuffer make_commands(const Gpu& gpu) {
+  vk::raii::CommandBuffers buffers(
+      gpu.device, vk::CommandBufferAllocateInfo{.commandPool = *gpu.commands,
+                                                .level = vk::CommandBufferLevel::ePrimary,
+                                                .commandBufferCount = 1});
+  return std::move(buffers.front());
+}
+
+void submit_and_wait(const Gpu& gpu, const vk::raii::CommandBuffer& commands,
+                     const vk::raii::Fence& fence) {
+  gpu.queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &*commands}, *fence);
+  constexpr std::uint64_t for_ever = std::numeric_limits<std::uint64_t>::max();
+  while (gpu.device.waitForFences(*fence, VK_TRUE, for_ever) == vk::Result::eTimeout) {
+  }
+}
+
+void barrier(const vk::raii::CommandBuffer& commands) {
+  using enum vk::AccessFlagBits;
+  const vk::MemoryBarrier all{.srcAccessMask = eMemoryWrite,
+                              .dstAccessMask = eMemoryRead | eMemoryWrite};
+  commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands,
+                           vk::PipelineStageFlagBits::eAllCommands, {}, all, {}, {});
+}
+
+void run_once(const Gpu& gpu, const Recording& record) {
+  const vk::raii::CommandBuffer commands = make_commands(gpu);
+  const vk::raii::Fence fence(gpu.device, vk::FenceCreateInfo{});
+  commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+  barrier(commands);
+  record(commands);
+  barrier(commands);
+  commands.end();
+  submit_and_wait(gpu, commands, fence);
+}
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,85 @@
+#include "backends/vulkan/instance.hpp"
+
+#include <array>
+#include <cstdlib>
+#include <string_view>
+
+#include "backends/vulkan/errors.hpp"
+#include "core/error.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
+
+bool validation_wanted() {
+  const char* value = std::getenv("TRIPTYCH_VULKAN_VALIDATION");
+  return value != nullptr && std::string_view(value) == "1";
+}
+
+vk::raii::Context load() {
+  try {
+    return vk::raii::Context();
+  } catch (const vk::SystemError&) {
+    throw;
+  } catch (const std::runtime_error& error) {  // what Vulkan-Hpp throws when dlopen fails
+    throw core::ApiError("dlopen(libvulkan)", "not found", error.what());
+  }
+}
+
+vk::raii::Instance make_instance(const vk::raii::Context& context) {
+  const vk::ApplicationInfo application{.pApplicationName = "triptych",
+                                        .apiVersion = VK_API_VERSION_1_1};
+  constexpr std::array<const char*, 1> layers{validation_layer};
+  constexpr std::array<const char*, 1> extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+  const std::uint32_t count = validation_wanted() ? 1 : 0;
+  return translated([&] {
+    return vk::raii::Instance(context, vk::InstanceCreateInfo{
+                                           .pApplicationInfo = &application,
+                                           .enabledLayerCount = count,
+                                           .ppEnabledLayerNames = layers.data(),
+                                           .enabledExtensionCount = count,
+                                           .ppEnabledExtensionNames = extensions.data(),
+                                       });
+  });
+}
+
+}  // namespace
+
+VKAPI_ATTR VkBool32 VKAPI_CALL Instance::keep_message(
+    VkDebugUtilsMessageSeverityFlagBitsEXT /*severity*/, VkDebugUtilsMessageTypeFlagsEXT /*types*/,
+    const VkDebugUtilsMessengerCallbackDataEXT* data, void* report) {
+  auto& kept = *static_cast<Report*>(report);
+  const std::lock_guard lock(kept.mutex);
+  kept.messages.emplace_back(data->pMessage);
+  return VK_FALSE;
+}
+
+Instance::Instance() : context_(load()), instance_(make_instance(context_)), messenger_(nullptr) {
+  if (!validation_wanted()) return;
+  messenger_ = translated([&] {
+    return vk::raii::DebugUtilsMessengerEXT(
+        instance_, vk::DebugUtilsMessengerCreateInfoEXT{
+                       .messageSeverity = vk::DebugUtilsMessageSeverityFlagBitsEXT::eWarning |
+                                          vk::DebugUtilsMessageSeverityFlagBitsEXT::eError,
+                       .messageType = vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation,
+                       .pfnUserCallback = &keep_message,
+                       .pUserData = report_.get(),
+                   });
+  });
+}
+
+std::vector<vk::raii::PhysicalDevice> Instance::physical_devices() const {
+  return translated(
+      [&] { return std::vector<vk::raii::PhysicalDevice>(vk::raii::PhysicalDevices(instance_)); });
+}
+
+void Instance::check_validation() const {
+  const std::lock_guard lock(report_->mutex);
+  if (report_->messages.empty()) return;
+  const std::string first = report_->messages.front();
+  report_->messages.clear();
+  throw core::ApiError(validation_layer, "message", first);
+}
+
+}  // namespace triptych::vulkan_backend

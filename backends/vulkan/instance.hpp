@@ -1,0 +1,38 @@
+#pragma once
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "backends/vulkan/vulkan.hpp"
+
+namespace triptych::vulkan_backend {
+
+// The loader and a VkInstance, with the validation layer where the environment asks for it.
+class Instance {
+ public:
+  // Throws core::ApiError when there is no loader, no driver or no validation layer to be had.
+  Instance();
+
+  [[nodiscard]] const vk::raii::Instance& get() const noexcept { return instance_; }
+  [[nodiscard]] std::vector<vk::raii::PhysicalDevice> physical_devices() const;
+
+  // Throws core::ApiError with the first message of the validation layer since the last call.
+  void check_validation() const;
+
+ private:
+  struct Report {
+    std::mutex mutex;  // the layer may report from any thread of the driver
+    std::vector<std::string> messages;
+  };
+  static VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(
+      VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT types,
+      const VkDebugUtilsMessengerCallbackDataEXT* data, void* report);
+
+  std::unique_ptr<Report> report_ = std::make_unique<Report>();
+  vk::raii::Context context_;
+  vk::raii::Instance instance_;
+  vk::raii::DebugUtilsMessengerEXT messenger_;
+};
+
+}  // namespace triptych::vulkan_backend

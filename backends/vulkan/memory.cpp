@@ -1,0 +1,145 @@
+#include "backends/vulkan/memory.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+std::uint32_t memory_type(const Gpu& gpu, std::uint32_t allowed, Place place) {
+  using enum vk::MemoryPropertyFlagBits;
+  const vk::MemoryPropertyFlags host = eHostVisible | eHostCoherent;
+  // In order of preference; the last of each is guaranteed by the specification.
+  std::array<vk::MemoryPropertyFlags, 2> wishes{};
+  if (place == Place::device) wishes = {eDeviceLocal, {}};
+  if (place == Place::upload) wishes = {host, host};
+  if (place == Place::read_back) wishes = {host | eHostCached, host};
+  for (const vk::MemoryPropertyFlags wish : wishes) {
+    for (std::uint32_t type = 0; type < gpu.memory.memoryTypeCount; ++type) {
+      const bool fits = (gpu.memory.memoryTypes[type].propertyFlags & wish) == wish;
+      if ((allowed >> type & 1U) != 0 && fits) return type;
+    }
+  }
+  throw core::NotSupported("the device has no memory type for this resource");
+}
+
+vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& needed, Place place) {
+  return {gpu.device, vk::MemoryAllocateInfo{
+                          .allocationSize = needed.size,
+                          .memoryTypeIndex = memory_type(gpu, needed.memoryTypeBits, place)}};
+}
+
+void change_layout(const vk::raii::CommandBuffer& commands, const Image& image,
+                   vk::ImageLayout from, vk::ImageLayout to) {
+  const vk::ImageMemoryBarrier barrier{
+      .srcAccessMask = vk::AccessFlagBits::eMemoryWrite,
+      .dstAccessMask = vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite,
+      .oldLayout = from,
+      .newLayout = to,
+      .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+      .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+      .image = image.get(),
+      .subresourceRange = whole_colour};
+  commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands,
+                           vk::PipelineStageFlagBits::eAllCommands, {}, {}, {}, barrier);
+}
+
+// Makes transfer writes visible to the host once the submission's fence is signalled.
+void release_to_host(const vk::raii::CommandBuffer& commands) {
+  const vk::MemoryBarrier barrier{.srcAccessMask = vk::AccessFlagBits::eTransferWrite,
+                                  .dstAccessMask = vk::AccessFlagBits::eHostRead};
+  commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost,
+                           {}, barrier, {}, {});
+}
+
+}  // namespace
+
+Buffer::Buffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, Place place)
+    : size_(size),
+      memory_(nullptr),
+      buffer_(gpu.device, vk::BufferCreateInfo{.size = size, .usage = usage}) {
+  memory_ = allocate(gpu, buffer_.getMemoryRequirements(), place);
+  buffer_.bindMemory(*memory_, 0);
+  if (place == Place::device) return;
+  mapped_ = {static_cast<std::byte*>(memory_.mapMemory(0, size)), static_cast<std::size_t>(size)};
+}
+
+Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D extent,
+             vk::ImageUsageFlags usage)
+    : extent_(extent),
+      memory_(nullptr),
+      image_(gpu.device, vk::ImageCreateInfo{.imageType = type,
+                                             .format = format,
+                                             .extent = extent,
+                                             .mipLevels = 1,
+                                             .arrayLayers = 1,
+                                             .usage = usage}),
+      view_(nullptr) {
+  memory_ = allocate(gpu, image_.getMemoryRequirements(), Place::device);
+  image_.bindMemory(*memory_, 0);
+  // The three image types and their plain view types have the same numbers.
+  view_ = {gpu.device, vk::ImageViewCreateInfo{.image = *image_,
+                                               .viewType = static_cast<vk::ImageViewType>(type),
+                                               .format = format,
+                                               .subresourceRange = whole_colour}};
+}
+
+Buffer make_buffer(const Gpu& gpu, std::span<const std::byte> bytes, vk::BufferUsageFlags usage) {
+  const Buffer staging(gpu, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc, Place::upload);
+  std::ranges::copy(bytes, staging.mapped().begin());
+  Buffer buffer(gpu, bytes.size(), usage | vk::BufferUsageFlagBits::eTransferDst, Place::device);
+  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
+    commands.copyBuffer(staging.get(), buffer.get(), vk::BufferCopy{.size = bytes.size()});
+  });
+  return buffer;
+}
+
+void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texels) {
+  constexpr std::size_t staging_goal = std::size_t{16} << 20;
+  const vk::Extent3D extent = image.extent();
+  const std::size_t slice = texels.size() / extent.depth;
+  const std::size_t slices = std::clamp<std::size_t>(staging_goal / slice, 1, extent.depth);
+  const Buffer staging(gpu, slices * slice, vk::BufferUsageFlagBits::eTransferSrc, Place::upload);
+  for (std::size_t z = 0; z < extent.depth; z += slices) {
+    const std::size_t count = std::min(slices, extent.depth - z);
+    std::ranges::copy(texels.subspan(z * slice, count * slice), staging.mapped().begin());
+    run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
+      using enum vk::ImageLayout;
+      if (z == 0) change_layout(commands, image, eUndefined, eTransferDstOptimal);
+      commands.copyBufferToImage(
+          staging.get(), image.get(), eTransferDstOptimal,
+          vk::BufferImageCopy{
+              .imageSubresource = colour_layer,
+              .imageOffset = {.z = static_cast<std::int32_t>(z)},
+              .imageExtent = {extent.width, extent.height, static_cast<std::uint32_t>(count)}});
+      if (z + count == extent.depth) {
+        change_layout(commands, image, eTransferDstOptimal, eShaderReadOnlyOptimal);
+      }
+    });
+  }
+}
+
+void download(const Gpu& gpu, const Buffer& from, std::span<std::byte> to) {
+  const Buffer staging(gpu, to.size(), vk::BufferUsageFlagBits::eTransferDst, Place::read_back);
+  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
+    commands.copyBuffer(from.get(), staging.get(), vk::BufferCopy{.size = to.size()});
+    release_to_host(commands);
+  });
+  std::memcpy(to.data(), staging.mapped().data(), to.size());
+}
+
+void download(const Gpu& gpu, const Image& from, std::span<std::byte> to) {
+  const Buffer staging(gpu, to.size(), vk::BufferUsageFlagBits::eTransferDst, Place::read_back);
+  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
+    commands.copyImageToBuffer(
+        from.get(), vk::ImageLayout::eTransferSrcOptimal, staging.get(),
+        vk::BufferImageCopy{.imageSubresource = colour_layer, .imageExtent = from.extent()});
+    release_to_host(commands);
+  });
+  std::memcpy(to.data(), staging.mapped().data(), to.size());
+}
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,71 @@
+#pragma once
+// Buffers and images with the memory they own, and moving data in and out of them.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "backends/vulkan/gpu.hpp"
+
+namespace triptych::vulkan_backend {
+
+enum class Place : std::uint8_t {
+  device,    // fastest for the device
+  upload,    // written by the host, mapped
+  read_back  // read by the host, mapped, cached where there is such memory
+};
+
+// A VkBuffer with its VkDeviceMemory.
+class Buffer {
+ public:
+  Buffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, Place place);
+
+  [[nodiscard]] vk::Buffer get() const noexcept { return *buffer_; }
+  [[nodiscard]] vk::DeviceSize size() const noexcept { return size_; }
+  // The whole buffer; empty for Place::device.
+  [[nodiscard]] std::span<std::byte> mapped() const noexcept { return mapped_; }
+
+ private:
+  vk::DeviceSize size_;
+  vk::raii::DeviceMemory memory_;
+  vk::raii::Buffer buffer_;
+  std::span<std::byte> mapped_;
+};
+
+// A VkImage of one level and layer in device memory, with its VkImageView.
+class Image {
+ public:
+  Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D extent,
+        vk::ImageUsageFlags usage);
+
+  [[nodiscard]] vk::Image get() const noexcept { return *image_; }
+  [[nodiscard]] vk::ImageView view() const noexcept { return *view_; }
+  [[nodiscard]] vk::Extent3D extent() const noexcept { return extent_; }
+
+ private:
+  vk::Extent3D extent_;
+  vk::raii::DeviceMemory memory_;
+  vk::raii::Image image_;
+  vk::raii::ImageView view_;
+};
+
+inline constexpr vk::ImageSubresourceRange whole_colour{
+    .aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = 1};
+inline constexpr vk::ImageSubresourceLayers colour_layer{
+    .aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1};
+
+// A device-local buffer holding `bytes`.
+[[nodiscard]] Buffer make_buffer(const Gpu& gpu, std::span<const std::byte> bytes,
+                                 vk::BufferUsageFlags usage);
+
+// Fills a fresh image, x fastest, and leaves it in eShaderReadOnlyOptimal. Goes through a small
+// staging buffer slice by slice, so that the device never holds a second copy.
+void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texels);
+
+// Copies the buffer's first bytes to the host.
+void download(const Gpu& gpu, const Buffer& from, std::span<std::byte> to);
+
+// Copies an image in eTransferSrcOptimal to the host, x fastest.
+void download(const Gpu& gpu, const Image& from, std::span<std::byte> to);
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,65 @@
+#include "backends/vulkan/pipeline.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+#include "core/hash.hpp"
+#include "triptych_backend_vulkan_embedded.hpp"
+
+namespace triptych::vulkan_backend {
+
+std::string_view spirv(std::string_view name) {
+  const std::string_view code = embedded(name);
+  if (code.empty()) throw std::out_of_range(fmt::format("no embedded shader {}", name));
+  return code;
+}
+
+vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view name) {
+  const std::string_view code = spirv(name);
+  std::vector<std::uint32_t> words(code.size() / sizeof(std::uint32_t));  // aligned, as Vulkan asks
+  std::memcpy(words.data(), code.data(), code.size());
+  return {gpu.device, vk::ShaderModuleCreateInfo{.codeSize = code.size(), .pCode = words.data()}};
+}
+
+const std::array<vk::SpecializationMapEntry, 6>& constant_entries() {
+  static constexpr std::array<vk::SpecializationMapEntry, 6> entries{{
+      {.constantID = 0, .offset = offsetof(Constants, manual_sampler), .size = 4},
+      {.constantID = 1, .offset = offsetof(Constants, shading), .size = 4},
+      {.constantID = 2, .offset = offsetof(Constants, speed_of_light), .size = 4},
+      {.constantID = 3, .offset = offsetof(Constants, fault), .size = 4},
+      {.constantID = 10, .offset = offsetof(Constants, group_width), .size = 4},
+      {.constantID = 11, .offset = offsetof(Constants, group_height), .size = 4},
+  }};
+  return entries;
+}
+
+vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
+                                         std::string_view shader, const Constants& constants) {
+  const auto& entries = constant_entries();
+  const vk::SpecializationInfo specialization{
+      .mapEntryCount = static_cast<std::uint32_t>(entries.size()),
+      .pMapEntries = entries.data(),
+      .dataSize = sizeof constants,
+      .pData = &constants};
+  const vk::raii::ShaderModule module = make_shader(gpu, shader);
+  return {gpu.device, nullptr,
+          vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
+                                                  .module = *module,
+                                                  .pName = "main",
+                                                  .pSpecializationInfo = &specialization},
+                                        .layout = *layout.pipeline}};
+}
+
+std::string code_hash(std::string_view shader, const Constants& constants) {
+  std::string text(spirv(shader));
+  text += fmt::format("manual_sampler={} shading={} speed_of_light={} fault={} group={}x{}",
+                      constants.manual_sampler, constants.shading, constants.speed_of_light,
+                      constants.fault, constants.group_width, constants.group_height);
+  return core::content_hash(text);
+}
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,40 @@
+#pragma once
+// Device code: SPIR-V built with the program, specialised when a technique is prepared.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "backends/vulkan/descriptors.hpp"
+#include "backends/vulkan/gpu.hpp"
+
+namespace triptych::vulkan_backend {
+
+// Specialization constants, in the order and with the numbers of shaders/prelude.glsl (0…) and
+// raycast.comp (10, 11).
+struct Constants {
+  std::int32_t manual_sampler = 1;
+  std::int32_t shading = 0;
+  std::int32_t speed_of_light = 0;
+  std::int32_t fault = 0;
+  std::uint32_t group_width = 8;
+  std::uint32_t group_height = 8;
+};
+static_assert(sizeof(Constants) == 6 * 4);
+
+// The embedded SPIR-V by its file name, "raycast.comp.spv".
+[[nodiscard]] std::string_view spirv(std::string_view name);
+[[nodiscard]] vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view name);
+
+[[nodiscard]] vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
+                                                       std::string_view shader,
+                                                       const Constants& constants);
+
+// Content hash of the named SPIR-V and the constants.
+[[nodiscard]] std::string code_hash(std::string_view shader, const Constants& constants);
+
+// Map entries for vk::SpecializationInfo over Constants.
+[[nodiscard]] const std::array<vk::SpecializationMapEntry, 6>& constant_entries();
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,230 @@
+// The same raycaster as a fragment shader: one triangle over a float target.
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "backends/vulkan/errors.hpp"
+#include "backends/vulkan/frames.hpp"
+#include "backends/vulkan/techniques.hpp"
+#include "backends/vulkan/volume_resources.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+constexpr std::string_view vertex_shader = "raycast_fragment.vert.spv";
+constexpr std::string_view timed_shader = "raycast_fragment.frag.spv";
+constexpr std::string_view counting_shader = "raycast_fragment_counting.frag.spv";
+constexpr vk::Format target_format = vk::Format::eR32G32B32A32Sfloat;
+
+vk::QueryPipelineStatisticFlags draw_statistics() {
+  using enum vk::QueryPipelineStatisticFlagBits;
+  return eInputAssemblyVertices | eInputAssemblyPrimitives | eVertexShaderInvocations |
+         eClippingInvocations | eClippingPrimitives | eFragmentShaderInvocations;
+}
+
+// Keeps nothing of the target's old content and leaves it ready to be copied from.
+vk::raii::RenderPass make_render_pass(const Gpu& gpu) {
+  const vk::AttachmentDescription target{.format = target_format,
+                                         .loadOp = vk::AttachmentLoadOp::eDontCare,
+                                         .storeOp = vk::AttachmentStoreOp::eStore,
+                                         .stencilLoadOp = vk::AttachmentLoadOp::eDontCare,
+                                         .stencilStoreOp = vk::AttachmentStoreOp::eDontCare,
+                                         .initialLayout = vk::ImageLayout::eUndefined,
+                                         .finalLayout = vk::ImageLayout::eTransferSrcOptimal};
+  const vk::AttachmentReference colour{.attachment = 0,
+                                       .layout = vk::ImageLayout::eColorAttachmentOptimal};
+  const vk::SubpassDescription subpass{.pipelineBindPoint = vk::PipelineBindPoint::eGraphics,
+                                       .colorAttachmentCount = 1,
+                                       .pColorAttachments = &colour};
+  return {gpu.device, vk::RenderPassCreateInfo{.attachmentCount = 1,
+                                               .pAttachments = &target,
+                                               .subpassCount = 1,
+                                               .pSubpasses = &subpass}};
+}
+
+vk::raii::Framebuffer make_framebuffer(const Gpu& gpu, const vk::raii::RenderPass& pass,
+                                       const Image& target) {
+  const vk::ImageView view = target.view();
+  return {gpu.device, vk::FramebufferCreateInfo{.renderPass = *pass,
+                                                .attachmentCount = 1,
+                                                .pAttachments = &view,
+                                                .width = target.extent().width,
+                                                .height = target.extent().height,
+                                                .layers = 1}};
+}
+
+// A full-screen triangle without vertex buffers, depth or blending; the scissor is set at draw
+// time.
+vk::raii::Pipeline make_draw_pipeline(const Gpu& gpu, const Layout& layout,
+                                      const vk::raii::RenderPass& pass, vk::Extent3D extent,
+                                      std::string_view fragment_shader,
+                                      const Constants& constants) {
+  const auto& entries = constant_entries();
+  const vk::SpecializationInfo specialization{
+      .mapEntryCount = static_cast<std::uint32_t>(entries.size()),
+      .pMapEntries = entries.data(),
+      .dataSize = sizeof constants,
+      .pData = &constants};
+  const vk::raii::ShaderModule vertex = make_shader(gpu, vertex_shader);
+  const vk::raii::ShaderModule fragment = make_shader(gpu, fragment_shader);
+  const std::array<vk::PipelineShaderStageCreateInfo, 2> stages{{
+      {.stage = vk::ShaderStageFlagBits::eVertex, .module = *vertex, .pName = "main"},
+      {.stage = vk::ShaderStageFlagBits::eFragment,
+       .module = *fragment,
+       .pName = "main",
+       .pSpecializationInfo = &specialization},
+  }};
+  const vk::PipelineVertexInputStateCreateInfo no_vertices;
+  const vk::PipelineInputAssemblyStateCreateInfo triangles{
+      .topology = vk::PrimitiveTopology::eTriangleList};
+  const vk::Viewport viewport{.width = static_cast<float>(extent.width),
+                              .height = static_cast<float>(extent.height),
+                              .maxDepth = 1};
+  const vk::PipelineViewportStateCreateInfo viewports{
+      .viewportCount = 1, .pViewports = &viewport, .scissorCount = 1};
+  const vk::PipelineRasterizationStateCreateInfo fill{.lineWidth = 1};
+  const vk::PipelineMultisampleStateCreateInfo one_sample{.rasterizationSamples =
+                                                              vk::SampleCountFlagBits::e1};
+  using enum vk::ColorComponentFlagBits;
+  const vk::PipelineColorBlendAttachmentState overwrite{.colorWriteMask = eR | eG | eB | eA};
+  const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = 1,
+                                                    .pAttachments = &overwrite};
+  const vk::DynamicState scissor = vk::DynamicState::eScissor;
+  const vk::PipelineDynamicStateCreateInfo dynamic{.dynamicStateCount = 1,
+                                                   .pDynamicStates = &scissor};
+  return {gpu.device, nullptr,
+          vk::GraphicsPipelineCreateInfo{.stageCount = static_cast<std::uint32_t>(stages.size()),
+                                         .pStages = stages.data(),
+                                         .pVertexInputState = &no_vertices,
+                                         .pInputAssemblyState = &triangles,
+                                         .pViewportState = &viewports,
+                                         .pRasterizationState = &fill,
+                                         .pMultisampleState = &one_sample,
+                                         .pColorBlendState = &blend,
+                                         .pDynamicState = &dynamic,
+                                         .layout = *layout.pipeline,
+                                         .renderPass = *pass}};
+}
+
+class FragmentFrames final : public measure::Prepared {
+ public:
+  FragmentFrames(const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work);
+
+  [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
+  [[nodiscard]] core::Image image() override;
+  [[nodiscard]] std::string kernel_hash() const override {
+    return code_hash(timed_shader, constants_);
+  }
+
+ private:
+  void draw(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline,
+            Pass pass) const;
+  void draw_again(const vk::raii::CommandBuffer& commands) const;
+  void prepare_counters();
+
+  const Gpu& gpu_;
+  const Instance& instance_;
+  Constants constants_;
+  int extra_work_stride_;
+  Image target_;
+  VolumeResources resources_;
+  vk::raii::RenderPass render_pass_;
+  vk::raii::Framebuffer framebuffer_;
+  vk::raii::Pipeline pipeline_;
+  vk::raii::Pipeline counting_pipeline_;  // null until a counting frame is asked for
+  Frames frames_;
+};
+
+FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
+                               const measure::VolumeWork& work)
+    : gpu_(gpu),
+      instance_(instance),
+      constants_(constants_of(gpu, work)),
+      extra_work_stride_(work.options.extra_work_stride),
+      target_(gpu, vk::ImageType::e2D, target_format,
+              {static_cast<std::uint32_t>(work.scene.width),
+               static_cast<std::uint32_t>(work.scene.height), 1},
+              vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc),
+      resources_(gpu, work, nullptr),
+      render_pass_(make_render_pass(gpu)),
+      framebuffer_(make_framebuffer(gpu, render_pass_, target_)),
+      pipeline_(make_draw_pipeline(gpu, resources_.layout(), render_pass_, target_.extent(),
+                                   timed_shader, constants_)),
+      counting_pipeline_(nullptr),
+      frames_(gpu, draw_statistics(), [this](const vk::raii::CommandBuffer& commands) {
+        draw(commands, pipeline_, Pass::whole);
+      }) {
+  instance_.check_validation();
+}
+
+void FragmentFrames::draw(const vk::raii::CommandBuffer& commands,
+                          const vk::raii::Pipeline& pipeline, Pass pass) const {
+  const vk::Extent3D extent = target_.extent();
+  const vk::Rect2D everything{.extent = {extent.width, extent.height}};
+  commands.beginRenderPass(
+      {.renderPass = *render_pass_, .framebuffer = *framebuffer_, .renderArea = everything},
+      vk::SubpassContents::eInline);
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *resources_.layout().pipeline, 0,
+                              resources_.set(pass), {});
+  commands.setScissor(0, everything);
+  commands.draw(3, 1, 0, 0);
+  if (pass == Pass::whole && extra_work_stride_ > 0) draw_again(commands);
+  commands.endRenderPass();
+}
+
+// Draws 1/stride of the rows once more, in bands spread over the picture. Bands are four rows high
+// because rasterizers shade blocks: a single row would cost as much as the block it lies in.
+void FragmentFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
+  constexpr std::uint32_t band = 4;
+  const vk::Extent3D extent = target_.extent();
+  const std::uint32_t interval = band * static_cast<std::uint32_t>(extra_work_stride_);
+  for (std::uint32_t begin = 0; begin < extent.height; begin += interval) {
+    const std::uint32_t middle = (begin + interval / 2) / band * band;
+    const std::uint32_t top = std::min(middle, (extent.height - 1) / band * band);
+    commands.setScissor(0,
+                        vk::Rect2D{.offset = {.y = static_cast<std::int32_t>(top)},
+                                   .extent = {extent.width, std::min(band, extent.height - top)}});
+    commands.draw(3, 1, 0, 0);
+  }
+}
+
+void FragmentFrames::prepare_counters() {
+  resources_.bind_counters();
+  counting_pipeline_ = make_draw_pipeline(gpu_, resources_.layout(), render_pass_, target_.extent(),
+                                          counting_shader, constants_);
+  frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
+    draw(commands, counting_pipeline_, Pass::counting);
+  });
+}
+
+measure::Frame FragmentFrames::frame(measure::Purpose purpose) {
+  return translated([&] {
+    const bool counting = purpose == measure::Purpose::counters;
+    if (counting && !frames_.can_count()) prepare_counters();
+    measure::Frame frame = frames_.submit(purpose);
+    if (counting) frame.counts = resources_.read_counters();
+    instance_.check_validation();
+    return frame;
+  });
+}
+
+core::Image FragmentFrames::image() {
+  return translated([&] {
+    core::Image image(static_cast<int>(target_.extent().width),
+                      static_cast<int>(target_.extent().height));
+    download(gpu_, target_, std::as_writable_bytes(std::span(image.rgba)));
+    instance_.check_validation();
+    return image;
+  });
+}
+
+}  // namespace
+
+std::unique_ptr<measure::Prepared> prepare_raycast_fragment(const Gpu& gpu,
+                                                            const Instance& instance,
+                                                            const measure::VolumeWork& work) {
+  return std::make_unique<FragmentFrames>(gpu, instance, work);
+}
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,8 @@
+// What the shared GLSL needs to be Vulkan: one descriptor set, compile-time constants as specialization
+// constants (pipeline.hpp: Constants). TRI_COUNT is not one of them: it is set when the SPIR-V is built,
+// so that the timed build holds no trace of counting.
+#define TRI_BINDING(n) layout(set = 0, binding = n)
+layout(constant_id = 0) const int TRI_MANUAL_SAMPLER = 1;
+layout(constant_id = 1) const int TRI_SHADING = 0;
+layout(constant_id = 2) const int TRI_SPEED_OF_LIGHT = 0;
+layout(constant_id = 3) const int TRI_FAULT = 0;

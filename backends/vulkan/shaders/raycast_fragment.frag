@@ -1,0 +1,11 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "prelude.glsl"
+#include "portable/prelude.glsl"
+#include "portable/volume_math.h"
+#include "volume/raycast/parameters.glsl"
+#include "volume/raycast/raycast.glsl"
+
+layout(location = 0) out vec4 colour;
+
+void main() { colour = raycast(ivec2(gl_FragCoord.xy)); }

@@ -1,0 +1,14 @@
+// The fetches and look-ups of raycast alone: the same kernel, specialised to sum what it reads.
+#include "backends/vulkan/compute_frames.hpp"
+#include "backends/vulkan/techniques.hpp"
+
+namespace triptych::vulkan_backend {
+
+std::unique_ptr<measure::Prepared> prepare_speed_of_light(const Gpu& gpu, const Instance& instance,
+                                                          const measure::VolumeWork& work) {
+  Constants constants = constants_of(gpu, work);
+  constants.speed_of_light = 1;
+  return std::make_unique<ComputeFrames>(gpu, instance, work, constants);
+}
+
+}  // namespace triptych::vulkan_backend

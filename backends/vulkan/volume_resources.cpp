@@ -1,0 +1,163 @@
+#include "backends/vulkan/volume_resources.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "technique/volume/bricks.hpp"
+#include "technique/volume/raycast_parameters.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+constexpr std::uint32_t passes = 3;
+
+// What an integer texel of this format is divided by on its way to the shader.
+double stored_maximum(scene::VoxelFormat format) {
+  switch (format) {
+    case scene::VoxelFormat::u8:
+      return 255;
+    case scene::VoxelFormat::u16:
+      return 65535;
+    case scene::VoxelFormat::f32:
+      return 1;
+  }
+  return 1;
+}
+
+Buffer upload_parameters(const Gpu& gpu, const measure::VolumeWork& work, int row_stride) {
+  technique::RaycastParameters parameters = technique::raycast_parameters(
+      work.scene, work.options, stored_maximum(work.scene.grid->format));
+  parameters.viewport[2] = row_stride;
+  return make_buffer(gpu, std::as_bytes(std::span(&parameters, 1)),
+                     vk::BufferUsageFlagBits::eUniformBuffer);
+}
+
+Buffer upload_bricks(const Gpu& gpu, const measure::VolumeWork& work) {
+  std::vector<std::uint32_t> visible{1};  // read by nothing when nothing is skipped
+  if (work.options.skip == technique::Skip::bricks) {
+    visible = technique::brick_visibility(technique::brick_ranges(*work.scene.grid),
+                                          work.scene.transfer_function);
+  }
+  return make_buffer(gpu, std::as_bytes(std::span(visible)),
+                     vk::BufferUsageFlagBits::eStorageBuffer);
+}
+
+Image upload_table(const Gpu& gpu, const scene::TransferFunction& function) {
+  Image image(gpu, vk::ImageType::e1D, vk::Format::eR32G32B32A32Sfloat,
+              {static_cast<std::uint32_t>(function.entries.size()), 1, 1},
+              vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
+  upload(gpu, image, std::as_bytes(std::span(function.entries)));
+  return image;
+}
+
+std::array<vk::DescriptorSetLayoutBinding, 6> volume_bindings() {
+  using enum vk::DescriptorType;
+  constexpr auto stages = vk::ShaderStageFlagBits::eCompute | vk::ShaderStageFlagBits::eFragment;
+  const auto binding = [&](Binding number, vk::DescriptorType type) {
+    return vk::DescriptorSetLayoutBinding{
+        .binding = number, .descriptorType = type, .descriptorCount = 1, .stageFlags = stages};
+  };
+  return {binding(parameters_binding, eUniformBuffer),
+          binding(volume_binding, eCombinedImageSampler),
+          binding(transfer_binding, eCombinedImageSampler),
+          binding(bricks_binding, eStorageBuffer),
+          binding(output_binding, eStorageBuffer),
+          binding(counters_binding, eStorageBuffer)};
+}
+
+std::size_t pixel_count(const scene::VolumeScene& scene) {
+  return static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
+}
+
+}  // namespace
+
+vk::Format texture_format(scene::VoxelFormat format) {
+  switch (format) {
+    case scene::VoxelFormat::u8:
+      return vk::Format::eR8Unorm;
+    case scene::VoxelFormat::u16:
+      return vk::Format::eR16Unorm;
+    case scene::VoxelFormat::f32:
+      return vk::Format::eR32Sfloat;
+  }
+  return vk::Format::eUndefined;
+}
+
+Image upload_volume(const Gpu& gpu, const scene::VoxelGrid& grid) {
+  Image image(gpu, vk::ImageType::e3D, texture_format(grid.format),
+              {static_cast<std::uint32_t>(grid.size[0]), static_cast<std::uint32_t>(grid.size[1]),
+               static_cast<std::uint32_t>(grid.size[2])},
+              vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
+  upload(gpu, image, grid.data);
+  return image;
+}
+
+VolumeResources::VolumeResources(const Gpu& gpu, const measure::VolumeWork& work,
+                                 const Buffer* output)
+    : gpu_(gpu),
+      pixels_(pixel_count(work.scene)),
+      output_(output),
+      volume_(upload_volume(gpu, *work.scene.grid)),
+      table_(upload_table(gpu, work.scene.transfer_function)),
+      bricks_(upload_bricks(gpu, work)),
+      parameters_(upload_parameters(gpu, work, 1)),
+      strided_parameters_(upload_parameters(gpu, work, work.options.extra_work_stride)),
+      linear_(make_sampler(gpu, vk::Filter::eLinear)),
+      nearest_(make_sampler(gpu, vk::Filter::eNearest)),
+      hardware_filter_(work.options.sampler == technique::Sampler::hardware),
+      layout_(make_layout(gpu, volume_bindings())),
+      pool_(make_pool(gpu, passes)),
+      sets_(allocate_sets(gpu, pool_, layout_, passes)) {
+  write_set(Pass::whole, parameters_);
+  write_set(Pass::strided, strided_parameters_);
+  write_set(Pass::counting, parameters_);
+}
+
+void VolumeResources::write_set(Pass pass, const Buffer& parameters) const {
+  using enum vk::DescriptorType;
+  const vk::DescriptorSet to = set(pass);
+  bind_buffer(gpu_, to, parameters_binding, eUniformBuffer, parameters);
+  bind_texture(gpu_, to, volume_binding, volume_, hardware_filter_ ? linear_ : nearest_);
+  bind_texture(gpu_, to, transfer_binding, table_, nearest_);
+  bind_buffer(gpu_, to, bricks_binding, eStorageBuffer, bricks_);
+  if (output_ != nullptr) bind_buffer(gpu_, to, output_binding, eStorageBuffer, *output_);
+}
+
+vk::DescriptorSet VolumeResources::set(Pass pass) const {
+  return sets_.at(static_cast<std::size_t>(pass));
+}
+
+// A set that recorded commands use must not be written again: hence one of its own for counting.
+void VolumeResources::bind_counters() {
+  counters_.emplace(gpu_, pixels_ * technique::raycast_counter_stride * sizeof(std::uint32_t),
+                    vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc,
+                    Place::device);
+  bind_buffer(gpu_, set(Pass::counting), counters_binding, vk::DescriptorType::eStorageBuffer,
+              *counters_);
+}
+
+record::Counts VolumeResources::read_counters() const {
+  constexpr std::size_t stride = technique::raycast_counter_stride;
+  std::vector<std::uint32_t> values(pixels_ * stride);
+  download(gpu_, counters_.value(), std::as_writable_bytes(std::span(values)));
+  std::array<std::uint64_t, technique::raycast_counters.size()> sums{};
+  for (std::size_t pixel = 0; pixel < pixels_; ++pixel) {
+    for (std::size_t k = 0; k < sums.size(); ++k) sums.at(k) += values[pixel * stride + k];
+  }
+  record::Counts counts{{"rays", pixels_}};
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    counts.emplace(technique::raycast_counters.at(k), sums.at(k));
+  }
+  return counts;
+}
+
+Constants constants_of(const Gpu& gpu, const measure::VolumeWork& work) {
+  Constants constants{.manual_sampler = work.options.sampler == technique::Sampler::manual ? 1 : 0,
+                      .shading = work.scene.shading.enabled ? 1 : 0,
+                      .fault = static_cast<std::int32_t>(work.options.fault)};
+  if (gpu.is_cpu()) constants.group_height = 1;
+  return constants;
+}
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,69 @@
+#pragma once
+// What every volume technique needs on the device: voxels, transfer function, bricks, parameters.
+
+#include <optional>
+
+#include "backends/vulkan/descriptors.hpp"
+#include "backends/vulkan/memory.hpp"
+#include "backends/vulkan/pipeline.hpp"
+#include "measure/backend.hpp"
+
+namespace triptych::vulkan_backend {
+
+// Bindings of technique/volume/raycast/parameters.glsl, and the two that are this backend's.
+enum Binding : std::uint32_t {
+  parameters_binding = 0,
+  volume_binding = 1,
+  transfer_binding = 2,
+  bricks_binding = 3,
+  output_binding = 4,  // compute only
+  counters_binding = 5
+};
+
+[[nodiscard]] vk::Format texture_format(scene::VoxelFormat format);
+
+[[nodiscard]] Image upload_volume(const Gpu& gpu, const scene::VoxelGrid& grid);
+
+// A pass over the picture.
+enum class Pass : std::uint8_t {
+  whole,
+  strided,  // every n-th row, n from the options' extra_work_stride
+  counting  // all rows, with the counters bound
+};
+
+class VolumeResources {
+ public:
+  // `output`, borrowed, is bound where it is given.
+  VolumeResources(const Gpu& gpu, const measure::VolumeWork& work, const Buffer* output);
+
+  [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
+  [[nodiscard]] vk::DescriptorSet set(Pass pass) const;
+
+  // Makes the counters' buffer, one block per pixel, and the set for Pass::counting. Called once.
+  void bind_counters();
+  // Sums the counters over all pixels; adds "rays".
+  [[nodiscard]] record::Counts read_counters() const;
+
+ private:
+  void write_set(Pass pass, const Buffer& parameters) const;
+
+  const Gpu& gpu_;
+  std::size_t pixels_;
+  const Buffer* output_;
+  Image volume_;
+  Image table_;
+  Buffer bricks_;
+  Buffer parameters_;
+  Buffer strided_parameters_;
+  vk::raii::Sampler linear_;
+  vk::raii::Sampler nearest_;
+  bool hardware_filter_;
+  std::optional<Buffer> counters_;
+  Layout layout_;
+  vk::raii::DescriptorPool pool_;
+  std::vector<vk::DescriptorSet> sets_;  // freed with the pool
+};
+
+[[nodiscard]] Constants constants_of(const Gpu& gpu, const measure::VolumeWork& work);
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,7 @@
+#pragma once
+// Vulkan-Hpp as this backend uses it: RAII handles that call through the loader found at run time.
+// Precompiled, because it is a quarter of a million lines.
+
+#define VK_NO_PROTOTYPES
+#define VULKAN_HPP_NO_STRUCT_CONSTRUCTORS  // designated initialisers
+#include <vulkan/vulkan_raii.hpp>
