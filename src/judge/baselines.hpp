@@ -2,14 +2,17 @@
 // baselines/<suite>/<plan>/ : what was accepted. Text, sorted, one line per value, so that a change
 // can be reviewed. `accept` is the only writer.
 //   images/<scene hash>.exr        the truth of each scene as it was accepted, device-independent
-//   images.json                    scene → {file, content hash}
-//   counters.json                  configuration → counter → value
-//   bits/<device key>.json         configuration → {image hash, kernel hash}: same device, same
-//   bits statistics/<driver>.json       configuration → statistic → value timings/<device key>.json
-//   configuration → one median per accepted run, with clock and kernel hash history.json every
-//   accept: date, reason, devices, what changed
-// and baselines/waivers.json: device, test, reason, expiry.
+//   images.json                    {scene: {file, content hash}}
+//   counters.json                  {configuration: {counter: {device id: value}}}; one line per
+//   counter bits/<device key>.json         {device, configurations: {configuration: {image hash,
+//   kernel hash}}} statistics/<driver>.json       {device, configurations: {configuration:
+//   {statistic: value}}} timings/<device key>.json      {device, configurations: {configuration:
+//   [{run, median, clock, kernel
+//                                  hash}, …]}}, one entry per accepted run, oldest first
+//   history.json                   every accept: date, reason, run, device keys, what changed
+// and baselines/waivers.json: [{device, test, reason, expiry}, …].
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -36,6 +39,9 @@ struct StoredBits {
   std::string kernel_hash;
 };
 
+// Counter → device id → value.
+using StoredCounters = std::map<std::string, std::map<std::string, std::uint64_t>>;
+
 struct Waiver {
   std::string device;  // glob
   std::string test;    // glob over test ids
@@ -51,15 +57,23 @@ class Baselines {
 
   [[nodiscard]] bool present() const;
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  // nullopt also when the file that images.json names is gone; InputError when it is another one.
   [[nodiscard]] std::optional<core::Image> image(const std::string& scene) const;
-  [[nodiscard]] std::optional<record::Counts> counters(const std::string& configuration) const;
+  // Of every device; nullopt: the configuration was never accepted.
+  [[nodiscard]] std::optional<StoredCounters> counters(const std::string& configuration) const;
   [[nodiscard]] std::optional<StoredBits> bits(const record::Device& device,
                                                const std::string& configuration) const;
   // nullopt: nothing stored for this driver version at all, or not for this configuration.
   [[nodiscard]] std::optional<record::Counts> statistics(const record::Device& device,
                                                          const std::string& configuration) const;
+  [[nodiscard]] bool has_statistics(const record::Device& device) const;
+  // The same configuration's statistics on every stored driver, by Device::statistics_key().
+  [[nodiscard]] std::map<std::string, record::Counts> statistics_of_all_drivers(
+      const std::string& configuration) const;
   [[nodiscard]] std::vector<StoredTiming> timings(const record::Device& device,
                                                   const std::string& configuration) const;
+  // Whether a device with this key was ever accepted: its bits and timings must then be there.
+  [[nodiscard]] bool accepted_before(const record::Device& device) const;
   // Configurations that have counters stored: what a complete run must hold.
   [[nodiscard]] std::vector<std::string> configurations() const;
   [[nodiscard]] const std::vector<Waiver>& waivers() const;
@@ -80,10 +94,11 @@ struct AcceptRequest {
   std::function<core::Image(const record::Record&)> truth;
 };
 
-// Writes what a run measured as the new baselines; returns one line per changed file. Refuses
-// (InputError) a blank reason, a run with planted faults, a run that measured nothing. Timings are
-// appended (the last 20 runs per device key are kept), everything else is replaced. Each file is
-// written aside and renamed, so that a full disk or a kill leaves the old one whole.
+// Writes what a run measured as the new baselines; returns one line per changed file, each followed
+// by its changed values ("  PATH: OLD → NEW", the first 40 of a file). Refuses (InputError) a blank
+// reason, a run with planted faults, a run that measured nothing. Timings are appended (the last 20
+// runs per device key are kept), everything else is replaced. Each file is written aside and
+// renamed, so that a full disk or a kill leaves the old one whole.
 [[nodiscard]] std::vector<std::string> accept(const record::Store& store, const std::string& run,
                                               const std::filesystem::path& root,
                                               const AcceptRequest& request);

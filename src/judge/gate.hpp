@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -53,6 +54,10 @@ struct GateResult {
   [[nodiscard]] std::string headline()
       const;  // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices"
 };
+
+// {"plan", "run", "exit_code", "headline", "findings": [{"check", "verdict", "test", "device",
+// "configuration", "message", "numbers"}]}
+[[nodiscard]] nlohmann::json to_json(const GateResult& result);
 
 struct TruthPair {
   core::Image truth;

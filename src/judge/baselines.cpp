@@ -1,0 +1,236 @@
+#include "judge/baselines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/image_io.hpp"
+#include "judge/json_file.hpp"
+#include "judge/layout.hpp"
+
+namespace triptych::judge {
+namespace {
+
+struct StoredImage {
+  std::string file;
+  std::string hash;
+};
+
+template <typename Value>
+using ByName = std::map<std::string, Value>;
+
+// {name: value, …}; empty when the file is missing.
+template <typename Value, typename Read>
+ByName<Value> read_members(const JsonNode& node, const Read& read) {
+  ByName<Value> result;
+  for (const auto& [name, value] : node.members()) result.emplace(name, read(value));
+  return result;
+}
+
+template <typename Value, typename Read>
+ByName<Value> read_table(const std::filesystem::path& path, const Read& read) {
+  const auto file = JsonFile::read(path);
+  return file ? read_members<Value>(file->root(), read) : ByName<Value>{};
+}
+
+// {"device": …, "configurations": {name: value, …}}. A file that was renamed must not speak for
+// another device.
+template <typename Value, typename Read>
+ByName<Value> read_device_table(const std::filesystem::path& path, std::string_view device,
+                                const Read& read) {
+  const auto file = JsonFile::read(path);
+  if (!file) return {};
+  const JsonNode named = file->root().at("device");
+  if (named.text() != device) named.fail(fmt::format("expected the device '{}'", device));
+  return read_members<Value>(file->root().at("configurations"), read);
+}
+
+record::Counts read_counts(const JsonNode& node) {
+  return read_members<std::uint64_t>(node, [](const JsonNode& n) { return n.whole_number(); });
+}
+
+StoredImage read_stored_image(const JsonNode& node) {
+  return {node.at("file").text(), node.at("hash").text()};
+}
+
+StoredCounters read_counters(const JsonNode& node) {
+  return read_members<record::Counts>(node, read_counts);
+}
+
+StoredBits read_bits(const JsonNode& node) {
+  return {node.at("image").text(), node.at("kernel_hash").text()};
+}
+
+std::vector<StoredTiming> read_timings(const JsonNode& node) {
+  std::vector<StoredTiming> result;
+  for (const JsonNode& entry : node.elements()) {
+    result.push_back({entry.at("run").text(), entry.at("median_ns").positive_number(),
+                      entry.at("clock").text(), entry.at("kernel_hash").text()});
+  }
+  return result;
+}
+
+bool is_iso_date(std::string_view text) {
+  constexpr std::string_view shape = "dddd-dd-dd";
+  return text.size() == shape.size() && std::ranges::equal(text, shape, [](char c, char s) {
+           return s == 'd' ? c >= '0' && c <= '9' : c == s;
+         });
+}
+
+std::vector<Waiver> read_waivers(const std::filesystem::path& path) {
+  std::vector<Waiver> result;
+  const auto file = JsonFile::read(path);
+  if (!file) return result;
+  for (const JsonNode& entry : file->root().elements()) {
+    Waiver waiver{entry.at("device").text(), entry.at("test").text(), entry.at("reason").text(),
+                  entry.at("expiry").text()};
+    if (waiver.reason.find_first_not_of(" \t") == std::string::npos) {
+      entry.at("reason").fail("expected a reason");
+    }
+    if (!is_iso_date(waiver.expiry)) entry.at("expiry").fail("expected a date as YYYY-MM-DD");
+    result.push_back(std::move(waiver));
+  }
+  return result;
+}
+
+std::set<std::string> read_accepted_devices(const std::filesystem::path& path) {
+  std::set<std::string> result;
+  const auto file = JsonFile::read(path);
+  if (!file) return result;
+  for (const JsonNode& entry : file->root().elements()) {
+    for (const JsonNode& device : entry.at("devices").elements()) result.insert(device.text());
+  }
+  return result;
+}
+
+template <typename Table>
+auto find_optional(const Table& table, const std::string& name) {
+  const auto found = table.find(name);
+  return found == table.end() ? std::optional<typename Table::mapped_type>{}
+                              : std::optional(found->second);
+}
+
+}  // namespace
+
+// What was read so far, by file.
+struct Baselines::Cache {
+  Layout layout;
+  std::optional<ByName<StoredImage>> images;
+  std::optional<ByName<StoredCounters>> counters;
+  std::map<std::filesystem::path, ByName<StoredBits>> bits;
+  std::map<std::filesystem::path, ByName<record::Counts>> statistics;
+  std::map<std::filesystem::path, ByName<std::vector<StoredTiming>>> timings;
+  std::optional<std::vector<Waiver>> waivers;
+  std::optional<std::set<std::string>> accepted;
+
+  const ByName<StoredCounters>& all_counters() {
+    if (!counters) counters = read_table<StoredCounters>(layout.counters(), read_counters);
+    return *counters;
+  }
+  const ByName<record::Counts>& statistics_of(const std::filesystem::path& path) {
+    const auto known = statistics.find(path);
+    if (known != statistics.end()) return known->second;
+    return statistics
+        .emplace(path, read_device_table<record::Counts>(path, path.stem().string(), read_counts))
+        .first->second;
+  }
+};
+
+Baselines::Baselines(std::filesystem::path root, std::string_view plan)
+    : root_(std::move(root)), folder_(root_ / plan), cache_(std::make_shared<Cache>()) {
+  cache_->layout.folder = folder_;
+}
+
+bool Baselines::present() const {
+  return std::filesystem::is_directory(folder_);
+}
+
+std::optional<core::Image> Baselines::image(const std::string& scene) const {
+  if (!cache_->images) {
+    cache_->images = read_table<StoredImage>(cache_->layout.images(), read_stored_image);
+  }
+  const auto stored = find_optional(*cache_->images, scene);
+  if (!stored) return std::nullopt;
+  const auto path = cache_->layout.image_folder() / stored->file;
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const auto bytes = core::read_file(path);
+  if (core::content_hash(bytes) != stored->hash) {
+    throw core::InputError({path.string()},
+                           "not the image that images.json names; restore it or accept anew");
+  }
+  return core::decode_exr(bytes);
+}
+
+std::optional<StoredCounters> Baselines::counters(const std::string& configuration) const {
+  return find_optional(cache_->all_counters(), configuration);
+}
+
+std::optional<StoredBits> Baselines::bits(const record::Device& device,
+                                          const std::string& configuration) const {
+  const auto path = cache_->layout.bits(device);
+  auto known = cache_->bits.find(path);
+  if (known == cache_->bits.end()) {
+    known = cache_->bits.emplace(path, read_device_table<StoredBits>(path, device.key(), read_bits))
+                .first;
+  }
+  return find_optional(known->second, configuration);
+}
+
+bool Baselines::has_statistics(const record::Device& device) const {
+  return !cache_->statistics_of(cache_->layout.statistics(device)).empty();
+}
+
+std::optional<record::Counts> Baselines::statistics(const record::Device& device,
+                                                    const std::string& configuration) const {
+  return find_optional(cache_->statistics_of(cache_->layout.statistics(device)), configuration);
+}
+
+std::map<std::string, record::Counts> Baselines::statistics_of_all_drivers(
+    const std::string& configuration) const {
+  std::map<std::string, record::Counts> result;
+  const auto folder = cache_->layout.statistics_folder();
+  if (!std::filesystem::is_directory(folder)) return result;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".json") continue;
+    const auto counts = find_optional(cache_->statistics_of(entry.path()), configuration);
+    if (counts) result.emplace(entry.path().stem().string(), *counts);
+  }
+  return result;
+}
+
+std::vector<StoredTiming> Baselines::timings(const record::Device& device,
+                                             const std::string& configuration) const {
+  const auto path = cache_->layout.timings(device);
+  auto known = cache_->timings.find(path);
+  if (known == cache_->timings.end()) {
+    known = cache_->timings
+                .emplace(path, read_device_table<std::vector<StoredTiming>>(path, device.key(),
+                                                                            read_timings))
+                .first;
+  }
+  return find_optional(known->second, configuration).value_or(std::vector<StoredTiming>{});
+}
+
+bool Baselines::accepted_before(const record::Device& device) const {
+  if (!cache_->accepted) cache_->accepted = read_accepted_devices(cache_->layout.history());
+  return cache_->accepted->contains(device.key());
+}
+
+std::vector<std::string> Baselines::configurations() const {
+  std::vector<std::string> result;
+  for (const auto& [configuration, counters] : cache_->all_counters()) {
+    result.push_back(configuration);
+  }
+  return result;
+}
+
+const std::vector<Waiver>& Baselines::waivers() const {
+  if (!cache_->waivers) cache_->waivers = read_waivers(root_ / "waivers.json");
+  return *cache_->waivers;
+}
+
+}  // namespace triptych::judge

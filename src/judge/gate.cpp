@@ -1,0 +1,182 @@
+#include "judge/gate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "judge/glob.hpp"
+#include "judge/run_view.hpp"
+
+namespace triptych::judge {
+namespace {
+
+constexpr std::size_t named_rows = 3;
+
+bool asked_for(const GateRequest& request, const std::string& device) {
+  return request.devices.empty() || any_glob_matches(request.devices, device);
+}
+
+RunView view_of(const record::Store& store, const std::string& run, const Baselines& baselines,
+                const GateRequest& request) {
+  RunView view{store, baselines, request, request.checks, {}, {}, {}};
+  if (view.checks.empty()) {
+    view.checks = {Check::image, Check::counters, Check::statistics, Check::timing};
+  }
+  for (auto& entry : store.devices(run)) {
+    if (asked_for(request, entry.device.id)) view.devices.emplace(entry.device.id, entry.device);
+  }
+  for (record::Record& record : store.records(run)) {
+    if (record.plan != request.plan || !asked_for(request, record.device)) continue;
+    // A device the store does not describe matches no stored key.
+    record::Device unknown;
+    unknown.id = record.device;
+    view.devices.try_emplace(record.device, unknown);
+    view.records.push_back(std::move(record));
+  }
+  for (const record::Record& record : view.records) {
+    if (record.outcome == record::Outcome::measured) view.measured.push_back(&record);
+  }
+  return view;
+}
+
+// A configuration that this very device, driver and all, has measured before is missed when it is
+// skipped.
+bool measured_before(const RunView& view, const record::Record& record) {
+  return view.baselines.present() &&
+         view.baselines.bits(view.device(record), record.configuration).has_value();
+}
+
+// Everything but measured, once, under the first check asked for.
+void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
+  const Check check = *view.checks.begin();
+  for (const record::Record& record : view.records) {
+    if (record.outcome == record::Outcome::measured) continue;
+    Verdict verdict = Verdict::regression;
+    std::string message = fmt::format("{}: {}", name_of(record.outcome), record.reason);
+    if (record.outcome == record::Outcome::skipped) {
+      const bool missed = measured_before(view, record);
+      verdict = missed ? Verdict::cannot_judge : Verdict::skipped;
+      if (missed) message += "; the same device measured it when its baselines were accepted";
+    }
+    findings.push_back(finding_about(record, check, verdict, std::move(message)));
+  }
+}
+
+void report_nothing_measured(const RunView& view, const std::string& run,
+                             std::vector<Finding>& findings) {
+  const Check check = *view.checks.begin();
+  if (view.measured.empty()) {
+    findings.push_back(finding_about(
+        view, check, Verdict::cannot_judge,
+        fmt::format("nothing was measured: run {} holds {} records of {} on the devices asked for",
+                    run, view.records.size(), view.request.plan)));
+  }
+  for (const std::string& glob : view.request.required_devices) {
+    const bool there = std::ranges::any_of(view.measured, [&](const record::Record* record) {
+      return glob_matches(glob, record->device);
+    });
+    if (there) continue;
+    findings.push_back(finding_about(view, check, Verdict::cannot_judge,
+                                     fmt::format("the required device {} measured nothing", glob)));
+  }
+}
+
+// Every device must have a record, of whatever outcome, of every accepted configuration.
+void report_missing_rows(const RunView& view, std::vector<Finding>& findings) {
+  const std::vector<std::string> accepted = view.baselines.configurations();
+  for (const auto& [id, device] : view.devices) {
+    std::set<std::string> there;
+    for (const record::Record& record : view.records) {
+      if (record.device == id) there.insert(record.configuration);
+    }
+    std::vector<std::string> missing;
+    std::ranges::set_difference(accepted, there, std::back_inserter(missing));
+    if (missing.empty()) continue;
+    const std::size_t named = std::min(missing.size(), named_rows);
+    const std::vector<std::string> examples(missing.begin(),
+                                            missing.begin() + static_cast<std::ptrdiff_t>(named));
+    findings.push_back(finding_about(
+        view, device, *view.checks.begin(), Verdict::cannot_judge,
+        fmt::format(
+            "missing rows: {} of {} accepted configurations have no record ({}{}); finish the "
+            "run with triptych run {} --resume",
+            missing.size(), accepted.size(), fmt::join(examples, "; "),
+            missing.size() > named ? "; …" : "", view.request.plan)));
+    set_number(findings.back(), "missing", static_cast<double>(missing.size()));
+  }
+}
+
+void report_no_baselines(const RunView& view, std::vector<Finding>& findings) {
+  findings.push_back(
+      finding_about(view, *view.checks.begin(), Verdict::cannot_judge,
+                    fmt::format("there are no baselines in {}; make them with {}",
+                                view.baselines.folder().string(), view.accept_command())));
+}
+
+void append(std::vector<Finding>& findings, std::vector<Finding> more) {
+  std::ranges::move(more, std::back_inserter(findings));
+}
+
+// A wrong picture voids its time, so pictures are judged for the timing check too.
+void run_checks(const RunView& view, std::vector<Finding>& findings) {
+  ImageFindings images;
+  const bool wants_images = view.checks.contains(Check::image);
+  const bool wants_timings = view.checks.contains(Check::timing) && view.baselines.present();
+  if (wants_images || (wants_timings && view.request.truth)) images = check_images(view);
+  if (wants_images) append(findings, std::move(images.findings));
+  if (!view.baselines.present()) return;
+  if (view.checks.contains(Check::counters)) append(findings, check_counters(view));
+  if (view.checks.contains(Check::statistics)) append(findings, check_statistics(view));
+  if (wants_timings) append(findings, check_timings(view, images.wrong));
+}
+
+int rank(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::regression:
+      return 0;
+    case Verdict::cannot_judge:
+      return 1;
+    case Verdict::waived:
+      return 2;
+    case Verdict::improved:
+      return 3;
+    case Verdict::advisory:
+      return 4;
+    case Verdict::skipped:
+      return 5;
+    case Verdict::pass:
+      break;
+  }
+  return 6;
+}
+
+void sort_findings(std::vector<Finding>& findings) {
+  const auto key = [](const Finding& finding) {
+    return std::tuple(rank(finding.verdict), std::string_view(finding.device),
+                      std::string_view(finding.configuration), finding.check,
+                      std::string_view(finding.message));
+  };
+  std::ranges::stable_sort(findings, {}, key);
+}
+
+}  // namespace
+
+GateResult judge_run(const record::Store& store, const std::string& run, const Baselines& baselines,
+                     const GateRequest& request) {
+  const RunView view = view_of(store, run, baselines, request);
+  GateResult result{request.plan, run, {}};
+  report_nothing_measured(view, run, result.findings);
+  report_outcomes(view, result.findings);
+  if (baselines.present()) {
+    report_missing_rows(view, result.findings);
+  } else {
+    report_no_baselines(view, result.findings);
+  }
+  run_checks(view, result.findings);
+  apply_waivers(view, result.findings);
+  sort_findings(result.findings);
+  return result;
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,34 @@
+#pragma once
+// Where each baseline lies within baselines/<suite>/<plan>/, for the reader and the writer alike.
+
+#include <filesystem>
+#include <string>
+
+#include "core/hash.hpp"
+#include "record/record.hpp"
+
+namespace triptych::judge {
+
+struct Layout {
+  std::filesystem::path folder;
+
+  [[nodiscard]] std::filesystem::path images() const { return folder / "images.json"; }
+  [[nodiscard]] std::filesystem::path image_folder() const { return folder / "images"; }
+  [[nodiscard]] static std::string image_name(const std::string& scene) {
+    return core::content_hash(scene) + ".exr";
+  }
+  [[nodiscard]] std::filesystem::path counters() const { return folder / "counters.json"; }
+  [[nodiscard]] std::filesystem::path bits(const record::Device& device) const {
+    return folder / "bits" / (device.key_hash() + ".json");
+  }
+  [[nodiscard]] std::filesystem::path statistics_folder() const { return folder / "statistics"; }
+  [[nodiscard]] std::filesystem::path statistics(const record::Device& device) const {
+    return statistics_folder() / (device.statistics_key() + ".json");
+  }
+  [[nodiscard]] std::filesystem::path timings(const record::Device& device) const {
+    return folder / "timings" / (device.key_hash() + ".json");
+  }
+  [[nodiscard]] std::filesystem::path history() const { return folder / "history.json"; }
+};
+
+}  // namespace triptych::judge

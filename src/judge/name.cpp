@@ -1,1 +1,0 @@
-#include "judge/gate.hpp"

@@ -1,0 +1,58 @@
+#pragma once
+// What every check sees of a run, and how each check is called.
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "judge/gate.hpp"
+
+namespace triptych::judge {
+
+struct RunView {
+  const record::Store& store;
+  const Baselines& baselines;
+  const GateRequest& request;
+  std::set<Check> checks;
+  std::vector<record::Record> records;            // of the devices asked for
+  std::map<std::string, record::Device> devices;  // by id
+  std::vector<const record::Record*> measured;    // into `records`
+
+  [[nodiscard]] const record::Device& device(const record::Record& record) const {
+    return devices.at(record.device);
+  }
+  // For findings that belong to no device: the test id without one.
+  [[nodiscard]] std::string plan_test(Check check) const;
+  // The command that would make or renew the baselines.
+  [[nodiscard]] std::string accept_command() const;
+};
+
+[[nodiscard]] Finding finding_about(const record::Record& record, Check check, Verdict verdict,
+                                    std::string message);
+// Of a device as a whole: no configuration.
+[[nodiscard]] Finding finding_about(const RunView& view, const record::Device& device, Check check,
+                                    Verdict verdict, std::string message);
+[[nodiscard]] Finding finding_about(const RunView& view, Check check, Verdict verdict,
+                                    std::string message);
+// Infinities and NaN are left out: JSON has none, and missing is not zero.
+void set_number(Finding& finding, const std::string& name, double value);
+
+// (device, configuration) → why its picture is wrong: its time means nothing.
+using WrongImages = std::map<std::pair<std::string, std::string>, std::string>;
+
+struct ImageFindings {
+  std::vector<Finding> findings;
+  WrongImages wrong;
+};
+
+[[nodiscard]] ImageFindings check_images(const RunView& view);
+[[nodiscard]] std::vector<Finding> check_counters(const RunView& view);
+[[nodiscard]] std::vector<Finding> check_statistics(const RunView& view);
+[[nodiscard]] std::vector<Finding> check_timings(const RunView& view, const WrongImages& wrong);
+
+// Turns regressions that waivers.json excuses into waived ones; says where a waiver has expired.
+void apply_waivers(const RunView& view, std::vector<Finding>& findings);
+
+}  // namespace triptych::judge

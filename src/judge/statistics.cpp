@@ -1,0 +1,122 @@
+#include "judge/statistics.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/digamma.hpp>
+#include <boost/math/special_functions/polygamma.hpp>
+#include <boost/math/special_functions/trigamma.hpp>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+
+namespace triptych::judge {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+// Above this Student's t is the normal distribution to double precision, and Boost's series loses
+// digits.
+constexpr double normal_degrees = 1e8;
+
+}  // namespace
+
+double mean(std::span<const double> values) {
+  if (values.empty()) return not_a_number;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double median(std::span<const double> values) {
+  if (values.empty()) return not_a_number;
+  std::vector<double> sorted(values.begin(), values.end());
+  std::ranges::sort(sorted);
+  const std::size_t half = sorted.size() / 2;
+  return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
+}
+
+double median_absolute_deviation(std::span<const double> values) {
+  const double centre = median(values);
+  std::vector<double> deviations;
+  deviations.reserve(values.size());
+  for (const double value : values) deviations.push_back(std::abs(value - centre));
+  return median(deviations);
+}
+
+double sample_variance(std::span<const double> values) {
+  if (values.size() < 2) return not_a_number;
+  const double centre = mean(values);
+  double squares = 0;
+  for (const double value : values) squares += (value - centre) * (value - centre);
+  return squares / static_cast<double>(values.size() - 1);
+}
+
+double student_t_upper_tail(double t, double degrees) {
+  if (std::isinf(t)) return t > 0 ? 0 : 1;
+  namespace math = boost::math;
+  if (degrees > normal_degrees) return math::cdf(math::complement(math::normal(), t));
+  return math::cdf(math::complement(math::students_t(degrees), t));
+}
+
+double student_t_upper_quantile(double share, double degrees) {
+  namespace math = boost::math;
+  if (degrees > normal_degrees) return math::quantile(math::complement(math::normal(), share));
+  return math::quantile(math::complement(math::students_t(degrees), share));
+}
+
+std::vector<bool> benjamini_hochberg(std::span<const double> p_values, double q) {
+  std::vector<double> sorted(p_values.begin(), p_values.end());
+  std::ranges::sort(sorted);
+  const auto count = static_cast<double>(sorted.size());
+  double threshold = -1;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (sorted[i] <= q * static_cast<double>(i + 1) / count) threshold = sorted[i];
+  }
+  std::vector<bool> rejected;
+  rejected.reserve(p_values.size());
+  for (const double p : p_values) rejected.push_back(p <= threshold);
+  return rejected;
+}
+
+// Newton's method on 1/ψ', which is convex and nearly linear: it approaches from one side (Smyth
+// 2004, appendix). Outside the range the asymptotes are exact to double precision.
+double inverse_trigamma(double y) {
+  if (y > 1e7) return 1 / std::sqrt(y);
+  if (y < 1e-6) return 1 / y;
+  double x = 0.5 + 1 / y;
+  for (int i = 0; i < 50; ++i) {
+    const double value = boost::math::trigamma(x);
+    const double step = value * (1 - value / y) / boost::math::polygamma(2, x);
+    x += step;
+    if (-step / x < 1e-12) break;
+  }
+  return x;
+}
+
+VariancePrior fit_variance_prior(std::span<const double> variances,
+                                 std::span<const double> degrees) {
+  using boost::math::digamma;
+  using boost::math::trigamma;
+  if (variances.empty()) return {};
+  if (variances.size() == 1) return {0, variances.front()};
+  // e = ln s² − ψ(d/2) + ln(d/2) has mean ln s₀² − ψ(d₀/2) + ln(d₀/2), variance ψ'(d/2) + ψ'(d₀/2).
+  std::vector<double> centred;
+  std::vector<double> sampling;
+  for (std::size_t i = 0; i < variances.size(); ++i) {
+    const double half = degrees[i] / 2;
+    centred.push_back(std::log(variances[i]) - digamma(half) + std::log(half));
+    sampling.push_back(trigamma(half));
+  }
+  const double centre = mean(centred);
+  const double excess = sample_variance(centred) - mean(sampling);
+  if (excess <= 0) return {infinite, std::exp(centre)};
+  const double half = inverse_trigamma(excess);
+  return {2 * half, std::exp(centre + digamma(half) - std::log(half))};
+}
+
+double moderated_variance(const VariancePrior& prior, double variance, double degrees) {
+  if (std::isinf(prior.degrees)) return prior.variance;
+  return (prior.degrees * prior.variance + degrees * variance) / (prior.degrees + degrees);
+}
+
+}  // namespace triptych::judge
