@@ -29,21 +29,20 @@ struct Box {
 
 // The `camera` factor: "PATH:i/n", 0 ≤ i < n, λ = i/n, or "random:SEED". With c the box's centre, s
 // its size, L its largest extent and D = (L/2)/tan(fov/2):
-//   orbit_x|y|z, orbit_-x|-y|-z
-//       a circle of radius L/2 + D about that axis, at the angle 2πλ (negative: the other way
-//       round), looking at c. x and y start on the +z side, z on the +x side, all with y up; the up
-//       vector turns with the camera, so that it is never along the view.
-//   diagonal_xyz, diagonal_-xyz, diagonal_x-yz, diagonal_xy-z
-//       along that diagonal of the box (a minus reverses an axis), from half its length + D before
-//       c straight towards c, reached at λ = 1.
-//   path_x, path_y, path_z
-//       along the axis towards its lower end, from c + s/2 + D to c at λ = 1, looking ahead.
-//   path_sin_x, path_sin_y, path_sin_z
-//       the same, displaced sideways by ¼ of the lateral size times sin 2πλ (along z, x, x).
-//   random:SEED
-//       a random direction, roll, distance (0.3…1.2 of L/2 + D) and target (within the middle half
-//       of the box), drawn again until at least `random_view_coverage` of the centres of the box's
-//       8×8×8 cells lie inside a frustum of aspect 1.
+// clang-format off
+//   orbit_x|y|z      a circle of radius L/2 + D about that axis, at the angle 2πλ, looking at c;
+//   orbit_-x|-y|-z   the same the other way round. x and y start on the +z side, z on the +x side, all
+//                    with +y up; the up vector turns with the camera, so that it is never along the view.
+//   diagonal_xyz     along that diagonal of the box (a minus reverses an axis), from half its length + D
+//   diagonal_-xyz    before c straight towards c, reached at λ = 1.
+//   diagonal_x-yz, diagonal_xy-z
+//   path_x|y|z       along the axis towards its lower end, from half the extent + D beyond c to c at
+//                    λ = 1, looking ahead.
+//   path_sin_x|y|z   the same, displaced along z, x, x by ¼ of the extent there times sin 2πλ.
+//   random:SEED      a random direction, roll, distance (0.3…1.2 of L/2 + D) and target (in the middle
+//                    half of the box), drawn again until at least `random_view_coverage` of the centres
+//                    of the box's 8×8×8 cells lie inside a frustum of aspect 1.
+// clang-format on
 // near and far enclose the box, as far as it lies before the eye. Equal arguments give equal bits
 // on every machine. Throws InputError for any other spec, a field of view outside (0, 180)° or a
 // box without extent.

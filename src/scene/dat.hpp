@@ -6,14 +6,16 @@
 namespace triptych::scene {
 
 // A .dat description with its raw voxels in a file beside it. Lines "Key: value", keys in any case:
-//   ObjectFileName   the raw file                              required
-//   Resolution       sizes along x, y, z                       required
-//   Format           UCHAR, CHAR, USHORT, SHORT, FLOAT, DOUBLE required
-//   SliceThickness   spacings along x, y, z                    1 1 1 where missing
-//   Endianness       LITTLE or BIG                             LITTLE where missing
+// clang-format off
+//   ObjectFileName   the raw file                               required
+//   Resolution       sizes along x, y, z                        required
+//   Format           UCHAR, CHAR, USHORT, SHORT, FLOAT, DOUBLE  required
+//   SliceThickness   spacings along x, y, z                     1 1 1 where missing
+//   Endianness       LITTLE or BIG                              LITTLE where missing
+// clang-format on
 // TaggedFileName, NbrTags, ObjectType, ObjectModel, GridType and Modality are allowed and have no
 // effect; any other key is an error, as is anything after the voxels. The caller sets the volume's
-// name.
+// name. Throws InputError with the line, IoError.
 [[nodiscard]] Volume read_dat(const std::filesystem::path& file);
 
 }  // namespace triptych::scene

@@ -5,28 +5,25 @@
 // between implementations.
 //
 // Fields are sampled at voxel centres: u = (i+½)/nx, v = (j+½)/ny, w = (k+½)/nz are the places in
-// the unit cube, (x, y, z) = 2(u, v, w) − 1. Spacing is 1. "u8 of f" is floor(255·f + ½), likewise
-// u16.
+// the unit cube, (x, y, z) = 2(u, v, w) − 1. Spacing is 1. b(t) is (1 − t²)² inside |t| < 1 and 0
+// outside. Integers hold f as floor(f·hi + ½), hi the top of the range.
 //
-//   uniform_box    f32, range 0..1       ½ everywhere
-//   gradient_box   u16, range 0..nx+ny+nz−3   i + j + k: 0 in one corner, the maximum in the
-//   opposite frequency_box  f32, range 0..1       ½ + ½·s(u)·s(v)·s(w), s(t) = sin(2π·12·t)
-//   mandelbulb     u8,  range 0..255     u8 of max(0, 1 − d/0.4), d the distance estimate ½·r·ln
-//   r/r'
-//                                        to the set z ← z⁸ + c (White and Nylander's power) over
-//                                        [−1.2, 1.2]³; 255 inside
-//   marschner_lobb f32, range 0..1       (1 − sin(πz/2) + ¼(1 + cos(12π·cos(πρ/2)))) / 2.5,
-//                                        ρ = √(x²+y²) (Marschner and Lobb 1994: f = 6, α = ¼)
-//   nested_shells  u16, range 0..65535   u16 of Σ a·b((√(x²+y²+z²) − r)/0.08), b(t) = (1 − t²)²
-//   inside
-//                                        |t| < 1 and 0 outside, (r, a) = (0.3, 1), (0.6, 0.7),
-//                                        (0.9, 0.4)
-//   sparse_field   u8,  range 0..255     u8 of the largest of 40 blobs b(distance/radius), centres
-//   in
-//                                        [0.1, 0.9]³, radii 0.04…0.08 of the unit cube, seeded; 0
-//                                        elsewhere (about 95 % of the voxels)
-//   gaussian_blob  f32, range 0..1       exp(−q²/(2σ²)), q the distance in voxels from the volume's
-//                                        centre, σ = min(nx, ny, nz)/8 voxels
+// clang-format off
+//   uniform_box     f32  0..1       ½ everywhere
+//   gradient_box    u16  0..hi      i + j + k; hi = nx + ny + nz − 3, reached in the last corner
+//   frequency_box   f32  0..1       ½ + ½·s(u)·s(v)·s(w), s(t) = sin(2π·12·t)
+//   mandelbulb      u8   0..255     max(0, 1 − d/0.2)², d = ½·r·ln r/r' the estimated distance to the
+//                                   set of z ← z⁸ + c (White and Nylander's power) over [−1.2, 1.2]³;
+//                                   1 inside
+//   marschner_lobb  f32  0..1       (1 − sin(πz/2) + ¼(1 + cos(12π·cos(πρ/2))))/2.5, ρ = √(x² + y²)
+//                                   (Marschner and Lobb 1994 with f = 6, α = ¼)
+//   nested_shells   u16  0..65535   Σ a·b((√(x² + y² + z²) − r)/0.08), (r, a) = (0.3, 1), (0.6, 0.7),
+//                                   (0.9, 0.4)
+//   sparse_field    u8   0..255     the largest of 40 blobs b(distance/radius) in (u, v, w), seeded,
+//                                   centres in [0.1, 0.9]³, radii 0.04…0.08: about 96 % are exactly 0
+//   gaussian_blob   f32  0..1       exp(−q²/(2σ²)), q the distance in voxels from the volume's centre,
+//                                   σ = min(nx, ny, nz)/8 voxels
+// clang-format on
 
 #include <array>
 #include <string_view>
