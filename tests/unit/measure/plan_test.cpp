@@ -1,0 +1,311 @@
+#include "measure/plan.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "fake_suite.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+class PlanTest : public ::testing::Test {
+ protected:
+  ~PlanTest() override { std::filesystem::remove(file_); }
+
+  Plan load(const std::string& yaml, const Overrides& overrides = {}) {
+    std::ofstream(file_) << yaml;
+    return load_plan(file_.string(), overrides, find_);
+  }
+
+  // What the plan is refused with, without the file's folder: "FILE:LINE:COLUMN: MESSAGE".
+  std::string refusal(const std::string& yaml, const Overrides& overrides = {}) {
+    try {
+      static_cast<void>(load(yaml, overrides));
+    } catch (const core::InputError& error) {
+      std::string text = error.what();
+      const std::string folder = file_.parent_path().string() + "/";
+      if (text.starts_with(folder)) text.erase(0, folder.size());
+      return text;
+    }
+    return "was accepted";
+  }
+
+  std::string at(int line, int column) const {
+    return file_.filename().string() + ":" + std::to_string(line) + ":" + std::to_string(column) +
+           ": ";
+  }
+
+  FakeSuite suite_;
+  FindSuite find_ = [this](std::string_view name) -> Suite& {
+    if (name != suite_.name()) {
+      throw core::InputError("unknown suite '" + std::string(name) + "'; there are: fake");
+    }
+    return suite_;
+  };
+  std::filesystem::path file_ =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
+};
+
+std::vector<std::string> values(const Plan& plan, const std::string& factor) {
+  std::vector<std::string> result;
+  for (const Configuration& each : plan.configurations) result.push_back(each.at(factor));
+  return result;
+}
+
+TEST_F(PlanTest, ShortNameTakesTheSuitesOwnPlan) {
+  const Plan plan = load_plan("fake/quick", {}, find_);
+  EXPECT_EQ(plan.name, "fake/quick");
+  EXPECT_EQ(plan.suite, "fake");
+  EXPECT_THAT(plan.configurations, SizeIs(16));
+  EXPECT_THAT(plan.varied, ElementsAre("data", "technique", "step", "camera"));
+}
+
+TEST_F(PlanTest, FileIsNamedWithoutItsEnding) {
+  EXPECT_EQ(load("suite: fake\n").name, "FileIsNamedWithoutItsEnding");
+}
+
+TEST_F(PlanTest, EveryFactorIsThereWithItsDefault) {
+  const Plan plan = load("summary: one of each\nsuite: fake\n");
+  ASSERT_THAT(plan.configurations, SizeIs(1));
+  const Configuration expected{
+      {"technique", "raycast"}, {"data", "cube"}, {"sampler", "auto"},       {"step", "1"},
+      {"skip", "bricks"},       {"ert", "0"},     {"camera", "orbit_y:0/8"}, {"viewport", "16"}};
+  EXPECT_EQ(plan.configurations.front(), expected);
+  EXPECT_THAT(plan.varied, IsEmpty());
+}
+
+TEST_F(PlanTest, DataVariesSlowestCameraFastest) {
+  const Plan plan = load(
+      "suite: fake\n"
+      "camera: [a, b]\n"
+      "viewport: [1, 2]\n"
+      "skip: [none, bricks]\n"
+      "data: [x, y]\n");
+  EXPECT_THAT(values(plan, "data"), ElementsAre("x", "x", "x", "x", "x", "x", "x", "x", "y", "y",
+                                                "y", "y", "y", "y", "y", "y"));
+  EXPECT_THAT(values(plan, "skip"),
+              ElementsAre("none", "none", "none", "none", "bricks", "bricks", "bricks", "bricks",
+                          "none", "none", "none", "none", "bricks", "bricks", "bricks", "bricks"));
+  EXPECT_THAT(values(plan, "camera"), ElementsAre("a", "b", "a", "b", "a", "b", "a", "b", "a", "b",
+                                                  "a", "b", "a", "b", "a", "b"));
+}
+
+TEST_F(PlanTest, AllCombinationsAreDifferent) {
+  const Plan plan = load_plan("fake/quick", {}, find_);
+  const std::set<Configuration> distinct(plan.configurations.begin(), plan.configurations.end());
+  EXPECT_THAT(distinct, SizeIs(16));
+}
+
+TEST_F(PlanTest, NumbersHaveOneSpelling) {
+  for (const char* half : {"0.5", ".5", "5e-1", "0.50", "+0.5"}) {
+    const Plan plan = load("suite: fake\nstep: " + std::string(half) + "\n");
+    EXPECT_THAT(values(plan, "step"), ElementsAre("0.5")) << half;
+  }
+  EXPECT_THAT(values(load("suite: fake\nstep: [1.0, 2]\n"), "step"), ElementsAre("1", "2"));
+  EXPECT_THAT(values(load("suite: fake\nert: -0.0\n"), "ert"), ElementsAre("0"));
+}
+
+TEST_F(PlanTest, DefaultMayBeSaidAloud) {
+  EXPECT_THAT(values(load("suite: fake\nsampler: [auto, manual]\n"), "sampler"),
+              ElementsAre("auto", "manual"));
+}
+
+// --- what is refused, and where
+// ------------------------------------------------------------------------
+
+TEST_F(PlanTest, UnknownFactorNamesTheNearest) {
+  EXPECT_THAT(refusal("suite: fake\ndata: cube\nstepp: 1\n"),
+              AllOf(StartsWith(at(3, 1)), HasSubstr("'stepp'"), HasSubstr("did you mean 'step'")));
+  EXPECT_THAT(refusal("suite: fake\ncompletely_else: 1\n"),
+              HasSubstr("there are: technique, data"));
+}
+
+TEST_F(PlanTest, FactorTwice) {
+  EXPECT_THAT(refusal("suite: fake\nstep: 1\nert: 0\nstep: 2\n"),
+              AllOf(StartsWith(at(4, 1)), HasSubstr("twice"), HasSubstr("line 2")));
+}
+
+TEST_F(PlanTest, WrongType) {
+  EXPECT_THAT(refusal("suite: fake\nstep: [0.5, fast]\n"),
+              AllOf(StartsWith(at(2, 13)), HasSubstr("expected a number, found 'fast'")));
+  for (const char* bad : {".nan", ".inf", "inf", "nan", "1e999", "0.5x", "0x1", "+-1", "true"}) {
+    EXPECT_THAT(refusal("suite: fake\nstep: " + std::string(bad) + "\n"),
+                AllOf(StartsWith(at(2, 7)), HasSubstr("expected a number")))
+        << bad;
+  }
+}
+
+TEST_F(PlanTest, OutOfRange) {
+  EXPECT_THAT(refusal("suite: fake\nstep: 100\n"),
+              AllOf(StartsWith(at(2, 7)), HasSubstr("out of range"), HasSubstr("0.01 to 16")));
+  EXPECT_THAT(refusal("suite: fake\nstep: -1\n"), HasSubstr("out of range"));
+}
+
+TEST_F(PlanTest, UnknownLevel) {
+  EXPECT_THAT(
+      refusal("suite: fake\nskip:\n  - none\n  - brick\n"),
+      AllOf(StartsWith(at(4, 5)), HasSubstr("'brick'"), HasSubstr("did you mean 'bricks'")));
+}
+
+TEST_F(PlanTest, ValueThatTheSuiteRefuses) {
+  EXPECT_THAT(refusal("suite: fake\ndata: [cube, nonsense]\n"),
+              AllOf(StartsWith(at(2, 14)), HasSubstr("'data': expected a file")));
+}
+
+TEST_F(PlanTest, EmptyListAndMissingValue) {
+  EXPECT_THAT(refusal("suite: fake\nstep: []\n"), AllOf(StartsWith(at(2, 7)), HasSubstr("empty")));
+  EXPECT_THAT(refusal("suite: fake\nstep:\n"), HasSubstr("'step' has no value"));
+  EXPECT_THAT(refusal("suite: fake\nstep: [1, ~]\n"), HasSubstr("'step' has no value"));
+  EXPECT_THAT(refusal("suite: fake\ndata: ''\n"), HasSubstr("not empty"));
+}
+
+TEST_F(PlanTest, DuplicateValueAlsoInAnotherSpelling) {
+  EXPECT_THAT(refusal("suite: fake\nstep: [0.5, 1, .5]\n"),
+              AllOf(StartsWith(at(2, 16)), HasSubstr("twice"), HasSubstr("first as 0.5")));
+  EXPECT_THAT(refusal("suite: fake\ndata: [cube, cube]\n"), StartsWith(at(2, 14)));
+}
+
+TEST_F(PlanTest, NestedListsAndMappings) {
+  EXPECT_THAT(refusal("suite: fake\nstep: [[1]]\n"),
+              AllOf(StartsWith(at(2, 8)), HasSubstr("list within a list")));
+  EXPECT_THAT(refusal("suite: fake\nstep: {a: 1}\n"),
+              AllOf(StartsWith(at(2, 7)), HasSubstr("mapping")));
+}
+
+TEST_F(PlanTest, ValueThatWouldBreakAKey) {
+  EXPECT_THAT(refusal("suite: fake\ndata: ['a,step=2']\n"), HasSubstr("no comma"));
+}
+
+TEST_F(PlanTest, Suite) {
+  EXPECT_THAT(refusal("data: cube\n"), HasSubstr("no 'suite:'"));
+  EXPECT_THAT(refusal("data: cube\nsuite: fakee\n"),
+              AllOf(StartsWith(at(2, 8)), HasSubstr("unknown suite 'fakee'")));
+  EXPECT_THAT(refusal("suite: [fake]\n"), StartsWith(at(1, 8)));
+}
+
+TEST_F(PlanTest, WhatIsNoPlan) {
+  EXPECT_THAT(refusal(""), HasSubstr("empty"));
+  EXPECT_THAT(refusal("# nothing\n"), HasSubstr("empty"));
+  EXPECT_THAT(refusal("- suite\n"), StartsWith(at(1, 1)));
+  EXPECT_THAT(refusal("suite: fake\n---\nsuite: fake\n"), HasSubstr("second document"));
+  EXPECT_THAT(refusal("suite: fake\nstep: [0.5\n"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(refusal("suite: fake\nname: x\n"), HasSubstr("unknown factor 'name'"));
+}
+
+TEST_F(PlanTest, ErrorsInASuitesOwnPlanNameIt) {
+  try {
+    static_cast<void>(load_plan("fake/broken", {}, find_));
+    FAIL();
+  } catch (const core::InputError& error) {
+    EXPECT_EQ(error.place().file, "fake/broken");
+    EXPECT_GT(error.place().line, 0);
+  }
+}
+
+TEST_F(PlanTest, UnknownPlansAndFiles) {
+  EXPECT_THROW(static_cast<void>(load_plan("fake/quik", {}, find_)), core::InputError);
+  EXPECT_THROW(static_cast<void>(load_plan("other/quick", {}, find_)), core::InputError);
+  EXPECT_THROW(static_cast<void>(load_plan("no_such.yaml", {}, find_)), core::InputError);
+  EXPECT_THROW(static_cast<void>(load_plan(::testing::TempDir(), {}, find_)), core::InputError);
+  EXPECT_THROW(static_cast<void>(load_plan("", {}, find_)), core::InputError);
+}
+
+TEST_F(PlanTest, TooManyCombinations) {
+  std::string list = "[1";
+  for (int i = 2; i <= 101; ++i) list += ", " + std::to_string(i);
+  list += "]\n";
+  const std::string yaml =
+      "suite: fake\ndata: " + list + "camera: " + list + "viewport: " + list;  // 101³
+  EXPECT_THAT(refusal(yaml), HasSubstr("1000000 combinations"));
+}
+
+// --- --set
+// -----------------------------------------------------------------------------------------------
+
+TEST_F(PlanTest, OverridesReplaceAndAdd) {
+  const Plan plan =
+      load("suite: fake\nstep: [1, 2, 4]\n", {{"step", {".5"}}, {"ert", {"0", "0.1"}}});
+  EXPECT_THAT(values(plan, "step"), ElementsAre("0.5", "0.5"));
+  EXPECT_THAT(values(plan, "ert"), ElementsAre("0", "0.1"));
+}
+
+TEST_F(PlanTest, OverridesAreCheckedLikeThePlan) {
+  EXPECT_THAT(refusal("suite: fake\n", {{"stepp", {"1"}}}),
+              AllOf(StartsWith("--set stepp: "), HasSubstr("did you mean 'step'")));
+  EXPECT_THAT(refusal("suite: fake\n", {{"step", {}}}), HasSubstr("expected factor=value"));
+  EXPECT_THAT(refusal("suite: fake\n", {{"step", {"1", "1.0"}}}), HasSubstr("twice"));
+  EXPECT_THAT(refusal("suite: fake\n", {{"step", {"1"}}, {"step", {"2"}}}), HasSubstr("twice"));
+  EXPECT_THAT(refusal("suite: fake\n", {{"step", {"x"}}}), HasSubstr("expected a number"));
+  EXPECT_THAT(refusal("suite: fake\nstep: x\n", {{"step", {"1"}}}), StartsWith(at(2, 7)))
+      << "a mistake in the file stays one";
+}
+
+// --- keys and shards
+// ---------------------------------------------------------------------------------------
+
+TEST_F(PlanTest, KeyNamesWhatIsNotDefault) {
+  Configuration configuration = load("suite: fake\n").configurations.front();
+  EXPECT_EQ(configuration_key(suite_, configuration),
+            "camera=orbit_y:0/8,data=cube,technique=raycast");
+  configuration["step"] = "0.5";
+  configuration["sampler"] = "manual";
+  EXPECT_EQ(configuration_key(suite_, configuration),
+            "camera=orbit_y:0/8,data=cube,sampler=manual,step=0.5,technique=raycast");
+}
+
+TEST_F(PlanTest, KeysOfAPlanAreDistinct) {
+  std::set<std::string> keys;
+  const Plan plan = load_plan("fake/quick", {}, find_);
+  for (const Configuration& each : plan.configurations) {
+    keys.insert(configuration_key(suite_, each));
+  }
+  EXPECT_THAT(keys, SizeIs(plan.configurations.size()));
+}
+
+TEST_F(PlanTest, ShardsAreAPartition) {
+  const Plan plan = load("suite: fake\ndata: [a, b, c, d, e]\ncamera: [p, q, r]\n");
+  for (int count = 1; count <= 17; ++count) {
+    std::multiset<Configuration> all;
+    std::size_t least = plan.configurations.size();
+    std::size_t most = 0;
+    for (int index = 1; index <= count; ++index) {
+      Plan shard = plan;
+      keep_shard(shard, index, count);
+      least = std::min(least, shard.configurations.size());
+      most = std::max(most, shard.configurations.size());
+      all.insert(shard.configurations.begin(), shard.configurations.end());
+    }
+    const std::multiset<Configuration> expected(plan.configurations.begin(),
+                                                plan.configurations.end());
+    EXPECT_EQ(all, expected) << count;
+    EXPECT_LE(most - least, 1U) << count;
+  }
+}
+
+TEST_F(PlanTest, ShardsCutAlongDataSets) {
+  Plan plan = load("suite: fake\ndata: [a, b, c, d]\ncamera: [p, q]\n");
+  keep_shard(plan, 2, 2);
+  EXPECT_THAT(values(plan, "data"), ElementsAre("b", "b", "d", "d"));
+}
+
+TEST_F(PlanTest, ShardOutOfRange) {
+  Plan plan = load("suite: fake\n");
+  for (const auto& [index, count] : {std::pair{0, 2}, {3, 2}, {1, 0}, {-1, 2}}) {
+    EXPECT_THROW(keep_shard(plan, index, count), core::InputError) << index << "/" << count;
+  }
+}
+
+}  // namespace
+}  // namespace triptych::measure
