@@ -37,10 +37,13 @@ struct Measurement {
                                   const std::vector<record::ClockTrust>& clocks,
                                   const std::string& name);
 
-// Device time of a calibration work against its wall time, frame by frame. Trusted when every
-// frame's ratio lies in [1 − tolerance, 1 + tolerance_above]: device time may leave out launch and
-// wake-up, but a clock that reads 0, or less than most of the wall time, or more than it, is not
-// believed.
+// Device time of a calibration work against its wall time, frame by frame. Trusted when the ratio
+// of every frame lies within ClockLimits (measure/clock.hpp), one late wake-up among five or more
+// frames excused: device time may leave out launch and wake-up, but a clock that reads 0, or less
+// than most of the wall time, or more than it, is not believed.
 [[nodiscard]] record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind);
+
+// Content hash of the exact bits of an image, its size included: the key of Store::image().
+[[nodiscard]] std::string image_hash(const core::Image& image);
 
 }  // namespace triptych::measure

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/error.hpp"
 #include "measure/plan.hpp"
 #include "measure/protocol.hpp"
 #include "record/store.hpp"
@@ -25,10 +26,25 @@ struct Plant {
 struct RunOptions {
   Protocol protocol;
   std::chrono::seconds limit{60};  // of one configuration; a worker past it is killed and replaced
+  std::chrono::seconds start_limit{60};  // of opening a device and calibrating its clocks
   bool resume = false;  // continue the plan's latest run: what has a record is left alone
   std::vector<Plant> plants;
-  // Command that starts a worker for a device; the device id is appended.
+  // Command that starts a worker for a device; the device id is appended. It must call
+  // serve_worker with Process::child_request_fd and child_answer_fd (measure/process.hpp).
   std::vector<std::string> worker_command;
+};
+
+// A signal asked the run to stop: its workers are gone, every record made so far is in the store,
+// and `resume` goes on from there.
+class Interrupted : public core::Error {
+ public:
+  explicit Interrupted(int signal)
+      : Error("interrupted; what was measured is in the store, --resume goes on"),
+        signal_(signal) {}
+  [[nodiscard]] int signal() const noexcept { return signal_; }
+
+ private:
+  int signal_;
 };
 
 struct Progress {
@@ -50,7 +66,11 @@ struct RunResult {
 };
 
 // Every configuration of the plan on every device, devices one after the other so that none
-// disturbs another's timing. A crash, a hang or a lost device costs one configuration.
+// disturbs another's timing. A crash, a hang or a lost device costs one configuration; a device
+// whose worker cannot be started twice in a row costs the device, each of its configurations failed
+// with the reason. Throws InputError for an unknown fault, for an environment that forbids
+// measuring, and for a resumed run whose device has changed; IoError when the store cannot be
+// written; Interrupted.
 [[nodiscard]] RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices,
                                  const Suite& suite, record::Store& store,
                                  const RunOptions& options,

@@ -1,0 +1,38 @@
+#include "measure/interrupt.hpp"
+
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "core/error.hpp"
+
+namespace triptych::measure {
+
+InterruptGuard::InterruptGuard() {
+  sigset_t ours;
+  sigemptyset(&ours);
+  for (const int each : {SIGINT, SIGTERM, SIGPIPE}) sigaddset(&ours, each);
+  signals_ = FileDescriptor(::signalfd(-1, &ours, SFD_CLOEXEC | SFD_NONBLOCK));
+  if (!signals_ || ::pthread_sigmask(SIG_BLOCK, &ours, &before_) != 0) {
+    throw core::IoError("cannot watch for interrupts");
+  }
+}
+
+InterruptGuard::~InterruptGuard() {
+  const std::optional<int> left = take();
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  if (left) std::raise(*left);
+}
+
+std::optional<int> InterruptGuard::take() {
+  signalfd_siginfo info{};
+  for (;;) {
+    const ssize_t got = ::read(signals_.get(), &info, sizeof info);
+    if (got < 0 && errno == EINTR) continue;
+    if (got != static_cast<ssize_t>(sizeof info)) return std::nullopt;
+    if (info.ssi_signo != SIGPIPE) return static_cast<int>(info.ssi_signo);
+  }
+}
+
+}  // namespace triptych::measure

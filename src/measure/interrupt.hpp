@@ -1,0 +1,31 @@
+#pragma once
+// SIGINT and SIGTERM as something that a loop can wait for beside its pipes, instead of dying in
+// the middle of them.
+
+#include <csignal>
+#include <optional>
+
+#include "measure/process.hpp"
+
+namespace triptych::measure {
+
+// While it lives, SIGINT, SIGTERM and SIGPIPE are blocked in the calling thread and arrive at fd();
+// writing to a pipe nobody reads is then an error code. Destroying it restores what was; an
+// interrupt that nobody took is raised again.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+  [[nodiscard]] int fd() const noexcept { return signals_.get(); }  // readable when a signal waits
+  // The interrupting signal that waits, taken; SIGPIPE is dropped.
+  [[nodiscard]] std::optional<int> take();
+
+ private:
+  sigset_t before_{};
+  FileDescriptor signals_;
+};
+
+}  // namespace triptych::measure

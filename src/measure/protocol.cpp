@@ -1,0 +1,169 @@
+#include "measure/protocol.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "core/hash.hpp"
+#include "core/json.hpp"
+#include "measure/benchmark_loop.hpp"
+#include "measure/clock.hpp"
+
+namespace triptych::measure {
+namespace {
+
+// Wall time spent in the device's business, for telling overhead from work.
+class Stopwatch {
+ public:
+  Stopwatch() : start_(std::chrono::steady_clock::now()) {}
+  [[nodiscard]] double ns() const {
+    return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start_)
+        .count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_;
+};
+
+// Frames that last at least `ns` together, one of them lasting frame_ns; a clock too coarse to see
+// a frame asks for as many as there may be.
+int frames_to_fill(double ns, double frame_ns, int most) {
+  if (!(frame_ns > 0)) return most;
+  const double frames = std::ceil(ns / frame_ns);
+  return frames < most ? std::max(1, static_cast<int>(frames)) : most;
+}
+
+struct WarmUp {
+  int frames = 0;
+  double fastest_ns = std::numeric_limits<double>::infinity();
+};
+
+// The first frames compile, fault pages in and wake threads. Frames too short for four of them to
+// have warmed anything are repeated until a tenth of the loop's time has gone by. The fastest
+// predicts, so that the loop lasts no less than asked.
+WarmUp warm_up(Prepared& prepared, const Protocol& protocol) {
+  WarmUp result;
+  const double enough_ns = protocol.least_loop_ns / 10;
+  double spent_ns = 0;
+  while (result.frames < protocol.warm_up_frames ||
+         (spent_ns < enough_ns && result.frames < protocol.most_loop_frames)) {
+    const Stopwatch whole;
+    const Frame frame = prepared.frame(Purpose::timing);
+    spent_ns += std::max(frame.wall_ns, whole.ns());
+    result.fastest_ns = std::min(result.fastest_ns, frame.wall_ns);
+    ++result.frames;
+  }
+  return result;
+}
+
+const record::ClockTrust* clock_for(technique::Work kind,
+                                    const std::vector<record::ClockTrust>& clocks) {
+  const auto found = std::ranges::find(clocks, technique::name_of(kind), &record::ClockTrust::work);
+  return found == clocks.end() ? nullptr : &*found;
+}
+
+// The timed frames. A device that told no time for one of them told none: a list with holes would
+// pair the wrong values.
+core::Json time_into(record::Record& record, Prepared& prepared, int frames, bool trusted,
+                     const std::string& name, double& work_ns) {
+  std::vector<std::optional<double>> device_ns;
+  record.wall_ns.reserve(static_cast<std::size_t>(frames));
+  device_ns.reserve(static_cast<std::size_t>(frames));
+  BenchmarkResult result = time_frames(name, frames, [&] {
+    const Stopwatch stopwatch;
+    const Frame frame = prepared.frame(Purpose::timing);
+    work_ns += stopwatch.ns();
+    const bool told = frame.device_ns && std::isfinite(*frame.device_ns);
+    record.wall_ns.push_back(frame.wall_ns);
+    device_ns.push_back(told ? frame.device_ns : std::nullopt);
+    IterationTime time{.ns = trusted && told ? *frame.device_ns : frame.wall_ns,
+                       .facts = {{"wall_ns", frame.wall_ns}}};
+    if (told) time.facts["device_ns"] = *frame.device_ns;
+    return time;
+  });
+  if (std::ranges::all_of(device_ns, [](const auto& ns) { return ns.has_value(); })) {
+    for (const auto& ns : device_ns) record.device_ns.push_back(*ns);
+  }
+  record.device_clock_trusted = trusted && plausible(record.device_ns, record.wall_ns);
+  return std::move(result.entries);
+}
+
+// Counts are the same for every frame, so they belong to every entry that speaks of a frame; a
+// spread (stddev, cv) of them would say nothing.
+void add_counts(core::Json& entries, const record::Counts& counts) {
+  for (core::Json& entry : entries) {
+    const std::string aggregate = entry.value("aggregate_name", "");
+    if (aggregate == "stddev" || aggregate == "cv") continue;
+    for (const auto& [name, count] : counts) entry[name] = count;
+  }
+}
+
+}  // namespace
+
+std::string image_hash(const core::Image& image) {
+  std::vector<std::byte> bytes;
+  const auto append = [&bytes](const auto& values) {
+    const auto part = std::as_bytes(std::span(values));
+    bytes.insert(bytes.end(), part.begin(), part.end());
+  };
+  append(std::array<int, 2>{image.width, image.height});
+  append(image.rgba);
+  append(image.depth);
+  append(image.ids);
+  return core::content_hash(bytes);
+}
+
+Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Work work_kind,
+                    const std::vector<record::ClockTrust>& clocks, const std::string& name) {
+  const Stopwatch whole;
+  initialize_benchmarks();
+  Measurement result;
+  record::Record& record = result.record;
+  double work_ns = 0;
+  const auto counted = [&work_ns](const auto& work) {
+    const Stopwatch stopwatch;
+    auto value = work();
+    work_ns += stopwatch.ns();
+    return value;
+  };
+
+  const WarmUp warm = counted([&] { return warm_up(prepared, protocol); });
+  record.warm_up_frames = warm.frames;
+  record.frames_per_100ms = frames_to_fill(100e6, warm.fastest_ns, std::numeric_limits<int>::max());
+  record.loop_frames =
+      frames_to_fill(protocol.least_loop_ns, warm.fastest_ns, protocol.most_loop_frames);
+
+  const record::ClockTrust* clock = clock_for(work_kind, clocks);
+  const bool trusted = clock != nullptr && clock->trusted;
+  core::Json entries = time_into(record, prepared, protocol.timed_frames, trusted, name, work_ns);
+  result.image = prepared.image();
+
+  if (protocol.statistics) {
+    record.statistics = counted([&] { return prepared.frame(Purpose::statistics); }).counts;
+  }
+  if (protocol.counters) {
+    record.counters = counted([&] { return prepared.frame(Purpose::counters); }).counts;
+  }
+  BenchmarkResult loop = time_loop(name + "/loop", record.loop_frames,
+                                   [&] { static_cast<void>(prepared.frame(Purpose::timing)); });
+  record.loop_wall_ns = loop.total_ns;
+  work_ns += loop.total_ns;
+
+  for (core::Json& entry : loop.entries) entries.push_back(std::move(entry));
+  add_counts(entries, record.counters);
+  add_counts(entries, record.statistics);
+  record.benchmark_json = entries.dump();
+  record.image = image_hash(result.image);
+  record.kernel_hash = prepared.kernel_hash();
+  record.outcome = record::Outcome::measured;
+  record.overhead_ns = whole.ns() - work_ns;
+  return result;
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,89 @@
+#pragma once
+// What supervisor and worker say to each other over two pipes. Both are the same program on the
+// same machine, so numbers travel in native byte order. A message is
+//   8 bytes magic, 4 bytes size of the JSON text, 4 bytes size of what follows it, JSON, binary.
+//
+//   supervisor → worker   start   suite, kinds of work the plan needs, clocks already known
+//   worker → supervisor   hello   device, clocks      | refused   reason
+//   supervisor → worker   job     one configuration with the protocol and what is planted
+//   worker → supervisor   answer  record, time taken; the image as EXR follows as binary
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "measure/protocol.hpp"
+#include "measure/suite.hpp"
+#include "record/record.hpp"
+
+namespace triptych::measure {
+
+struct Message {
+  nlohmann::json json;
+  std::vector<std::byte> binary;
+};
+
+// Writes the whole message; throws IoError when the other side is gone.
+void send(int fd, const Message& message);
+// Blocks for one message; nullopt when the other side has closed. Throws IoError when it closes
+// within a message, InputError for bytes that are no message.
+[[nodiscard]] std::optional<Message> receive(int fd);
+
+// Puts messages together from the pieces a pipe gives.
+class MessageBuffer {
+ public:
+  void append(std::span<const std::byte> bytes);
+  // The next whole message, if it is there. Throws InputError for bytes that are no message.
+  [[nodiscard]] std::optional<Message> next();
+  [[nodiscard]] bool empty() const noexcept { return bytes_.empty(); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+struct Start {
+  std::string suite;
+  std::vector<std::string> kinds;  // technique::name_of
+  std::vector<record::ClockTrust>
+      clocks;  // a worker that replaces another need not calibrate again
+};
+
+struct Hello {
+  record::Device device;
+  std::vector<record::ClockTrust> clocks;
+};
+
+struct Refused {
+  std::string reason;
+};
+
+struct Job {
+  std::string name;  // of the benchmark
+  Configuration configuration;
+  Protocol protocol;
+  std::vector<std::string> plants;
+};
+
+struct Answer {
+  record::Record record;  // what is known below the plan; `factors` with every "auto" resolved
+  double worker_ns = 0;   // from job read to answer ready
+  std::vector<std::byte> exr;
+};
+
+[[nodiscard]] Message to_message(const Start& start);
+[[nodiscard]] Message to_message(const Hello& hello);
+[[nodiscard]] Message to_message(const Refused& refused);
+[[nodiscard]] Message to_message(const Job& job);
+[[nodiscard]] Message to_message(Answer answer);
+
+// Empty when the message is of another type. Throw InputError when it lacks something.
+[[nodiscard]] std::optional<Start> as_start(const Message& message);
+[[nodiscard]] std::optional<Hello> as_hello(const Message& message);
+[[nodiscard]] std::optional<Refused> as_refused(const Message& message);
+[[nodiscard]] std::optional<Job> as_job(const Message& message);
+[[nodiscard]] std::optional<Answer> as_answer(Message message);
+
+}  // namespace triptych::measure

@@ -1,0 +1,194 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <new>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "measure/clock.hpp"
+#include "measure/plant.hpp"
+#include "measure/protocol.hpp"
+#include "measure/runner.hpp"
+#include "measure/wire.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ns_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+}
+
+// Of this process since it began. Not ru_maxrss: that one survives exec, so that a worker would
+// start with its supervisor's peak.
+std::uint64_t peak_memory_bytes() {
+  std::ifstream lines("/proc/self/status");
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("VmHWM:")) return std::stoull(line.substr(6)) * 1024;
+  }
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+technique::Work kind_named(std::string_view name) {
+  for (const technique::Work kind : {technique::Work::compute, technique::Work::draw}) {
+    if (technique::name_of(kind) == name) return kind;
+  }
+  throw core::InputError(fmt::format("unknown kind of work '{}'", name));
+}
+
+// What is known of the data and of the path it takes, for judging the image.
+void describe_work(const Work& work, const Device& device, record::Record& record) {
+  if (const auto* volume = std::get_if<VolumeWork>(&work.scene)) {
+    record.data_hash = volume->scene.grid->hash;
+    record.precision["filter_weight_error"] = device.filter_weight_error(
+        {.voxel = volume->scene.grid->format, .sampler = volume->options.sampler});
+  }
+}
+
+class Worker {
+ public:
+  Worker(std::unique_ptr<Device> device, Suite& suite, std::vector<record::ClockTrust> clocks)
+      : device_(std::move(device)), suite_(suite), clocks_(std::move(clocks)) {}
+
+  [[nodiscard]] const record::Device& info() const { return device_->info(); }
+  [[nodiscard]] const std::vector<record::ClockTrust>& clocks() const { return clocks_; }
+
+  void calibrate_for(const std::vector<std::string>& kinds) {
+    for (const std::string& kind : kinds) {
+      if (std::ranges::find(clocks_, kind, &record::ClockTrust::work) != clocks_.end()) continue;
+      clocks_.push_back(calibrate_clock(*device_, suite_, kind_named(kind)));
+    }
+  }
+
+  // Every typed error ends here, as the outcome of this one configuration.
+  [[nodiscard]] Answer answer(const Job& job) {
+    const auto start = Clock::now();
+    Answer answer;
+    answer.record.factors = job.configuration;
+    try {
+      perform(job, answer);
+    } catch (const core::NotSupported& error) {
+      conclude(answer, record::Outcome::skipped, error.what());
+    } catch (const core::DeviceLost& error) {
+      conclude(answer, record::Outcome::lost, error.what());
+    } catch (const std::bad_alloc&) {
+      conclude(answer, record::Outcome::failed, "out of host memory");
+    } catch (const std::exception& error) {
+      conclude(answer, record::Outcome::failed, error.what());
+    }
+    answer.record.peak_memory_bytes = peak_memory_bytes();
+    answer.worker_ns = ns_since(start);
+    answer.record.overhead_ns =
+        answer.worker_ns - answer.record.prepare_ns - measuring_ns_ + answer.record.overhead_ns;
+    return answer;
+  }
+
+ private:
+  // Of a configuration that was not measured nothing may look as if it had been.
+  static void conclude(Answer& answer, record::Outcome outcome, std::string reason) {
+    record::Record record;
+    record.factors = std::move(answer.record.factors);
+    record.prepare_ns = answer.record.prepare_ns;
+    record.outcome = outcome;
+    record.reason = std::move(reason);
+    answer.record = std::move(record);
+    answer.exr.clear();
+  }
+
+  void perform(const Job& job, Answer& answer) {
+    measuring_ns_ = 0;
+    if (std::string reason = suite_.missing_data(job.configuration); !reason.empty()) {
+      throw core::NotSupported(reason);
+    }
+    const auto start = Clock::now();
+    Configuration configuration = job.configuration;
+    Work work = suite_.work(configuration, *device_);
+    for (const std::string& plant : job.plants) apply_plant(plant, work);
+    if (const auto reason = device_->unsupported(work)) throw core::NotSupported(*reason);
+    const auto prepared = device_->prepare(work);
+    const double prepare_ns = ns_since(start);
+    answer.record.prepare_ns = prepare_ns;
+
+    const auto measuring = Clock::now();
+    Measurement measured = measure(*prepared, job.protocol,
+                                   technique::technique(work.technique).work, clocks_, job.name);
+    measuring_ns_ = ns_since(measuring);
+    answer.record = std::move(measured.record);
+    answer.record.prepare_ns = prepare_ns;
+    answer.record.factors = std::move(configuration);
+    describe_work(work, *device_, answer.record);
+    answer.exr = core::encode_exr(measured.image);
+  }
+
+  std::unique_ptr<Device> device_;
+  Suite& suite_;
+  std::vector<record::ClockTrust> clocks_;
+  double measuring_ns_ = 0;  // of the last job: what measure() accounts for itself
+};
+
+// A worker without a supervisor would hold the device for nobody, even from within a driver's call.
+void die_with_parent() {
+  const pid_t parent = ::getppid();
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) std::raise(SIGKILL);
+}
+
+// A process that a driver starts must not keep our pipes open after us.
+void keep_to_ourselves(int fd) {
+  if (const int flags = ::fcntl(fd, F_GETFD); flags >= 0) ::fcntl(fd, F_SETFD, flags | FD_CLOEXEC);
+}
+
+int serve(const Backend& backend, std::string_view device_id, const FindSuite& find_suite,
+          int request_fd, int answer_fd) {
+  const auto first = receive(request_fd);
+  if (!first) return 0;
+  const auto start = as_start(*first);
+  if (!start) throw core::InputError("a worker's first message must be 'start'");
+  Suite& suite = find_suite(start->suite);
+  Worker worker(backend.open(device_id), suite, start->clocks);
+  worker.calibrate_for(start->kinds);
+  send(answer_fd, to_message(Hello{.device = worker.info(), .clocks = worker.clocks()}));
+
+  while (const auto message = receive(request_fd)) {
+    const auto job = as_job(*message);
+    if (!job) throw core::InputError("a worker is given 'start' once and then only 'job'");
+    Answer answer = worker.answer(*job);
+    const bool lost = answer.record.outcome == record::Outcome::lost;
+    send(answer_fd, to_message(std::move(answer)));
+    // Freeing objects of a lost device is what drivers are worst at: leave without it.
+    if (lost) ::_exit(0);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int serve_worker(const Backend& backend, std::string_view device_id, const FindSuite& find_suite,
+                 int request_fd, int answer_fd) {
+  die_with_parent();
+  keep_to_ourselves(request_fd);
+  keep_to_ourselves(answer_fd);
+  try {
+    return serve(backend, device_id, find_suite, request_fd, answer_fd);
+  } catch (const std::exception& error) {
+    try {
+      send(answer_fd, to_message(Refused{error.what()}));
+    } catch (const core::Error&) {
+      // Nobody is left to be told.
+    }
+    return static_cast<int>(core::ExitCode::usage);
+  }
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,72 @@
+#pragma once
+// The supervisor's end of one worker: ask, and get an answer, a death or a timeout.
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "measure/interrupt.hpp"
+#include "measure/process.hpp"
+#include "measure/wire.hpp"
+
+namespace triptych::measure {
+
+// The end of what a worker printed, bounded however much it prints.
+class LogTail {
+ public:
+  void append(std::string_view text);
+  void clear() noexcept { text_.clear(); }
+  // The last lines, blank ones left out, " | " between them; empty when there are none.
+  [[nodiscard]] std::string last_lines(std::size_t count) const;
+
+ private:
+  static constexpr std::size_t most_bytes = 16384;
+  std::string text_;
+};
+
+class WorkerLink {
+ public:
+  struct Died {
+    std::string reason;  // "killed by SIGSEGV (Segmentation fault); it last said: …"
+  };
+  struct Late {
+    std::string reason;  // "no answer within 60 s; it last said: …"
+  };
+  using Reply = std::variant<Message, Died, Late>;
+
+  // Throws IoError when the command cannot be started.
+  WorkerLink(const std::vector<std::string>& command, const std::vector<std::string>& environment,
+             InterruptGuard& interrupts);
+
+  // After Died and Late the process is gone and reaped, and the link of no more use. Throws
+  // Interrupted when a signal asks the supervisor to stop.
+  [[nodiscard]] Reply ask(const Message& request, std::chrono::milliseconds limit);
+
+  // Lets an idle worker leave by itself, so that drivers can write their caches; kills it when it
+  // does not within a few seconds.
+  void finish();
+
+ private:
+  using Deadline = std::chrono::steady_clock::time_point;
+
+  void read_answer();
+  void read_log();
+  // Waits until something happened at one of the descriptors; false at the deadline.
+  [[nodiscard]] bool wait_for_event(Deadline deadline);
+  [[nodiscard]] Died bury(std::string_view before = {});
+  [[nodiscard]] std::string with_last_words(std::string reason);
+
+  Process process_;
+  InterruptGuard& interrupts_;
+  MessageBuffer answers_;
+  LogTail log_;
+  bool answers_open_ = true;
+  bool log_open_ = true;
+  bool ended_ = false;
+};
+
+}  // namespace triptych::measure
