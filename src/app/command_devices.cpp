@@ -5,29 +5,14 @@
 
 #include "app/arguments.hpp"
 #include "app/listing.hpp"
-#include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "core/json.hpp"
 
 namespace triptych::app {
 namespace {
 
-struct Greeted {
-  record::Device device;
-  std::vector<record::ClockTrust> clocks;
-  std::string refused;  // why it could not be opened
-};
-
-Greeted greet(const record::Device& device, const std::string& suite) {
-  const measure::Greeting greeting =
-      measure::greet({own_program(), "worker", "--device"}, device.id, suite, {"compute", "draw"});
-  return {.device = greeting.hello ? greeting.hello->device : device,
-          .clocks = greeting.hello ? greeting.hello->clocks : std::vector<record::ClockTrust>{},
-          .refused = greeting.refused};
-}
-
-void print_text(const std::vector<Greeted>& greeted, const std::vector<measure::Broken>& broken) {
-  for (const Greeted& each : greeted) {
+void print_text(const std::vector<Greeting>& greeted, const std::vector<measure::Broken>& broken) {
+  for (const Greeting& each : greeted) {
     fmt::print("{}\n  {} ({}), driver {}, {}\n", each.device.id, each.device.name,
                each.device.vendor, each.device.driver_version, each.device.api_version);
     if (!each.refused.empty()) fmt::print("  cannot be used: {}\n", each.refused);
@@ -46,9 +31,9 @@ void print_text(const std::vector<Greeted>& greeted, const std::vector<measure::
     fmt::print("not usable: {}: {}\n", each.what, each.reason);
 }
 
-void print_json(const std::vector<Greeted>& greeted, const std::vector<measure::Broken>& broken) {
+void print_json(const std::vector<Greeting>& greeted, const std::vector<measure::Broken>& broken) {
   core::Json json{{"devices", core::Json::array()}, {"broken", core::Json::array()}};
-  for (const Greeted& each : greeted) {
+  for (const Greeting& each : greeted) {
     core::Json entry = each.device;
     entry["key"] = each.device.key();
     entry["clocks"] = each.clocks;
@@ -65,7 +50,7 @@ core::ExitCode devices(bool json) {
   const Registry registry = make_registry();
   const measure::Listing listing = list_devices(registry);
   const std::string suite(registry.suites.front()->name());
-  std::vector<Greeted> greeted;
+  std::vector<Greeting> greeted;
   for (const record::Device& device : listing.devices) greeted.push_back(greet(device, suite));
   if (json) {
     print_json(greeted, listing.broken);

@@ -44,7 +44,8 @@ void show(const measure::Progress& progress) {
   }
 }
 
-core::ExitCode run(const RunArguments& arguments) {
+// Measures as the arguments say and says in one line how it went.
+measure::RunResult run_and_tell(const RunArguments& arguments) {
   const Registry registry = make_registry();
   const measure::Plan plan = arguments.plan.load(registry.find_suite());
   const std::vector<std::string> devices =
@@ -63,7 +64,19 @@ core::ExitCode run(const RunArguments& arguments) {
       "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
       plan.name, result.run, arguments.store, result.measured, result.skipped, result.failed,
       result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
+  return result;
+}
+
+core::ExitCode run(const RunArguments& arguments) {
+  const measure::RunResult result = run_and_tell(arguments);
   return result.measured + result.failed > 0 ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+}
+
+// As a CTest fixture: a configuration that failed fails the test, nothing but skips skips it.
+core::ExitCode run_as_test(const RunArguments& arguments) {
+  const measure::RunResult result = run_and_tell(arguments);
+  if (result.failed > 0) return core::ExitCode::regression;
+  return result.measured > 0 ? core::ExitCode::pass : core::ExitCode::skip;
 }
 
 core::ExitCode serve(const std::string& device) {
@@ -88,28 +101,39 @@ void add_worker_command(Commands& commands) {
   listing->group("");
 }
 
+void add_run_options(CLI::App& command, RunArguments& arguments) {
+  arguments.plan.add_to(command);
+  command.add_option("--device", arguments.devices,
+                     "Glob over device ids (repeatable; default: all)");
+  command.add_option("--store", arguments.store, "SQLite file for the records")
+      ->capture_default_str();
+  command
+      .add_option("--limit", arguments.limit_s,
+                  "Seconds after which a configuration counts as hung")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 86400));
+  command.add_option(
+      "--plant", arguments.plants,
+      "Plant a fault to prove that the gate catches it: half_voxel_shift, flipped_axis, "
+      "extra_sample, uncorrected_opacity, coarse_filter, slowdown:PERCENT, crash, hang, "
+      "device_lost; FAULT@GLOB limits it to configurations or devices");
+}
+
 }  // namespace
 
 void add_run_commands(Commands& commands) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = commands.add("run", "Measure a plan on the devices of this machine",
                                    [arguments] { return run(*arguments); });
-  arguments->plan.add_to(*command);
-  command->add_option("--device", arguments->devices,
-                      "Glob over device ids (repeatable; default: all)");
-  command->add_option("--store", arguments->store, "SQLite file for the records")
-      ->capture_default_str();
+  add_run_options(*command, *arguments);
   command->add_flag("--resume", arguments->resume, "Go on with the plan's latest run in the store");
-  command
-      ->add_option("--limit", arguments->limit_s,
-                   "Seconds after which a configuration counts as hung")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 86400));
-  command->add_option(
-      "--plant", arguments->plants,
-      "Plant a fault to prove that the gate catches it: half_voxel_shift, flipped_axis, "
-      "extra_sample, uncorrected_opacity, coarse_filter, slowdown:PERCENT, crash, hang, "
-      "device_lost; FAULT@GLOB limits it to configurations or devices");
+
+  auto tested = std::make_shared<RunArguments>();
+  tested->resume = true;  // every device adds its part to the run that test-start began
+  CLI::App* test = commands.add("test-measure", "Measure one device as a CTest fixture",
+                                [tested] { return run_as_test(*tested); });
+  add_run_options(*test, *tested);
+  test->group("");
   add_worker_command(commands);
 }
 

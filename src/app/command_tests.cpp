@@ -158,9 +158,23 @@ void print_pictures(const record::Store& store, const std::string& run, Truths& 
     };
     print_picture("TestImage", file("test"), image);
     print_picture("ValidImage", file("valid"), truth.truth);
-    print_picture("DifferenceImage", file("difference"), judge::difference(image, truth.truth));
+    print_picture("DifferenceImage", file("difference"),
+                  judge::difference_image(image, truth.truth, 16));
     return;
   }
+}
+
+// A check that only advises or skips has judged nothing: a skip with its reason, never a pass.
+std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
+  std::string reason;
+  for (const judge::Finding& finding : result.findings) {
+    const bool idle =
+        finding.verdict == judge::Verdict::advisory || finding.verdict == judge::Verdict::skipped;
+    if (!idle && !finding.configuration.empty()) return std::nullopt;
+    if (idle && reason.empty()) reason = finding.message;
+  }
+  if (reason.empty()) return std::nullopt;
+  return reason;
 }
 
 core::ExitCode check(const CheckArguments& arguments) {
@@ -179,16 +193,10 @@ core::ExitCode check(const CheckArguments& arguments) {
   if (!arguments.device.empty()) request.devices = {arguments.device};
   const judge::GateResult result = judge::judge_run(
       store, run->id, judge::Baselines(default_baselines(), arguments.plan), request);
-  bool judged = false;
-  std::string reason;
   for (const judge::Finding& finding : result.findings) {
-    if (finding.verdict == judge::Verdict::pass) {
-      judged = true;
-    } else {
-      fmt::print("{} {}: {}\n", judge::name_of(finding.verdict), finding.configuration,
-                 finding.message);
-      if (reason.empty()) reason = finding.message;
-    }
+    if (finding.verdict == judge::Verdict::pass) continue;
+    fmt::print("{} {}: {}\n", judge::name_of(finding.verdict), finding.configuration,
+               finding.message);
   }
   if (!result.findings.empty()) {
     const judge::Finding& worst = result.findings.front();
@@ -197,20 +205,12 @@ core::ExitCode check(const CheckArguments& arguments) {
       print_pictures(store, run->id, truths, worst);
     }
   }
-  const core::ExitCode code = result.exit_code();
   fmt::print("{}\n", result.headline());
-  // A check that only advises has judged nothing: a skip, with its reason, not a pass.
-  if (code == core::ExitCode::cannot_judge || code == core::ExitCode::pass) {
-    const bool only_advice =
-        !judged && std::ranges::none_of(result.findings, [](const judge::Finding& f) {
-          return f.verdict == judge::Verdict::cannot_judge || f.verdict == judge::Verdict::improved;
-        });
-    if (only_advice) {
-      fmt::print("skipped: {}\n", reason);
-      return core::ExitCode::skip;
-    }
+  if (const auto reason = reason_to_skip(result)) {
+    fmt::print("skipped: {}\n", *reason);
+    return core::ExitCode::skip;
   }
-  return code;
+  return result.exit_code();
 }
 
 }  // namespace

@@ -2,28 +2,25 @@
 
 #include <fmt/format.h>
 #include <fnmatch.h>
-#include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstdlib>
-#include <optional>
+#include <iterator>
 
 #include "app/paths.hpp"
 #include "core/json.hpp"
 #include "measure/environment.hpp"
-#include "measure/process.hpp"
 #include "measure/wire.hpp"
+#include "measure/worker_link.hpp"
 
 namespace triptych::app {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::steady_clock;
+using measure::WorkerLink;
 
-constexpr milliseconds limit{30'000};
+constexpr std::chrono::seconds listing_limit{30};
+constexpr std::chrono::seconds greeting_limit{
+    120};  // opening may compile; calibrating draws frames
 
 core::Json as_json(const measure::Listing& listing) {
   core::Json broken = core::Json::array();
@@ -41,42 +38,29 @@ measure::Listing from_json(const core::Json& json) {
   return listing;
 }
 
-// Reads the one message of a listing process, or tells by an empty result that it ended without
-// one.
-std::optional<measure::Message> read_answer(measure::Process& process) {
-  measure::MessageBuffer buffer;
-  std::array<std::byte, 65536> bytes{};
-  const auto deadline = steady_clock::now() + limit;
-  while (steady_clock::now() < deadline) {
-    std::array<pollfd, 2> waits{pollfd{process.answer_fd(), POLLIN, 0},
-                                pollfd{process.log_fd(), POLLIN, 0}};
-    ::poll(waits.data(), waits.size(), 100);
-    // What the driver prints is read and let go, so that a full pipe cannot stop it.
-    while (::read(process.log_fd(), bytes.data(), bytes.size()) > 0) {
-    }
-    const ssize_t got = ::read(process.answer_fd(), bytes.data(), bytes.size());
-    if (got > 0) buffer.append(std::span(bytes).first(static_cast<std::size_t>(got)));
-    if (std::optional<measure::Message> message = buffer.next()) return message;
-    if (got == 0) return std::nullopt;
-  }
-  return std::nullopt;
+// Starts this program as `command`, says `request` and returns its one answer.
+WorkerLink::Reply ask_once(const std::vector<std::string>& command, const std::string& device_id,
+                           const measure::Message& request, std::chrono::seconds limit) {
+  measure::InterruptGuard interrupts;
+  const measure::CacheFolder cache(device_id);
+  WorkerLink link(command, measure::worker_environment(device_id, cache), interrupts);
+  WorkerLink::Reply reply = link.ask(request, limit);
+  if (std::holds_alternative<measure::Message>(reply)) link.finish();
+  return reply;
+}
+
+std::string reason_of(const WorkerLink::Reply& reply) {
+  if (const auto* died = std::get_if<WorkerLink::Died>(&reply)) return died->reason;
+  if (const auto* late = std::get_if<WorkerLink::Late>(&reply)) return late->reason;
+  return "an answer that makes no sense";
 }
 
 measure::Listing list_one(const std::string& api) {
-  const std::string id = api + ":listing";
-  const measure::CacheFolder cache(id);
-  measure::Process process({own_program(), "list-api", api},
-                           measure::worker_environment(id, cache));
-  if (const std::optional<measure::Message> answer = read_answer(process)) {
-    return from_json(answer->json);
-  }
-  process.close_requests();
-  const std::optional<measure::Exit> exit = process.wait(milliseconds(100));
-  return {.devices = {},
-          .broken = {{.what = api,
-                      .reason = exit ? "listing its devices ended: " + measure::describe(*exit)
-                                     : fmt::format("listing its devices took more than {} s",
-                                                   limit.count() / 1000)}}};
+  const WorkerLink::Reply reply =
+      ask_once({own_program(), "list-api", api}, api + ":listing",
+               {.json = core::Json::object(), .binary = {}}, listing_limit);
+  if (const auto* answer = std::get_if<measure::Message>(&reply)) return from_json(answer->json);
+  return {.devices = {}, .broken = {{.what = api, .reason = reason_of(reply)}}};
 }
 
 }  // namespace
@@ -109,6 +93,18 @@ std::vector<std::string> choose_devices(const measure::Listing& listing,
         "drivers, `triptych devices` says what each loader found");
   }
   throw core::NotSupported(fmt::format("no device matches {}; there are:{}", globs.front(), known));
+}
+
+Greeting greet(const record::Device& device, const std::string& suite) {
+  const measure::Message start = measure::to_message(
+      measure::Start{.suite = suite, .kinds = {"compute", "draw"}, .clocks = {}});
+  const WorkerLink::Reply reply =
+      ask_once({own_program(), "worker", "--device", device.id}, device.id, start, greeting_limit);
+  if (const auto* answer = std::get_if<measure::Message>(&reply)) {
+    if (const auto hello = measure::as_hello(*answer)) return {hello->device, hello->clocks, {}};
+    if (const auto refused = measure::as_refused(*answer)) return {device, {}, refused->reason};
+  }
+  return {device, {}, reason_of(reply)};
 }
 
 core::ExitCode answer_listing(const Registry& registry, const std::string& api, int answer_fd) {

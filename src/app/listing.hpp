@@ -17,6 +17,14 @@ namespace triptych::app {
 [[nodiscard]] std::vector<std::string> choose_devices(const measure::Listing& listing,
                                                       const std::vector<std::string>& globs);
 
+// What a device says of itself once it is open; its clocks are calibrated on the suite's work.
+struct Greeting {
+  record::Device device;
+  std::vector<record::ClockTrust> clocks;
+  std::string refused;  // why it cannot be used; empty when it can
+};
+[[nodiscard]] Greeting greet(const record::Device& device, const std::string& suite);
+
 // What the process started for one API does: sends its listing to `answer_fd`.
 [[nodiscard]] core::ExitCode answer_listing(const Registry& registry, const std::string& api,
                                             int answer_fd);

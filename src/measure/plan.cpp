@@ -299,6 +299,19 @@ const Suite& suite_of(const PlanSource& source, const PlanText& text, const Find
   }
 }
 
+Plan make_plan(const std::string& name, const Suite& suite, const ValuesByFactor& values) {
+  const std::vector<Axis> axes = axes_of(suite, values);
+  require_few(axes, name);
+  Plan plan{.name = name,
+            .suite = std::string(suite.name()),
+            .configurations = combine(axes),
+            .varied = {}};
+  for (const Axis& axis : axes) {
+    if (axis.values.size() > 1) plan.varied.push_back(axis.factor->name);
+  }
+  return plan;
+}
+
 }  // namespace
 
 Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
@@ -308,17 +321,13 @@ Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
   const Suite& suite = suite_of(source, text, find_suite);
   ValuesByFactor values = values_of_plan(suite, text);
   apply(overrides, suite, values);
+  return make_plan(source.name, suite, values);
+}
 
-  const std::vector<Axis> axes = axes_of(suite, values);
-  require_few(axes, source.file);
-  Plan plan{.name = source.name,
-            .suite = std::string(suite.name()),
-            .configurations = combine(axes),
-            .varied = {}};
-  for (const Axis& axis : axes) {
-    if (axis.values.size() > 1) plan.varied.push_back(axis.factor->name);
-  }
-  return plan;
+Plan default_plan(const Suite& suite, const Overrides& overrides) {
+  ValuesByFactor values;
+  apply(overrides, suite, values);
+  return make_plan(std::string(suite.name()) + "/defaults", suite, values);
 }
 
 std::string configuration_key(const Suite& suite, const Configuration& configuration) {

@@ -29,6 +29,9 @@ using FindSuite = std::function<Suite&(std::string_view name)>;  // throws Input
 [[nodiscard]] Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
                              const FindSuite& find_suite);
 
+// The suite's defaults with the overrides, as a plan of its own. Throws as load_plan does.
+[[nodiscard]] Plan default_plan(const Suite& suite, const Overrides& overrides);
+
 // Canonical "factor=value,…" of the factors that differ from the suite's defaults, always with
 // `technique`, `data` and `camera`, sorted by name: identifies a configuration within its suite.
 [[nodiscard]] std::string configuration_key(const Suite& suite, const Configuration& configuration);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,8 +63,8 @@ class Suite {
   [[nodiscard]] virtual Work calibration(technique::Work kind) = 0;
 };
 
-// The right picture of a configuration and, per pixel in all four channels, how far a device's may be
-// from it.
+// The right picture of a configuration and, per pixel in all four channels, how far a device's may
+// be from it.
 struct Truth {
   core::Image image;
   core::Image bound;
@@ -75,6 +76,9 @@ class SuiteWithTruth : public Suite {
   // `precision`: what Record::precision tells of the device's path. Throws as Suite::work does.
   [[nodiscard]] virtual Truth truth(const Configuration& configuration,
                                     const std::map<std::string, double>& precision) = 0;
+  // What another program needs to draw the same frame: "viewport", "camera" and the scene, as in
+  // the `frame.json` of `triptych render`.
+  [[nodiscard]] virtual nlohmann::json describe(const Configuration& configuration) = 0;
   // Two configurations with the same text share their truth and bound.
   [[nodiscard]] virtual std::string truth_key(const Configuration& configuration,
                                               const std::map<std::string, double>& precision) = 0;

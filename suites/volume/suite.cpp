@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "reference/volume.hpp"
 #include "suites/volume/factors.hpp"
+#include "suites/volume/frame_description.hpp"
 #include "suites/volume/tolerance.hpp"
 #include "triptych_suite_volume_embedded.hpp"
 
@@ -41,6 +42,7 @@ class VolumeSuite final : public measure::SuiteWithTruth {
                        const std::map<std::string, double>& precision) override;
   std::string truth_key(const Configuration& configuration,
                         const std::map<std::string, double>& precision) override;
+  nlohmann::json describe(const Configuration& configuration) override;
 
  private:
   // The last data set loaded: neighbours in a plan share it.
@@ -186,6 +188,12 @@ std::string VolumeSuite::truth_key(const Configuration& configuration,
                      reference::volume_version, loaded.grid->hash, model.position_error_voxels,
                      model.value_error, model.filter_weight_error, model.table_error,
                      model.opacity_error, model.compositing_error, model.ert);
+}
+
+nlohmann::json VolumeSuite::describe(const Configuration& configuration) {
+  const Loaded& loaded =
+      load(configuration.at("data"), [](scene::VoxelFormat native) { return native; });
+  return describe_frame(scene(configuration, loaded.grid), as_number(configuration, "ert"));
 }
 
 }  // namespace

@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/arguments.hpp"
+#include "app/listing.hpp"
+#include "app/paths.hpp"
+#include "app/registry.hpp"
+#include "core/image_io.hpp"
+#include "core/json.hpp"
+
+namespace triptych::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RenderArguments {
+  std::string suite;
+  std::string device;
+  std::vector<std::string> set;
+  std::string out;
+};
+
+core::Json clock_json(const std::vector<double>& samples) {
+  return {{"samples", samples}};
+}
+
+// frame.json: enough for another program to draw the same frame.
+core::Json frame_json(measure::SuiteWithTruth& suite, const record::Record& record,
+                      const record::Device& device) {
+  core::Json frame = suite.describe(record.factors);
+  frame["schema"] = 1;
+  frame["suite"] = record.suite;
+  frame["technique"] = record.technique;
+  frame["device"] = record.device;
+  frame["driver"] = device.driver + " " + device.driver_version;
+  frame["factors"] = record.factors;
+  frame["counters"] = record.counters;
+  frame["statistics"] = record.statistics;
+  frame["time_ns"] = {{"device", clock_json(record.device_ns)},
+                      {"wall", clock_json(record.wall_ns)}};
+  frame["time_ns"]["device"]["trusted"] = record.device_clock_trusted;
+  return frame;
+}
+
+core::ExitCode render(const RenderArguments& arguments) {
+  const Registry registry = make_registry();
+  measure::SuiteWithTruth& suite = registry.suite(arguments.suite);
+  const measure::Plan plan = measure::default_plan(suite, parse_overrides(arguments.set));
+  if (plan.configurations.size() != 1) {
+    throw core::InputError("render draws one configuration: give each factor one value");
+  }
+  const fs::path out(arguments.out);
+  require_writable(out);
+  const std::vector<std::string> devices =
+      choose_devices(list_devices(registry), {arguments.device});
+  if (devices.size() != 1) {
+    throw core::InputError(
+        fmt::format("--device {} matches {} devices; name one", arguments.device, devices.size()));
+  }
+  const fs::path file = out / "render.sqlite";
+  fs::remove(file);
+  record::Store store(file, record::Store::Mode::append);
+  const measure::RunResult result = measure::run_plan(
+      plan, devices, suite, store, {.worker_command = {own_program(), "worker", "--device"}},
+      [](const measure::Progress&) {});
+  const record::Record record = store.records(result.run).at(0);
+  if (record.outcome == record::Outcome::skipped) throw core::NotSupported(record.reason);
+  if (record.outcome != record::Outcome::measured) throw core::InputError(record.reason);
+  const core::Image image = core::decode_exr(store.image(record.image));
+  core::write_exr(image, out / "image.exr");
+  core::write_png(image, out / "image.png");
+  write_text(out / "frame.json",
+             frame_json(suite, record, store.devices(result.run).at(0).device).dump(2) + "\n");
+  fmt::print("{}\n", (out / "image.exr").string());
+  return core::ExitCode::pass;
+}
+
+}  // namespace
+
+void add_render_command(Commands& commands) {
+  auto arguments = std::make_shared<RenderArguments>();
+  CLI::App* command =
+      commands.add("render", "Draw one configuration: image.exr, image.png, frame.json",
+                   [arguments] { return render(*arguments); });
+  command->add_option("SUITE", arguments->suite, "volume")->required();
+  command->add_option("--device", arguments->device, "Device id or a glob for one")->required();
+  command->add_option("--set", arguments->set, "factor=value (repeatable)");
+  command->add_option("--out", arguments->out, "Folder to write into")->required();
+}
+
+}  // namespace triptych::app

@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <set>
+
+#include "app/arguments.hpp"
+#include "app/paths.hpp"
+#include "app/registry.hpp"
+#include "app/truth.hpp"
+#include "judge/gate.hpp"
+#include "report/benchmark_json.hpp"
+#include "report/page.hpp"
+
+namespace triptych::app {
+namespace {
+
+struct ReportArguments {
+  std::string store = "triptych.sqlite";
+  std::string baselines = default_baselines().string();
+  std::string out = "report.html";
+  std::string benchmark_json;
+};
+
+core::ExitCode write_report(const ReportArguments& arguments) {
+  const Registry registry = make_registry();
+  require_writable(std::filesystem::path(arguments.out).parent_path());
+  record::Store store(arguments.store, record::Store::Mode::append);
+  Truths truths(registry, store);
+  report::PageRequest request{
+      .plans = {}, .truth = [&](const record::Record& record) { return truths.of(record); }};
+  std::set<std::string> plans;
+  for (const record::Run& run : store.runs()) plans.insert(run.plan);
+  for (const std::string& plan : plans) {
+    const record::Run run = *store.latest_run(plan);
+    request.plans.push_back(
+        {.run = run,
+         .verdict = judge::judge_run(store, run.id, judge::Baselines(arguments.baselines, plan),
+                                     {.plan = plan,
+                                      .checks = {},
+                                      .devices = {},
+                                      .required_devices = {},
+                                      .truth = request.truth,
+                                      .today = today()})});
+  }
+  if (request.plans.empty()) {
+    throw core::NotSupported(arguments.store + " holds no run: measure first with `triptych run`");
+  }
+  write_text(arguments.out, report::page(store, request));
+  if (!arguments.benchmark_json.empty()) {
+    write_text(arguments.benchmark_json,
+               report::benchmark_json(store, request.plans.front().run.id));
+  }
+  fmt::print("{}\n", arguments.out);
+  return core::ExitCode::pass;
+}
+
+}  // namespace
+
+void add_report_command(Commands& commands) {
+  auto arguments = std::make_shared<ReportArguments>();
+  CLI::App* command = commands.add("report", "Write one self-contained HTML page about a store",
+                                   [arguments] { return write_report(*arguments); });
+  command->add_option("--store", arguments->store)->capture_default_str();
+  command->add_option("--out", arguments->out)->capture_default_str();
+  command->add_option("--baselines", arguments->baselines, "Folder of the baselines");
+  command->add_option("--benchmark-json", arguments->benchmark_json,
+                      "Also write Google Benchmark's JSON of the (first) plan");
+}
+
+}  // namespace triptych::app

@@ -1,0 +1,91 @@
+#include "report/html.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+
+namespace triptych::report {
+
+std::string escape(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        // Control characters have no place in either language.
+        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') result += c;
+    }
+  }
+  return result;
+}
+
+std::string data_uri(std::span<const std::byte> png) {
+  static constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string result = "data:image/png;base64,";
+  for (std::size_t i = 0; i < png.size(); i += 3) {
+    std::uint32_t group = 0;
+    const std::size_t here = std::min<std::size_t>(3, png.size() - i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8 | (k < here ? std::to_integer<std::uint32_t>(png[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      result += k <= here ? digits[group >> (18 - 6 * k) & 63U] : '=';
+    }
+  }
+  return result;
+}
+
+std::string table(const std::vector<std::vector<std::string>>& rows, std::string_view css_class) {
+  std::string text = fmt::format("<div class=\"scroll\"><table class=\"{}\">\n", css_class);
+  bool head = true;
+  for (const auto& row : rows) {
+    text += "<tr>";
+    for (const std::string& cell : row) {
+      const bool number =
+          !cell.empty() && (std::isdigit(static_cast<unsigned char>(cell[0])) != 0 ||
+                            cell[0] == '-' || cell[0] == '+');
+      text += fmt::format("<{0}{1}>{2}</{0}>", head ? "th" : "td",
+                          number && !head ? " class=\"number\"" : "", cell);
+    }
+    text += "</tr>\n";
+    head = false;
+  }
+  return text + "</table></div>\n";
+}
+
+std::string duration(double nanoseconds) {
+  static constexpr std::string_view units[] = {"ns", "µs", "ms", "s"};
+  std::size_t unit = 0;
+  while (std::abs(nanoseconds) >= 999.5 && unit + 1 < std::size(units)) {
+    nanoseconds /= 1000;
+    ++unit;
+  }
+  const int decimals = nanoseconds >= 99.95 ? 0 : nanoseconds >= 9.995 ? 1 : 2;
+  return fmt::format("{:.{}f} {}", nanoseconds, decimals, units[unit]);
+}
+
+std::string grouped(std::uint64_t number) {
+  std::string digits = fmt::format("{}", number);
+  for (std::size_t at = digits.size(); at > 3;) {
+    at -= 3;
+    digits.insert(at, "\u2009");
+  }
+  return digits;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,29 @@
+#pragma once
+// The little HTML that the pages need.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace triptych::report {
+
+// Text for HTML and XML, element content and attributes alike.
+[[nodiscard]] std::string escape(std::string_view text);
+
+// "data:image/png;base64,…"
+[[nodiscard]] std::string data_uri(std::span<const std::byte> png);
+
+// A table from cells that are HTML already; the first row is its head. Cells beginning with a digit
+// or a sign are set flush right by the style sheet's class "number".
+[[nodiscard]] std::string table(const std::vector<std::vector<std::string>>& rows,
+                                std::string_view css_class = {});
+
+// "12.3 ms", "850 µs": three significant digits.
+[[nodiscard]] std::string duration(double nanoseconds);
+
+// 1234567 → "1 234 567" with thin spaces.
+[[nodiscard]] std::string grouped(std::uint64_t number);
+
+}  // namespace triptych::report

@@ -1,0 +1,64 @@
+#include "report/junit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "report/html.hpp"
+
+namespace triptych::report {
+namespace {
+
+using judge::Finding;
+using judge::Verdict;
+
+bool is_skip(const Finding& finding) {
+  return finding.verdict == Verdict::skipped || finding.verdict == Verdict::advisory;
+}
+
+std::string test_case(const Finding& finding) {
+  const std::string name = finding.configuration.empty() ? "plan" : finding.configuration;
+  std::string text = fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n",
+                                 escape(finding.test), escape(name));
+  if (!finding.numbers.empty()) {
+    text += "      <properties>\n";
+    for (const auto& [key, value] : finding.numbers) {
+      text += fmt::format("        <property name=\"{}\" value=\"{}\"/>\n", escape(key), value);
+    }
+    text += "      </properties>\n";
+  }
+  const std::string message = escape(finding.message);
+  if (finding.verdict == Verdict::regression) {
+    text += fmt::format("      <failure message=\"{}\"/>\n", message);
+  } else if (finding.verdict == Verdict::cannot_judge) {
+    text += fmt::format("      <error message=\"{}\"/>\n", message);
+  } else if (is_skip(finding)) {
+    text += fmt::format("      <skipped message=\"{}\"/>\n", message);
+  }
+  return text + "    </testcase>\n";
+}
+
+}  // namespace
+
+std::string junit(const judge::GateResult& result) {
+  std::map<std::string, std::vector<const Finding*>> suites;
+  for (const Finding& finding : result.findings) {
+    suites[std::string(judge::name_of(finding.check))].push_back(&finding);
+  }
+  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
+  for (const auto& [check, findings] : suites) {
+    const auto count = [&](auto&& matches) { return std::ranges::count_if(findings, matches); };
+    text += fmt::format(
+        "  <testsuite name=\"{}.{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n",
+        escape(result.plan), check, findings.size(),
+        count([](const Finding* f) { return f->verdict == Verdict::regression; }),
+        count([](const Finding* f) { return f->verdict == Verdict::cannot_judge; }),
+        count([](const Finding* f) { return is_skip(*f); }));
+    for (const Finding* finding : findings) text += test_case(*finding);
+    text += "  </testsuite>\n";
+  }
+  return text + "</testsuites>\n";
+}
+
+}  // namespace triptych::report

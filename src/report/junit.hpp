@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "judge/gate.hpp"
+
+namespace triptych::report {
+
+// JUnit XML: one test suite per check, one case per finding; regressions are failures, what could
+// not be judged is an error, skips keep their reason. Numbers become properties.
+[[nodiscard]] std::string junit(const judge::GateResult& result);
+
+}  // namespace triptych::report

@@ -1,0 +1,73 @@
+#include "report/page.hpp"
+
+#include <fmt/format.h>
+
+#include "report/html.hpp"
+#include "report/page_sections.hpp"
+#include "triptych_report_embedded.hpp"
+
+namespace triptych::report {
+namespace {
+
+std::string_view css_class(core::ExitCode code) {
+  switch (code) {
+    case core::ExitCode::pass:
+      return "pass";
+    case core::ExitCode::regression:
+      return "regression";
+    default:
+      return "cannot_judge";
+  }
+}
+
+std::string system_line(const record::Run& run) {
+  std::string text = "measured " + escape(run.started_at);
+  for (const auto& [name, value] : run.system) {
+    text += fmt::format(" · {}: {}", escape(name), escape(value));
+  }
+  return "<p class=\"system\">" + text + "</p>\n";
+}
+
+std::string plan_part(const record::Store& store, const PlanReport& report,
+                      const PageRequest& request, std::size_t index) {
+  const PlanData plan{.anchor = fmt::format("plan{}", index),
+                      .devices = store.devices(report.run.id),
+                      .records = store.records(report.run.id),
+                      .verdict = &report.verdict};
+  return fmt::format("<section id=\"{}\"><h2>{}</h2><p class=\"banner {}\">{}</p>", plan.anchor,
+                     escape(report.run.plan), css_class(report.verdict.exit_code()),
+                     escape(report.verdict.headline())) +
+         system_line(report.run) + verdict_section(plan) + devices_section(plan) +
+         scenes_section(store, plan, request.truth) + times_section(plan) +
+         speed_of_light_section(plan) + counts_section(plan) + "</section>\n";
+}
+
+std::string head() {
+  std::string text =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
+      "<title>Triptych report</title><style>";
+  text += embedded("style.css");
+  text += "</style>\n";
+  for (const std::string_view script : {"vega.min.js", "vega-lite.min.js", "vega-embed.min.js"}) {
+    text += "<script>";
+    text += embedded(script);
+    text += "</script>\n";
+  }
+  return text + "</head><body>\n";
+}
+
+}  // namespace
+
+std::string page(const record::Store& store, const PageRequest& request) {
+  std::string text =
+      head() +
+      "<header><h1>Triptych</h1><p>The same scenes through OpenCL, Vulkan and OpenGL, "
+      "compared with the truth and with what was stored before.</p></header>\n";
+  for (std::size_t i = 0; i < request.plans.size(); ++i) {
+    text += plan_part(store, request.plans[i], request, i);
+  }
+  return text + "</body></html>\n";
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,102 @@
+// The panels: per scene the truth, then every device's picture with its distance from the truth
+// below.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/image_io.hpp"
+#include "judge/image_metrics.hpp"
+#include "report/html.hpp"
+#include "report/page_sections.hpp"
+
+namespace triptych::report {
+namespace {
+
+using core::Image;
+
+// Error as a share of the bound: black 0, through blue and yellow to white at the bound itself;
+// over it, and where a value is not finite, NaN, which PNGs show as magenta.
+Image share_of_bound(const Image& image, const Image& truth, const Image& bound) {
+  Image shares(image.width, image.height);
+  for (std::size_t i = 0; i < shares.rgba.size(); i += 4) {
+    double share = 0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double error = std::abs(static_cast<double>(image.rgba[i + c]) - truth.rgba[i + c]);
+      share = error == 0 ? share : std::max(share, error / static_cast<double>(bound.rgba[i + c]));
+      if (!std::isfinite(error)) share = std::numeric_limits<double>::infinity();
+    }
+    const auto ramp = [&](double from, double to) {
+      return static_cast<float>(std::clamp((share - from) / (to - from), 0.0, 1.0));
+    };
+    shares.rgba[i] = share > 1 ? std::numeric_limits<float>::quiet_NaN() : ramp(0.2, 0.7);
+    shares.rgba[i + 1] = ramp(0.3, 1.0);
+    shares.rgba[i + 2] = std::max(0.4F * ramp(0.0, 0.2), ramp(0.8, 1.0));
+    shares.rgba[i + 3] = 1;
+  }
+  return shares;
+}
+
+std::string picture(const Image& image, std::string_view alt) {
+  return fmt::format("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
+                     data_uri(core::encode_png(image)), image.width, image.height, escape(alt));
+}
+
+std::string device_panel(const record::Store& store, const record::Record& record,
+                         const judge::TruthPair& pair) {
+  const Image image = core::decode_exr(store.image(record.image));
+  const judge::ImageComparison result = judge::compare(image, pair.truth, pair.bound);
+  const std::string title =
+      fmt::format("{}<br>{}", escape(record.device), escape(record.technique));
+  if (result.size_mismatch) {
+    return fmt::format("<figure>{}<figcaption>{}<br>wrong size</figcaption></figure>",
+                       picture(image, record.device), title);
+  }
+  return fmt::format(
+      "<figure>{}{}<figcaption>{}<br>largest error {:.2e} (bound there {:.2e})<br>RMSE {:.2e}"
+      "<br><b class=\"{}\">{}</b></figcaption></figure>",
+      picture(image, record.device),
+      picture(share_of_bound(image, pair.truth, pair.bound), "error as a share of the bound"),
+      title, result.largest.error, result.largest.bound, result.rmse,
+      result.within_bound() ? "pass" : "regression",
+      result.within_bound()
+          ? fmt::format("within the bound, {:.0f} % of it used", 100 * result.worst.ratio)
+          : fmt::format("{} pixels over the bound", result.over_bound + result.non_finite));
+}
+
+}  // namespace
+
+std::string scenes_section(const record::Store& store, const PlanData& plan,
+                           const std::function<judge::TruthPair(const record::Record&)>& truth) {
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<const record::Record*>> scenes;
+  for (const record::Record& record : plan.records) {
+    if (record.image.empty()) continue;
+    auto& records = scenes[record.scene];
+    if (records.empty()) order.push_back(record.scene);
+    records.push_back(&record);
+  }
+  if (order.empty()) return {};
+  std::string text =
+      "<h3>Scenes</h3><p>The truth first; below each device's picture, its error as a share of the "
+      "bound "
+      "derived for that pixel: black 0, white the bound itself, magenta beyond it.</p>";
+  for (const std::string& scene : order) {
+    auto records = scenes[scene];
+    std::ranges::stable_sort(records, {}, [](const record::Record* r) { return r->technique; });
+    const judge::TruthPair first = truth(*records.front());
+    text += fmt::format(
+        "<h4>{}</h4><div class=\"panels\"><figure>{}<figcaption>the truth<br>double "
+        "precision</figcaption></figure>",
+        escape(scene_title(*records.front())), picture(first.truth, "the truth"));
+    for (const record::Record* record : records)
+      text += device_panel(store, *record, truth(*record));
+    text += "</div>\n";
+  }
+  return text;
+}
+
+}  // namespace triptych::report

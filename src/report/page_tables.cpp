@@ -1,0 +1,199 @@
+// The sections made of tables.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "report/charts.hpp"
+#include "report/html.hpp"
+#include "report/page_sections.hpp"
+
+namespace triptych::report {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+constexpr std::size_t openly_listed = 40;
+
+std::string finding_rows(std::span<const judge::Finding* const> findings) {
+  Rows rows{{"verdict", "test", "configuration", "what was found"}};
+  for (const judge::Finding* finding : findings) {
+    rows.push_back(
+        {fmt::format("<span class=\"verdict {0}\">{0}</span>", judge::name_of(finding->verdict)),
+         escape(finding->test), escape(finding->configuration), escape(finding->message)});
+  }
+  return table(rows, "findings");
+}
+
+std::string folded(std::string_view summary, const std::string& body) {
+  return fmt::format("<details><summary>{}</summary>{}</details>\n", summary, body);
+}
+
+// check × verdict: how many findings.
+std::string verdict_matrix(const judge::GateResult& result) {
+  std::set<judge::Verdict> verdicts;
+  std::map<judge::Check, std::map<judge::Verdict, int>> counts;
+  for (const judge::Finding& finding : result.findings) {
+    verdicts.insert(finding.verdict);
+    ++counts[finding.check][finding.verdict];
+  }
+  Rows rows{{"check"}};
+  for (const judge::Verdict verdict : verdicts)
+    rows[0].push_back(std::string(judge::name_of(verdict)));
+  for (auto& [check, row] : counts) {
+    rows.push_back({std::string(judge::name_of(check))});
+    for (const judge::Verdict verdict : verdicts) {
+      rows.back().push_back(row.contains(verdict) ? fmt::format("{}", row[verdict]) : "");
+    }
+  }
+  return table(rows);
+}
+
+std::string clock_text(const std::vector<record::ClockTrust>& clocks) {
+  std::string text;
+  for (const record::ClockTrust& clock : clocks) {
+    text += fmt::format("<div>{}: {}</div>", escape(clock.work), escape(clock.verdict));
+  }
+  return text;
+}
+
+std::vector<const record::Record*> measured(const PlanData& plan) {
+  std::vector<const record::Record*> records;
+  for (const record::Record& record : plan.records) {
+    if (record.outcome == record::Outcome::measured && !record.time_ns().empty()) {
+      records.push_back(&record);
+    }
+  }
+  return records;
+}
+
+}  // namespace
+
+std::string scene_title(const record::Record& record) {
+  std::string title;
+  std::string_view rest = record.configuration;
+  while (!rest.empty()) {
+    const auto comma = rest.find(',');
+    const std::string_view part = rest.substr(0, comma);
+    if (!part.starts_with("technique=")) {
+      title += title.empty() ? "" : ", ";
+      title += part;
+    }
+    rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
+  }
+  return title;
+}
+
+std::string verdict_section(const PlanData& plan) {
+  std::vector<const judge::Finding*> notable;
+  std::vector<const judge::Finding*> rest;
+  for (const judge::Finding& finding : plan.verdict->findings) {
+    const bool quiet = finding.verdict == judge::Verdict::pass ||
+                       finding.verdict == judge::Verdict::skipped ||
+                       finding.verdict == judge::Verdict::advisory;
+    (quiet || notable.size() >= openly_listed ? rest : notable).push_back(&finding);
+  }
+  std::string text = verdict_matrix(*plan.verdict);
+  if (!notable.empty()) text += finding_rows(notable);
+  if (!rest.empty())
+    text += folded(fmt::format("{} more findings", rest.size()), finding_rows(rest));
+  return text;
+}
+
+std::string devices_section(const PlanData& plan) {
+  Rows rows{{"device", "name", "driver", "API", "clock", "processor features, environment"}};
+  for (const auto& [device, clocks] : plan.devices) {
+    std::string environment = escape(device.cpu_features);
+    for (const auto& [name, value] : device.environment) {
+      environment += fmt::format("<div>{}={}</div>", escape(name), escape(value));
+    }
+    rows.push_back({escape(device.id), escape(device.name + " (" + device.vendor + ")"),
+                    escape(device.driver_version), escape(device.api_version), clock_text(clocks),
+                    environment});
+  }
+  return "<h3>Devices</h3>" + table(rows, "devices");
+}
+
+std::string times_section(const PlanData& plan) {
+  const auto records = measured(plan);
+  if (records.empty()) return {};
+  Rows rows{{"scene", "technique", "device", "clock", "minimum", "25 %", "median", "75 %", "90 %",
+             "maximum", "in a loop", "prepared in"}};
+  for (const record::Record* record : records) {
+    const auto& samples = record->time_ns();
+    const record::Summary summary = *record::summarise(samples);
+    rows.push_back(
+        {escape(scene_title(*record)), escape(record->technique), escape(record->device),
+         std::string(record->clock()), duration(summary.minimum), duration(summary.lower_quartile),
+         duration(summary.median), duration(summary.upper_quartile),
+         duration(record::percentile(samples, 0.9)), duration(summary.maximum),
+         record->loop_frames > 0 ? duration(record->loop_wall_ns / record->loop_frames) : "",
+         duration(record->prepare_ns)});
+  }
+  return fmt::format(
+             "<h3>Times</h3><p>Every timed frame is a tick, its quartiles a box. “In a loop” is "
+             "the wall clock of "
+             "frames drawn back to back.</p><div class=\"chart\" id=\"{0}-times\"></div>"
+             "<script>vegaEmbed('#{0}-times', {1}, {{actions: false, renderer: 'svg'}});</script>",
+             plan.anchor, time_chart(plan)) +
+         folded("The numbers", table(rows, "times"));
+}
+
+std::string speed_of_light_section(const PlanData& plan) {
+  // Median by device and scene of the bare fetches.
+  std::map<std::pair<std::string, std::string>, double> bound;
+  for (const record::Record* record : measured(plan)) {
+    if (record->technique == "speed_of_light") {
+      bound[{record->device, scene_title(*record)}] = record::percentile(record->time_ns(), 0.5);
+    }
+  }
+  Rows rows{{"scene", "device", "technique", "time", "speed of light", "times as long"}};
+  for (const record::Record* record : measured(plan)) {
+    const auto found = bound.find({record->device, scene_title(*record)});
+    if (record->technique == "speed_of_light" || found == bound.end()) continue;
+    const double time = record::percentile(record->time_ns(), 0.5);
+    rows.push_back({escape(scene_title(*record)), escape(record->device), escape(record->technique),
+                    duration(time), duration(found->second),
+                    fmt::format("{:.2f}", time / found->second)});
+  }
+  if (rows.size() == 1) return {};
+  return "<h3>Speed of light</h3><p>The same fetches and transfer-function look-ups alone, with "
+         "the same "
+         "skipping but without early termination: a picture can be faster than that where rays end "
+         "early, "
+         "and is hardly faster where they do not.</p>" +
+         folded("The ratios", table(rows));
+}
+
+std::string counts_section(const PlanData& plan) {
+  std::string text;
+  const auto section = [&](std::string_view title, auto&& counts_of) {
+    std::set<std::string> names;
+    for (const record::Record& record : plan.records) {
+      for (const auto& [name, value] : counts_of(record)) names.insert(name);
+    }
+    if (names.empty()) return;
+    Rows rows{{"scene", "technique", "device"}};
+    rows[0].insert(rows[0].end(), names.begin(), names.end());
+    for (const record::Record& record : plan.records) {
+      const record::Counts& counts = counts_of(record);
+      if (counts.empty()) continue;
+      rows.push_back(
+          {escape(scene_title(record)), escape(record.technique), escape(record.device)});
+      for (const std::string& name : names) {
+        const auto found = counts.find(name);
+        rows.back().push_back(found == counts.end() ? "" : grouped(found->second));
+      }
+    }
+    text += folded(title, table(rows, "counts"));
+  };
+  section("Counters of our own, from a build that is never timed",
+          [](const record::Record& r) -> const record::Counts& { return r.counters; });
+  section("Pipeline statistics, as the drivers tell them; an empty cell: it tells nothing",
+          [](const record::Record& r) -> const record::Counts& { return r.statistics; });
+  return text.empty() ? text : "<h3>Work</h3>" + text;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,44 @@
+#include "suites/volume/frame_description.hpp"
+
+#include "core/json.hpp"
+
+namespace triptych::volume_suite {
+namespace {
+
+using core::Json;
+
+Json as_json(const glm::dvec3& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+Json camera_json(const scene::Camera& camera) {
+  return {{"eye", as_json(camera.eye)}, {"forward", as_json(camera.forward)},
+          {"up", as_json(camera.up)},   {"fov_y_deg", camera.fov_y_deg},
+          {"near", camera.near},        {"far", camera.far}};
+}
+
+Json shading_json(const scene::Shading& shading) {
+  if (!shading.enabled) return {{"model", "none"}};
+  return {{"model", "headlight"},         {"ambient", shading.ambient},
+          {"diffuse", shading.diffuse},   {"specular", shading.specular},
+          {"exponent", shading.exponent}, {"gradient_floor", shading.gradient_floor}};
+}
+
+}  // namespace
+
+Json describe_frame(const scene::VolumeScene& scene, double ert) {
+  const scene::VoxelGrid& grid = *scene.grid;
+  return {{"viewport", {scene.width, scene.height}},
+          {"camera", camera_json(scene.camera)},
+          {"volume",
+           {{"size", grid.size},
+            {"spacing", grid.spacing},
+            {"range", {grid.range_lo, grid.range_hi}},
+            {"step_voxels", scene.step_voxels},
+            {"transfer_function", scene.transfer_function.entries},
+            {"background", scene.background},
+            {"ert", ert},
+            {"shading", shading_json(scene.shading)}}}};
+}
+
+}  // namespace triptych::volume_suite
