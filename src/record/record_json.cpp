@@ -79,8 +79,11 @@ void decode(const Json& json, bool& value) {
 template <typename T>
 requires std::is_integral_v<T>
 void decode(const Json& json, T& value) {
-  // A number below zero is refused too: every integer of a record counts something.
-  if (!json.is_number_unsigned() ||
+  // A number below zero is refused too: every integer of a record counts something. Written from
+  // here it is a signed or an unsigned JSON number, read from text always an unsigned one.
+  const bool natural =
+      json.is_number_unsigned() || (json.is_number_integer() && json.get<std::int64_t>() >= 0);
+  if (!natural ||
       json.get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<T>::max())) {
     throw core::InputError("expected a whole number, 0 or more");
   }

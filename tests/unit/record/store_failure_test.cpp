@@ -1,0 +1,345 @@
+// What can go wrong around a store: other files, rights, other processes, kills, full disks.
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include "core/error.hpp"
+#include "record/store.hpp"
+#include "samples.hpp"
+#include "store_fixture.hpp"
+
+namespace triptych::record {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+using Mode = Store::Mode;
+using Perms = std::filesystem::perms;
+
+constexpr Perms read_only_folder = Perms::owner_read | Perms::owner_exec | Perms::group_read |
+                                   Perms::group_exec | Perms::others_read | Perms::others_exec;
+
+void make_store(const std::filesystem::path& file) {
+  Store store(file, Mode::append);
+  store.add_run(sample_run());
+  store.add_record(sample_record());
+}
+
+template <typename Expected>
+std::string refusal(const std::filesystem::path& file, Mode mode) {
+  try {
+    const Store store(file, mode);
+    return "was opened";
+  } catch (const Expected& error) {
+    return error.what();
+  } catch (const std::exception& error) {
+    return std::string("another type: ") + error.what();
+  }
+}
+
+// --- files that are no store
+// -----------------------------------------------------------------------------
+
+TEST_F(StoreTest, NotASqliteFile) {
+  std::ofstream(file_) << std::string(5000, 'x');
+  for (const Mode mode : {Mode::read, Mode::append}) {
+    EXPECT_THAT(refusal<core::InputError>(file_, mode),
+                AllOf(StartsWith(file_.string()), HasSubstr("not an SQLite file")));
+  }
+}
+
+TEST_F(StoreTest, ShortTextFile) {
+  std::ofstream(file_) << "hello";
+  EXPECT_THAT(refusal<core::InputError>(file_, Mode::append), HasSubstr("not an SQLite file"));
+}
+
+TEST_F(StoreTest, AnotherPrograms) {
+  {
+    const SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    SQLite::Statement(other, "CREATE TABLE t (x)").exec();
+  }
+  for (const Mode mode : {Mode::read, Mode::append}) {
+    EXPECT_THAT(refusal<core::InputError>(file_, mode), HasSubstr("not a Triptych store"));
+  }
+}
+
+TEST_F(StoreTest, OtherSchemaVersion) {
+  make_store(file_);
+  for (const auto& [version, hint] : {std::pair{"99", "newer"}, {"0", "older"}}) {
+    {
+      SQLite::Database database(file_.string(), SQLite::OPEN_READWRITE);
+      database.exec(std::string("PRAGMA user_version = ") + version);
+    }
+    for (const Mode mode : {Mode::read, Mode::append}) {
+      EXPECT_THAT(refusal<core::InputError>(file_, mode),
+                  AllOf(HasSubstr(std::string("schema version ") + version),
+                        HasSubstr("reads version 1"), HasSubstr(hint), HasSubstr("--store")));
+    }
+  }
+}
+
+TEST_F(StoreTest, MissingFile) {
+  EXPECT_THAT(refusal<core::IoError>(file_, Mode::read), HasSubstr("no such file"));
+  EXPECT_FALSE(std::filesystem::exists(file_)) << "reading makes no file";
+  EXPECT_THAT(refusal<core::IoError>(folder_ / "no" / "x.sqlite", Mode::append),
+              HasSubstr("is its folder there"));
+  EXPECT_THAT(refusal<core::IoError>(folder_, Mode::append), HasSubstr("is a folder"));
+}
+
+TEST_F(StoreTest, EmptyFileIsFilledByAppending) {
+  std::ofstream(file_).flush();
+  EXPECT_THAT(refusal<core::InputError>(file_, Mode::read), HasSubstr("empty"));
+  EXPECT_NO_THROW(make_store(file_));
+}
+
+TEST_F(StoreTest, DamagedFile) {
+  make_store(file_);
+  {
+    std::fstream stream(file_, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekp(4096);
+    stream << std::string(8192, '\x7f');
+  }
+  try {
+    const Store store(file_, Mode::read);
+    static_cast<void>(store.runs());
+    static_cast<void>(store.records("run-1"));
+    FAIL() << "read as if it were whole";
+  } catch (const core::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("damaged"));
+  }
+}
+
+// --- rights
+// --------------------------------------------------------------------------------------------
+
+TEST_F(StoreTest, ReadOnlyFile) {
+  make_store(file_);
+  std::filesystem::permissions(file_, Perms::owner_read | Perms::others_read);
+  EXPECT_THAT(as_nobody([&] { return refusal<core::IoError>(file_, Mode::append); }),
+              HasSubstr("read-only"));
+}
+
+TEST_F(StoreTest, ReadModeCannotWrite) {
+  make_store(file_);
+  Store store(file_, Mode::read);
+  EXPECT_THROW(store.add_run(sample_run("x")), core::IoError);
+}
+
+TEST_F(StoreTest, ReadOnlyFolder) {
+  make_store(file_);
+  std::filesystem::permissions(file_, Perms::owner_all | Perms::others_all);
+  std::filesystem::permissions(folder_, read_only_folder);
+  EXPECT_THAT(as_nobody([&] { return refusal<core::IoError>(folder_ / "new", Mode::append); }),
+              HasSubstr("can it be written"));
+  EXPECT_THAT(as_nobody([&]() -> std::string {
+                Store store(file_, Mode::append);
+                store.add_run(sample_run("x"));
+                return "was written";
+              }),
+              AllOf(StartsWith(file_.string()), HasSubstr("folder is read-only")));
+  EXPECT_EQ(as_nobody([&] {
+              const Store store(file_, Mode::read);
+              return store.records("run-1").at(0).reason;
+            }),
+            "a reason");
+}
+
+// Leaves a store with records that stand in its log only.
+void leave_log(const std::filesystem::path& file) {
+  const pid_t child = fork();
+  if (child == 0) {
+    Store store(file, Mode::append);
+    store.add_run(sample_run());
+    store.add_record(sample_record());
+    kill(getpid(), SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+}
+
+TEST_F(StoreTest, ReadOnlyFolderWithALogLeftBehind) {
+  leave_log(file_);
+  ASSERT_GT(std::filesystem::file_size(file_.string() + "-wal"), 0U);
+  std::filesystem::remove(file_.string() + "-shm");
+  std::filesystem::permissions(folder_, read_only_folder);
+  // The newest records are in the log: better none than old ones without a word.
+  EXPECT_THAT(as_nobody([&] { return refusal<core::IoError>(file_, Mode::read); }),
+              HasSubstr("log cannot be replayed"));
+}
+
+// --- other processes
+// ---------------------------------------------------------------------------------------
+
+TEST_F(StoreTest, BusyIsWaitedForThenSaid) {
+  make_store(file_);
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE);
+  other.exec("BEGIN IMMEDIATE");
+  Store store(file_, Mode::append, milliseconds(200));
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    store.add_run(sample_run("x"));
+    FAIL() << "was written";
+  } catch (const core::IoError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("another process"));
+  }
+  EXPECT_GE(std::chrono::steady_clock::now() - start, milliseconds(150));
+  EXPECT_THAT(store.runs(), SizeIs(1)) << "reading needs no lock";
+  other.exec("COMMIT");
+  EXPECT_NO_THROW(store.add_run(sample_run("x")));
+}
+
+TEST_F(StoreTest, BusyForAShortTimeIsNoError) {
+  make_store(file_);
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE);
+  other.exec("BEGIN IMMEDIATE");
+  std::thread release([&] {
+    std::this_thread::sleep_for(milliseconds(200));
+    other.exec("COMMIT");
+  });
+  Store store(file_, Mode::append);
+  EXPECT_NO_THROW(store.add_run(sample_run("x")));
+  release.join();
+}
+
+TEST_F(StoreTest, ReaderBesideAWriter) {
+  Store writer(file_, Mode::append);
+  writer.add_run(sample_run());
+  const Store reader(file_, Mode::read);
+  EXPECT_THAT(reader.records("run-1"), SizeIs(0));
+  writer.add_record(sample_record());
+  EXPECT_THAT(reader.records("run-1"), SizeIs(1));
+}
+
+bool append_ten(const std::filesystem::path& file, const std::string& run) {
+  try {
+    Store store(file, Mode::append);
+    store.add_run(sample_run(run));
+    for (int n = 0; n < 10; ++n) store.add_record(sample_record(std::to_string(n), "d", run));
+    return true;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return false;
+  }
+}
+
+TEST_F(StoreTest, SeveralProcessesCreateOneStore) {
+  constexpr int processes = 6;
+  std::vector<pid_t> children;
+  for (int i = 0; i < processes; ++i) {
+    const pid_t child = fork();
+    if (child == 0) std::_Exit(append_ten(file_, std::to_string(i)) ? 0 : 1);
+    children.push_back(child);
+  }
+  for (const pid_t child : children) {
+    int status = -1;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  const Store store(file_, Mode::read);
+  EXPECT_THAT(store.runs(), SizeIs(processes));
+  for (const record::Run& each : store.runs()) EXPECT_THAT(store.records(each.id), SizeIs(10));
+}
+
+// --- kills and full disks
+// ------------------------------------------------------------------------------------
+
+TEST_F(StoreTest, KilledWriterLosesAtMostTheRecordInFlight) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    Store store(file_, Mode::append);
+    store.add_run(sample_run());
+    for (int i = 0;; ++i) {
+      store.add_record(sample_record(std::to_string(i)));
+      if (write(ends[1], &i, sizeof i) != sizeof i) std::_Exit(1);  // says: number i is kept
+    }
+  }
+  close(ends[1]);
+  int last = -1;
+  while (last < 50 && read(ends[0], &last, sizeof last) == sizeof last) {
+  }
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  while (read(ends[0], &last, sizeof last) == sizeof last) {
+  }
+  close(ends[0]);
+  ASSERT_GE(last, 50);
+
+  Store store(file_, Mode::append);
+  const auto records = store.records("run-1");
+  EXPECT_GE(records.size(), static_cast<std::size_t>(last) + 1);
+  EXPECT_LE(records.size(), static_cast<std::size_t>(last) + 2);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    EXPECT_EQ(records[i].configuration, std::to_string(i));
+    EXPECT_EQ(records[i].wall_ns, sample_record().wall_ns) << "half a record";
+    EXPECT_EQ(records[i].factors, sample_record().factors);
+  }
+  EXPECT_NO_THROW(store.add_record(sample_record("after")));
+}
+
+// Adds records until one is refused, then says whether those before it are whole.
+std::string fill(const std::filesystem::path& file) {
+  int added = 0;
+  try {
+    Store store(file, Mode::append);
+    store.add_run(sample_run());
+    Record record = sample_record();
+    record.benchmark_json = std::string(20'000, 'x');
+    for (; added < 10'000; ++added) {
+      record.configuration = std::to_string(added);
+      store.add_record(record);
+    }
+    return "never full";
+  } catch (const core::IoError& error) {
+    const Store store(file, Mode::read);
+    if (store.records("run-1").size() != static_cast<std::size_t>(added)) return "records lost";
+    return error.what();
+  }
+}
+
+TEST_F(StoreTest, FileSizeLimit) {
+  const std::string answer = in_child([&] {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{.rlim_cur = 1'000'000, .rlim_max = 1'000'000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    return fill(file_);
+  });
+  EXPECT_THAT(answer, AllOf(StartsWith(file_.string()), HasSubstr("I/O error")));
+}
+
+// A disk of 1 MiB that only this process sees; needs no root where users may have namespaces.
+bool mount_small_disk(const std::filesystem::path& folder) {
+  const uid_t user = geteuid();
+  if (unshare(CLONE_NEWNS) != 0) {
+    if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
+    std::ofstream("/proc/self/uid_map") << "0 " << user << " 1";
+  }
+  return mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+         mount("none", folder.c_str(), "tmpfs", 0, "size=1m") == 0;
+}
+
+TEST_F(StoreTest, FullDisk) {
+  const std::string answer = in_child([&]() -> std::string {
+    if (!mount_small_disk(folder_)) return "cannot mount";
+    return fill(file_);
+  });
+  if (answer == "cannot mount") GTEST_SKIP() << "this user may not mount a small disk";
+  EXPECT_THAT(answer, AllOf(StartsWith(file_.string()), HasSubstr("disk is full")));
+}
+
+}  // namespace
+}  // namespace triptych::record

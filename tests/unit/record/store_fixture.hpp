@@ -1,0 +1,69 @@
+#pragma once
+// A folder for stores, and processes to misuse them from.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace triptych::record {
+
+class StoreTest : public ::testing::Test {
+ protected:
+  StoreTest() {
+    std::string pattern = ::testing::TempDir() + "triptych-store-XXXXXX";
+    folder_ = mkdtemp(pattern.data());
+    // Open to other users: some tests give up root, for whom nothing is read-only.
+    std::filesystem::permissions(folder_, std::filesystem::perms::all);
+    file_ = folder_ / "a store?#%.sqlite";  // what must be escaped in an SQLite URI
+  }
+  ~StoreTest() override {
+    std::filesystem::permissions(folder_, std::filesystem::perms::all);
+    std::filesystem::remove_all(folder_);
+  }
+
+  // The text `action` returns, or its exception's, from a process of its own.
+  static std::string in_child(const std::function<std::string()>& action) {
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0) return "no pipe";
+    const pid_t child = fork();
+    if (child == 0) {
+      std::string text;
+      try {
+        text = action();
+      } catch (const std::exception& error) {
+        text = error.what();
+      }
+      const auto written = write(ends[1], text.data(), text.size());
+      std::_Exit(written < 0 ? 1 : 0);
+    }
+    close(ends[1]);
+    std::string text;
+    std::array<char, 4096> buffer{};
+    for (ssize_t n = 0; (n = read(ends[0], buffer.data(), buffer.size())) > 0;) {
+      text.append(buffer.data(), static_cast<std::size_t>(n));
+    }
+    close(ends[0]);
+    waitpid(child, nullptr, 0);
+    return text;
+  }
+
+  // The same without root's rights.
+  static std::string as_nobody(const std::function<std::string()>& action) {
+    return in_child([&]() -> std::string {
+      if (geteuid() == 0 && (setgid(65534) != 0 || setuid(65534) != 0)) return "still root";
+      return action();
+    });
+  }
+
+  std::filesystem::path folder_;
+  std::filesystem::path file_;
+};
+
+}  // namespace triptych::record
