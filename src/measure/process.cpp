@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/pidfd.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -49,6 +49,12 @@ void set_non_blocking(const FileDescriptor& fd) {
   if (flags < 0 || ::fcntl(fd.get(), F_SETFL, flags | O_NONBLOCK) < 0) {
     fail("cannot make a pipe non-blocking", errno);
   }
+}
+
+// By number: the header of glibc 2.36 declares pidfd_open without C linkage. Close-on-exec by
+// nature.
+FileDescriptor open_pid_fd(pid_t pid) {
+  return FileDescriptor(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
 }
 
 class FileActions {
@@ -159,7 +165,7 @@ Process::Process(const std::vector<std::string>& command,
   request_ = std::move(request.write);
   answer_ = std::move(answer.read);
   log_ = std::move(log.read);
-  pid_fd_ = FileDescriptor(::pidfd_open(pid_, 0));
+  pid_fd_ = open_pid_fd(pid_);
   try {
     if (!pid_fd_) fail("cannot watch a worker", errno);
     set_non_blocking(answer_);
