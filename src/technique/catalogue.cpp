@@ -13,7 +13,8 @@ namespace {
 
 std::vector<Technique> parse(std::string_view text) {
   std::vector<Technique> result;
-  for (const core::Json& entry : core::Json::parse(text).at("techniques")) {
+  const core::Json catalogue = core::Json::parse(text);  // named: at() below points into it
+  for (const core::Json& entry : catalogue.at("techniques")) {
     result.push_back({.id = entry.at("id"),
                       .suite = entry.at("suite"),
                       .work = entry.at("work") == "draw" ? Work::draw : Work::compute,
