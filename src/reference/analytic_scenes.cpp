@@ -154,7 +154,7 @@ Radiance atmosphere_piece(const Setting& setting, double g0, double g1, double l
                           std::size_t channel) {
   const double colour = setting.medium.colour(g0)[channel];
   if (g0 == g1) return v1_constant(setting.medium.tau(g0), colour, length);
-  const double scale_height = setting.extent.z / 3.0;
+  const double scale_height = setting.extent.z / 2.0;
   const double z0 = g0 * setting.extent.z;
   const double z1 = g1 * setting.extent.z;
   const double depth = v5_atmosphere_depth(setting.medium.tau(0.0), scale_height, z0, z1,
@@ -270,8 +270,8 @@ Medium medium_of(AnalyticProblem problem, const Setting& setting) {
       break;
     }
     case AnalyticProblem::v5_atmosphere:
-      medium = {[=](double g) { return 4.0 * depth * std::exp(-3.0 * g); }, constant, 4.0 * depth,
-                12.0 * depth, 36.0 * depth};
+      medium = {[=](double g) { return 2.5 * depth * std::exp(-2.0 * g); }, constant, 2.5 * depth,
+                5.0 * depth, 10.0 * depth};
       break;
     case AnalyticProblem::v6_layers:
       // Constant on either side of the middle: neither slope nor curvature within a layer.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <vector>
 
 namespace triptych::reference {
@@ -74,23 +76,32 @@ double interpolate(const std::array<double, 8>& v, double fx, double fy, double 
   return y0 + fz * (y1 - y0);
 }
 
+double least(double a, double b, double c, double d) {
+  return std::min(std::min(a, b), std::min(c, d));
+}
+
 double largest(double a, double b, double c, double d) {
-  return std::max(std::max(std::abs(a), std::abs(b)), std::max(std::abs(c), std::abs(d)));
+  return std::max(std::max(a, b), std::max(c, d));
 }
 
 }  // namespace
 
 template <typename Stored>
 void Field<Stored>::Slopes::widen(const Corners& v) {
-  const double x = largest(v[1] - v[0], v[3] - v[2], v[5] - v[4], v[7] - v[6]);
-  const double y = largest(v[2] - v[0], v[3] - v[1], v[6] - v[4], v[7] - v[5]);
-  const double z = largest(v[4] - v[0], v[5] - v[1], v[6] - v[2], v[7] - v[3]);
-  per_axis = {std::max(per_axis.x, x), std::max(per_axis.y, y), std::max(per_axis.z, z)};
-  const double lo = std::min(std::min(std::min(v[0], v[1]), std::min(v[2], v[3])),
-                             std::min(std::min(v[4], v[5]), std::min(v[6], v[7])));
-  const double hi = std::max(std::max(std::max(v[0], v[1]), std::max(v[2], v[3])),
-                             std::max(std::max(v[4], v[5]), std::max(v[6], v[7])));
-  spread = std::max(spread, hi - lo);
+  const glm::dvec3 d0{v[1] - v[0], v[2] - v[0], v[4] - v[0]};
+  const glm::dvec3 d1{v[3] - v[2], v[3] - v[1], v[5] - v[1]};
+  const glm::dvec3 d2{v[5] - v[4], v[6] - v[4], v[6] - v[2]};
+  const glm::dvec3 d3{v[7] - v[6], v[7] - v[5], v[7] - v[3]};
+  lo = glm::min(lo, glm::min(glm::min(d0, d1), glm::min(d2, d3)));
+  hi = glm::max(hi, glm::max(glm::max(d0, d1), glm::max(d2, d3)));
+  const double bottom = std::min(least(v[0], v[1], v[2], v[3]), least(v[4], v[5], v[6], v[7]));
+  const double top = std::max(largest(v[0], v[1], v[2], v[3]), largest(v[4], v[5], v[6], v[7]));
+  spread = std::max(spread, top - bottom);
+}
+
+template <typename Stored>
+glm::dvec3 Field<Stored>::Slopes::steepest() const {
+  return glm::max(glm::abs(lo), glm::abs(hi));
 }
 
 // Over every cell that the position may fall into; errors below half a voxel.
@@ -122,30 +133,56 @@ double Field<Stored>::at(const glm::dvec3& p) const {
 }
 
 template <typename Stored>
-Bounded Field<Stored>::at(const glm::dvec3& p, const glm::dvec3& e) const {
+typename Field<Stored>::Read Field<Stored>::read(const glm::dvec3& p, const glm::dvec3& e) const {
   const std::array<Place, 3> places{place(p.x, 0), place(p.y, 1), place(p.z, 2)};
   const Corners v = corners({places[0].base, places[1].base, places[2].base});
-  Bounded result;
-  result.value = interpolate(v, places[0].f, places[1].f, places[2].f) * scale_ + offset_;
-
-  double error = range_;
-  if (e.x < 0.5 && e.y < 0.5 && e.z < 0.5) {
-    const auto interior = [&](std::size_t axis) {
-      const double margin = e[static_cast<int>(axis)];
-      return places[axis].f > margin && places[axis].f < 1.0 - margin;
-    };
-    Slopes slopes;
-    if (interior(0) && interior(1) && interior(2)) {
-      slopes.widen(v);
-    } else {
-      slopes = slopes_around(places, e);
-    }
-    error = slopes.per_axis.x * e.x + slopes.per_axis.y * e.y + slopes.per_axis.z * e.z +
-            filter_weight_error_ * slopes.spread;
+  Read result;
+  result.stored = interpolate(v, places[0].f, places[1].f, places[2].f);
+  result.local = e.x < 0.5 && e.y < 0.5 && e.z < 0.5;
+  if (!result.local) return result;
+  const auto interior = [&](std::size_t axis) {
+    const double margin = e[static_cast<int>(axis)];
+    return places[axis].f > margin && places[axis].f < 1.0 - margin;
+  };
+  if (interior(0) && interior(1) && interior(2)) {
+    result.slopes.widen(v);
+  } else {
+    result.slopes = slopes_around(places, e);
   }
-  // Whatever the weights, a device's value stays within the range of the voxels.
-  result.error = std::min(error, range_) * std::abs(scale_) + value_error_;
   return result;
+}
+
+// In stored units. Whatever the weights, a device's value stays within the range of the voxels.
+template <typename Stored>
+double Field<Stored>::error_of(const Read& read, const glm::dvec3& e) const {
+  if (!read.local) return range_;
+  return std::min(glm::dot(read.slopes.steepest(), e) + filter_weight_error_ * read.slopes.spread,
+                  range_);
+}
+
+template <typename Stored>
+Bounded Field<Stored>::at(const glm::dvec3& p, const glm::dvec3& e) const {
+  const Read here = read(p, e);
+  return {here.stored * scale_ + offset_, error_of(here, e) * std::abs(scale_) + value_error_};
+}
+
+template <typename Stored>
+Bounded Field<Stored>::difference(const glm::dvec3& a, const glm::dvec3& b,
+                                  const glm::dvec3& shared_error, double own_error) const {
+  const glm::dvec3 e = shared_error + own_error;
+  const Read above = read(a, e);
+  const Read below = read(b, e);
+  double error = error_of(above, e) + error_of(below, e);
+  if (above.local && below.local) {
+    const glm::dvec3 bend = glm::max(above.slopes.hi - below.slopes.lo,  //
+                                     below.slopes.hi - above.slopes.lo);
+    const glm::dvec3 steepest = above.slopes.steepest() + below.slopes.steepest();
+    const double together = glm::dot(bend, shared_error) +
+                            own_error * (steepest.x + steepest.y + steepest.z) +
+                            filter_weight_error_ * (above.slopes.spread + below.slopes.spread);
+    error = std::min(error, together);
+  }
+  return {(above.stored - below.stored) * scale_, error * std::abs(scale_) + 2.0 * value_error_};
 }
 
 template class Field<std::uint8_t>;

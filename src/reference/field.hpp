@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 
 #include "reference/volume.hpp"
 #include "scene/volume.hpp"
@@ -31,6 +33,12 @@ class Field {
   // plus filter_weight_error × spread of the eight voxels, plus value_error.
   [[nodiscard]] Bounded at(const glm::dvec3& p, const glm::dvec3& position_error) const;
 
+  // at(a) − at(b) for two places that are displaced together by up to `shared_error` and each on
+  // its own by up to `own_error` per axis: together they change it only by how much the slopes
+  // differ.
+  [[nodiscard]] Bounded difference(const glm::dvec3& a, const glm::dvec3& b,
+                                   const glm::dvec3& shared_error, double own_error) const;
+
  private:
   // Where p falls along one axis: between voxels base and base + 1 (before clamping), at fraction
   // f.
@@ -40,17 +48,28 @@ class Field {
   };
   using Corners = std::array<double, 8>;  // bit 0: x, bit 1: y, bit 2: z
 
-  // How fast the field may change: the largest difference of two neighbours per axis and of any
-  // two.
+  // How the field may change: extremes of the difference of two neighbours per axis, and the
+  // largest of any two voxels of one cell.
   struct Slopes {
-    glm::dvec3 per_axis{};
+    glm::dvec3 lo{std::numeric_limits<double>::infinity()};
+    glm::dvec3 hi{-std::numeric_limits<double>::infinity()};
     double spread = 0;
     void widen(const Corners& corners);
+    [[nodiscard]] glm::dvec3 steepest() const;
+  };
+
+  // A stored value; its slopes are known where the place is, to better than half a voxel.
+  struct Read {
+    double stored = 0;
+    bool local = false;
+    Slopes slopes;
   };
 
   [[nodiscard]] Place place(double p, int axis) const;
   [[nodiscard]] double stored(std::ptrdiff_t index) const;
   [[nodiscard]] Corners corners(const std::array<int, 3>& base) const;
+  [[nodiscard]] Read read(const glm::dvec3& p, const glm::dvec3& position_error) const;
+  [[nodiscard]] double error_of(const Read& read, const glm::dvec3& position_error) const;
   [[nodiscard]] Slopes slopes_around(const std::array<Place, 3>& places,
                                      const glm::dvec3& position_error) const;
 

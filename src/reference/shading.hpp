@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -21,17 +22,18 @@ namespace triptych::reference {
 // a quantity that is at most 1.
 template <typename Stored>
 [[nodiscard]] Bounded headlight_cosine(const Field<Stored>& field, const Ray& ray,
-                                       const glm::dvec3& p, const glm::dvec3& voxels_per_axis,
+                                       const glm::dvec3& p, const glm::dvec3& gradient_scale,
                                        double floor, double rounding) {
+  const glm::dvec3 magnitude = glm::abs(p) + 1.0;
+  const double own_error = rounding * std::max({magnitude.x, magnitude.y, magnitude.z});
   glm::dvec3 gradient{0.0};
   glm::dvec3 error{0.0};
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 one{0.0};
     one[axis] = 1.0;
-    const Bounded above = field.at(p + one, ray.position_error);
-    const Bounded below = field.at(p - one, ray.position_error);
-    gradient[axis] = 0.5 * voxels_per_axis[axis] * (above.value - below.value);
-    error[axis] = 0.5 * voxels_per_axis[axis] * (above.error + below.error);
+    const Bounded difference = field.difference(p + one, p - one, ray.position_error, own_error);
+    gradient[axis] = 0.5 * gradient_scale[axis] * difference.value;
+    error[axis] = 0.5 * gradient_scale[axis] * difference.error;
   }
   const double length = glm::length(gradient);
   const double change = glm::length(error);

@@ -18,7 +18,7 @@ Table::Table(const scene::TransferFunction& function, double table_error)
 }
 
 double Table::position(double x) {
-  const double u = x * 256.0 - 0.5;
+  const double u = knot_of(x);
   return u > 0.0 ? std::min(u, 255.0) : 0.0;
 }
 

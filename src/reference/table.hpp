@@ -22,6 +22,9 @@ class Table {
  public:
   Table(const scene::TransferFunction& function, double table_error);
 
+  // Position of x among the entry centres, unclamped: the function has its kinks at 0 … 255.
+  [[nodiscard]] static double knot_of(double x) { return x * 256.0 - 0.5; }
+
   // Straight RGBA at x.
   [[nodiscard]] std::array<double, 4> at(double x) const;
 

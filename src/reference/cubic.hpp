@@ -1,0 +1,74 @@
+#pragma once
+// A cubic on [0, 1], and where it passes whole numbers.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace triptych::reference {
+
+struct Cubic {
+  double c0 = 0;
+  double c1 = 0;
+  double c2 = 0;
+  double c3 = 0;
+
+  // The cubic with these values at 0, 1/3, 2/3 and 1.
+  [[nodiscard]] static Cubic through(const std::array<double, 4>& f) {
+    return {f[0], (-11.0 * f[0] + 18.0 * f[1] - 9.0 * f[2] + 2.0 * f[3]) / 2.0,
+            9.0 * (2.0 * f[0] - 5.0 * f[1] + 4.0 * f[2] - f[3]) / 2.0,
+            9.0 * (-f[0] + 3.0 * f[1] - 3.0 * f[2] + f[3]) / 2.0};
+  }
+
+  [[nodiscard]] double operator()(double s) const { return c0 + s * (c1 + s * (c2 + s * c3)); }
+
+  // Appends, ascending, every s in (0, 1) where the cubic passes one of 0, 1, …, 255.
+  void append_knots(std::vector<double>& at) const {
+    const std::array<double, 4> ends = monotone_ends();
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      const double lo = (*this)(ends[i]);
+      const double hi = (*this)(ends[i + 1]);
+      const double first = std::max(std::ceil(std::min(lo, hi)), 0.0);
+      const double last = std::min(std::floor(std::max(lo, hi)), 255.0);
+      for (double n = 0.0; n <= last - first; n += 1.0) {
+        at.push_back(solve(lo < hi ? first + n : last - n, ends[i], ends[i + 1]));
+      }
+    }
+  }
+
+ private:
+  // 0, the extrema inside (0, 1) and 1, ascending; 0 or 1 repeated where there are fewer.
+  [[nodiscard]] std::array<double, 4> monotone_ends() const {
+    std::array<double, 4> ends{0.0, 0.0, 1.0, 1.0};
+    const double half = c2;  // c1 + 2·half·s + 3·c3·s² = 0
+    const double discriminant = half * half - 3.0 * c3 * c1;
+    if (discriminant > 0.0) {
+      // The two roots by the sum that does not cancel.
+      const double q = -(half + std::copysign(std::sqrt(discriminant), half));
+      double a = c3 != 0.0 ? q / (3.0 * c3) : 0.0;
+      double b = q != 0.0 ? c1 / q : 0.0;
+      if (a > b) std::swap(a, b);
+      ends[1] = std::clamp(a, 0.0, 1.0);
+      ends[2] = std::clamp(b, 0.0, 1.0);
+    }
+    return ends;
+  }
+
+  // Bisection on a monotone stretch, to 2⁻⁴⁰ of it.
+  [[nodiscard]] double solve(double value, double a, double b) const {
+    const bool rising = (*this)(a) < (*this)(b);
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (a + b);
+      if (((*this)(middle) < value) == rising) {
+        a = middle;
+      } else {
+        b = middle;
+      }
+    }
+    return 0.5 * (a + b);
+  }
+};
+
+}  // namespace triptych::reference

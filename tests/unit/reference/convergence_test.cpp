@@ -1,0 +1,185 @@
+// The renderer against closed forms, at the order of convergence that the midpoint rule must show.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "reference/analytic_scenes.hpp"
+#include "reference/volume.hpp"
+
+namespace triptych::reference {
+namespace {
+
+struct Difference {
+  double rms = 0;
+  double largest = 0;
+  double excess = 0;  // largest beyond the pixel's model error
+};
+
+Difference difference(const AnalyticScene& analytic, const Truth& truth) {
+  Difference d;
+  for (int y = 0; y < truth.height; ++y) {
+    for (int x = 0; x < truth.width; ++x) {
+      const AnalyticPixel exact = analytic.exact(x, y);
+      const auto pixel = static_cast<std::size_t>(y * truth.width + x);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double error = std::abs(truth.rgba[4 * pixel + i] - exact.rgba[i]);
+        d.rms += error * error;
+        d.largest = std::max(d.largest, error);
+        d.excess = std::max(d.excess, error - exact.model_error);
+      }
+    }
+  }
+  d.rms = std::sqrt(d.rms / (4.0 * truth.width * truth.height));
+  return d;
+}
+
+AnalyticOptions options(int size, double step = 1) {
+  AnalyticOptions o;
+  o.size = {size, size, size};
+  o.width = o.height = 24;
+  o.step_voxels = step;
+  return o;
+}
+
+// Least-squares slope of log₂ error over log₂ h.
+double fitted_order(const std::vector<double>& steps, const std::vector<double>& errors) {
+  double sx = 0;
+  double sy = 0;
+  double sxx = 0;
+  double sxy = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double x = std::log2(steps[i]);
+    const double y = std::log2(errors[i]);
+    sx += x;
+    sy += y;
+    sxx += x * x;
+    sxy += x * y;
+  }
+  const auto n = static_cast<double>(steps.size());
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+const std::vector<double> halvings{1, 0.5, 0.25, 0.125};
+const std::vector<double> more_halvings{1, 0.5, 0.25, 0.125, 0.0625};
+
+double order_against_closed_form(AnalyticProblem problem, int size) {
+  std::vector<double> errors;
+  for (const double step : halvings) {
+    const AnalyticScene analytic = analytic_scene(problem, options(size, step));
+    errors.push_back(difference(analytic, render_volume(analytic.scene)).rms);
+  }
+  return fitted_order(halvings, errors);
+}
+
+TEST(Convergence, ConstantMediumIsExactForEveryStep) {
+  for (const double step : {0.0625, 0.3, 1.0, 2.0, 7.7, 1e3}) {
+    AnalyticOptions o = options(16, step);
+    o.background = {0.25F, 0.5F, 0.125F, 1.0F};
+    const AnalyticScene analytic = analytic_scene(AnalyticProblem::v1_constant, o);
+    EXPECT_LT(difference(analytic, render_volume(analytic.scene)).largest, 1e-12) << step;
+  }
+}
+
+TEST(Convergence, ConstantMediumIsExactForAnySpacing) {
+  AnalyticOptions o = options(8, 0.7);
+  o.size = {5, 9, 13};
+  o.spacing = {1, 8, 0.25};
+  const AnalyticScene analytic = analytic_scene(AnalyticProblem::v1_constant, o);
+  EXPECT_LT(difference(analytic, render_volume(analytic.scene)).largest, 1e-12);
+}
+
+TEST(Convergence, SmoothProblemsAreOfSecondOrder) {
+  EXPECT_GE(order_against_closed_form(AnalyticProblem::v2_ramp, 10), 1.9);
+  EXPECT_GE(order_against_closed_form(AnalyticProblem::v3_segment, 10), 1.9);
+  EXPECT_GE(order_against_closed_form(AnalyticProblem::v5_atmosphere, 10), 1.9);
+}
+
+// The blob's grid is not its closed form, so the order in the step is taken against the grid's own
+// limit; from one step more, as on a smooth field the kinks at cell boundaries dominate only late.
+TEST(Convergence, BlobIsOfSecondOrderInTheStep) {
+  const AnalyticScene analytic = analytic_scene(AnalyticProblem::v4_gaussian, options(24));
+  const Truth limit = render_volume_converged(analytic.scene, 1e-8);
+  std::vector<double> errors;
+  for (const double step : more_halvings) {
+    scene::VolumeScene scene = analytic.scene;
+    scene.step_voxels = step;
+    const Truth truth = render_volume(scene);
+    double sum = 0;
+    for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
+      sum += std::pow(truth.rgba[i] - limit.rgba[i], 2);
+    }
+    errors.push_back(std::sqrt(sum));
+  }
+  EXPECT_GE(fitted_order(more_halvings, errors), 1.9);
+}
+
+TEST(Convergence, BlobIsOfSecondOrderInTheVoxelSize) {
+  std::vector<double> sizes;
+  std::vector<double> errors;
+  for (const int size : {20, 40, 80}) {
+    const AnalyticScene analytic = analytic_scene(AnalyticProblem::v4_gaussian, options(size, 0.5));
+    sizes.push_back(1.0 / size);
+    errors.push_back(difference(analytic, render_volume(analytic.scene)).rms);
+  }
+  EXPECT_GE(fitted_order(sizes, errors), 1.9);
+}
+
+TEST(Convergence, LayersAreLimitedByTheirEdge) {
+  const double order = order_against_closed_form(AnalyticProblem::v6_layers, 12);
+  EXPECT_GT(order, 0.4);
+  EXPECT_LT(order, 1.7);
+}
+
+TEST(Convergence, LayersSeenFromBehindAreReversed) {
+  AnalyticOptions o = options(12, 0.125);
+  o.width = o.height = 1;
+  o.camera = scene::Camera{.eye = {6, 6, 40}, .forward = {0, 0, -1}, .up = {0, 1, 0}};
+  const AnalyticPixel front = analytic_scene(AnalyticProblem::v6_layers, o).exact(0, 0);
+  o.camera = scene::Camera{.eye = {6, 6, -28}, .forward = {0, 0, 1}, .up = {0, 1, 0}};
+  const AnalyticScene reversed = analytic_scene(AnalyticProblem::v6_layers, o);
+  EXPECT_NEAR(front.rgba[3], reversed.exact(0, 0).rgba[3], 1e-15);
+  EXPECT_GT(std::abs(front.rgba[0] - reversed.exact(0, 0).rgba[0]), 0.1);
+  EXPECT_LT(difference(reversed, render_volume(reversed.scene)).largest, 2e-3);
+}
+
+// The limit of the step must be the closed form, up to how finely grid and table represent it.
+TEST(Convergence, LimitIsTheClosedForm) {
+  for (const AnalyticProblem problem :
+       {AnalyticProblem::v1_constant, AnalyticProblem::v2_ramp, AnalyticProblem::v3_segment,
+        AnalyticProblem::v4_gaussian, AnalyticProblem::v5_atmosphere, AnalyticProblem::v6_layers}) {
+    for (const int size : {8, 32}) {
+      const AnalyticScene analytic = analytic_scene(problem, options(size));
+      const double tolerance = 1e-7;
+      const Truth limit = render_volume_converged(analytic.scene, tolerance);
+      EXPECT_LE(*std::max_element(limit.bound.begin(), limit.bound.end()), tolerance)
+          << name_of(problem);
+      EXPECT_LT(difference(analytic, limit).excess, tolerance) << name_of(problem) << ' ' << size;
+    }
+  }
+}
+
+TEST(Convergence, ModelErrorIsSmallWhereTheGridIsTheClosedForm) {
+  for (const AnalyticProblem problem :
+       {AnalyticProblem::v2_ramp, AnalyticProblem::v3_segment, AnalyticProblem::v5_atmosphere}) {
+    const AnalyticScene analytic = analytic_scene(problem, options(32));
+    EXPECT_LT(analytic.exact(12, 12).model_error, 4e-5) << name_of(problem);
+  }
+}
+
+TEST(Convergence, LimitAgreesWithAFineLattice) {
+  const AnalyticScene analytic = analytic_scene(AnalyticProblem::v4_gaussian, options(10));
+  scene::VolumeScene scene = analytic.scene;
+  scene.shading.enabled = true;
+  const Truth limit = render_volume_converged(scene, 1e-6);
+  scene.step_voxels = 1.0 / 64;
+  const Truth fine = render_volume(scene);
+  for (std::size_t i = 0; i < fine.rgba.size(); ++i) {
+    ASSERT_NEAR(fine.rgba[i], limit.rgba[i], 2e-4) << i;
+  }
+}
+
+}  // namespace
+}  // namespace triptych::reference

@@ -1,0 +1,32 @@
+#pragma once
+// Seeded scenes for the tests of this folder.
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <memory>
+
+#include "scene/volume_scene.hpp"
+
+namespace triptych::reference {
+
+// A grid from a function of the voxel's indices to a normalised value in [0, 1].
+[[nodiscard]] std::shared_ptr<const scene::VoxelGrid> make_grid(
+    const std::array<int, 3>& size, const std::array<double, 3>& spacing, scene::VoxelFormat format,
+    const std::function<double(int, int, int)>& value);
+
+[[nodiscard]] scene::Camera look_at(const glm::dvec3& eye, const glm::dvec3& target,
+                                    const glm::dvec3& up = {0, 1, 0}, double fov_y_deg = 45);
+
+// The same straight RGBA for every value.
+[[nodiscard]] scene::TransferFunction constant_table(const std::array<float, 4>& rgba);
+
+enum class Character {
+  smooth,  // low frequencies, gentle table: what a picture for people looks like
+  rough    // white noise, a table of random entries with spikes, zeros and full opacity
+};
+[[nodiscard]] scene::VolumeScene random_scene(std::uint64_t seed, Character character,
+                                              scene::VoxelFormat format);
+
+}  // namespace triptych::reference
