@@ -24,6 +24,11 @@ double smallest_gap(std::vector<double> samples) {
   return gap;
 }
 
+// What one step of the clock makes of a time, in ln t.
+double one_step(double step, double time) {
+  return step < time ? -std::log1p(-step / time) : std::numeric_limits<double>::infinity();
+}
+
 Resolutions resolutions(const RunView& view) {
   Resolutions result;
   for (const record::Record* record : view.measured) {
@@ -124,7 +129,7 @@ class TimingCheck {
     timing.anchor = is_anchor(record);
     timing.median_ns = now;
     timing.stored_ns = std::move(stored);
-    timing.tolerance = std::max(std::log(TimingModel::tolerated), step / now);
+    timing.tolerance = std::max(std::log(TimingModel::tolerated), one_step(step, now));
     cases_.push_back(std::move(timing));
     judged_.push_back({&record, other_code});
   }
@@ -150,8 +155,9 @@ class TimingCheck {
                                      : ", without anchors";
     if (judged_[index].other_code) message += "; the device code changed since";
     if (noisy) {
-      message += "; the stored runs scatter too much to tell: settle it with triptych compare " +
-                 view_.request.plan;
+      message +=
+          "; too much scatter or too coarse a clock to tell: settle it with triptych compare " +
+          view_.request.plan;
     }
     if (judgement.faster) message += "; keep it with " + view_.accept_command();
     add(record, verdict, std::move(message));

@@ -14,7 +14,7 @@ struct TimingModel {
   static constexpr double share_of_false_alarms = 0.05;  // q of Benjamini–Hochberg
   static constexpr int least_runs = 5;                   // fewer stored runs decide nothing
   static constexpr double tolerated = 1.02;  // slower by this factor is not worth a finding
-  // Noise that hides a slowdown by this factor leaves a configuration undecided.
+  // Noise or a clock that hides a slowdown by this factor leaves a configuration undecided.
   static constexpr double must_be_told = 1.20;
 };
 
@@ -23,7 +23,7 @@ struct TimingCase {
   bool anchor = false;
   double median_ns = 0;
   std::map<std::string, double> stored_ns;  // run → median; at least TimingModel::least_runs
-  double tolerance = 0;  // τ in ln t: max(ln 1.02, resolution of the clock/median)
+  double tolerance = 0;                     // τ in ln t: max(ln 1.02, one step of the clock)
 };
 
 struct TimingJudgement {

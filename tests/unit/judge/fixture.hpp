@@ -1,0 +1,78 @@
+#pragma once
+// A small world to judge: three devices, two scenes, two paths each, in a store and a folder of
+// baselines of their own.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/image.hpp"
+#include "core/random.hpp"
+#include "judge/gate.hpp"
+#include "record/store.hpp"
+
+namespace triptych::judge {
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+class JudgeTest : public testing::Test {
+ public:
+  static constexpr const char* plan = "volume/quick";
+  static constexpr float bound = 1e-3F;
+
+  // Changes a record and its picture before they are stored.
+  using Tweak = std::function<void(record::Record&, core::Image&)>;
+
+ protected:
+  JudgeTest();
+
+  // Twelve measured records (fifteen with anchors), times with 0.5 % noise around a level per
+  // configuration.
+  void add_run(const std::string& run, const Tweak& tweak = {});
+  std::vector<std::string> accept_run(const std::string& run, const std::string& only = {});
+  // Eight accepted runs, r1 … r8.
+  void accept_history(const Tweak& tweak = {});
+  [[nodiscard]] GateResult gate(const std::string& run) const { return gate(run, request_); }
+  [[nodiscard]] GateResult gate(const std::string& run, const GateRequest& request) const;
+  [[nodiscard]] std::filesystem::path baseline(const std::string& name) const;
+  // The only file in a folder of the plan's baselines whose name begins so.
+  [[nodiscard]] std::filesystem::path device_file(const std::string& folder,
+                                                  const std::string& start) const;
+
+  [[nodiscard]] static core::Image truth_of(const std::string& scene);
+  // Findings of one verdict, and those of them in one check.
+  [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Verdict verdict);
+  [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Verdict verdict,
+                                                 Check check);
+  // All of a result's findings as text, for failed expectations.
+  [[nodiscard]] static std::string text(const GateResult& result);
+
+  static inline const std::string plain_ = "camera=front,data=ball,technique=raycast";
+  static inline const std::string bricks_ = "camera=front,data=ball,skip=bricks,technique=raycast";
+  static inline const std::string front_ = "camera=front,data=ball";
+
+  TemporaryFolder folder_;
+  record::Store store_;
+  GateRequest request_;
+  bool with_anchors_ = false;
+
+ private:
+  [[nodiscard]] record::Record make_record(const std::string& run, const record::Device& device,
+                                           const std::string& scene, const std::string& variant);
+  core::Random random_{7};
+};
+
+}  // namespace triptych::judge

@@ -1,0 +1,155 @@
+// What the gate says of times, from records to verdict.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "core/file.hpp"
+#include "fixture.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using core::ExitCode;
+using testing::HasSubstr;
+
+class TimingGateTest : public JudgeTest {
+ protected:
+  static Tweak times(double factor, const std::string& configuration = {}) {
+    return [=](record::Record& record, core::Image&) {
+      if (!configuration.empty() && record.configuration != configuration) return;
+      for (double& ns : record.wall_ns) ns *= factor;
+    };
+  }
+};
+
+TEST_F(TimingGateTest, NoiseAlonePasses) {
+  accept_history();
+  add_run("b");
+  const GateResult result = gate("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  EXPECT_EQ(with(result, Verdict::pass, Check::timing).size(), 12U);
+}
+
+TEST_F(TimingGateTest, AFifthSlowerIsARegression) {
+  accept_history();
+  add_run("b", times(1.2, bricks_));
+  const GateResult result = gate("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::regression);
+  const auto slower = with(result, Verdict::regression);
+  ASSERT_EQ(slower.size(), 3U) << text(result);
+  EXPECT_EQ(slower[0].check, Check::timing);
+  EXPECT_EQ(slower[0].configuration, bricks_);
+  EXPECT_NEAR(slower[0].numbers.at("ratio"), 1.2, 0.02);
+  EXPECT_THAT(slower[0].message, HasSubstr("8 stored runs"));
+}
+
+TEST_F(TimingGateTest, AFifthFasterIsListedAndPasses) {
+  accept_history();
+  add_run("b", times(0.8, bricks_));
+  const GateResult result = gate("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  EXPECT_EQ(with(result, Verdict::improved, Check::timing).size(), 3U);
+  EXPECT_THAT(result.headline(), HasSubstr("3 improved"));
+}
+
+TEST_F(TimingGateTest, FourStoredRunsOnlyAdvise) {
+  for (const char* run : {"1", "2", "3", "4"}) {
+    add_run(run);
+    (void)accept_run(run);
+  }
+  add_run("b", times(1.5));
+  const GateResult result = gate("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  const auto advice = with(result, Verdict::advisory, Check::timing);
+  ASSERT_EQ(advice.size(), 12U);
+  EXPECT_NEAR(advice[0].numbers.at("ratio"), 1.5, 0.05);
+  EXPECT_THAT(advice[0].message, HasSubstr("4 stored runs"));
+}
+
+TEST_F(TimingGateTest, AnAcceptedRunIsNoWitnessForItself) {
+  for (const char* run : {"1", "2", "3", "4", "5"}) {
+    add_run(run);
+    (void)accept_run(run);
+  }
+  EXPECT_EQ(with(gate("5"), Verdict::advisory, Check::timing).size(), 12U);
+}
+
+TEST_F(TimingGateTest, AnotherClockCannotBeCompared) {
+  accept_history();
+  add_run("b", [](record::Record& record, core::Image&) {
+    record.device_ns = record.wall_ns;
+    record.device_clock_trusted = record.device == "vulkan:lavapipe";
+  });
+  const GateResult result = gate("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
+  const auto undecided = with(result, Verdict::cannot_judge, Check::timing);
+  ASSERT_EQ(undecided.size(), 4U) << text(result);
+  EXPECT_THAT(undecided[0].message,
+              HasSubstr("timed by the device clock, stored by the wall clock"));
+}
+
+TEST_F(TimingGateTest, NewDeviceCodeIsJudgedAndNamed) {
+  accept_history();
+  add_run("b", [](record::Record& record, core::Image& image) {
+    times(1.2)(record, image);
+    record.kernel_hash = "new";
+  });
+  const auto slower = with(gate("b"), Verdict::regression, Check::timing);
+  ASSERT_EQ(slower.size(), 12U);
+  EXPECT_THAT(slower[0].message, HasSubstr("the device code changed"));
+}
+
+TEST_F(TimingGateTest, NoTimeIsNoPass) {
+  accept_history();
+  add_run("b", [](record::Record& record, core::Image&) { record.wall_ns.clear(); });
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge);
+}
+
+TEST_F(TimingGateTest, ASlowerMachineIsNoSlowerProgram) {
+  with_anchors_ = true;
+  accept_history();
+  add_run("b", times(1.3));
+  const GateResult result = gate("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  const auto advice = with(result, Verdict::advisory, Check::timing);
+  ASSERT_EQ(advice.size(), 3U);  // one per device
+  EXPECT_THAT(advice[0].message, HasSubstr("the device itself is +3"));
+  add_run("c", [](record::Record& record, core::Image& image) {
+    times(1.3)(record, image);
+    times(1.2, plain_)(record, image);
+  });
+  EXPECT_EQ(with(gate("c"), Verdict::regression, Check::timing).size(), 3U);
+}
+
+TEST_F(TimingGateTest, ACoarseClockToleratesItsOwnStep) {
+  const double step = 1e6;
+  const auto coarse = [step](record::Record& record, core::Image&) {
+    for (double& ns : record.wall_ns) ns = step * std::round(ns / step) + 10 * step;
+    record.wall_ns.back() += step;  // the step is seen in the samples
+  };
+  accept_history(coarse);
+  add_run("b", [&](record::Record& record, core::Image& image) {
+    coarse(record, image);
+    for (double& ns : record.wall_ns) ns += step;
+  });
+  const GateResult result = gate("b");
+  EXPECT_TRUE(with(result, Verdict::regression).empty()) << text(result);
+}
+
+TEST_F(TimingGateTest, WildScatterIsUndecided) {
+  core::Random random(3);
+  const auto wild = [&](record::Record& record, core::Image&) {
+    const double factor = std::exp(random.uniform(-1, 1));
+    for (double& ns : record.wall_ns) ns *= factor;
+  };
+  accept_history(wild);
+  add_run("b");
+  const GateResult result = gate("b");
+  ASSERT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
+  EXPECT_THAT(with(result, Verdict::cannot_judge, Check::timing).at(0).message,
+              HasSubstr("settle it with triptych compare volume/quick"));
+}
+
+}  // namespace
+}  // namespace triptych::judge

@@ -1,0 +1,198 @@
+#include "judge/timing_model.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "core/random.hpp"
+
+namespace triptych::judge {
+namespace {
+
+double normal(core::Random& random) {
+  const double radius = std::sqrt(-2 * std::log(1 - random.uniform()));
+  return radius * std::cos(2 * std::numbers::pi * random.uniform());
+}
+
+// A gate's worth of synthetic timings. ln t = level of the configuration + what moved the whole run
+// + noise of its own size per configuration.
+struct Bench {
+  std::size_t configurations = 60;
+  std::size_t anchors = 0;
+  int runs = 8;
+  double noise = 0.01;   // standard deviation of ln t of a typical configuration
+  double common = 0;     // of a whole run
+  double now_shift = 0;  // of this run, device and all
+  double slower_by = 1;  // factor on the planted configurations
+  std::size_t planted = 0;
+
+  [[nodiscard]] std::vector<TimingCase> draw(std::uint64_t seed) const {
+    core::Random random(seed);
+    std::vector<double> moved;
+    for (int run = 0; run < runs; ++run) moved.push_back(common * normal(random));
+    const double moved_now = common * normal(random) + now_shift;
+    std::vector<TimingCase> cases;
+    for (std::size_t i = 0; i < configurations + anchors; ++i) {
+      TimingCase timing;
+      timing.device = "d";
+      timing.anchor = i >= configurations;
+      const double level = std::log(1e6) + 4 * random.uniform();
+      const double own_noise = noise * std::exp(0.4 * normal(random));
+      for (int run = 0; run < runs; ++run) {
+        timing.stored_ns[fmt::format("run{}", run)] =
+            std::exp(level + moved[static_cast<std::size_t>(run)] + own_noise * normal(random));
+      }
+      const double planted_shift = i < planted ? std::log(slower_by) : 0;
+      timing.median_ns = std::exp(level + moved_now + planted_shift + own_noise * normal(random));
+      timing.tolerance = std::log(TimingModel::tolerated);
+      cases.push_back(std::move(timing));
+    }
+    return cases;
+  }
+};
+
+struct Score {
+  double gates_alarmed = 0;  // share of gates with any slower verdict on an unplanted configuration
+  double false_discoveries = 0;  // mean share of such among all slower verdicts
+  double found = 0;              // share of the planted configurations found
+};
+
+Score score(const Bench& bench, int gates) {
+  Score result;
+  for (int gate = 0; gate < gates; ++gate) {
+    const auto judged = judge_timings(bench.draw(static_cast<std::uint64_t>(gate) + 1));
+    std::size_t right = 0;
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < judged.size(); ++i) {
+      if (judged[i].slower) ++(i < bench.planted ? right : wrong);
+    }
+    result.gates_alarmed += wrong > 0 ? 1 : 0;
+    if (wrong > 0) {
+      result.false_discoveries += static_cast<double>(wrong) / static_cast<double>(wrong + right);
+    }
+    if (bench.planted > 0) {
+      result.found += static_cast<double>(right) / static_cast<double>(bench.planted);
+    }
+  }
+  result.gates_alarmed /= gates;
+  result.false_discoveries /= gates;
+  result.found /= gates;
+  return result;
+}
+
+constexpr int gates = 400;
+constexpr double q = TimingModel::share_of_false_alarms;
+
+TEST(TimingModel, NothingChangedRaisesNoMoreAlarmsThanStated) {
+  const Score s = score({}, gates);
+  RecordProperty("gates_alarmed", fmt::format("{:.4f}", s.gates_alarmed));
+  EXPECT_LE(s.gates_alarmed, q);
+}
+
+TEST(TimingModel, NoisyRunsRaiseNoMoreAlarmsThanStated) {
+  const Score s = score({.noise = 0.05}, gates);
+  RecordProperty("gates_alarmed", fmt::format("{:.4f}", s.gates_alarmed));
+  EXPECT_LE(s.gates_alarmed, q);
+}
+
+// Without anchors a slow run moves every configuration at once; what the stored runs say of that
+// holds.
+TEST(TimingModel, RunsThatMoveAsAWholeRaiseNoMoreAlarmsThanStated) {
+  const Score s = score({.common = 0.03}, gates);
+  RecordProperty("gates_alarmed", fmt::format("{:.4f}", s.gates_alarmed));
+  EXPECT_LE(s.gates_alarmed, q);
+}
+
+TEST(TimingModel, ASlowerMachineIsToldByItsAnchors) {
+  const Bench bench{.anchors = 6, .common = 0.03, .now_shift = std::log(1.3)};
+  const Score s = score(bench, gates);
+  EXPECT_LE(s.gates_alarmed, q);
+  const auto judged = judge_timings(bench.draw(1));
+  EXPECT_NEAR(judged[0].shift, std::log(1.3), 0.1);
+  EXPECT_EQ(judged[0].anchors, 6U);
+}
+
+// A lone anchor's own scatter must not become everybody's false alarm.
+TEST(TimingModel, OneAnchorRaisesNoMoreAlarmsThanStated) {
+  const Score s = score({.anchors = 1, .noise = 0.03}, gates);
+  RecordProperty("gates_alarmed", fmt::format("{:.4f}", s.gates_alarmed));
+  EXPECT_LE(s.gates_alarmed, q);
+}
+
+// At the edge of what is tolerated every rejection is a false one: the hardest case for q.
+TEST(TimingModel, TheEdgeOfToleranceKeepsFalseDiscoveriesBelowQ) {
+  const Bench bench{.noise = 0.02, .slower_by = TimingModel::tolerated, .planted = 60};
+  const Score s = score(bench, gates);
+  RecordProperty("alarmed", fmt::format("{:.4f}", s.found));
+  EXPECT_LE(s.found, q);
+}
+
+TEST(TimingModel, FalseDiscoveriesStayBelowQBesideRealOnes) {
+  const Score s = score({.noise = 0.03, .slower_by = 1.25, .planted = 10}, gates);
+  RecordProperty("false_discoveries", fmt::format("{:.4f}", s.false_discoveries));
+  EXPECT_LE(s.false_discoveries, q);
+  EXPECT_GE(s.found, 0.9);
+}
+
+TEST(TimingModel, FindsAFifthSlowerInOneConfiguration) {
+  EXPECT_GE(score({.slower_by = 1.2, .planted = 1}, gates).found, 0.99);
+  EXPECT_GE(score({.anchors = 6, .common = 0.03, .slower_by = 1.2, .planted = 1}, gates).found,
+            0.99);
+}
+
+TEST(TimingModel, FindsAFifthSlowerEverywhere) {
+  EXPECT_GE(score({.slower_by = 1.2, .planted = 60}, gates).found, 0.99);
+}
+
+TEST(TimingModel, FasterIsFoundToo) {
+  const auto judged = judge_timings(Bench{.slower_by = 0.8, .planted = 1}.draw(3));
+  EXPECT_TRUE(judged[0].faster);
+  EXPECT_FALSE(judged[0].slower);
+}
+
+TEST(TimingModel, DevicesDoNotLendOneAnotherTheirNoise) {
+  auto cases = Bench{.slower_by = 1.1, .planted = 1}.draw(5);
+  auto noisy = Bench{.noise = 0.2}.draw(6);
+  for (TimingCase& timing : noisy) timing.device = "other";
+  const double alone = judge_timings(cases)[0].standard_error;
+  cases.insert(cases.end(), noisy.begin(), noisy.end());
+  EXPECT_DOUBLE_EQ(judge_timings(cases)[0].standard_error, alone);
+}
+
+// One configuration: the prior teaches nothing, and this is a plain t test of one new value.
+TEST(TimingModel, OneCaseIsAPlainTTest) {
+  TimingCase timing{.device = "d", .median_ns = std::exp(1.1), .tolerance = 0.02};
+  const std::array stored{0.98, 0.99, 1.0, 1.01, 1.02};
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    timing.stored_ns[fmt::format("{}", i)] = std::exp(stored[i]);
+  }
+  const auto judged = judge_timings(std::span(&timing, 1)).front();
+  const double error = std::sqrt(0.00025 * 1.2);
+  EXPECT_NEAR(judged.log_ratio, 0.1, 1e-12);
+  EXPECT_NEAR(judged.standard_error, error, 1e-12);
+  EXPECT_NEAR(judged.t, 0.08 / error, 1e-9);
+  EXPECT_EQ(judged.degrees, 4);
+  EXPECT_TRUE(judged.slower);
+}
+
+TEST(TimingModel, IdenticalStoredTimesAreNoTrouble) {
+  TimingCase timing{.device = "d", .median_ns = 100, .tolerance = std::log(1.02)};
+  for (int i = 0; i < 6; ++i) timing.stored_ns[fmt::format("{}", i)] = 100;
+  EXPECT_FALSE(judge_timings(std::span(&timing, 1)).front().slower);
+  timing.median_ns = 110;
+  EXPECT_TRUE(judge_timings(std::span(&timing, 1)).front().slower);
+}
+
+TEST(TimingModel, ScatterThatHidesAFifthIsTooNoisy) {
+  const auto quiet = judge_timings(Bench{.noise = 0.03}.draw(9));
+  const auto noisy = judge_timings(Bench{.noise = 0.5}.draw(9));
+  EXPECT_FALSE(quiet[0].too_noisy(std::log(TimingModel::tolerated)));
+  EXPECT_TRUE(noisy[0].too_noisy(std::log(TimingModel::tolerated)));
+}
+
+}  // namespace
+}  // namespace triptych::judge
