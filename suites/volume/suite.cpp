@@ -7,8 +7,9 @@
 #include <functional>
 #include <utility>
 
-#include "core/error.hpp"
+#include "core/json.hpp"
 #include "reference/volume.hpp"
+#include "scene/generators.hpp"
 #include "suites/volume/factors.hpp"
 #include "suites/volume/frame_description.hpp"
 #include "suites/volume/tolerance.hpp"
