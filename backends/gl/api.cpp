@@ -1,0 +1,106 @@
+#include "backends/gl/api.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+constexpr GLenum context_lost = 0x0507;  // GL_CONTEXT_LOST: of GL 4.5, absent from older headers
+
+std::string code_name(GLenum code) {
+  static constexpr std::array<std::pair<GLenum, const char*>, 9> names{{
+      {GL_INVALID_ENUM, "GL_INVALID_ENUM"},
+      {GL_INVALID_VALUE, "GL_INVALID_VALUE"},
+      {GL_INVALID_OPERATION, "GL_INVALID_OPERATION"},
+      {GL_INVALID_FRAMEBUFFER_OPERATION, "GL_INVALID_FRAMEBUFFER_OPERATION"},
+      {GL_OUT_OF_MEMORY, "GL_OUT_OF_MEMORY"},
+      {context_lost, "GL_CONTEXT_LOST"},
+      {GL_GUILTY_CONTEXT_RESET, "GL_GUILTY_CONTEXT_RESET"},
+      {GL_INNOCENT_CONTEXT_RESET, "GL_INNOCENT_CONTEXT_RESET"},
+      {GL_UNKNOWN_CONTEXT_RESET, "GL_UNKNOWN_CONTEXT_RESET"},
+  }};
+  for (const auto& [value, name] : names) {
+    if (value == code) return name;
+  }
+  return fmt::format("{:#06x}", code);
+}
+
+}  // namespace
+
+Api::Api(GLADloadfunc load) : GladGLContext{} {
+  const int version = gladLoadGLContext(this, load);
+  if (version < GLAD_MAKE_VERSION(3, 3)) {
+    throw core::NotSupported(fmt::format("OpenGL {}.{} found, 3.3 needed",
+                                         GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version)));
+  }
+}
+
+void GLAD_API_PTR Api::on_message(GLenum /*source*/, GLenum type, GLuint /*id*/,
+                                  GLenum /*severity*/, GLsizei length, const GLchar* message,
+                                  const void* user) {
+  if (type != GL_DEBUG_TYPE_ERROR && type != GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR) return;
+  // Registered with the address of our own, mutable Messages; GL's signature hands it back const.
+  auto* messages = static_cast<Messages*>(const_cast<void*>(user));
+  const auto size =
+      length < 0 ? std::string_view(message).size() : static_cast<std::size_t>(length);
+  messages->lines.emplace_back(message, size);
+}
+
+void Api::collect_messages() {
+  if (DebugMessageCallback == nullptr) return;
+  messages_ = std::make_unique<Messages>();
+  Enable(GL_DEBUG_OUTPUT);
+  Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  DebugMessageCallback(&Api::on_message, messages_.get());
+}
+
+void Api::check(std::string_view call, std::source_location place) const {
+  // A lost context may answer every question with an error of its own, so it is asked first.
+  const GLenum reset = GetGraphicsResetStatus != nullptr ? GetGraphicsResetStatus() : GL_NO_ERROR;
+  const GLenum error = GetError();
+  if (reset == GL_NO_ERROR && error == GL_NO_ERROR && (!messages_ || messages_->lines.empty())) {
+    return;
+  }
+  std::string detail;
+  if (messages_) {
+    for (const std::string& line : std::exchange(messages_->lines, {})) {
+      detail += (detail.empty() ? "" : "; ") + line;
+    }
+  }
+  if (reset != GL_NO_ERROR || error == context_lost) {
+    throw core::DeviceLost(std::string(call), code_name(reset != GL_NO_ERROR ? reset : error),
+                           detail, place);
+  }
+  throw core::ApiError(std::string(call),
+                       error != GL_NO_ERROR ? code_name(error) : "a message of the driver", detail,
+                       place);
+}
+
+std::string Api::text(GLenum name) const {
+  const GLubyte* value = GetString(name);
+  return value != nullptr ? std::string(reinterpret_cast<const char*>(value)) : std::string();
+}
+
+std::int64_t Api::limit(GLenum name) const {
+  GLint64 value = 0;
+  GetInteger64v(name, &value);
+  return value;
+}
+
+std::int64_t Api::limit(GLenum name, GLuint index) const {
+  GLint value = 0;
+  GetIntegeri_v(name, index, &value);
+  return value;
+}
+
+bool Api::at_least(int major, int minor) const {
+  const std::int64_t own_major = limit(GL_MAJOR_VERSION);
+  return own_major > major || (own_major == major && limit(GL_MINOR_VERSION) >= minor);
+}
+
+}  // namespace triptych::gl_backend

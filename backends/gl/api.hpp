@@ -1,0 +1,43 @@
+#pragma once
+// The functions of one context, and how their errors are told.
+
+#include <glad/gl.h>
+
+#include <cstdint>
+#include <memory>
+#include <source_location>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace triptych::gl_backend {
+
+// GL's entry points as members (`gl.DrawArrays(…)`), those of the version and extensions the
+// context has; the others are null. Valid while the context lives; called only while it is current.
+struct Api : GladGLContext {
+  // Throws core::NotSupported when the functions of GL 3.3 are not all there.
+  explicit Api(GLADloadfunc load);
+
+  // From now on check() also reports the driver's error messages. Needs KHR_debug (GL 4.3).
+  void collect_messages();
+
+  // Throws core::DeviceLost or core::ApiError when any call since the last check failed; `call`
+  // names the last of them, or the one that matters.
+  void check(std::string_view call,
+             std::source_location place = std::source_location::current()) const;
+
+  [[nodiscard]] std::string text(GLenum name) const;  // glGetString; empty for null
+  [[nodiscard]] std::int64_t limit(GLenum name) const;
+  [[nodiscard]] std::int64_t limit(GLenum name, GLuint index) const;
+  [[nodiscard]] bool at_least(int major, int minor) const;
+
+ private:
+  struct Messages {
+    std::vector<std::string> lines;
+  };
+  static void GLAD_API_PTR on_message(GLenum source, GLenum type, GLuint id, GLenum severity,
+                                      GLsizei length, const GLchar* message, const void* user);
+  std::unique_ptr<Messages> messages_;  // at an address that the driver keeps
+};
+
+}  // namespace triptych::gl_backend

@@ -1,0 +1,170 @@
+#include "backends/gl/backend.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "backends/gl/context.hpp"
+#include "backends/gl/device.hpp"
+#include "backends/gl/device_info.hpp"
+#include "backends/gl/isolate.hpp"
+#include "core/error.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+constexpr std::array<WindowSystem, 2> window_systems{
+    {{"EGL", "-egl", &egl_candidates}, {"OSMesa", "-osmesa", &osmesa_candidates}}};
+
+// A driver that takes longer to say its name is as good as hung; a cold start takes 0.1 s.
+constexpr std::chrono::seconds listing_limit{20};
+
+struct Opened {
+  record::Device info;
+  std::unique_ptr<Context> context;
+};
+
+// Opens a window system's devices one after the other, giving each its id.
+class Walk {
+ public:
+  explicit Walk(const WindowSystem& system) : system_(system), candidates_(system.candidates()) {}
+
+  // The next device that opens; the reasons of those that do not go to `broken`. Empty at the end.
+  std::optional<Opened> next(bool debug, std::vector<measure::Broken>& broken) {
+    while (at_ < candidates_.size()) {
+      const Candidate& candidate = candidates_[at_++];
+      try {
+        Opened opened{{}, candidate.open(debug)};
+        {
+          const Current current(*opened.context);
+          opened.info = device_info(opened.context->gl(), system_.suffix);
+        }
+        if (is_repeated(opened.info)) continue;
+        const int number = ++count_[opened.info.id];
+        if (number > 1) opened.info.id += fmt::format("#{}", number);
+        return opened;
+      } catch (const core::Error& error) {
+        broken.push_back({candidate.what, error.what()});
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  // A platform's default device comes first and shows up once more when devices are enumerated.
+  bool is_repeated(const record::Device& info) {
+    if (at_ == 1) {
+      first_ = info;
+      return false;
+    }
+    if (!first_ || *first_ != info) return false;
+    first_.reset();
+    return true;
+  }
+
+  const WindowSystem& system_;
+  std::vector<Candidate> candidates_;
+  std::size_t at_ = 0;
+  std::optional<record::Device> first_;  // until it has shown up again
+  std::map<std::string, int> count_;     // by id
+};
+
+// A listing as text, to be sent from one process to another.
+std::string list_as_text(const WindowSystem& system) {
+  nlohmann::json devices = nlohmann::json::array();
+  nlohmann::json reasons = nlohmann::json::array();
+  std::vector<measure::Broken> broken;
+  try {
+    Walk walk(system);
+    while (const auto opened = walk.next(false, broken)) devices.push_back(opened->info);
+  } catch (const core::Error& error) {
+    broken.push_back({std::string(system.name), error.what()});
+  }
+  for (const auto& [what, reason] : broken) reasons.push_back({what, reason});
+  return nlohmann::json{{"devices", devices}, {"broken", reasons}}.dump(
+      -1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+void add(const std::string& text, measure::Listing& listing) {
+  const auto json = nlohmann::json::parse(text);
+  for (const auto& device : json.at("devices")) {
+    listing.devices.push_back(device.get<record::Device>());
+  }
+  for (const auto& broken : json.at("broken")) {
+    listing.broken.push_back({broken.at(0).get<std::string>(), broken.at(1).get<std::string>()});
+  }
+}
+
+bool debug_wanted() {
+  const char* value = std::getenv("TRIPTYCH_GL_DEBUG");
+  return value != nullptr && std::string_view(value) == "1";
+}
+
+class GlBackend final : public measure::Backend {
+ public:
+  [[nodiscard]] std::string_view api() const override { return "gl"; }
+
+  // Each window system is asked in a process of its own: a driver that crashes or hangs costs only
+  // itself, and EGL's Mesa and OSMesa do not meet in this one.
+  [[nodiscard]] measure::Listing list() const override {
+    measure::Listing listing;
+    for (const WindowSystem& system : window_systems) {
+      try {
+        const Answer answer =
+            ask_in_child([&system] { return list_as_text(system); }, listing_limit);
+        if (answer.failure.empty()) {
+          add(answer.text, listing);
+        } else {
+          listing.broken.push_back({std::string(system.name), answer.failure});
+        }
+      } catch (const std::exception& error) {
+        listing.broken.push_back({std::string(system.name), error.what()});
+      }
+    }
+    return listing;
+  }
+
+  [[nodiscard]] std::unique_ptr<measure::Device> open(std::string_view device_id) const override {
+    std::vector<measure::Broken> broken;
+    for (const WindowSystem& system : window_systems) {
+      if (!may_have(system, device_id)) continue;
+      try {
+        Walk walk(system);
+        while (auto opened = walk.next(debug_wanted(), broken)) {
+          if (opened->info.id != device_id) continue;
+          return make_device(std::move(opened->info), std::move(opened->context));
+        }
+      } catch (const core::NotSupported& error) {
+        broken.push_back({std::string(system.name), error.what()});
+      }
+    }
+    std::string reason = fmt::format("no device {}", device_id);
+    for (const measure::Broken& each : broken) {
+      reason += fmt::format("; {}: {}", each.what, each.reason);
+    }
+    throw core::NotSupported(reason);
+  }
+
+ private:
+  // So that opening one device does not load the other's libraries.
+  static bool may_have(const WindowSystem& system, std::string_view device_id) {
+    const bool osmesa = device_id.find("-osmesa") != std::string_view::npos;
+    return osmesa == (system.suffix == "-osmesa");
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<measure::Backend> make_backend() {
+  return std::make_unique<GlBackend>();
+}
+
+}  // namespace triptych::gl_backend

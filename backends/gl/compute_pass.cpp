@@ -1,0 +1,73 @@
+#include "backends/gl/compute_pass.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace triptych::gl_backend {
+namespace {
+
+constexpr GLuint binding_pixels = 4;  // of shaders/raycast.comp
+
+constexpr GLuint groups(int size, int group) {
+  return static_cast<GLuint>((size + group - 1) / group);
+}
+
+}  // namespace
+
+ComputePass::ComputePass(const Api& gl, int width, int height, int extra_work_stride)
+    : width_(width),
+      height_(height),
+      extra_rows_(extra_rows(height, extra_work_stride)),
+      pixels_(device_buffer(gl, 4 * sizeof(float) * static_cast<std::size_t>(width) *
+                                    static_cast<std::size_t>(height))) {}
+
+std::optional<std::string> ComputePass::unsupported(const Api& gl, int width, int height) {
+  if (gl.VERSION_4_3 == 0 && gl.ARB_compute_shader == 0) {
+    return "compute shaders need OpenGL 4.3 or GL_ARB_compute_shader";
+  }
+  const std::array<int, 2> size{width, height};
+  const std::array<int, 2> group{group_width, group_height};
+  for (GLuint axis = 0; axis < size.size(); ++axis) {
+    const std::int64_t needed = groups(size[axis], group[axis]);
+    const std::int64_t most = gl.limit(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis);
+    if (needed > most) {
+      return fmt::format("{}x{} pixels need {} work groups, GL_MAX_COMPUTE_WORK_GROUP_COUNT is {}",
+                         width, height, needed, most);
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<Stage> ComputePass::stages(const Api& gl, const Constants& constants) const {
+  return {{GL_COMPUTE_SHADER, volume_source(gl, constants, "raycast.comp")}};
+}
+
+std::span<const Statistic> ComputePass::statistics() const {
+  static constexpr std::array<Statistic, 1> told{
+      {{GL_COMPUTE_SHADER_INVOCATIONS_ARB, "compute_invocations"}}};
+  return told;
+}
+
+void ComputePass::bind(const Api& gl) {
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_pixels, pixels_.get());
+}
+
+void ComputePass::submit(const Api& gl, Rows rows) {
+  const int height = rows == Rows::all ? height_ : extra_rows_;
+  gl.DispatchCompute(groups(width_, group_width), groups(height, group_height), 1);
+}
+
+core::Image ComputePass::read(const Api& gl) const {
+  core::Image image(width_, height_);
+  gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  gl.BindBuffer(GL_COPY_READ_BUFFER, pixels_.get());
+  gl.GetBufferSubData(GL_COPY_READ_BUFFER, 0,
+                      static_cast<GLsizeiptr>(image.rgba.size() * sizeof(float)),
+                      image.rgba.data());
+  gl.check("glGetBufferSubData");
+  return image;
+}
+
+}  // namespace triptych::gl_backend

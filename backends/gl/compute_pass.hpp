@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "backends/gl/pass.hpp"
+
+namespace triptych::gl_backend {
+
+// One invocation per pixel into a storage buffer; raycast and speed_of_light.
+class ComputePass final : public Pass {
+ public:
+  ComputePass(const Api& gl, int width, int height, int extra_work_stride);
+
+  // Why a picture of this size cannot be computed; empty when it can.
+  [[nodiscard]] static std::optional<std::string> unsupported(const Api& gl, int width, int height);
+
+  [[nodiscard]] std::vector<Stage> stages(const Api& gl, const Constants& constants) const override;
+  [[nodiscard]] std::span<const Statistic> statistics() const override;
+  void bind(const Api& gl) override;
+  void submit(const Api& gl, Rows rows) override;
+  [[nodiscard]] core::Image read(const Api& gl) const override;
+
+ private:
+  int width_;
+  int height_;
+  int extra_rows_;
+  Buffer pixels_;
+};
+
+}  // namespace triptych::gl_backend

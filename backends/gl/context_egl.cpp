@@ -1,0 +1,161 @@
+// EGL without a window: Mesa's surfaceless platform, and EGL devices (NVIDIA's driver and others).
+
+#include <fmt/format.h>
+#include <glad/egl.h>
+
+#include <array>
+#include <optional>
+
+#include "backends/gl/context.hpp"
+#include "backends/gl/library.hpp"
+#include "core/error.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+struct Egl {
+  Library library{"libEGL.so.1", "libEGL.so"};
+  PFNEGLGETPROCADDRESSPROC get_proc_address =
+      library.get<PFNEGLGETPROCADDRESSPROC>("eglGetProcAddress");
+  PFNEGLGETERRORPROC get_error = library.get<PFNEGLGETERRORPROC>("eglGetError");
+  PFNEGLQUERYSTRINGPROC query_string = library.get<PFNEGLQUERYSTRINGPROC>("eglQueryString");
+  PFNEGLINITIALIZEPROC initialize = library.get<PFNEGLINITIALIZEPROC>("eglInitialize");
+  PFNEGLBINDAPIPROC bind_api = library.get<PFNEGLBINDAPIPROC>("eglBindAPI");
+  PFNEGLCREATECONTEXTPROC create_context = library.get<PFNEGLCREATECONTEXTPROC>("eglCreateContext");
+  PFNEGLDESTROYCONTEXTPROC destroy_context =
+      library.get<PFNEGLDESTROYCONTEXTPROC>("eglDestroyContext");
+  PFNEGLMAKECURRENTPROC make_current = library.get<PFNEGLMAKECURRENTPROC>("eglMakeCurrent");
+  // Extensions of the library itself; null where it has none.
+  PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
+      reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
+          get_proc_address("eglGetPlatformDisplayEXT"));
+  PFNEGLQUERYDEVICESEXTPROC query_devices =
+      reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(get_proc_address("eglQueryDevicesEXT"));
+
+  // Whole words: one extension's name may begin another's.
+  [[nodiscard]] bool has(EGLDisplay display, std::string_view extension) const {
+    const char* names = query_string(display, EGL_EXTENSIONS);
+    return names != nullptr &&
+           fmt::format(" {} ", names).find(fmt::format(" {} ", extension)) != std::string::npos;
+  }
+  [[nodiscard]] core::ApiError error(std::string call,
+                                     std::source_location place = std::source_location::current()) {
+    return {std::move(call), code_name(get_error()), {}, place};
+  }
+
+ private:
+  static std::string code_name(EGLint code) {
+    static constexpr std::array names{
+        "EGL_SUCCESS",       "EGL_NOT_INITIALIZED",     "EGL_BAD_ACCESS",
+        "EGL_BAD_ALLOC",     "EGL_BAD_ATTRIBUTE",       "EGL_BAD_CONFIG",
+        "EGL_BAD_CONTEXT",   "EGL_BAD_CURRENT_SURFACE", "EGL_BAD_DISPLAY",
+        "EGL_BAD_MATCH",     "EGL_BAD_NATIVE_PIXMAP",   "EGL_BAD_NATIVE_WINDOW",
+        "EGL_BAD_PARAMETER", "EGL_BAD_SURFACE",         "EGL_CONTEXT_LOST"};
+    const auto index = static_cast<std::size_t>(code - EGL_SUCCESS);
+    return index < names.size() ? names[index] : fmt::format("{:#06x}", code);
+  }
+};
+
+class EglContext final : public Context {
+ public:
+  EglContext(EGLenum platform, EGLDeviceEXT device, bool debug) {
+    open_display(platform, device);
+    if (egl_.bind_api(EGL_OPENGL_API) == EGL_FALSE) throw egl_.error("eglBindAPI");
+    // Lost contexts are to be told as such, but not every driver can.
+    handle_ = create(debug, true);
+    if (handle_ == EGL_NO_CONTEXT) handle_ = create(debug, false);
+    if (handle_ == EGL_NO_CONTEXT) throw egl_.error("eglCreateContext");
+    try {
+      const Current current(*this);
+      load(egl_.get_proc_address, debug);
+    } catch (...) {
+      egl_.destroy_context(display_, handle_);
+      throw;
+    }
+  }
+  EglContext(const EglContext&) = delete;
+  EglContext& operator=(const EglContext&) = delete;
+  // The display stays: it is the process's, shared with every other context on it.
+  ~EglContext() override { egl_.destroy_context(display_, handle_); }
+
+ private:
+  void open_display(EGLenum platform, EGLDeviceEXT device) {
+    display_ = egl_.get_platform_display(platform, device, nullptr);
+    if (display_ == EGL_NO_DISPLAY) throw egl_.error("eglGetPlatformDisplayEXT");
+    if (egl_.initialize(display_, nullptr, nullptr) == EGL_FALSE) {
+      throw egl_.error("eglInitialize");
+    }
+    for (const char* needed : {"EGL_KHR_surfaceless_context", "EGL_KHR_no_config_context"}) {
+      if (!egl_.has(display_, needed)) throw core::NotSupported(fmt::format("no {}", needed));
+    }
+  }
+
+  EGLContext create(bool debug, bool robust) {
+    const std::array<EGLint, 11> attributes{
+        EGL_CONTEXT_MAJOR_VERSION,
+        3,
+        EGL_CONTEXT_MINOR_VERSION,
+        3,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+        EGL_CONTEXT_OPENGL_DEBUG,
+        debug ? EGL_TRUE : EGL_FALSE,
+        robust ? EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY : EGL_NONE,
+        EGL_LOSE_CONTEXT_ON_RESET,
+        EGL_NONE};
+    return egl_.create_context(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+  }
+
+  void make_current() override {
+    // The bound API is per thread, and another library's use of EGL may have changed it.
+    egl_.bind_api(EGL_OPENGL_API);
+    if (egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, handle_) == EGL_FALSE) {
+      throw egl_.error("eglMakeCurrent");
+    }
+  }
+  void release_current() noexcept override {
+    egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
+
+  Egl egl_;
+  EGLDisplay display_ = EGL_NO_DISPLAY;
+  EGLContext handle_ = EGL_NO_CONTEXT;
+};
+
+Candidate candidate(std::string what, EGLenum platform, EGLDeviceEXT device) {
+  return {std::move(what), [platform, device](bool debug) {
+            return std::make_unique<EglContext>(platform, device, debug);
+          }};
+}
+
+}  // namespace
+
+std::vector<Candidate> egl_candidates() {
+  const Egl egl;
+  std::vector<Candidate> result;
+  if (egl.get_platform_display == nullptr) {
+    throw core::NotSupported("libEGL has no EGL_EXT_platform_base");
+  }
+  if (egl.has(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
+    result.push_back(candidate("EGL surfaceless", EGL_PLATFORM_SURFACELESS_MESA, nullptr));
+  }
+  if (egl.query_devices != nullptr && egl.has(EGL_NO_DISPLAY, "EGL_EXT_platform_device")) {
+    std::array<EGLDeviceEXT, 64> devices{};
+    EGLint count = 0;
+    if (egl.query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count) ==
+        EGL_FALSE) {
+      count = 0;
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      result.push_back(
+          candidate(fmt::format("EGL device {}", i), EGL_PLATFORM_DEVICE_EXT, devices[i]));
+    }
+  }
+  if (result.empty()) {
+    throw core::NotSupported(
+        "libEGL offers neither EGL_MESA_platform_surfaceless nor EGL_EXT_platform_device");
+  }
+  return result;
+}
+
+}  // namespace triptych::gl_backend

@@ -1,0 +1,99 @@
+#include "backends/gl/device.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdlib>
+#include <utility>
+
+#include "backends/gl/compute_pass.hpp"
+#include "backends/gl/device_info.hpp"
+#include "backends/gl/filter_probe.hpp"
+#include "backends/gl/techniques.hpp"
+#include "backends/gl/volume_prepared.hpp"
+#include "core/error.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+// A sampler that errs by less is as good as interpolation by hand: that rounds by some 1e-6.
+constexpr double exact_filter = 1e-5;
+
+struct Entry {
+  std::string_view id;
+  VolumeTechnique technique;
+};
+
+const Entry* find(std::string_view id) {
+  static const std::array<Entry, 3> entries{{{"raycast", raycast()},
+                                             {"raycast_fragment", raycast_fragment()},
+                                             {"speed_of_light", speed_of_light()}}};
+  for (const Entry& entry : entries) {
+    if (entry.id == id) return &entry;
+  }
+  return nullptr;
+}
+
+class GlDevice final : public measure::Device {
+ public:
+  GlDevice(record::Device info, std::unique_ptr<Context> context)
+      : info_(std::move(info)),
+        context_(std::move(context)),
+        stamps_(is_software(info_) ? Stamps::finished : Stamps::in_stream) {
+    const Current current(*context_);
+    if (ComputePass::unsupported(context_->gl(), 1, 1)) return;
+    for (std::size_t i = 0; i < filter_error_.size(); ++i) {
+      filter_error_[i] = probe_filter(context_->gl(), static_cast<scene::VoxelFormat>(i));
+    }
+  }
+
+  [[nodiscard]] const record::Device& info() const override { return info_; }
+
+  [[nodiscard]] std::optional<std::string> unsupported(const measure::Work& work) const override {
+    const Entry* entry = find(work.technique);
+    if (entry == nullptr) return fmt::format("{} is not implemented in OpenGL", work.technique);
+    if (is_software(info_) && std::getenv("LP_PERF") != nullptr) {
+      return "LP_PERF is set: the driver leaves work out";
+    }
+    const auto& volume = std::get<measure::VolumeWork>(work.scene);
+    const Current current(*context_);
+    const Api& gl = context_->gl();
+    auto reason = volume_unsupported(gl, volume);
+    if (!reason) reason = entry->technique.unsupported(gl, volume);
+    return reason;
+  }
+
+  [[nodiscard]] measure::VolumePath default_path(scene::VoxelFormat native) const override {
+    const measure::VolumePath hardware{scene::VoxelFormat::f32, technique::Sampler::hardware};
+    if (filter_weight_error(hardware) < exact_filter) return hardware;
+    return {native, technique::Sampler::manual};
+  }
+
+  [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override {
+    if (path.sampler == technique::Sampler::manual) return 0;
+    return filter_error_.at(static_cast<std::size_t>(path.voxel));
+  }
+
+  [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override {
+    if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
+    const Current current(*context_);
+    return find(work.technique)
+        ->technique.prepare(*context_, stamps_, std::get<measure::VolumeWork>(work.scene));
+  }
+
+ private:
+  record::Device info_;
+  std::unique_ptr<Context> context_;
+  Stamps stamps_;
+  // By voxel format; 1, the worst there is, where it cannot be probed.
+  std::array<double, 3> filter_error_{1, 1, 1};
+};
+
+}  // namespace
+
+std::unique_ptr<measure::Device> make_device(record::Device info,
+                                             std::unique_ptr<Context> context) {
+  return std::make_unique<GlDevice>(std::move(info), std::move(context));
+}
+
+}  // namespace triptych::gl_backend

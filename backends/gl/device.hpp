@@ -1,0 +1,13 @@
+#pragma once
+#include <memory>
+
+#include "backends/gl/context.hpp"
+#include "measure/backend.hpp"
+
+namespace triptych::gl_backend {
+
+// A device on its context. What it prepares must not outlive it. Throws core::ApiError.
+[[nodiscard]] std::unique_ptr<measure::Device> make_device(record::Device info,
+                                                           std::unique_ptr<Context> context);
+
+}  // namespace triptych::gl_backend

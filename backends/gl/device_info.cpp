@@ -1,0 +1,115 @@
+#include "backends/gl/device_info.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "measure/cpu_features.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+// Mesa's variables that choose the driver or change the code it generates.
+constexpr std::array<std::string_view, 10> code_variables{
+    "GALLIUM_DRIVER",   "GALLIUM_OVERRIDE_CPU_CAPS", "GALLIVM_DEBUG",
+    "GALLIVM_PERF",     "LIBGL_ALWAYS_SOFTWARE",     "LP_NATIVE_VECTOR_WIDTH",
+    "LP_NUM_THREADS",   "MESA_GL_VERSION_OVERRIDE",  "MESA_LOADER_DRIVER_OVERRIDE",
+    "TRIPTYCH_GL_DEBUG"};
+
+// A short name by what the vendor and renderer strings contain; else the renderer's first word.
+std::string driver_name(const std::string& vendor, const std::string& renderer) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> known{{
+      {"llvmpipe", "llvmpipe"},
+      {"softpipe", "softpipe"},
+      {"zink", "zink"},
+      {"virgl", "virgl"},
+      {"SVGA3D", "svga"},
+      {"radeonsi", "radeonsi"},
+      {"NVIDIA", "nvidia"},
+      {"AMD", "amd"},
+      {"Intel", "intel"},
+  }};
+  // The renderer first: zink's names the GPU it runs on as well.
+  for (const std::string& text : {renderer, vendor}) {
+    for (const auto& [part, name] : known) {
+      if (text.find(part) != std::string::npos) return std::string(name);
+    }
+  }
+  std::string name;
+  for (const char each : renderer) {
+    const auto c = static_cast<unsigned char>(each);
+    if (std::isalnum(c) == 0) break;
+    name += static_cast<char>(std::tolower(c));
+  }
+  return name.empty() ? "unknown" : name;
+}
+
+// "4.5 (Core Profile) Mesa 22.3.6" and "llvmpipe (LLVM 15.0.6, 256 bits)" make
+// "Mesa 22.3.6 (LLVM 15.0.6)"; "4.6.0 NVIDIA 535.54" makes "NVIDIA 535.54".
+std::string driver_version(const std::string& version, const std::string& renderer) {
+  constexpr std::string_view profile = "(Core Profile) ";
+  std::size_t begin = version.find(profile);
+  begin = begin != std::string::npos ? begin + profile.size() : version.find(' ') + 1;
+  std::string text = version.substr(begin);
+  const std::size_t llvm = renderer.find("LLVM ");
+  if (llvm != std::string::npos) {
+    text += fmt::format(" ({})", renderer.substr(llvm, renderer.find_first_of(",)", llvm) - llvm));
+  }
+  return text;
+}
+
+std::map<std::string, std::string> limits_of(const Api& gl) {
+  std::map<std::string, std::string> limits;
+  const auto add = [&](const char* name, std::int64_t value) {
+    limits.emplace(name, fmt::to_string(value));
+  };
+  add("GL_MAX_3D_TEXTURE_SIZE", gl.limit(GL_MAX_3D_TEXTURE_SIZE));
+  add("GL_MAX_RENDERBUFFER_SIZE", gl.limit(GL_MAX_RENDERBUFFER_SIZE));
+  GLint bits = 0;
+  gl.GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+  add("GL_QUERY_COUNTER_BITS(GL_TIMESTAMP)", bits);
+  if (gl.ARB_shader_storage_buffer_object != 0 || gl.VERSION_4_3 != 0) {
+    add("GL_MAX_SHADER_STORAGE_BLOCK_SIZE", gl.limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
+    add("GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS", gl.limit(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS));
+  }
+  if (gl.ARB_compute_shader != 0 || gl.VERSION_4_3 != 0) {
+    add("GL_MAX_COMPUTE_WORK_GROUP_COUNT[0]", gl.limit(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0));
+    add("GL_MAX_COMPUTE_WORK_GROUP_COUNT[1]", gl.limit(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 1));
+    add("GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS", gl.limit(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS));
+  }
+  return limits;
+}
+
+}  // namespace
+
+bool is_software(const record::Device& info) {
+  return info.driver == "llvmpipe" || info.driver == "softpipe";
+}
+
+record::Device device_info(const Api& gl, std::string_view suffix) {
+  const std::string vendor = gl.text(GL_VENDOR);
+  const std::string renderer = gl.text(GL_RENDERER);
+  const std::string version = gl.text(GL_VERSION);
+  const std::string driver = driver_name(vendor, renderer);
+  const bool plain = driver == "softpipe" && suffix == "-egl";
+  record::Device info{.id = fmt::format("gl:{}{}", driver, plain ? "" : suffix),
+                      .api = "gl",
+                      .name = renderer,
+                      .vendor = vendor,
+                      .driver = driver,
+                      .driver_version = driver_version(version, renderer),
+                      .api_version = version.substr(0, version.find(' ')),
+                      .cpu_features = {},
+                      .environment = measure::set_variables(code_variables),
+                      .limits = limits_of(gl)};
+  if (is_software(info)) info.cpu_features = measure::cpu_features();
+  gl.check("glGetString");
+  return info;
+}
+
+}  // namespace triptych::gl_backend

@@ -1,0 +1,17 @@
+#pragma once
+#include <string_view>
+
+#include "backends/gl/api.hpp"
+#include "record/record.hpp"
+
+namespace triptych::gl_backend {
+
+// What the current context says of itself. The id is "gl:<driver><suffix>", without a number;
+// `suffix` names the window system ("-egl"), except that softpipe through EGL is plain
+// "gl:softpipe".
+[[nodiscard]] record::Device device_info(const Api& gl, std::string_view suffix);
+
+// Whether the renderer is the processor itself.
+[[nodiscard]] bool is_software(const record::Device& info);
+
+}  // namespace triptych::gl_backend

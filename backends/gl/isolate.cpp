@@ -1,0 +1,104 @@
+#include "backends/gl/isolate.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <string_view>
+
+namespace triptych::gl_backend {
+namespace {
+
+constexpr int exit_answered = 0;
+constexpr int exit_exception = 1;
+
+bool write_all(int fd, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(fd, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+// The child's whole life. Leaves by _exit: the parent's exit handlers are not the child's to run.
+[[noreturn]] void answer(const std::function<std::string()>& ask, int fd) {
+  // A crash is the parent's to tell; handlers it may have installed would tell it twice.
+  for (const int fatal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) std::signal(fatal, SIG_DFL);
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  try {
+    const std::string text = ask();
+    _exit(write_all(fd, text) ? exit_answered : exit_exception);
+  } catch (const std::exception& error) {
+    write_all(fd, error.what());
+  } catch (...) {
+    write_all(fd, "unknown exception");
+  }
+  _exit(exit_exception);
+}
+
+// Reads to the end of the stream; false when `limit` passed first.
+bool read_all(int fd, std::chrono::milliseconds limit, std::string& text) {
+  const auto end = std::chrono::steady_clock::now() + limit;
+  std::array<char, 4096> part{};
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        end - std::chrono::steady_clock::now());
+    if (left.count() <= 0) return false;
+    pollfd ready{fd, POLLIN, 0};
+    const int answered = poll(&ready, 1, static_cast<int>(left.count()));
+    if (answered < 0 && errno != EINTR) return false;
+    if (answered <= 0) continue;
+    const ssize_t size = read(fd, part.data(), part.size());
+    if (size < 0 && errno == EINTR) continue;
+    if (size <= 0) return size == 0;
+    text.append(part.data(), static_cast<std::size_t>(size));
+  }
+}
+
+Answer conclude(pid_t child, bool in_time, std::string text, std::chrono::milliseconds limit) {
+  if (!in_time) kill(child, SIGKILL);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!in_time) return {{}, fmt::format("no answer within {} ms", limit.count())};
+  if (WIFSIGNALED(status)) return {{}, fmt::format("crashed: {}", strsignal(WTERMSIG(status)))};
+  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_answered) return {std::move(text), {}};
+  return {{}, text.empty() ? "ended without an answer" : std::move(text)};
+}
+
+}  // namespace
+
+Answer ask_in_child(const std::function<std::string()>& ask, std::chrono::milliseconds limit) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+    return {{}, fmt::format("no pipe: {}", std::strerror(errno))};
+  }
+  const pid_t child = fork();
+  if (child == 0) {
+    close(ends[0]);
+    answer(ask, ends[1]);
+  }
+  const int fork_error = errno;
+  close(ends[1]);
+  if (child < 0) {
+    close(ends[0]);
+    return {{}, fmt::format("no child process: {}", std::strerror(fork_error))};
+  }
+  std::string text;
+  const bool in_time = read_all(ends[0], limit, text);
+  close(ends[0]);
+  return conclude(child, in_time, std::move(text), limit);
+}
+
+}  // namespace triptych::gl_backend

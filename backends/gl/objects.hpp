@@ -1,0 +1,73 @@
+#pragma once
+// One move-only owner per kind of GL object. All live and die while their context is current.
+
+#include <utility>
+
+#include "backends/gl/api.hpp"
+
+namespace triptych::gl_backend {
+
+// An object of glGen…/glDelete…; both take a count and names.
+template <auto Generate, auto Delete>
+class Object {
+ public:
+  Object() = default;
+  explicit Object(const Api& gl) : gl_(&gl) { (gl.*Generate)(1, &name_); }
+  Object(Object&& other) noexcept : gl_(other.gl_), name_(other.release()) {}
+  Object& operator=(Object&& other) noexcept {
+    Object moved(std::move(other));
+    std::swap(gl_, moved.gl_);
+    std::swap(name_, moved.name_);
+    return *this;
+  }
+  Object(const Object&) = delete;
+  Object& operator=(const Object&) = delete;
+  ~Object() {
+    if (name_ != 0) (gl_->*Delete)(1, &name_);
+  }
+  [[nodiscard]] GLuint get() const noexcept { return name_; }
+  [[nodiscard]] GLuint release() noexcept { return std::exchange(name_, 0U); }
+
+ private:
+  const Api* gl_ = nullptr;
+  GLuint name_ = 0;
+};
+
+using Buffer = Object<&GladGLContext::GenBuffers, &GladGLContext::DeleteBuffers>;
+using Texture = Object<&GladGLContext::GenTextures, &GladGLContext::DeleteTextures>;
+using Renderbuffer = Object<&GladGLContext::GenRenderbuffers, &GladGLContext::DeleteRenderbuffers>;
+using Framebuffer = Object<&GladGLContext::GenFramebuffers, &GladGLContext::DeleteFramebuffers>;
+using VertexArray = Object<&GladGLContext::GenVertexArrays, &GladGLContext::DeleteVertexArrays>;
+using Query = Object<&GladGLContext::GenQueries, &GladGLContext::DeleteQueries>;
+
+// An object that is made by a call of its own and deleted one by one: shader, program, fence.
+template <class Name, auto Delete>
+class Made {
+ public:
+  Made() = default;
+  Made(const Api& gl, Name name) : gl_(&gl), name_(name) {}
+  Made(Made&& other) noexcept : gl_(other.gl_), name_(other.release()) {}
+  Made& operator=(Made&& other) noexcept {
+    Made moved(std::move(other));
+    std::swap(gl_, moved.gl_);
+    std::swap(name_, moved.name_);
+    return *this;
+  }
+  Made(const Made&) = delete;
+  Made& operator=(const Made&) = delete;
+  ~Made() {
+    if (name_ != Name{}) (gl_->*Delete)(name_);
+  }
+  [[nodiscard]] Name get() const noexcept { return name_; }
+  [[nodiscard]] Name release() noexcept { return std::exchange(name_, Name{}); }
+
+ private:
+  const Api* gl_ = nullptr;
+  Name name_{};
+};
+
+using Shader = Made<GLuint, &GladGLContext::DeleteShader>;
+using Program = Made<GLuint, &GladGLContext::DeleteProgram>;
+using Fence = Made<GLsync, &GladGLContext::DeleteSync>;
+
+}  // namespace triptych::gl_backend

@@ -1,0 +1,42 @@
+#pragma once
+// How a volume technique's program is run and where its picture lies: the part in which raycast and
+// raycast_fragment differ.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "backends/gl/program.hpp"
+#include "backends/gl/timing.hpp"
+#include "backends/gl/volume_data.hpp"
+#include "core/image.hpp"
+
+namespace triptych::gl_backend {
+
+class Pass {
+ public:
+  Pass() = default;
+  Pass(const Pass&) = delete;
+  Pass& operator=(const Pass&) = delete;
+  virtual ~Pass() = default;
+
+  // The stages of the program around the shared raycasting source.
+  [[nodiscard]] virtual std::vector<Stage> stages(const Api& gl,
+                                                  const Constants& constants) const = 0;
+  // Statistics of the stages it uses.
+  [[nodiscard]] virtual std::span<const Statistic> statistics() const = 0;
+  // Makes its target the current one; before the clock starts.
+  virtual void bind(const Api& gl) = 0;
+  // The calls that are timed. The parameters in force say which rows: all, or the extra ones, whose
+  // result does not change the picture.
+  virtual void submit(const Api& gl, Rows rows) = 0;
+  // The picture; the device has finished it.
+  [[nodiscard]] virtual core::Image read(const Api& gl) const = 0;
+};
+
+// Rows that are drawn a second time: every stride-th, from the first on; none for stride 0.
+[[nodiscard]] constexpr int extra_rows(int height, int stride) {
+  return stride == 0 ? 0 : (height + stride - 1) / stride;
+}
+
+}  // namespace triptych::gl_backend

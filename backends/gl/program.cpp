@@ -1,0 +1,111 @@
+#include "backends/gl/program.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "core/error.hpp"
+#include "technique/sources.hpp"
+#include "triptych_backend_gl_embedded.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+// Below GLSL 4.30 everything the shared source needs comes from extensions.
+std::string version_lines(const Api& gl) {
+  if (gl.at_least(4, 5)) return "#version 450 core\n";
+  if (gl.at_least(4, 3)) return "#version 430 core\n";
+  std::string lines = "#version 330 core\n";
+  for (const char* extension :
+       {"GL_ARB_shading_language_420pack", "GL_ARB_shader_storage_buffer_object",
+        "GL_ARB_compute_shader", "GL_ARB_gpu_shader5"}) {
+    lines += fmt::format("#extension {} : enable\n", extension);
+  }
+  // Without GLSL 4.00 or the extension there is no such qualifier.
+  if (gl.ARB_gpu_shader5 == 0) lines += "#define precise\n";
+  return lines;
+}
+
+std::string constant_lines(const Constants& constants) {
+  return fmt::format(
+      "#define TRI_MANUAL_SAMPLER {:d}\n#define TRI_SHADING {:d}\n#define TRI_COUNT {:d}\n"
+      "#define TRI_SPEED_OF_LIGHT {:d}\n#define TRI_FAULT {}\n"
+      "#define TRI_GROUP_WIDTH {}\n#define TRI_GROUP_HEIGHT {}\n",
+      int{constants.manual_sampler}, int{constants.shading}, int{constants.count},
+      int{constants.speed_of_light}, constants.fault, group_width, group_height);
+}
+
+// "vertex", for messages.
+std::string_view stage_name(GLenum type) {
+  switch (type) {
+    case GL_VERTEX_SHADER:
+      return "vertex shader";
+    case GL_FRAGMENT_SHADER:
+      return "fragment shader";
+    default:
+      return "compute shader";
+  }
+}
+
+// The log of a shader or program, read by the two functions that differ in name only.
+template <class GetSize, class GetLog>
+std::string log_of(GLuint name, GetSize get_size, GetLog get_log) {
+  GLint size = 0;
+  get_size(name, GL_INFO_LOG_LENGTH, &size);
+  std::string log(static_cast<std::size_t>(size > 0 ? size : 0), '\0');
+  GLsizei length = 0;
+  if (size > 0) get_log(name, size, &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  return log;
+}
+
+Shader compile(const Api& gl, const Stage& stage) {
+  Shader shader(gl, gl.CreateShader(stage.type));
+  const char* text = stage.source.data();
+  const auto size = static_cast<GLint>(stage.source.size());
+  gl.ShaderSource(shader.get(), 1, &text, &size);
+  gl.CompileShader(shader.get());
+  GLint compiled = GL_FALSE;
+  gl.GetShaderiv(shader.get(), GL_COMPILE_STATUS, &compiled);
+  if (compiled == GL_FALSE) {
+    throw core::ApiError("glCompileShader", "GL_FALSE",
+                         fmt::format("{}: {}", stage_name(stage.type),
+                                     log_of(shader.get(), gl.GetShaderiv, gl.GetShaderInfoLog)));
+  }
+  return shader;
+}
+
+}  // namespace
+
+std::string plain_source(const Api& gl, std::string_view main_file) {
+  return version_lines(gl).append(embedded(main_file));
+}
+
+std::string volume_source(const Api& gl, const Constants& constants, std::string_view main_file) {
+  std::string source = version_lines(gl) + constant_lines(constants);
+  source.append(embedded("prelude.glsl"));
+  for (const char* shared : {"prelude.glsl", "volume_math.h", "parameters.glsl", "raycast.glsl"}) {
+    source.append(technique::source(shared));
+  }
+  return source.append(embedded(main_file));
+}
+
+Program link(const Api& gl, std::span<const Stage> stages) {
+  Program program(gl, gl.CreateProgram());
+  std::vector<Shader> shaders;
+  for (const Stage& stage : stages) {
+    shaders.push_back(compile(gl, stage));
+    gl.AttachShader(program.get(), shaders.back().get());
+  }
+  gl.LinkProgram(program.get());
+  GLint linked = GL_FALSE;
+  gl.GetProgramiv(program.get(), GL_LINK_STATUS, &linked);
+  if (linked == GL_FALSE) {
+    throw core::ApiError("glLinkProgram", "GL_FALSE",
+                         log_of(program.get(), gl.GetProgramiv, gl.GetProgramInfoLog));
+  }
+  gl.check("glLinkProgram");
+  return program;
+}
+
+}  // namespace triptych::gl_backend

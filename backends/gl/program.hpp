@@ -1,0 +1,38 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "backends/gl/objects.hpp"
+
+namespace triptych::gl_backend {
+
+// The compile-time constants of the shared raycasting source (technique/volume/raycast).
+struct Constants {
+  bool manual_sampler = true;
+  bool shading = false;
+  bool count = false;
+  bool speed_of_light = false;
+  int fault = 0;
+};
+
+// Invocations per work group: 64, as every GPU likes them, in a square for neighbouring rays.
+inline constexpr int group_width = 8;
+inline constexpr int group_height = 8;
+
+struct Stage {
+  GLenum type = GL_COMPUTE_SHADER;
+  std::string source;  // whole, from #version on
+};
+
+// The shared raycasting source with the constants and GL's prelude before it and the named file of
+// backends/gl/shaders/ behind it, in the newest GLSL the context has.
+[[nodiscard]] std::string volume_source(const Api& gl, const Constants& constants,
+                                        std::string_view main_file);
+// The named file alone, for stages that share nothing.
+[[nodiscard]] std::string plain_source(const Api& gl, std::string_view main_file);
+
+// Compiles and links; throws core::ApiError with the driver's log.
+[[nodiscard]] Program link(const Api& gl, std::span<const Stage> stages);
+
+}  // namespace triptych::gl_backend

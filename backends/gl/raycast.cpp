@@ -1,0 +1,27 @@
+// One ray per invocation of a compute shader.
+#include "backends/gl/compute_pass.hpp"
+#include "backends/gl/techniques.hpp"
+#include "backends/gl/volume_prepared.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+std::optional<std::string> unsupported(const Api& gl, const measure::VolumeWork& work) {
+  return ComputePass::unsupported(gl, work.scene.width, work.scene.height);
+}
+
+std::unique_ptr<measure::Prepared> prepare(Context& context, Stamps stamps,
+                                           const measure::VolumeWork& work) {
+  return prepare_volume(
+      context, stamps, work, constants_of(work),
+      std::make_unique<ComputePass>(context.gl(), work.scene.width, work.scene.height,
+                                    work.options.extra_work_stride));
+}
+
+}  // namespace
+
+VolumeTechnique raycast() {
+  return {&unsupported, &prepare};
+}
+
+}  // namespace triptych::gl_backend

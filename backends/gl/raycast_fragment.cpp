@@ -1,0 +1,132 @@
+// One ray per fragment of a triangle that covers a floating-point render target.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "backends/gl/pass.hpp"
+#include "backends/gl/techniques.hpp"
+#include "backends/gl/volume_prepared.hpp"
+#include "core/error.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+// RGBA32F pixels to draw into.
+class Target {
+ public:
+  Target() = default;
+  Target(const Api& gl, int width, int height) : pixels_(gl), framebuffer_(gl) {
+    gl.BindRenderbuffer(GL_RENDERBUFFER, pixels_.get());
+    gl.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, width, height);
+    gl.check("glRenderbufferStorage");
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                               pixels_.get());
+    const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+      throw core::ApiError("glCheckFramebufferStatus", fmt::format("{:#06x}", status));
+    }
+    gl.check("glFramebufferRenderbuffer");
+  }
+  void bind(const Api& gl) const { gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get()); }
+
+ private:
+  Renderbuffer pixels_;
+  Framebuffer framebuffer_;
+};
+
+class FragmentPass final : public Pass {
+ public:
+  FragmentPass(const Api& gl, int width, int height, int extra_work_stride)
+      : width_(width),
+        height_(height),
+        extra_rows_(extra_rows(height, extra_work_stride)),
+        no_vertices_(gl),
+        target_(gl, width, height) {
+    // A target of its own: drawn over in the picture's, a driver may leave the extra work out.
+    if (extra_rows_ > 0) extra_target_ = Target(gl, width, extra_rows_);
+  }
+
+  [[nodiscard]] std::vector<Stage> stages(const Api& gl,
+                                          const Constants& constants) const override {
+    return {{GL_VERTEX_SHADER, plain_source(gl, "full_screen.vert")},
+            {GL_FRAGMENT_SHADER, volume_source(gl, constants, "raycast.frag")}};
+  }
+
+  [[nodiscard]] std::span<const Statistic> statistics() const override {
+    static constexpr std::array<Statistic, 6> told{{
+        {GL_VERTICES_SUBMITTED_ARB, "input_assembly_vertices"},
+        {GL_PRIMITIVES_SUBMITTED_ARB, "input_assembly_primitives"},
+        {GL_VERTEX_SHADER_INVOCATIONS_ARB, "vertex_invocations"},
+        {GL_CLIPPING_INPUT_PRIMITIVES_ARB, "clipping_invocations"},
+        {GL_CLIPPING_OUTPUT_PRIMITIVES_ARB, "clipping_primitives"},
+        {GL_FRAGMENT_SHADER_INVOCATIONS_ARB, "fragment_invocations"},
+    }};
+    return told;
+  }
+
+  void bind(const Api& gl) override {
+    gl.BindVertexArray(no_vertices_.get());
+    choose(gl, Rows::all);
+  }
+
+  void submit(const Api& gl, Rows rows) override {
+    if (rows == Rows::extra) choose(gl, rows);
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    if (rows == Rows::extra) choose(gl, Rows::all);
+  }
+
+  [[nodiscard]] core::Image read(const Api& gl) const override {
+    core::Image image(width_, height_);
+    target_.bind(gl);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, image.rgba.data());
+    gl.check("glReadPixels");
+    return image;
+  }
+
+ private:
+  void choose(const Api& gl, Rows rows) const {
+    (rows == Rows::all ? target_ : extra_target_).bind(gl);
+    gl.Viewport(0, 0, width_, rows == Rows::all ? height_ : extra_rows_);
+  }
+
+  int width_;
+  int height_;
+  int extra_rows_;
+  VertexArray no_vertices_;  // the core profile draws nothing without one
+  Target target_;
+  Target extra_target_;
+};
+
+std::optional<std::string> unsupported(const Api& gl, const measure::VolumeWork& work) {
+  const std::int64_t edge = gl.limit(GL_MAX_RENDERBUFFER_SIZE);
+  if (std::max(work.scene.width, work.scene.height) > edge) {
+    return fmt::format("{}x{} pixels, GL_MAX_RENDERBUFFER_SIZE is {}", work.scene.width,
+                       work.scene.height, edge);
+  }
+  constexpr std::int64_t needed = 2;  // bricks and counters
+  const std::int64_t blocks = gl.limit(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS);
+  if (blocks < needed) {
+    return fmt::format("{} storage blocks, GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS is {}", needed,
+                       blocks);
+  }
+  return std::nullopt;
+}
+
+std::unique_ptr<measure::Prepared> prepare(Context& context, Stamps stamps,
+                                           const measure::VolumeWork& work) {
+  return prepare_volume(
+      context, stamps, work, constants_of(work),
+      std::make_unique<FragmentPass>(context.gl(), work.scene.width, work.scene.height,
+                                     work.options.extra_work_stride));
+}
+
+}  // namespace
+
+VolumeTechnique raycast_fragment() {
+  return {&unsupported, &prepare};
+}
+
+}  // namespace triptych::gl_backend

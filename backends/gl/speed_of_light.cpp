@@ -1,0 +1,30 @@
+// The fetches and look-ups of raycast alone: the same pass with a constant that leaves out the
+// rest.
+#include "backends/gl/compute_pass.hpp"
+#include "backends/gl/techniques.hpp"
+#include "backends/gl/volume_prepared.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+std::optional<std::string> unsupported(const Api& gl, const measure::VolumeWork& work) {
+  return ComputePass::unsupported(gl, work.scene.width, work.scene.height);
+}
+
+std::unique_ptr<measure::Prepared> prepare(Context& context, Stamps stamps,
+                                           const measure::VolumeWork& work) {
+  Constants constants = constants_of(work);
+  constants.speed_of_light = true;
+  return prepare_volume(
+      context, stamps, work, constants,
+      std::make_unique<ComputePass>(context.gl(), work.scene.width, work.scene.height,
+                                    work.options.extra_work_stride));
+}
+
+}  // namespace
+
+VolumeTechnique speed_of_light() {
+  return {&unsupported, &prepare};
+}
+
+}  // namespace triptych::gl_backend

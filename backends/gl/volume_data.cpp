@@ -1,0 +1,116 @@
+#include "backends/gl/volume_data.hpp"
+
+#include <span>
+#include <vector>
+
+#include "technique/volume/bricks.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+// Bindings of technique/volume/raycast/parameters.glsl.
+constexpr GLuint binding_parameters = 0;
+constexpr GLuint unit_volume = 1;
+constexpr GLuint unit_transfer = 2;
+constexpr GLuint binding_bricks = 3;
+
+void use_texels_as_they_are(const Api& gl, GLenum target, GLint filter) {
+  gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
+  gl.TexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);
+  gl.TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
+  gl.TexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(target, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+}
+
+Texture transfer_texture(const Api& gl, const scene::TransferFunction& function) {
+  Texture texture(gl);
+  gl.BindTexture(GL_TEXTURE_1D, texture.get());
+  use_texels_as_they_are(gl, GL_TEXTURE_1D, GL_NEAREST);
+  gl.TexImage1D(GL_TEXTURE_1D, 0, GL_RGBA32F, static_cast<GLsizei>(function.entries.size()), 0,
+                GL_RGBA, GL_FLOAT, function.entries.data());
+  gl.check("glTexImage1D");
+  return texture;
+}
+
+// One word where nothing is skipped: the kernel is the same and never reads it.
+Buffer brick_buffer(const Api& gl, const measure::VolumeWork& work) {
+  std::vector<std::uint32_t> visible{1U};
+  if (work.options.skip == technique::Skip::bricks) {
+    visible = technique::brick_visibility(technique::brick_ranges(*work.scene.grid),
+                                          work.scene.transfer_function);
+  }
+  return constant_buffer(gl, std::as_bytes(std::span(visible)));
+}
+
+}  // namespace
+
+TexelFormat texel_format(scene::VoxelFormat format) {
+  switch (format) {
+    case scene::VoxelFormat::u8:
+      return {GL_R8, GL_UNSIGNED_BYTE, 255};
+    case scene::VoxelFormat::u16:
+      return {GL_R16, GL_UNSIGNED_SHORT, 65535};
+    case scene::VoxelFormat::f32:
+      break;
+  }
+  return {GL_R32F, GL_FLOAT, 1};
+}
+
+Texture volume_texture(const Api& gl, const scene::VoxelGrid& grid, bool linear) {
+  const TexelFormat format = texel_format(grid.format);
+  Texture texture(gl);
+  gl.BindTexture(GL_TEXTURE_3D, texture.get());
+  use_texels_as_they_are(gl, GL_TEXTURE_3D, linear ? GL_LINEAR : GL_NEAREST);
+  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl.TexImage3D(GL_TEXTURE_3D, 0, static_cast<GLint>(format.internal), grid.size[0], grid.size[1],
+                grid.size[2], 0, GL_RED, format.type, grid.data.data());
+  gl.check("glTexImage3D");
+  return texture;
+}
+
+Buffer constant_buffer(const Api& gl, std::span<const std::byte> bytes) {
+  Buffer buffer(gl);
+  gl.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.get());
+  gl.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes.size()), bytes.data(),
+                GL_STATIC_DRAW);
+  gl.check("glBufferData");
+  return buffer;
+}
+
+Buffer device_buffer(const Api& gl, std::size_t size) {
+  Buffer buffer(gl);
+  gl.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.get());
+  gl.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(size), nullptr, GL_DYNAMIC_COPY);
+  gl.check("glBufferData");
+  return buffer;
+}
+
+VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work)
+    : volume_(volume_texture(gl, *work.scene.grid,
+                             work.options.sampler == technique::Sampler::hardware)),
+      transfer_(transfer_texture(gl, work.scene.transfer_function)),
+      bricks_(brick_buffer(gl, work)) {
+  technique::RaycastParameters parameters = technique::raycast_parameters(
+      work.scene, work.options, texel_format(work.scene.grid->format).stored_maximum);
+  parameters_ = constant_buffer(gl, std::as_bytes(std::span(&parameters, 1)));
+  if (work.options.extra_work_stride == 0) return;
+  parameters.viewport[2] = work.options.extra_work_stride;
+  extra_parameters_ = constant_buffer(gl, std::as_bytes(std::span(&parameters, 1)));
+}
+
+void VolumeData::bind(const Api& gl) const {
+  gl.ActiveTexture(GL_TEXTURE0 + unit_volume);
+  gl.BindTexture(GL_TEXTURE_3D, volume_.get());
+  gl.ActiveTexture(GL_TEXTURE0 + unit_transfer);
+  gl.BindTexture(GL_TEXTURE_1D, transfer_.get());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_bricks, bricks_.get());
+  choose(gl, Rows::all);
+}
+
+void VolumeData::choose(const Api& gl, Rows rows) const {
+  const Buffer& parameters = rows == Rows::all ? parameters_ : extra_parameters_;
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, binding_parameters, parameters.get());
+}
+
+}  // namespace triptych::gl_backend

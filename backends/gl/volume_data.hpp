@@ -1,0 +1,49 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "backends/gl/objects.hpp"
+#include "measure/backend.hpp"
+#include "scene/volume.hpp"
+
+namespace triptych::gl_backend {
+
+// How a voxel format is kept in a texture.
+struct TexelFormat {
+  GLenum internal = GL_R32F;
+  GLenum type = GL_FLOAT;
+  double stored_maximum = 1;  // of technique::raycast_parameters
+};
+[[nodiscard]] TexelFormat texel_format(scene::VoxelFormat format);
+
+// A 3D texture of one channel, clamped to the edge, filtered linearly or not at all.
+[[nodiscard]] Texture volume_texture(const Api& gl, const scene::VoxelGrid& grid, bool linear);
+
+// A buffer with the given bytes, never written to again by the host; or of `size` bytes that the
+// device writes.
+[[nodiscard]] Buffer constant_buffer(const Api& gl, std::span<const std::byte> bytes);
+[[nodiscard]] Buffer device_buffer(const Api& gl, std::size_t size);
+
+// Which rows of the picture are computed: all, or each stride-th of them as planted extra work.
+enum class Rows : std::uint8_t { all, extra };
+
+// All that the shared raycasting source reads, on the device.
+class VolumeData {
+ public:
+  VolumeData(const Api& gl, const measure::VolumeWork& work);
+
+  // Makes the data what the shared source's bindings 0…3 stand for.
+  void bind(const Api& gl) const;
+  // Switches binding 0 between the two sets of rows.
+  void choose(const Api& gl, Rows rows) const;
+
+ private:
+  Texture volume_;
+  Texture transfer_;
+  Buffer bricks_;
+  Buffer parameters_;
+  Buffer extra_parameters_;
+};
+
+}  // namespace triptych::gl_backend

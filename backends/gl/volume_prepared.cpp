@@ -1,0 +1,210 @@
+#include "backends/gl/volume_prepared.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+constexpr GLuint binding_counters = 5;  // of technique/volume/raycast/parameters.glsl
+
+std::size_t pixel_count(const measure::VolumeWork& work) {
+  return static_cast<std::size_t>(work.scene.width) * static_cast<std::size_t>(work.scene.height);
+}
+
+std::size_t counters_size(std::size_t pixels) {
+  return sizeof(GLuint) * technique::raycast_counter_stride * pixels;
+}
+
+// The build that counts, made when it is first asked for.
+struct Counting {
+  Program program;
+  Buffer counters;
+};
+
+// Sums the counters of all pixels, in 64 bits.
+record::Counts sum_counters(const Api& gl, const Buffer& counters, std::size_t pixels) {
+  std::vector<GLuint> values(pixels * technique::raycast_counter_stride);
+  gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  gl.BindBuffer(GL_COPY_READ_BUFFER, counters.get());
+  gl.GetBufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(counters_size(pixels)),
+                      values.data());
+  gl.check("glGetBufferSubData");
+  record::Counts counts{{"rays", pixels}};
+  for (std::size_t c = 0; c < technique::raycast_counters.size(); ++c) {
+    std::uint64_t& sum = counts[std::string(technique::raycast_counters[c])];
+    for (std::size_t i = c; i < values.size(); i += technique::raycast_counter_stride) {
+      sum += values[i];
+    }
+  }
+  return counts;
+}
+
+class VolumePrepared final : public measure::Prepared {
+ public:
+  VolumePrepared(Context& context, Stamps stamps, const measure::VolumeWork& work,
+                 const Constants& constants, std::unique_ptr<Pass> pass)
+      : context_(context),
+        constants_(constants),
+        pixels_(pixel_count(work)),
+        extra_(work.options.extra_work_stride != 0),
+        owned_(std::make_unique<Owned>(context.gl(), stamps, work, constants, std::move(pass))) {}
+
+  VolumePrepared(const VolumePrepared&) = delete;
+  VolumePrepared& operator=(const VolumePrepared&) = delete;
+  ~VolumePrepared() override {
+    try {
+      const Current current(context_);
+      owned_.reset();
+    } catch (const core::Error&) {
+      // The context is gone and its objects with it: there is nothing left to delete them with.
+      static_cast<void>(owned_.release());
+    }
+  }
+
+  [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override {
+    const Current current(context_);
+    const Api& gl = context_.gl();
+    const bool counting = purpose == measure::Purpose::counters;
+    if (counting && !owned_->counting) owned_->counting = make_counting(gl);
+    bind(gl, counting);
+
+    measure::Frame frame;
+    const auto draw = [&] {
+      const Elapsed elapsed = owned_->stopwatch.time([&] { submit(gl); });
+      frame.wall_ns = elapsed.wall_ns;
+      if (purpose == measure::Purpose::timing) frame.device_ns = elapsed.device_ns;
+    };
+    if (purpose == measure::Purpose::statistics) {
+      frame.counts = owned_->statistics.count(draw);
+    } else {
+      draw();
+    }
+    gl.check("frame");
+    if (counting) frame.counts = sum_counters(gl, owned_->counting->counters, pixels_);
+    return frame;
+  }
+
+  [[nodiscard]] core::Image image() override {
+    const Current current(context_);
+    return owned_->pass->read(context_.gl());
+  }
+
+  [[nodiscard]] std::string kernel_hash() const override { return owned_->kernel_hash; }
+
+ private:
+  // Everything that lives on the device.
+  struct Owned {
+    Owned(const Api& gl, Stamps stamps, const measure::VolumeWork& work, const Constants& constants,
+          std::unique_ptr<Pass> its_pass)
+        : pass(std::move(its_pass)),
+          data(gl, work),
+          stopwatch(gl, stamps),
+          statistics(gl, pass->statistics()) {
+      const std::vector<Stage> stages = pass->stages(gl, constants);
+      program = link(gl, stages);
+      std::string hashed = gl.text(GL_VERSION);
+      for (const Stage& stage : stages) hashed += '\n' + stage.source;
+      kernel_hash = core::content_hash(hashed);
+    }
+    std::unique_ptr<Pass> pass;
+    VolumeData data;
+    Stopwatch stopwatch;
+    Statistics statistics;
+    Program program;
+    std::string kernel_hash;
+    std::optional<Counting> counting;
+  };
+
+  [[nodiscard]] Counting make_counting(const Api& gl) const {
+    Constants constants = constants_;
+    constants.count = true;
+    return {link(gl, owned_->pass->stages(gl, constants)),
+            device_buffer(gl, counters_size(pixels_))};
+  }
+
+  void bind(const Api& gl, bool counting) {
+    owned_->data.bind(gl);
+    owned_->pass->bind(gl);
+    gl.UseProgram(counting ? owned_->counting->program.get() : owned_->program.get());
+    if (counting) {
+      gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_counters,
+                        owned_->counting->counters.get());
+    }
+    gl.check("glUseProgram");
+  }
+
+  void submit(const Api& gl) {
+    if (extra_) {
+      owned_->data.choose(gl, Rows::extra);
+      owned_->pass->submit(gl, Rows::extra);
+      owned_->data.choose(gl, Rows::all);
+    }
+    owned_->pass->submit(gl, Rows::all);
+  }
+
+  Context& context_;
+  Constants constants_;
+  std::size_t pixels_;
+  bool extra_;
+  std::unique_ptr<Owned> owned_;
+};
+
+}  // namespace
+
+Constants constants_of(const measure::VolumeWork& work) {
+  return {.manual_sampler = work.options.sampler == technique::Sampler::manual,
+          .shading = work.scene.shading.enabled,
+          .count = false,
+          .speed_of_light = false,
+          .fault = static_cast<int>(work.options.fault)};
+}
+
+std::optional<std::string> volume_unsupported(const Api& gl, const measure::VolumeWork& work) {
+  if (gl.VERSION_4_3 == 0 &&
+      (gl.ARB_shader_storage_buffer_object == 0 || gl.ARB_shading_language_420pack == 0)) {
+    return "storage blocks need OpenGL 4.3 or GL_ARB_shader_storage_buffer_object and "
+           "GL_ARB_shading_language_420pack";
+  }
+  const scene::VoxelGrid& grid = *work.scene.grid;
+  const auto [nx, ny, nz] = grid.size;
+  const std::int64_t edge = gl.limit(GL_MAX_3D_TEXTURE_SIZE);
+  if (std::max({nx, ny, nz}) > edge) {
+    return fmt::format("a volume of {}x{}x{}, GL_MAX_3D_TEXTURE_SIZE is {}", nx, ny, nz, edge);
+  }
+  const TexelFormat format = texel_format(grid.format);
+  gl.TexImage3D(GL_PROXY_TEXTURE_3D, 0, static_cast<GLint>(format.internal), nx, ny, nz, 0, GL_RED,
+                format.type, nullptr);
+  GLint accepted = 0;
+  gl.GetTexLevelParameteriv(GL_PROXY_TEXTURE_3D, 0, GL_TEXTURE_WIDTH, &accepted);
+  gl.check("glTexImage3D");
+  if (accepted == 0) {
+    return fmt::format("no texture of {}x{}x{} {} ({} bytes) by GL_PROXY_TEXTURE_3D", nx, ny, nz,
+                       scene::name_of(grid.format), grid.data.size());
+  }
+  // The counters are the largest block of any technique.
+  const auto needed = static_cast<std::int64_t>(counters_size(pixel_count(work)));
+  const std::int64_t most = gl.limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+  if (needed > most) {
+    return fmt::format(
+        "{}x{} pixels need a storage block of {} bytes, GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
+        work.scene.width, work.scene.height, needed, most);
+  }
+  return std::nullopt;
+}
+
+std::unique_ptr<measure::Prepared> prepare_volume(Context& context, Stamps stamps,
+                                                  const measure::VolumeWork& work,
+                                                  const Constants& constants,
+                                                  std::unique_ptr<Pass> pass) {
+  return std::make_unique<VolumePrepared>(context, stamps, work, constants, std::move(pass));
+}
+
+}  // namespace triptych::gl_backend

@@ -1,0 +1,111 @@
+// Listing and opening; what a device says of itself.
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "core/error.hpp"
+#include "tests/device/gl/gl_devices.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+std::vector<std::string> ids(const measure::Listing& listing) {
+  std::vector<std::string> result;
+  for (const record::Device& device : listing.devices) result.push_back(device.id);
+  return result;
+}
+
+TEST(GlDevices, ListingTwiceIsTheSame) {
+  const auto backend = debug_backend();
+  const measure::Listing first = backend->list();
+  EXPECT_EQ(first.devices, backend->list().devices);
+  const std::vector<std::string> all = ids(first);
+  EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), all.size());
+  for (const std::string& id : all) EXPECT_THAT(id, MatchesRegex("gl:[a-z0-9_]+.*"));
+}
+
+TEST(GlDevices, WhatIsListedOpensAsListed) {
+  const auto backend = debug_backend();
+  for (const record::Device& each : backend->list().devices) {
+    EXPECT_EQ(backend->open(each.id)->info(), each);
+    EXPECT_FALSE(each.name.empty());
+    EXPECT_FALSE(each.driver_version.empty());
+  }
+}
+
+TEST(GlDevices, AnUnknownDeviceIsNotSupported) {
+  const auto backend = debug_backend();
+  for (const char* id : {"gl:nothing-egl", "gl:nothing-osmesa"}) {
+    try {
+      static_cast<void>(backend->open(id));
+      ADD_FAILURE() << id << " opened";
+    } catch (const core::NotSupported& error) {
+      EXPECT_THAT(error.what(), HasSubstr(id));
+    }
+  }
+}
+
+// Both libraries keep the thread's current context in one variable.
+TEST(GlDevices, TwoOpenAtOnceDoNotDisturbEachOther) {
+  const auto backend = debug_backend();
+  const std::vector<std::string> all = ids(backend->list());
+  if (all.size() < 2) GTEST_SKIP() << "fewer than two OpenGL devices";
+  const auto a = backend->open(all[0]);
+  const auto b = backend->open(all[1]);
+  const measure::Work work = make_work("raycast", make_scene({}));
+  const auto on_a = a->prepare(work);
+  const auto on_b = b->prepare(work);
+  static_cast<void>(on_a->frame(measure::Purpose::timing));
+  const core::Image alone = on_a->image();
+  static_cast<void>(on_b->frame(measure::Purpose::timing));
+  static_cast<void>(on_a->frame(measure::Purpose::timing));
+  EXPECT_EQ(on_a->image(), alone);
+  EXPECT_LT(largest_difference(on_b->image(), alone), 1e-4);
+}
+
+TEST(GlDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
+  for_each_device([](const measure::Device& device) {
+    for (const auto native : {scene::VoxelFormat::u8, scene::VoxelFormat::u16}) {
+      const measure::VolumePath path = device.default_path(native);
+      EXPECT_LT(device.filter_weight_error(path), 1e-5);
+      if (path.sampler == technique::Sampler::manual) {
+        EXPECT_EQ(path.voxel, native);
+      }
+    }
+    for (const auto voxel : {scene::VoxelFormat::u8, scene::VoxelFormat::f32}) {
+      const double error = device.filter_weight_error({voxel, technique::Sampler::hardware});
+      EXPECT_GE(error, 0);
+      EXPECT_LT(error, 0.01);  // the coarsest sampler known has 8 bits
+      RecordProperty("filter_weight_error", std::to_string(error));
+      EXPECT_EQ(device.filter_weight_error({voxel, technique::Sampler::manual}), 0);
+    }
+  });
+}
+
+TEST(GlDevices, LimitsAreReasonsWithBothNumbers) {
+  for_each_device([](const measure::Device& device) {
+    scene::VolumeScene scene = make_scene({});
+    auto grid = *scene.grid;
+    grid.size = {1'000'000, 1, 1};
+    scene.grid = std::make_shared<const scene::VoxelGrid>(grid);
+    const auto large_volume = device.unsupported(make_work("raycast", scene));
+    ASSERT_TRUE(large_volume);
+    EXPECT_THAT(*large_volume, HasSubstr("1000000x1x1"));
+    EXPECT_THAT(*large_volume, HasSubstr(device.info().limits.at("GL_MAX_3D_TEXTURE_SIZE")));
+
+    for (const std::string_view technique : picture_techniques) {
+      scene = make_scene({.width = 1'000'000, .height = 1'000});
+      EXPECT_TRUE(device.unsupported(make_work(technique, scene)));
+      scene = make_scene({.width = 1'000'000, .height = 1});
+      EXPECT_TRUE(device.unsupported(make_work(technique, scene)));
+      EXPECT_FALSE(device.unsupported(make_work(technique, make_scene({}))));
+    }
+    EXPECT_TRUE(device.unsupported(make_work("no_such_technique", make_scene({}))));
+  });
+}
+
+}  // namespace
+}  // namespace triptych::gl_backend

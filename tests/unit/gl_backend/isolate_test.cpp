@@ -1,0 +1,63 @@
+// A driver's worst deeds, done by a child.
+#include "backends/gl/isolate.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <stdexcept>
+
+namespace triptych::gl_backend {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+TEST(AskInChild, HandsBackWhatTheChildSays) {
+  const std::string long_text(1'000'000, 'x');  // more than a pipe holds
+  const Answer answer = ask_in_child([&] { return long_text; }, 10s);
+  EXPECT_EQ(answer.text, long_text);
+  EXPECT_EQ(answer.failure, "");
+}
+
+TEST(AskInChild, AnEmptyAnswerIsAnAnswer) {
+  EXPECT_EQ(ask_in_child([] { return std::string(); }, 10s).failure, "");
+}
+
+TEST(AskInChild, TellsACrashByItsSignal) {
+  const Answer answer = ask_in_child(
+      []() -> std::string {
+        raise(SIGSEGV);
+        return "unreachable";
+      },
+      10s);
+  EXPECT_THAT(answer.failure, HasSubstr("crashed: Segmentation fault"));
+  EXPECT_EQ(answer.text, "");
+}
+
+TEST(AskInChild, EndsAChildThatHangs) {
+  const auto started = std::chrono::steady_clock::now();
+  const Answer answer = ask_in_child(
+      [] {
+        pause();
+        return std::string();
+      },
+      100ms);
+  EXPECT_EQ(answer.failure, "no answer within 100 ms");
+  EXPECT_LT(std::chrono::steady_clock::now() - started, 5s);
+}
+
+TEST(AskInChild, PassesOnWhatWasThrown) {
+  const Answer answer =
+      ask_in_child([]() -> std::string { throw std::runtime_error("no such library"); }, 10s);
+  EXPECT_EQ(answer.failure, "no such library");
+}
+
+TEST(AskInChild, TellsAChildThatLeaves) {
+  const Answer answer = ask_in_child([]() -> std::string { _exit(7); }, 10s);
+  EXPECT_EQ(answer.failure, "ended without an answer");
+}
+
+}  // namespace
+}  // namespace triptych::gl_backend
