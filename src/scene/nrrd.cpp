@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "core/error.hpp"
@@ -56,13 +57,14 @@ class Header {
 
 // The start of a file, as much of it as a header may take.
 std::string read_start(const std::filesystem::path& file) {
-  constexpr std::size_t longest_header = std::size_t{1} << 20;
+  constexpr std::uintmax_t longest_header = std::uintmax_t{1} << 20;
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
   std::ifstream in(file, std::ios::binary);
-  std::string text(longest_header, '\0');
+  if (error || !in) throw core::IoError(file.string() + ": cannot be read");
+  std::string text(std::min(size, longest_header), '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad() || (!in && in.gcount() == 0 && !in.eof())) {
-    throw core::IoError(file.string() + ": cannot be read");
-  }
+  if (in.bad()) throw core::IoError(file.string() + ": cannot be read");
   text.resize(static_cast<std::size_t>(in.gcount()));
   return text;
 }
