@@ -122,9 +122,9 @@ class ConvergedRaycaster {
       for (int part = 0; part < parts; ++part) {
         const double t = cuts_[piece] + (part + 0.5) * length;
         const glm::dvec3 p = ray.entry + t * ray.voxels_per_unit;
-        const Bounded x{field_.at(p), 0.0};
-        if (table_.transparent(x)) continue;
-        Looked looked = table_.look_up(x);
+        const Span span = Table::span_of({field_.at(p), 0.0});
+        if (table_.transparent(span)) continue;
+        Looked looked = table_.look_up(span);
         if (scene_.shading.enabled) {
           shade(looked,
                 headlight_cosine(field_, ray, p, gradient_scale_, scene_.shading.gradient_floor, 0),

@@ -17,8 +17,9 @@ Field<Stored>::Field(const scene::VoxelGrid& grid, const ErrorModel& model)
       scale_(grid.scale),
       offset_(grid.offset),
       value_error_(model.value_error),
-      filter_weight_error_(model.filter_weight_error) {
-  if (model.position_error_voxels == 0 && model.filter_weight_error == 0) return;
+      filter_weight_error_(model.filter_weight_error),
+      exact_(model.position_error_voxels == 0 && model.filter_weight_error == 0) {
+  if (exact_) return;
   double lo = stored(0);
   double hi = lo;
   const auto count = static_cast<std::ptrdiff_t>(grid.voxel_count());
@@ -40,8 +41,8 @@ double Field<Stored>::stored(std::ptrdiff_t index) const {
 template <typename Stored>
 typename Field<Stored>::Place Field<Stored>::place(double p, int axis) const {
   // Beyond half a voxel outside the field is constant, so far positions may move there.
-  const double q =
-      std::clamp(p - 0.5, -1.0, static_cast<double>(size_[static_cast<std::size_t>(axis)]));
+  const double end = size_[static_cast<std::size_t>(axis)];
+  const double q = std::min(std::max(p - 0.5, -1.0), end);
   const int base = static_cast<int>(q + 1.0) - 1;  // ⌊q⌋, q ≥ −1
   return {base, q - static_cast<double>(base)};
 }
@@ -87,16 +88,21 @@ double largest(double a, double b, double c, double d) {
 }  // namespace
 
 template <typename Stored>
-void Field<Stored>::Slopes::widen(const Corners& v) {
-  const glm::dvec3 d0{v[1] - v[0], v[2] - v[0], v[4] - v[0]};
-  const glm::dvec3 d1{v[3] - v[2], v[3] - v[1], v[5] - v[1]};
-  const glm::dvec3 d2{v[5] - v[4], v[6] - v[4], v[6] - v[2]};
-  const glm::dvec3 d3{v[7] - v[6], v[7] - v[5], v[7] - v[3]};
-  lo = glm::min(lo, glm::min(glm::min(d0, d1), glm::min(d2, d3)));
-  hi = glm::max(hi, glm::max(glm::max(d0, d1), glm::max(d2, d3)));
-  const double bottom = std::min(least(v[0], v[1], v[2], v[3]), least(v[4], v[5], v[6], v[7]));
-  const double top = std::max(largest(v[0], v[1], v[2], v[3]), largest(v[4], v[5], v[6], v[7]));
-  spread = std::max(spread, top - bottom);
+Field<Stored>::Slopes::Slopes(const Corners& v)
+    : lo(least(v[1] - v[0], v[3] - v[2], v[5] - v[4], v[7] - v[6]),
+         least(v[2] - v[0], v[3] - v[1], v[6] - v[4], v[7] - v[5]),
+         least(v[4] - v[0], v[5] - v[1], v[6] - v[2], v[7] - v[3])),
+      hi(largest(v[1] - v[0], v[3] - v[2], v[5] - v[4], v[7] - v[6]),
+         largest(v[2] - v[0], v[3] - v[1], v[6] - v[4], v[7] - v[5]),
+         largest(v[4] - v[0], v[5] - v[1], v[6] - v[2], v[7] - v[3])),
+      spread(std::max(largest(v[0], v[1], v[2], v[3]), largest(v[4], v[5], v[6], v[7])) -
+             std::min(least(v[0], v[1], v[2], v[3]), least(v[4], v[5], v[6], v[7]))) {}
+
+template <typename Stored>
+void Field<Stored>::Slopes::widen(const Slopes& other) {
+  lo = glm::min(lo, other.lo);
+  hi = glm::max(hi, other.hi);
+  spread = std::max(spread, other.spread);
 }
 
 template <typename Stored>
@@ -115,10 +121,10 @@ typename Field<Stored>::Slopes Field<Stored>::slopes_around(const std::array<Pla
     first[axis] = places[axis].base - (places[axis].f <= error ? 1 : 0);
     last[axis] = places[axis].base + (places[axis].f >= 1.0 - error ? 1 : 0);
   }
-  Slopes slopes;
+  Slopes slopes(corners(first));
   for (int k = first[2]; k <= last[2]; ++k) {
     for (int j = first[1]; j <= last[1]; ++j) {
-      for (int i = first[0]; i <= last[0]; ++i) slopes.widen(corners({i, j, k}));
+      for (int i = first[0]; i <= last[0]; ++i) slopes.widen(Slopes(corners({i, j, k})));
     }
   }
   return slopes;
@@ -136,17 +142,13 @@ template <typename Stored>
 typename Field<Stored>::Read Field<Stored>::read(const glm::dvec3& p, const glm::dvec3& e) const {
   const std::array<Place, 3> places{place(p.x, 0), place(p.y, 1), place(p.z, 2)};
   const Corners v = corners({places[0].base, places[1].base, places[2].base});
-  Read result;
-  result.stored = interpolate(v, places[0].f, places[1].f, places[2].f);
-  result.local = e.x < 0.5 && e.y < 0.5 && e.z < 0.5;
-  if (!result.local) return result;
+  Read result{interpolate(v, places[0].f, places[1].f, places[2].f),
+              e.x < 0.5 && e.y < 0.5 && e.z < 0.5, Slopes(v)};
   const auto interior = [&](std::size_t axis) {
     const double margin = e[static_cast<int>(axis)];
     return places[axis].f > margin && places[axis].f < 1.0 - margin;
   };
-  if (interior(0) && interior(1) && interior(2)) {
-    result.slopes.widen(v);
-  } else {
+  if (result.local && !(interior(0) && interior(1) && interior(2))) {
     result.slopes = slopes_around(places, e);
   }
   return result;
@@ -162,6 +164,7 @@ double Field<Stored>::error_of(const Read& read, const glm::dvec3& e) const {
 
 template <typename Stored>
 Bounded Field<Stored>::at(const glm::dvec3& p, const glm::dvec3& e) const {
+  if (exact_) return {at(p), value_error_};
   const Read here = read(p, e);
   return {here.stored * scale_ + offset_, error_of(here, e) * std::abs(scale_) + value_error_};
 }
@@ -169,6 +172,7 @@ Bounded Field<Stored>::at(const glm::dvec3& p, const glm::dvec3& e) const {
 template <typename Stored>
 Bounded Field<Stored>::difference(const glm::dvec3& a, const glm::dvec3& b,
                                   const glm::dvec3& shared_error, double own_error) const {
+  if (exact_) return {at(a) - at(b), 2.0 * value_error_};
   const glm::dvec3 e = shared_error + own_error;
   const Read above = read(a, e);
   const Read below = read(b, e);

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <limits>
 
 #include "reference/volume.hpp"
 #include "scene/volume.hpp"
@@ -51,17 +50,18 @@ class Field {
   // How the field may change: extremes of the difference of two neighbours per axis, and the
   // largest of any two voxels of one cell.
   struct Slopes {
-    glm::dvec3 lo{std::numeric_limits<double>::infinity()};
-    glm::dvec3 hi{-std::numeric_limits<double>::infinity()};
-    double spread = 0;
-    void widen(const Corners& corners);
+    glm::dvec3 lo;
+    glm::dvec3 hi;
+    double spread;
+    explicit Slopes(const Corners& corners);
+    void widen(const Slopes& other);
     [[nodiscard]] glm::dvec3 steepest() const;
   };
 
   // A stored value; its slopes are known where the place is, to better than half a voxel.
   struct Read {
-    double stored = 0;
-    bool local = false;
+    double stored;
+    bool local;
     Slopes slopes;
   };
 
@@ -80,6 +80,7 @@ class Field {
   double value_error_;
   double filter_weight_error_;
   double range_ = 0;  // largest minus smallest stored value
+  bool exact_;        // places and weights have no error, so slopes play no part
 };
 
 extern template class Field<std::uint8_t>;

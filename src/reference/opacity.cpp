@@ -5,10 +5,28 @@
 
 namespace triptych::reference {
 
+namespace {
+
+// Powers of two, the usual steps, need no logarithm: 1 − √(1 − α) = α/(1 + √(1 − α)) halves a step
+// and 1 − (1 − α)² = α·(2 − α) doubles it, neither cancels, and both round the same on every
+// machine.
+constexpr int most_doublings = 5;
+
+double doubled(double alpha, int times) {
+  for (; times < 0; ++times) alpha /= 1.0 + std::sqrt(1.0 - alpha);
+  for (; times > 0; --times) alpha *= 2.0 - alpha;
+  return alpha;
+}
+
+}  // namespace
+
 double step_opacity(double alpha, double steps) {
   if (!(steps > 0.0) || !(alpha > 0.0)) return 0.0;
   if (alpha >= 1.0) return 1.0;
-  if (steps == 1.0) return alpha;
+  int exponent = 0;
+  if (std::frexp(steps, &exponent) == 0.5 && std::abs(exponent - 1) <= most_doublings) {
+    return doubled(alpha, exponent - 1);
+  }
   return -std::expm1(steps * std::log1p(-alpha));
 }
 
@@ -21,9 +39,9 @@ namespace {
 double small_change(const Looked& looked, double steps, double nominal) {
   const double left = 1.0 - looked.alpha;
   const double change = std::max(looked.alpha_hi - looked.alpha, looked.alpha - looked.alpha_lo);
+  if (change == 0.0) return 0.0;
   const double z = std::max(1.0, steps) * change;
   if (!(z <= 0.05 * left)) return -1.0;
-  if (left <= 0.0) return 0.0;
   const double y = z / left;
   return steps * (1.0 - nominal) / left * change * (1.0 + y + 2.0 * y * y);
 }

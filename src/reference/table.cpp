@@ -17,38 +17,60 @@ Table::Table(const scene::TransferFunction& function, double table_error)
   }
 }
 
-double Table::position(double x) {
-  const double u = knot_of(x);
-  return u > 0.0 ? std::min(u, 255.0) : 0.0;
+Span Table::span_of(const Bounded& x) {
+  const auto clamped = [](double u) { return u > 0.0 ? std::min(u, 255.0) : 0.0; };
+  const double centre = knot_of(x.value);
+  const double reach = 256.0 * x.error;
+  return {clamped(centre), clamped(centre - reach), clamped(centre + reach)};
 }
 
-std::array<double, 4> Table::at(double x) const {
-  const double u = position(x);
-  const std::size_t k = std::min<std::size_t>(static_cast<std::size_t>(u), entries - 2);
-  const double f = u - static_cast<double>(k);
-  const std::array<double, 4>& a = rgba_[k];
-  const std::array<double, 4>& b = rgba_[k + 1];
+Table::Rgba Table::at(double position) const {
+  const std::size_t k = std::min<std::size_t>(static_cast<std::size_t>(position), entries - 2);
+  const double f = position - static_cast<double>(k);
+  const Rgba& a = rgba_[k];
+  const Rgba& b = rgba_[k + 1];
   return {a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]), a[2] + f * (b[2] - a[2]),
           a[3] + f * (b[3] - a[3])};
 }
 
-Looked Table::look_up(const Bounded& x) const {
-  const std::array<double, 4> centre = at(x.value);
-  std::array<double, 4> lo = centre;
-  std::array<double, 4> hi = centre;
-  if (x.error > 0.0) {
-    const auto widen = [&](const std::array<double, 4>& rgba) {
-      for (std::size_t channel = 0; channel < 4; ++channel) {
-        lo[channel] = std::min(lo[channel], rgba[channel]);
-        hi[channel] = std::max(hi[channel], rgba[channel]);
-      }
-    };
-    widen(at(x.value - x.error));
-    widen(at(x.value + x.error));
-    const auto first = static_cast<std::size_t>(position(x.value - x.error)) + 1;
-    const auto last = static_cast<std::size_t>(position(x.value + x.error));
-    for (std::size_t k = first; k <= last; ++k) widen(rgba_[k]);
+Looked Table::look_up(const Span& span) const {
+  const std::size_t k = std::min(static_cast<std::size_t>(span.centre), entries - 2);
+  const double f = span.centre - static_cast<double>(k);
+  const Rgba& a = rgba_[k];
+  const Rgba& b = rgba_[k + 1];
+  Looked looked;
+  if (span.lo >= static_cast<double>(k) && span.hi <= static_cast<double>(k + 1)) {
+    // Linear all over the span, as nearly always.
+    const double reach = std::max(span.hi - span.centre, span.centre - span.lo);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const double slope = b[channel] - a[channel];
+      looked.colour[channel] = a[channel] + f * slope;
+      looked.colour_error[channel] = reach * std::abs(slope) + table_error_;
+    }
+    const double slope = b[3] - a[3];
+    const double change = reach * std::abs(slope) + table_error_;
+    looked.alpha = a[3] + f * slope;
+    looked.alpha_lo = std::max(looked.alpha - change, 0.0);
+    looked.alpha_hi = std::min(looked.alpha + change, 1.0);
+    return looked;
   }
+  return look_up_across_entries(span);
+}
+
+Looked Table::look_up_across_entries(const Span& span) const {
+  const Rgba centre = at(span.centre);
+  Rgba lo = centre;
+  Rgba hi = centre;
+  const auto widen = [&](const Rgba& rgba) {
+    for (std::size_t channel = 0; channel < 4; ++channel) {
+      lo[channel] = std::min(lo[channel], rgba[channel]);
+      hi[channel] = std::max(hi[channel], rgba[channel]);
+    }
+  };
+  widen(at(span.lo));
+  widen(at(span.hi));
+  const auto last = static_cast<std::size_t>(span.hi);
+  for (std::size_t k = static_cast<std::size_t>(span.lo) + 1; k <= last; ++k) widen(rgba_[k]);
   Looked looked;
   for (std::size_t channel = 0; channel < 3; ++channel) {
     looked.colour[channel] = centre[channel];
@@ -59,12 +81,6 @@ Looked Table::look_up(const Bounded& x) const {
   looked.alpha_lo = std::max(lo[3] - table_error_, 0.0);
   looked.alpha_hi = std::min(hi[3] + table_error_, 1.0);
   return looked;
-}
-
-bool Table::transparent(const Bounded& x) const {
-  const auto first = static_cast<std::size_t>(position(x.value - x.error));
-  const auto last = static_cast<std::size_t>(std::ceil(position(x.value + x.error)));
-  return next_visible_[first] > last;
 }
 
 }  // namespace triptych::reference

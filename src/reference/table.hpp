@@ -18,29 +18,41 @@ struct Looked {
   double alpha_hi = 0;
 };
 
+// A value and the ends of the interval it may lie in, as positions among the entry centres, 0 …
+// 255.
+struct Span {
+  double centre = 0;
+  double lo = 0;
+  double hi = 0;
+};
+
 class Table {
  public:
   Table(const scene::TransferFunction& function, double table_error);
 
   // Position of x among the entry centres, unclamped: the function has its kinks at 0 … 255.
   [[nodiscard]] static double knot_of(double x) { return x * 256.0 - 0.5; }
+  [[nodiscard]] static Span span_of(const Bounded& x);
 
-  // Straight RGBA at x.
-  [[nodiscard]] std::array<double, 4> at(double x) const;
+  // Extremes over the span of the piecewise linear function itself (its ends and the entries
+  // between), so that neither a kink nor a spike escapes, widened by table_error.
+  [[nodiscard]] Looked look_up(const Span& span) const;
 
-  // Extremes over [x − error, x + error] of the piecewise linear function itself (its ends and the
-  // entries between), so that neither a kink nor a spike escapes, widened by table_error.
-  [[nodiscard]] Looked look_up(const Bounded& x) const;
-
-  // Whether every entry that takes part anywhere in [x − error, x + error] is fully transparent.
-  // Interpolating zeros gives zero in any arithmetic, so table_error plays no part.
-  [[nodiscard]] bool transparent(const Bounded& x) const;
+  // Whether every entry that takes part anywhere in the span is fully transparent. Interpolating
+  // zeros gives zero in any arithmetic, so table_error plays no part.
+  [[nodiscard]] bool transparent(const Span& span) const {
+    const auto last = static_cast<std::size_t>(span.hi);
+    const std::size_t above = static_cast<double>(last) < span.hi ? last + 1 : last;
+    return next_visible_[static_cast<std::size_t>(span.lo)] > above;
+  }
 
  private:
   static constexpr std::size_t entries = 256;
-  [[nodiscard]] static double position(double x);  // among the entry centres, 0 … 255
+  using Rgba = std::array<double, 4>;
+  [[nodiscard]] Rgba at(double position) const;
+  [[nodiscard]] Looked look_up_across_entries(const Span& span) const;
 
-  std::array<std::array<double, 4>, entries> rgba_{};
+  std::array<Rgba, entries> rgba_{};
   std::array<std::size_t, entries> next_visible_{};  // first entry from here on with alpha > 0
   double table_error_;
 };

@@ -50,17 +50,17 @@ class Raycaster {
     for (std::int64_t i = 0; i < count; ++i) {
       const double index = static_cast<double>(i);
       const glm::dvec3 p = ray.entry + (index + 0.5) * stride;
-      const Bounded x = field_.at(p, ray.position_error);
-      if (table_.transparent(x)) continue;
+      const Span span = Table::span_of(field_.at(p, ray.position_error));
+      if (table_.transparent(span)) continue;
       const StepLength length{std::clamp(chord.nominal - index * step, 0.0, step),
                               std::clamp(chord.shortest - index * step, 0.0, step),
                               std::clamp(chord.longest - index * step, 0.0, step)};
-      if (!add(ray, p, x, length)) return;
+      if (!add(ray, p, span, length)) return;
     }
   }
 
-  bool add(const Ray& ray, const glm::dvec3& p, const Bounded& x, const StepLength& length) {
-    Looked looked = table_.look_up(x);
+  bool add(const Ray& ray, const glm::dvec3& p, const Span& span, const StepLength& length) {
+    Looked looked = table_.look_up(span);
     const StepOpacity opacity = step_opacity(looked, length, model_.opacity_error);
     if (scene_.shading.enabled) {
       const double rounding = model_.compositing_error;
