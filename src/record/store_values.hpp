@@ -17,8 +17,6 @@
 
 namespace triptych::record {
 
-// ------------------------------------------------------------------------
-
 // Parameters are bound in the order in which they are given.
 class Binder {
  public:
