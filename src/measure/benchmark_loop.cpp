@@ -73,41 +73,27 @@ BenchmarkResult run_registered(const std::string& name, int frames) {
           .entries = nlohmann::json::parse(reporter.text()).at("benchmarks")};
 }
 
-// The library knows no exceptions: one is kept here while the library ends its loop.
+// The library knows no exceptions, and aborts when one repetition of several says that it failed:
+// the first exception is kept, the remaining iterations do nothing, and it is thrown again
+// afterwards.
 class Guarded {
  public:
   template <typename Body>
-  void operator()(benchmark::State& state, Body body) {
-    if (failure_) {
-      state.SkipWithError("an earlier frame failed");
-      return;
-    }
+  void operator()(const Body& body) {
+    if (failure_) return;
     try {
       body();
-    } catch (const std::exception& error) {
+    } catch (...) {
       failure_ = std::current_exception();
-      state.SkipWithError(error.what());
     }
   }
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
   }
-  [[nodiscard]] bool failed() const { return failure_ != nullptr; }
 
  private:
   std::exception_ptr failure_;
 };
-
-BenchmarkResult run_guarded(const std::string& name, int frames, const Guarded& guarded) {
-  try {
-    BenchmarkResult result = run_registered(name, frames);
-    guarded.rethrow();
-    return result;
-  } catch (const core::Error&) {
-    guarded.rethrow();  // the cause, rather than that too few frames ran
-    throw;
-  }
-}
 
 double minimum(const std::vector<double>& values) {
   return record::percentile(values, 0);
@@ -150,14 +136,14 @@ BenchmarkResult time_frames(const std::string& name, int frames,
   Guarded guarded;
   benchmark::RegisterBenchmark(name.c_str(),
                                [&](benchmark::State& state) {
-                                 guarded(state, [&] {
-                                   for (auto _ : state) {
-                                     const IterationTime time = frame();
-                                     state.SetIterationTime(time.ns * 1e-9);
-                                     for (const auto& [fact, value] : time.facts)
-                                       state.counters[fact] = value;
+                                 for (auto _ : state) {
+                                   IterationTime time;
+                                   guarded([&] { time = frame(); });
+                                   state.SetIterationTime(time.ns * 1e-9);
+                                   for (const auto& [fact, value] : time.facts) {
+                                     state.counters[fact] = value;
                                    }
-                                 });
+                                 }
                                })
       ->UseManualTime()
       ->Iterations(1)
@@ -166,7 +152,9 @@ BenchmarkResult time_frames(const std::string& name, int frames,
       ->ComputeStatistics("lower_quartile", lower_quartile)
       ->ComputeStatistics("upper_quartile", upper_quartile)
       ->ComputeStatistics("max", maximum);
-  return run_guarded(name, frames, guarded);
+  BenchmarkResult result = run_registered(name, frames);
+  guarded.rethrow();
+  return result;
 }
 
 BenchmarkResult time_loop(const std::string& name, int frames, const std::function<void()>& frame) {
@@ -174,13 +162,13 @@ BenchmarkResult time_loop(const std::string& name, int frames, const std::functi
   Guarded guarded;
   benchmark::RegisterBenchmark(name.c_str(),
                                [&](benchmark::State& state) {
-                                 guarded(state, [&] {
-                                   for (auto _ : state) frame();
-                                 });
+                                 for (auto _ : state) guarded(frame);
                                })
       ->UseRealTime()
       ->Iterations(frames);
-  return run_guarded(name, frames, guarded);
+  BenchmarkResult result = run_registered(name, frames);
+  guarded.rethrow();
+  return result;
 }
 
 }  // namespace triptych::measure

@@ -1,0 +1,150 @@
+#include "measure/clock.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "core/error.hpp"
+#include "measure/protocol.hpp"
+#include "tests/unit/measure/fake_suite.hpp"
+#include "tests/unit/measure_run/scripted_prepared.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using technique::Work;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr double ms = 1e6;
+
+record::ClockTrust verdict_on(const ScriptedPrepared::Script& script) {
+  ScriptedPrepared prepared(script);
+  return calibrate(prepared, Work::compute);
+}
+
+record::ClockTrust verdict_on_ratio(double ratio) {
+  return verdict_on([=](int) { return frame_of(30 * ms, ratio * 30 * ms); });
+}
+
+TEST(Calibrate, BelievesAnExactClockAndOneThatLeavesOutTheLaunch) {
+  for (const double ratio : {1.0, 0.98, 0.91, 1.01}) {
+    const record::ClockTrust trust = verdict_on_ratio(ratio);
+    EXPECT_TRUE(trust.offered && trust.trusted) << trust.verdict;
+    EXPECT_NEAR(trust.ratio, ratio, 1e-12);
+    EXPECT_EQ(trust.work, "compute");
+    EXPECT_THAT(trust.verdict, StartsWith("trusted: "));
+  }
+}
+
+TEST(Calibrate, DoesNotBelieveClocksThatReadTooLittleOrTooMuch) {
+  for (const double ratio : {0.0, 0.14, 0.85, 1.05, 3.0, -1.0}) {
+    const record::ClockTrust trust = verdict_on_ratio(ratio);
+    EXPECT_TRUE(trust.offered);
+    EXPECT_FALSE(trust.trusted) << trust.verdict;
+    EXPECT_THAT(trust.verdict, StartsWith("not trusted: "));
+  }
+  EXPECT_THAT(verdict_on_ratio(0).verdict, HasSubstr("reads 0"));
+}
+
+TEST(Calibrate, DoesNotBelieveAClockThatJitters) {
+  const auto trust =
+      verdict_on([](int n) { return frame_of(30 * ms, (n % 2 == 0 ? 0.5 : 0.99) * 30 * ms); });
+  EXPECT_FALSE(trust.trusted);
+  EXPECT_NEAR(trust.ratio_low, 0.5, 1e-12);
+  EXPECT_NEAR(trust.ratio_high, 0.99, 1e-12);
+}
+
+TEST(Calibrate, ExcusesOneLateWakeUpButNoOtherOddity) {
+  const auto odd_one = [](double wall_ms, double device_ms) {
+    return verdict_on([=](int n) {
+             return n == 5 ? frame_of(wall_ms * ms, device_ms * ms) : frame_of(30 * ms, 29.8 * ms);
+           })
+        .trusted;
+  };
+  EXPECT_TRUE(odd_one(38, 29.8));
+  EXPECT_FALSE(odd_one(30, 35));
+  EXPECT_FALSE(odd_one(30, 0));
+}
+
+TEST(Calibrate, SaysWhenTheDeviceTellsNoTime) {
+  const auto trust = verdict_on([](int) { return frame_of(30 * ms); });
+  EXPECT_FALSE(trust.offered);
+  EXPECT_FALSE(trust.trusted);
+  EXPECT_THAT(trust.verdict, HasSubstr("tells no time"));
+}
+
+TEST(Calibrate, SurvivesTimesThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(verdict_on([=](int) { return frame_of(30 * ms, nan); }).trusted);
+  EXPECT_FALSE(verdict_on([=](int) { return frame_of(nan, 30 * ms); }).trusted);
+  EXPECT_FALSE(verdict_on([](int) { return frame_of(0, 0); }).trusted);
+}
+
+TEST(Calibrate, TakesFewerFramesWhereTheyAreLong) {
+  ScriptedPrepared prepared = steady(900 * ms, 899 * ms);
+  EXPECT_TRUE(calibrate(prepared, Work::draw).trusted);
+  EXPECT_LE(prepared.calls.size(), 5U);
+}
+
+TEST(Plausible, NeedsATimePerFrameAboveZeroAndWithinTheWallTime) {
+  EXPECT_TRUE(plausible({1 * ms, 2 * ms}, {1.1 * ms, 2 * ms}));
+  EXPECT_TRUE(plausible({5e3}, {4e3}));  // within a tick
+  EXPECT_FALSE(plausible({}, {}));
+  EXPECT_FALSE(plausible({1 * ms}, {1 * ms, 1 * ms}));
+  EXPECT_FALSE(plausible({0}, {1 * ms}));
+  EXPECT_FALSE(plausible({1.1 * ms}, {1 * ms}));
+}
+
+// Frames last 0.1 ms per voxel length at step 1 and grow with the number of samples.
+class GrowingDevice final : public Device {
+ public:
+  explicit GrowingDevice(double finest_step) : finest_step_(finest_step) {}
+  const record::Device& info() const override { return info_; }
+  std::optional<std::string> unsupported(const measure::Work& work) const override {
+    const double step = std::get<VolumeWork>(work.scene).scene.step_voxels;
+    if (step < finest_step_) return "too many samples";
+    return std::nullopt;
+  }
+  VolumePath default_path(scene::VoxelFormat) const override { return {}; }
+  double filter_weight_error(const VolumePath&) const override { return 0; }
+  std::unique_ptr<Prepared> prepare(const measure::Work& work) override {
+    const double step = std::get<VolumeWork>(work.scene).scene.step_voxels;
+    longest_ns = 0.1 * ms / step;
+    return std::make_unique<ScriptedPrepared>(
+        // 30 us of launch that the device's clock leaves out
+        [ns = longest_ns](int) { return frame_of(ns + 3e4, ns); });
+  }
+  double longest_ns = 0;
+
+ private:
+  record::Device info_;
+  double finest_step_;
+};
+
+TEST(CalibrateClock, LengthensFramesUntilTheLaunchNoLongerMatters) {
+  FakeSuite suite;
+  GrowingDevice device(0);
+  const record::ClockTrust trust = calibrate_clock(device, suite, Work::compute);
+  EXPECT_TRUE(trust.trusted) << trust.verdict;
+  EXPECT_GE(device.longest_ns, ClockLimits::least_frame_ns);
+}
+
+TEST(CalibrateClock, SaysThatShortFramesTellLittleWhereNothingLongerRuns) {
+  FakeSuite suite;
+  GrowingDevice device(1);
+  const record::ClockTrust trust = calibrate_clock(device, suite, Work::compute);
+  EXPECT_FALSE(trust.trusted);
+  EXPECT_THAT(trust.verdict, HasSubstr("frames this short tell little"));
+}
+
+TEST(CalibrateClock, SaysWhyAKindOfWorkCannotBeCalibrated) {
+  FakeSuite suite;
+  GrowingDevice device(2);
+  const record::ClockTrust trust = calibrate_clock(device, suite, Work::draw);
+  EXPECT_FALSE(trust.offered);
+  EXPECT_EQ(trust.verdict, "not calibrated: too many samples");
+}
+
+}  // namespace
+}  // namespace triptych::measure

@@ -1,0 +1,77 @@
+#include "measure/environment.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+
+#include "tests/unit/measure_run/scratch.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+TEST(WorkerEnvironment, GivesPoclItsDefaultsAndNobodyElse) {
+  const ScratchFolder scratch;
+  const Variable cache_home("XDG_CACHE_HOME", scratch.path().string());
+  const Variable unset("POCL_CACHE_DIR");
+  const Variable unset_too("POCL_PTHREAD_MIN_WGS");
+  const CacheFolder cache("opencl:pocl");
+  const auto opencl = worker_environment("opencl:pocl", cache);
+  EXPECT_THAT(opencl, Contains("POCL_CACHE_DIR=" + cache.path().string()));
+  EXPECT_THAT(opencl, Contains("POCL_PTHREAD_MIN_WGS=1"));
+  EXPECT_THAT(worker_environment("vulkan:lavapipe", cache), Each(Not(StartsWith("POCL_"))));
+}
+
+TEST(WorkerEnvironment, LeavesWhatTheUserSet) {
+  const ScratchFolder scratch;
+  const Variable cache_home("XDG_CACHE_HOME", scratch.path().string());
+  const Variable set("POCL_PTHREAD_MIN_WGS", "8");
+  const CacheFolder cache("opencl:pocl");
+  const auto environment = worker_environment("opencl:pocl", cache);
+  EXPECT_THAT(environment, Contains("POCL_PTHREAD_MIN_WGS=8"));
+  EXPECT_THAT(environment, Not(Contains("POCL_PTHREAD_MIN_WGS=1")));
+}
+
+TEST(WorkerEnvironment, KeepsFlagsOfGoogleBenchmarkAway) {
+  const ScratchFolder scratch;
+  const Variable cache_home("XDG_CACHE_HOME", scratch.path().string());
+  const Variable flag("BENCHMARK_LIST_TESTS", "true");
+  const CacheFolder cache("null:scripted");
+  EXPECT_THAT(worker_environment("null:scripted", cache), Each(Not(StartsWith("BENCHMARK_"))));
+}
+
+TEST(CacheFolder, IsHeldByOneAtATimeAndFoundAgain) {
+  const ScratchFolder scratch;
+  const Variable cache_home("XDG_CACHE_HOME", scratch.path().string());
+  std::filesystem::path first_path;
+  {
+    const CacheFolder first("opencl:pocl");
+    const CacheFolder second("opencl:pocl");
+    first_path = first.path();
+    EXPECT_TRUE(std::filesystem::is_directory(first.path()));
+    EXPECT_NE(first.path(), second.path());
+  }
+  EXPECT_EQ(CacheFolder("opencl:pocl").path(), first_path);
+}
+
+TEST(CacheFolder, FallsBackToTheNextPlaceThatCanBeWritten) {
+  const ScratchFolder scratch;
+  const Variable cache_home("XDG_CACHE_HOME", "/proc/nowhere");
+  const Variable home("HOME", "/proc/nowhere");
+  const Variable temporary("TMPDIR", scratch.path().string());
+  EXPECT_THAT(CacheFolder("opencl:pocl").path().string(), StartsWith(scratch.path().string()));
+}
+
+TEST(ForbidsMeasuring, NamesLpPerf) {
+  const Variable unset("LP_PERF");
+  EXPECT_EQ(forbids_measuring(), std::nullopt);
+  const Variable set("LP_PERF", "no_rast");
+  EXPECT_THAT(forbids_measuring().value(), testing::HasSubstr("LP_PERF=no_rast"));
+}
+
+}  // namespace
+}  // namespace triptych::measure

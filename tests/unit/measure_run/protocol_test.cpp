@@ -1,0 +1,205 @@
+#include "measure/protocol.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "tests/unit/measure_run/scripted_prepared.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using technique::Work;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr double ms = 1e6;
+
+std::vector<record::ClockTrust> trusting(Work kind) {
+  record::ClockTrust trust;
+  trust.work = technique::name_of(kind);
+  trust.offered = true;
+  trust.trusted = true;
+  trust.ratio = 1;
+  return {trust};
+}
+
+Measurement measured(Prepared& prepared, const Protocol& protocol = {},
+                     const std::vector<record::ClockTrust>& clocks = {}) {
+  return measure(prepared, protocol, Work::compute, clocks, "test");
+}
+
+std::vector<std::string> repeated(const std::string& call, int times) {
+  return std::vector<std::string>(static_cast<std::size_t>(times), call);
+}
+
+TEST(Protocol, CallsInThePapersOrderWithThePictureBeforeTheCountingFrames) {
+  ScriptedPrepared prepared = steady(50 * ms);
+  static_cast<void>(measured(prepared));
+  std::vector<std::string> expected = repeated("timing", 4 + 8);
+  expected.insert(expected.end(), {"image", "statistics", "counters", "timing", "timing"});
+  EXPECT_EQ(prepared.calls, expected);
+}
+
+TEST(Protocol, LongFramesCostExactlyTheLeastWarmUpAndOneLoopFrame) {
+  ScriptedPrepared prepared = steady(300 * ms);
+  const record::Record record = measured(prepared).record;
+  EXPECT_EQ(record.warm_up_frames, 4);
+  EXPECT_EQ(record.frames_per_100ms, 1);
+  EXPECT_EQ(record.loop_frames, 1);
+  EXPECT_EQ(std::ranges::count(prepared.calls, "timing"), 4 + 8 + 1);
+}
+
+TEST(Protocol, ShortFramesWarmUpForATenthOfTheLoop) {
+  ScriptedPrepared prepared = steady(1 * ms);
+  const record::Record record = measured(prepared).record;
+  EXPECT_EQ(record.warm_up_frames, 10);
+  EXPECT_EQ(record.frames_per_100ms, 100);
+  EXPECT_EQ(record.loop_frames, 100);
+}
+
+TEST(Protocol, TheFastestWarmUpFramePredictsTheLoop) {
+  // The first is cold; 7 ms fill 100 ms with 15 frames.
+  ScriptedPrepared prepared([](int n) { return frame_of(n == 0 ? 900 * ms : 7 * ms); });
+  EXPECT_EQ(measured(prepared).record.frames_per_100ms, 15);
+}
+
+TEST(Protocol, AClockTooCoarseForAFrameIsBounded) {
+  ScriptedPrepared prepared = steady(0);
+  const record::Record record = measured(prepared, {.most_loop_frames = 20}).record;
+  EXPECT_EQ(record.loop_frames, 20);
+  EXPECT_LE(record.warm_up_frames, 20);
+}
+
+TEST(Protocol, TheLoopAsksForItsOwnLengthWhateverFills100Ms) {
+  ScriptedPrepared prepared = steady(10 * ms);
+  const record::Record record = measured(prepared, {.least_loop_ns = 30 * ms}).record;
+  EXPECT_EQ(record.frames_per_100ms, 10);
+  EXPECT_EQ(record.loop_frames, 3);
+  EXPECT_GT(record.loop_wall_ns, 0);
+}
+
+TEST(Protocol, EveryRawValueOfTheTimedFramesArrivesUnchanged) {
+  ScriptedPrepared prepared([](int n) { return frame_of(50 * ms + n / 3.0, 49 * ms + n / 7.0); });
+  const record::Record record = measured(prepared, {}, trusting(Work::compute)).record;
+  ASSERT_EQ(record.wall_ns.size(), 8U);
+  ASSERT_EQ(record.device_ns.size(), 8U);
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_EQ(record.wall_ns[static_cast<std::size_t>(i)], 50 * ms + (4 + i) / 3.0);
+    EXPECT_EQ(record.device_ns[static_cast<std::size_t>(i)], 49 * ms + (4 + i) / 7.0);
+  }
+  EXPECT_EQ(record.clock(), "device");
+}
+
+TEST(Protocol, ThePictureIsThatOfTheLastTimedFrame) {
+  ScriptedPrepared prepared = steady(50 * ms);
+  const Measurement result = measured(prepared);
+  EXPECT_EQ(result.image.rgba[0], 12.0F);  // frames drawn when it was read
+  EXPECT_EQ(result.record.image, image_hash(result.image));
+}
+
+TEST(Protocol, CountsComeFromTheirOwnFramesAndCanBeLeftOut) {
+  ScriptedPrepared prepared = steady(50 * ms);
+  const record::Record with = measured(prepared).record;
+  EXPECT_EQ(with.counters, (record::Counts{{"rays_hit", 64}, {"samples", 512}}));
+  EXPECT_EQ(with.statistics, (record::Counts{{"compute_invocations", 64}}));
+  ScriptedPrepared bare = steady(50 * ms);
+  const record::Record without = measured(bare, {.statistics = false, .counters = false}).record;
+  EXPECT_THAT(without.counters, IsEmpty());
+  EXPECT_THAT(without.statistics, IsEmpty());
+  EXPECT_EQ(std::ranges::count(bare.calls, "counters"), 0);
+}
+
+TEST(Protocol, ADeviceThatMissesOneTimeToldNone) {
+  ScriptedPrepared prepared(
+      [](int n) { return n == 9 ? frame_of(50 * ms) : frame_of(50 * ms, 49 * ms); });
+  const record::Record record = measured(prepared, {}, trusting(Work::compute)).record;
+  EXPECT_THAT(record.device_ns, IsEmpty());
+  EXPECT_EQ(record.clock(), "wall");
+}
+
+TEST(Protocol, AClockIsTrustedOnlyForTheKindItWasCalibratedFor) {
+  ScriptedPrepared prepared = steady(50 * ms, 49 * ms);
+  const record::Record record = measured(prepared, {}, trusting(Work::draw)).record;
+  EXPECT_FALSE(record.device_clock_trusted);
+  EXPECT_THAT(record.device_ns, Each(49 * ms));  // kept all the same
+}
+
+TEST(Protocol, ATrustedClockThatLiesInThisConfigurationIsNotBelieved) {
+  for (const double device_ns : {0.0, 60 * ms, std::numeric_limits<double>::quiet_NaN()}) {
+    ScriptedPrepared prepared(
+        [=](int n) { return frame_of(50 * ms, n == 6 ? device_ns : 49 * ms); });
+    EXPECT_EQ(measured(prepared, {}, trusting(Work::compute)).record.clock(), "wall") << device_ns;
+  }
+}
+
+TEST(Protocol, AnErrorOfAFrameComesOutAsItWas) {
+  for (const int failing : {2, 7, 13}) {  // warming up, timed, for the counters
+    ScriptedPrepared prepared([=](int n) {
+      if (n == failing) throw core::ApiError("vkQueueSubmit", "VK_ERROR_UNKNOWN");
+      return frame_of(50 * ms);
+    });
+    EXPECT_THROW(static_cast<void>(measured(prepared)), core::ApiError) << failing;
+    EXPECT_EQ(prepared.calls.size(), static_cast<std::size_t>(failing) + (failing > 12 ? 2 : 1));
+  }
+}
+
+TEST(Protocol, BenchmarkEntriesCarrySamplesStatisticsAndCountsAsFlatKeys) {
+  ScriptedPrepared prepared([](int n) { return frame_of((50 + n) * ms, (49 + n) * ms); });
+  const record::Record record = measured(prepared, {}, trusting(Work::compute)).record;
+  const auto entries = core::Json::parse(record.benchmark_json);
+  ASSERT_TRUE(entries.is_array());
+  std::vector<double> samples;
+  for (const auto& entry : entries) {
+    for (const char* key : {"name", "run_name", "run_type", "repetitions", "threads", "iterations",
+                            "real_time", "cpu_time", "time_unit"}) {
+      EXPECT_TRUE(entry.contains(key)) << key << " in " << entry;
+    }
+    for (const auto& value : entry) EXPECT_FALSE(value.is_structured()) << entry;
+    const bool loop = entry.at("name").get<std::string>().starts_with("test/loop");
+    if (entry.at("run_type") == "iteration" && !loop) {
+      samples.push_back(entry.at("real_time"));
+      EXPECT_EQ(entry.at("samples"), 512);
+      EXPECT_NEAR(entry.at("wall_ns").get<double>(), (53.0 + static_cast<double>(samples.size())) * ms, 1);
+    }
+    if (entry.value("aggregate_name", "") == "median") {
+      EXPECT_NEAR(entry.at("real_time").get<double>(), 56.5 * ms, 1);
+    }
+    if (entry.value("aggregate_name", "") == "min") {
+      EXPECT_NEAR(entry.at("real_time").get<double>(), 53 * ms, 1);
+    }
+  }
+  // The clock that counts is the device's: 49 + n from the fourth frame on.
+  ASSERT_EQ(samples.size(), 8U);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_NEAR(samples[i], (53.0 + static_cast<double>(i)) * ms, 1);
+  }
+}
+
+TEST(Protocol, OverheadLeavesOutWhatTheFramesTook) {
+  ScriptedPrepared prepared = steady(50 * ms);
+  const double overhead_ns = measured(prepared).record.overhead_ns;
+  EXPECT_GE(overhead_ns, 0);
+  EXPECT_LT(overhead_ns, 1e9);
+}
+
+TEST(ImageHash, TellsBitsSizesAndPlanesApart) {
+  core::Image image(2, 1);
+  const std::string hash = image_hash(image);
+  core::Image turned(1, 2);
+  EXPECT_NE(image_hash(turned), hash);
+  core::Image signed_zero = image;
+  signed_zero.rgba[3] = -0.0F;
+  EXPECT_NE(image_hash(signed_zero), hash);
+  core::Image deep = image;
+  deep.depth = {1, 1};
+  EXPECT_NE(image_hash(deep), hash);
+  EXPECT_EQ(image_hash(core::Image(2, 1)), hash);
+}
+
+}  // namespace
+}  // namespace triptych::measure

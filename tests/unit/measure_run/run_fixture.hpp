@@ -1,0 +1,70 @@
+#pragma once
+// Runs of the fake suite on the null backend, in real worker processes.
+
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "measure/runner.hpp"
+#include "tests/unit/measure/fake_suite.hpp"
+#include "tests/unit/measure_run/scratch.hpp"
+
+namespace triptych::measure {
+
+class RunTest : public testing::Test {
+ protected:
+  RunTest() {
+    options.worker_command = {MEASURE_RUN_HELPER, "worker"};
+    options.limit = std::chrono::seconds(30);
+  }
+
+  [[nodiscard]] record::Store open_store() const {
+    return {scratch.path() / "store.sqlite", record::Store::Mode::append};
+  }
+
+  // The configurations of one line of factors over the suite's defaults.
+  [[nodiscard]] Plan plan(const Overrides& overrides) {
+    return load_plan("fake/quick", overrides, find());
+  }
+  // Four configurations: step 0.5 and 1, two cameras; `technique` raycast, data cube.
+  [[nodiscard]] Plan small_plan() { return plan({{"technique", {"raycast"}}, {"data", {"cube"}}}); }
+
+  RunResult run(const Plan& what, std::vector<std::string> devices = {"null:scripted"}) {
+    record::Store store = open_store();
+    return run_plan(what, devices, suite, store, options,
+                    [this](const Progress& progress) { told.push_back(progress.configuration); });
+  }
+
+  // Records by configuration and device, of the latest run.
+  [[nodiscard]] std::vector<record::Record> records(const std::string& run) const {
+    return open_store().records(run);
+  }
+
+  [[nodiscard]] std::vector<pid_t> started_workers() const {
+    std::ifstream lines(starts());
+    std::vector<pid_t> pids;
+    for (pid_t pid = 0; lines >> pid;) pids.push_back(pid);
+    return pids;
+  }
+  [[nodiscard]] std::string starts() const { return (scratch.path() / "starts").string(); }
+
+  [[nodiscard]] FindSuite find() {
+    return [this](std::string_view) -> Suite& { return suite; };
+  }
+
+  ScratchFolder scratch;
+  Variable cache_home{"XDG_CACHE_HOME", (scratch.path() / "cache").string()};
+  Variable script{"TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6})"};
+  Variable starts_file{"TRIPTYCH_TEST_STARTS", starts()};
+  Variable lp_perf{"LP_PERF"};
+  FakeSuite suite;
+  RunOptions options;
+  std::vector<std::string> told;
+};
+
+}  // namespace triptych::measure

@@ -1,0 +1,164 @@
+// Whatever happens to a worker costs one configuration and leaves nothing behind.
+
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "tests/unit/measure_run/run_fixture.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using record::Outcome;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class RunFaults : public RunTest {
+ protected:
+  // Runs four configurations with a mishap in the second, and returns the record of that one. The
+  // others must have been measured.
+  record::Record outcome_of(const std::string& fault) {
+    const Plan what = small_plan();
+    options.plants = {{fault, configuration_key(suite, what.configurations.at(1))}};
+    const RunResult result = run(what);
+    EXPECT_EQ(result.measured, 3);
+    EXPECT_EQ(result.failed, 1);
+    const auto all = records(result.run);
+    EXPECT_EQ(all.size(), 4U);
+    for (const record::Record& record : all) {
+      if (!record.planted.empty()) return record;
+      EXPECT_EQ(record.outcome, Outcome::measured) << record.reason;
+    }
+    return {};
+  }
+
+  static std::size_t open_descriptors() {
+    const std::filesystem::directory_iterator all("/proc/self/fd");
+    return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+  }
+};
+
+TEST_F(RunFaults, ACrashCostsOneConfigurationAndNamesItsSignal) {
+  const record::Record record = outcome_of("crash");
+  EXPECT_EQ(record.outcome, Outcome::crashed);
+  EXPECT_THAT(record.reason, HasSubstr("SIGSEGV"));
+  EXPECT_EQ(record.planted, "crash");
+  EXPECT_EQ(started_workers().size(), 2U);
+}
+
+TEST_F(RunFaults, AHangCostsOneConfigurationAndItsLimit) {
+  options.limit = std::chrono::seconds(1);
+  const record::Record record = outcome_of("hang");
+  EXPECT_EQ(record.outcome, Outcome::hung);
+  EXPECT_THAT(record.reason, HasSubstr("no answer within 1 s"));
+  EXPECT_EQ(started_workers().size(), 2U);
+}
+
+TEST_F(RunFaults, ALostDeviceCostsOneConfigurationAndItsWorker) {
+  const record::Record record = outcome_of("device_lost");
+  EXPECT_EQ(record.outcome, Outcome::lost);
+  EXPECT_EQ(started_workers().size(), 2U);
+}
+
+TEST_F(RunFaults, AnApiErrorCostsOneConfigurationAndNoWorker) {
+  const Variable failing(
+      "TRIPTYCH_NULL_SCRIPT",
+      R"({"base_ns": 3e6, "failures": [{"kind": "api_error", "at": "frame", "frame": 6, "only": "*data=cube*step=0.5*"}]})");
+  const RunResult result = run(small_plan());
+  EXPECT_EQ(result.measured, 2);
+  EXPECT_EQ(result.failed, 2);
+  EXPECT_EQ(started_workers().size(), 1U);
+  for (const record::Record& record : records(result.run)) {
+    if (record.outcome == Outcome::measured) continue;
+    EXPECT_EQ(record.outcome, Outcome::failed);
+    EXPECT_THAT(record.reason, AllOf(HasSubstr("null_frame"), HasSubstr("NULL_ERROR")));
+    EXPECT_TRUE(record.wall_ns.empty());
+  }
+}
+
+TEST_F(RunFaults, AWorkerThatEndsByItselfIsACrashToo) {
+  const Variable leaving(
+      "TRIPTYCH_NULL_SCRIPT",
+      R"({"base_ns": 3e6, "failures": [{"kind": "exit", "at": "prepare", "only": "*data=cube*step=0.5*"}]})");
+  const RunResult result = run(small_plan());
+  EXPECT_EQ(result.measured, 2);
+  for (const record::Record& record : records(result.run)) {
+    if (record.outcome == Outcome::measured) continue;
+    EXPECT_EQ(record.outcome, Outcome::crashed);
+    EXPECT_THAT(record.reason, HasSubstr("exited with code 0"));
+  }
+}
+
+TEST_F(RunFaults, ADeviceThatCannotBeOpenedIsGivenUpAfterTwoStarts) {
+  const Variable closed("TRIPTYCH_NULL_SCRIPT",
+                        R"({"failures": [{"kind": "api_error", "at": "open"}]})");
+  const RunResult result = run(small_plan());
+  EXPECT_EQ(result.failed, 4);
+  EXPECT_EQ(started_workers().size(), 2U);
+  for (const record::Record& record : records(result.run)) {
+    EXPECT_EQ(record.outcome, Outcome::failed);
+    EXPECT_THAT(record.reason, AllOf(HasSubstr("cannot be opened"), HasSubstr("NULL_ERROR")));
+  }
+}
+
+TEST_F(RunFaults, AStartThatFailsOnceCostsNothing) {
+  const Variable once("TRIPTYCH_TEST_FAILING_STARTS", "1");
+  const RunResult result = run(small_plan());
+  EXPECT_EQ(result.measured, 4);
+  EXPECT_EQ(started_workers().size(), 2U);
+}
+
+TEST_F(RunFaults, ACommandThatDiesIsReportedWithItsSignalAndLastWords) {
+  options.worker_command = {"/bin/sh", "-c",
+                            "echo first; echo cannot map device >&2; kill -BUS $$"};
+  const RunResult result = run(small_plan());
+  EXPECT_EQ(result.failed, 4);
+  EXPECT_THAT(records(result.run).front().reason,
+              AllOf(HasSubstr("SIGBUS"), HasSubstr("it last said: first | cannot map device")));
+}
+
+TEST_F(RunFaults, ACommandThatIsNotThereFailsEverythingWithTheReason) {
+  options.worker_command = {"/nowhere/triptych"};
+  const RunResult result = run(small_plan());
+  EXPECT_EQ(result.failed, 4);
+  EXPECT_THAT(records(result.run).front().reason, HasSubstr("/nowhere/triptych"));
+}
+
+TEST_F(RunFaults, AWorkerThatHangsWhileStartingIsGivenUp) {
+  const Variable hanging("TRIPTYCH_NULL_SCRIPT",
+                         R"({"failures": [{"kind": "hang", "at": "open"}]})");
+  options.start_limit = std::chrono::seconds(1);
+  const RunResult result = run(small_plan());
+  EXPECT_EQ(result.failed, 4);
+  EXPECT_THAT(records(result.run).front().reason, HasSubstr("no answer within 1 s"));
+}
+
+TEST_F(RunFaults, AReplacedWorkerGoesOnWithTheClocksOfTheFirst) {
+  static_cast<void>(outcome_of("crash"));
+  const record::Store store = open_store();
+  const auto run_id = store.latest_run("fake/quick")->id;
+  ASSERT_EQ(store.devices(run_id).size(), 1U);
+  for (const record::Record& record : store.records(run_id)) {
+    if (record.outcome == Outcome::measured) {
+      EXPECT_EQ(record.clock(), "device");
+    }
+  }
+}
+
+TEST_F(RunFaults, NeitherDescriptorsNorZombiesStay) {
+  const std::size_t before = open_descriptors();
+  options.limit = std::chrono::seconds(1);
+  options.plants = {{"crash", "*camera=random:7*"}, {"hang", "*camera=orbit_y:1/8*step=0.5*"}};
+  const RunResult result = run(small_plan());
+  EXPECT_EQ(result.measured, 1);
+  EXPECT_EQ(result.failed, 3);
+  EXPECT_EQ(open_descriptors(), before);
+  EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+  for (const pid_t pid : started_workers()) EXPECT_EQ(::kill(pid, 0), -1) << pid;
+}
+
+}  // namespace
+}  // namespace triptych::measure

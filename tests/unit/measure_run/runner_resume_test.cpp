@@ -1,0 +1,118 @@
+// Runs that are stopped from outside, and what a later one finds.
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <set>
+#include <thread>
+
+#include "core/error.hpp"
+#include "measure/process.hpp"
+#include "tests/unit/measure_run/run_fixture.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+class RunResume : public RunTest {
+ protected:
+  // Frames of 4 ms that last: a configuration takes about 0.15 s.
+  Variable slow{"TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 4e6, "sleep": true})"};
+
+  // A supervisor of its own, in a process that can be killed.
+  [[nodiscard]] Process supervise() const {
+    std::vector<std::string> environment;
+    for (char** entry = environ; *entry != nullptr; ++entry) environment.emplace_back(*entry);
+    return Process({MEASURE_RUN_HELPER, "supervise", (scratch.path() / "store.sqlite").string()},
+                   environment);
+  }
+
+  // Waits until the supervisor has stored so many records.
+  void wait_for_records(std::size_t count) const {
+    for (int i = 0; i < 2000; ++i) {
+      const record::Store store = open_store();
+      const auto latest = store.latest_run("fake/quick");
+      if (latest && store.records(latest->id).size() >= count) return;
+      std::this_thread::sleep_for(milliseconds(10));
+    }
+    FAIL() << "the supervisor stores nothing";
+  }
+
+  void expect_workers_gone() const {
+    for (const pid_t pid : started_workers()) {
+      for (int i = 0; i < 300 && ::kill(pid, 0) == 0; ++i) {
+        std::this_thread::sleep_for(milliseconds(10));
+      }
+      EXPECT_EQ(::kill(pid, 0), -1) << pid;
+    }
+  }
+};
+
+TEST_F(RunResume, AKilledSupervisorLosesAtMostTheConfigurationInFlight) {
+  const Plan whole = load_plan("fake/quick", {}, find());
+  std::size_t kept = 0;
+  {
+    Process supervisor = supervise();
+    wait_for_records(3);
+    ::kill(supervisor.pid(), SIGKILL);
+    ASSERT_TRUE(supervisor.wait(seconds(5)));
+    kept = open_store().records(open_store().latest_run("fake/quick")->id).size();
+  }
+  ASSERT_GE(kept, 3U);
+  ASSERT_LT(kept, whole.configurations.size());
+  expect_workers_gone();
+
+  options.resume = true;
+  const RunResult result = run(whole);
+  EXPECT_EQ(static_cast<std::size_t>(result.measured), whole.configurations.size() - kept);
+  EXPECT_EQ(told.size(), whole.configurations.size() - kept);
+  const record::Store store = open_store();
+  EXPECT_EQ(store.runs().size(), 1U);
+  EXPECT_EQ(store.records(result.run).size(), whole.configurations.size());
+}
+
+TEST_F(RunResume, ATerminatedSupervisorTakesItsWorkerAlongAndLeavesAStoreToGoOnWith) {
+  Process supervisor = supervise();
+  wait_for_records(2);
+  ::kill(supervisor.pid(), SIGTERM);
+  const auto exit = supervisor.wait(seconds(5));
+  ASSERT_TRUE(exit);
+  EXPECT_EQ(exit->code, 100 + SIGTERM);  // Interrupted was thrown and caught
+  expect_workers_gone();
+  for (const record::Record& record : records(open_store().latest_run("fake/quick")->id)) {
+    EXPECT_EQ(record.outcome, record::Outcome::measured);
+  }
+}
+
+class RunAgain : public RunTest {};
+
+TEST_F(RunAgain, AFinishedRunResumesToNothingAndWithoutResumeBeginsAnew) {
+  const RunResult first = run(small_plan());
+  options.resume = true;
+  const RunResult again = run(small_plan());
+  EXPECT_EQ(again.run, first.run);
+  EXPECT_EQ(again.measured + again.skipped + again.failed, 0);
+  EXPECT_EQ(started_workers().size(), 1U);
+  options.resume = false;
+  EXPECT_NE(run(small_plan()).run, first.run);
+}
+
+TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
+  static_cast<void>(run(plan({{"technique", {"raycast"}}, {"data", {"cube"}}, {"step", {"1"}}})));
+  options.resume = true;
+  {
+    // Would no longer be trusted if it were calibrated again.
+    const Variable lying("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "device_over_wall": 0.5})");
+    const RunResult more = run(small_plan());
+    EXPECT_EQ(more.measured, 2);
+    EXPECT_TRUE(open_store().devices(more.run).at(0).clocks.at(0).trusted);
+  }
+  const Variable updated("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "driver_version": "2"})");
+  EXPECT_THROW(run(plan({{"technique", {"raycast"}}, {"data", {"ball"}}})), core::InputError);
+}
+
+}  // namespace
+}  // namespace triptych::measure

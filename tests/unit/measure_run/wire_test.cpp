@@ -1,0 +1,113 @@
+#include "measure/wire.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstring>
+
+#include "core/error.hpp"
+#include "measure/process.hpp"
+
+namespace triptych::measure {
+namespace {
+
+struct TestPipe {
+  TestPipe() {
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) throw core::IoError("pipe");
+    read = FileDescriptor(ends[0]);
+    write = FileDescriptor(ends[1]);
+  }
+  FileDescriptor read;
+  FileDescriptor write;
+};
+
+Answer sample_answer() {
+  Answer answer;
+  answer.record.outcome = record::Outcome::measured;
+  answer.record.wall_ns = {1.0 / 3, 2e9};
+  answer.record.factors = {{"data", "cube"}};
+  answer.record.counters = {{"samples", 0xFFFFFFFFFFFFULL}};
+  answer.record.benchmark_json = R"([{"name":"x"}])";
+  answer.worker_ns = 12.5;
+  answer.exr.assign(1000, std::byte{0x76});
+  return answer;
+}
+
+TEST(Wire, AnAnswerArrivesAsItWasSent) {
+  TestPipe pipe;
+  send(pipe.write.get(), to_message(sample_answer()));
+  auto message = receive(pipe.read.get());
+  ASSERT_TRUE(message);
+  EXPECT_FALSE(as_hello(*message));
+  const auto answer = as_answer(std::move(*message));
+  ASSERT_TRUE(answer);
+  const Answer expected = sample_answer();
+  EXPECT_EQ(answer->record.wall_ns, expected.record.wall_ns);
+  EXPECT_EQ(answer->record.counters, expected.record.counters);
+  EXPECT_EQ(answer->record.benchmark_json, expected.record.benchmark_json);
+  EXPECT_EQ(answer->worker_ns, 12.5);
+  EXPECT_EQ(answer->exr, expected.exr);
+}
+
+TEST(Wire, AJobCarriesProtocolAndPlants) {
+  const Job job{.name = "n",
+                .configuration = {{"step", "0.5"}},
+                .protocol = {.warm_up_frames = 2, .timed_frames = 3, .counters = false},
+                .plants = {"slowdown:20"}};
+  const auto back = as_job(to_message(job));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->configuration, job.configuration);
+  EXPECT_EQ(back->protocol.timed_frames, 3);
+  EXPECT_FALSE(back->protocol.counters);
+  EXPECT_EQ(back->plants, job.plants);
+}
+
+TEST(Wire, TheEndOfAPipeIsNoMessageAndHalfAMessageAnError) {
+  TestPipe pipe;
+  ASSERT_EQ(::write(pipe.write.get(), "tripty", 6), 6);
+  pipe.write.reset();
+  EXPECT_THROW(static_cast<void>(receive(pipe.read.get())), core::IoError);
+  TestPipe empty;
+  empty.write.reset();
+  EXPECT_EQ(receive(empty.read.get()), std::nullopt);
+}
+
+TEST(Wire, ABufferPutsPiecesTogetherAndKeepsTheNextMessage) {
+  TestPipe pipe;
+  send(pipe.write.get(), to_message(Refused{"first"}));
+  send(pipe.write.get(), to_message(Refused{"second"}));
+  pipe.write.reset();
+  MessageBuffer buffer;
+  std::vector<std::string> reasons;
+  for (std::byte byte{}; ::read(pipe.read.get(), &byte, 1) == 1;) {
+    buffer.append({&byte, 1});
+    if (const auto message = buffer.next()) reasons.push_back(as_refused(*message)->reason);
+  }
+  EXPECT_THAT(reasons, testing::ElementsAre("first", "second"));
+  EXPECT_TRUE(buffer.empty());
+}
+
+TEST(Wire, WhatADriverPrintsIntoAPipeIsRefused) {
+  MessageBuffer buffer;
+  const std::string noise = "WARNING: lavapipe is not a conformant implementation";
+  buffer.append(std::as_bytes(std::span(noise)));
+  EXPECT_THROW(static_cast<void>(buffer.next()), core::InputError);
+}
+
+TEST(Wire, AnIncompleteMessageIsATypedError) {
+  EXPECT_THROW(static_cast<void>(as_job({{{"type", "job"}}, {}})), core::InputError);
+  EXPECT_THROW(static_cast<void>(as_hello({{{"type", "hello"}}, {}})), core::InputError);
+}
+
+TEST(Wire, BrokenUtf8FromADriverDoesNotStopAnAnswer) {
+  TestPipe pipe;
+  send(pipe.write.get(), to_message(Refused{"caf\xe9"}));
+  const auto message = receive(pipe.read.get());
+  ASSERT_TRUE(message);
+  EXPECT_THAT(as_refused(*message)->reason, testing::StartsWith("caf"));
+}
+
+}  // namespace
+}  // namespace triptych::measure
