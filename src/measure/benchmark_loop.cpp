@@ -112,15 +112,17 @@ double maximum(const std::vector<double>& values) {
 
 void initialize_benchmarks() {
   // What the command line says wins over the environment.
-  std::array<std::string, 9> words{"triptych",
-                                   "--benchmark_filter=all",
-                                   "--benchmark_list_tests=false",
-                                   "--benchmark_out=",
-                                   "--benchmark_report_aggregates_only=false",
-                                   "--benchmark_display_aggregates_only=false",
-                                   "--benchmark_enable_random_interleaving=false",
-                                   "--benchmark_min_warmup_time=0",
-                                   "--benchmark_perf_counters="};
+  std::array<std::string, 11> words{"triptych",
+                                    "--benchmark_filter=all",
+                                    "--benchmark_list_tests=false",
+                                    "--benchmark_repetitions=1",
+                                    "--benchmark_time_unit=ns",
+                                    "--benchmark_out=",
+                                    "--benchmark_report_aggregates_only=false",
+                                    "--benchmark_display_aggregates_only=false",
+                                    "--benchmark_enable_random_interleaving=false",
+                                    "--benchmark_min_warmup_time=0",
+                                    "--benchmark_perf_counters="};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   int count = static_cast<int>(arguments.size());
