@@ -1,9 +1,10 @@
 # The one target that every target of ours links: warnings and sanitizers.
-# (Members left out of a designated initializer have their documented default, hence no warning for them.)
+# (GCC 12 sees overlapping copies in std::string that are not there, bug 105651: no -Wrestrict.
+# Members left out of a designated initializer have their documented default, hence no warning for them.)
 add_library(triptych_options INTERFACE)
 target_compile_options(triptych_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
-  -Wno-missing-field-initializers -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough
+  -Wno-restrict -Wno-missing-field-initializers -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough
   $<$<BOOL:${TRIPTYCH_WARNINGS_AS_ERRORS}>:-Werror>)
 # Contraction of a*b+c is left to the code that asks for it: the same bits on every x86-64 machine.
 target_compile_options(triptych_options INTERFACE -ffp-contract=off)
