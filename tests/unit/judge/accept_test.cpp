@@ -110,6 +110,20 @@ TEST_F(AcceptTest, OtherDevicesKeepWhatTheyHad) {
   EXPECT_EQ(samples["gl:llvmpipe-egl"], 1000000);
 }
 
+TEST_F(AcceptTest, ACounterThatIsNoLongerToldIsDropped) {
+  add_run("a");
+  (void)accept_run("a");
+  add_run("b", [](record::Record& record, core::Image&) {
+    if (record.device == "opencl:pocl") record.counters.erase("rays");
+    record.counters.erase("samples");
+  });
+  (void)accept_run("b");
+  const core::Json counters = read(baseline("counters.json"))[plain_];
+  EXPECT_FALSE(counters.contains("samples"));
+  EXPECT_FALSE(counters["rays"].contains("opencl:pocl"));
+  EXPECT_TRUE(counters["rays"].contains("vulkan:lavapipe"));
+}
+
 TEST_F(AcceptTest, KeepsTheLastTwentyTimings) {
   for (int i = 0; i < 22; ++i) {
     add_run(std::to_string(i));

@@ -358,6 +358,13 @@ TEST_F(GateTest, CorruptBaselineIsAnErrorWithItsLine) {
   }
 }
 
+TEST_F(GateTest, ARenamedFileDoesNotSpeakForAnotherDevice) {
+  add_run("a");
+  (void)accept_run("a");
+  std::filesystem::rename(device_file("bits", "gl"), device_file("bits", "vulkan"));
+  EXPECT_THROW((void)gate("a"), core::InputError);
+}
+
 TEST_F(GateTest, MissingRowsAreNamed) {
   add_run("a");
   (void)accept_run("a");
