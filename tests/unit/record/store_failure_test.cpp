@@ -253,6 +253,37 @@ TEST_F(StoreTest, SeveralProcessesCreateOneStore) {
   for (const record::Run& each : store.runs()) EXPECT_THAT(store.records(each.id), SizeIs(10));
 }
 
+TEST_F(StoreTest, CreatedByAnotherBetweenLookAndLock) {
+  const std::filesystem::path model = folder_ / "model.sqlite";
+  make_store(model);
+  // Forked first: a connection must not cross a fork. One byte lets the child begin.
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    char begin = 0;
+    std::_Exit(read(ends[0], &begin, 1) == 1 && append_ten(file_, "late") ? 0 : 1);
+  }
+  // RESERVED: others still read a blank file, but must wait to write.
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  other.exec("BEGIN IMMEDIATE");
+  ASSERT_EQ(write(ends[1], "x", 1), 1);
+  std::this_thread::sleep_for(milliseconds(300));
+  SQLite::Database from(model.string());
+  SQLite::Statement tables(from, "SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL");
+  while (tables.executeStep()) other.exec(tables.getColumn(0).getString());
+  for (const char* const pragma : {"application_id", "user_version"}) {
+    const std::string name = std::string("PRAGMA ") + pragma;
+    other.exec(name + " = " + from.execAndGet(name).getString());
+  }
+  other.exec("COMMIT");
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  for (const int end : ends) close(end);
+  EXPECT_THAT(Store(file_, Mode::read).records("late"), SizeIs(10));
+}
+
 // --- kills and full disks
 // ------------------------------------------------------------------------------------
 
