@@ -1,0 +1,11 @@
+#pragma once
+#include <memory>
+
+#include "measure/backend.hpp"
+
+namespace triptych::opencl_backend {
+
+// OpenCL 1.2 and later, every platform and device that the ICD loader lists.
+[[nodiscard]] std::unique_ptr<measure::Backend> make_backend();
+
+}  // namespace triptych::opencl_backend

@@ -1,0 +1,160 @@
+#include "backends/opencl/device.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "backends/opencl/filter_probe.hpp"
+#include "backends/opencl/programs.hpp"
+#include "backends/opencl/techniques.hpp"
+#include "backends/opencl/volume_data.hpp"
+#include "core/error.hpp"
+
+namespace triptych::opencl_backend {
+namespace {
+
+using technique::Sampler;
+
+Session open_session(const Found& found) {
+  return checked([&] {
+    const cl::Context context(found.device);
+    // PoCL's compiler vectorises the loops inside a work item; others the work items themselves.
+    const bool vectorises_loops = found.info.driver == "pocl" && !found.info.cpu_features.empty();
+    return Session{.device = found.device,
+                   .context = context,
+                   .queue = cl::CommandQueue(context, found.device, CL_QUEUE_PROFILING_ENABLE),
+                   .batch = vectorises_loops ? 32 : 1};
+  });
+}
+
+class Device final : public measure::Device {
+ public:
+  explicit Device(Found found)
+      : info_(std::move(found.info)),
+        session_(open_session({found.device, info_})),
+        is_gpu_((checked([&] { return found.device.getInfo<CL_DEVICE_TYPE>(); }) &
+                 CL_DEVICE_TYPE_GPU) != 0) {}
+
+  [[nodiscard]] const record::Device& info() const override { return info_; }
+  [[nodiscard]] std::optional<std::string> unsupported(const measure::Work& work) const override;
+  [[nodiscard]] measure::VolumePath default_path(scene::VoxelFormat native) const override;
+  [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override;
+  [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
+
+ private:
+  [[nodiscard]] std::optional<std::string> image_defect(const scene::VoxelGrid& grid) const;
+  [[nodiscard]] std::optional<std::string> size_defect(const measure::VolumeWork& work) const;
+
+  record::Device info_;
+  Session session_;
+  bool is_gpu_;
+  mutable Programs programs_{session_};
+  mutable std::map<scene::VoxelFormat, double> filter_errors_;
+  VolumeCache volumes_;
+};
+
+// Why the sampler's hardware cannot hold the grid.
+std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) const {
+  return checked([&]() -> std::optional<std::string> {
+    const cl::Device& device = session_.device;
+    if (device.getInfo<CL_DEVICE_IMAGE_SUPPORT>() == CL_FALSE) {
+      return "sampler hardware: CL_DEVICE_IMAGE_SUPPORT is false";
+    }
+    if (!image_format(session_, grid.format)) {
+      return fmt::format("sampler hardware: no 3D image format for voxel {}",
+                         scene::name_of(grid.format));
+    }
+    const std::array<std::size_t, 3> limits{device.getInfo<CL_DEVICE_IMAGE3D_MAX_WIDTH>(),
+                                            device.getInfo<CL_DEVICE_IMAGE3D_MAX_HEIGHT>(),
+                                            device.getInfo<CL_DEVICE_IMAGE3D_MAX_DEPTH>()};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (static_cast<std::size_t>(grid.size.at(axis)) > limits.at(axis)) {
+        return fmt::format("the volume is {}x{}x{} voxels, 3D images have at most {}x{}x{}",
+                           grid.size[0], grid.size[1], grid.size[2], limits[0], limits[1],
+                           limits[2]);
+      }
+    }
+    return std::nullopt;
+  });
+}
+
+// Why one of the buffers does not fit.
+std::optional<std::string> Device::size_defect(const measure::VolumeWork& work) const {
+  const auto most =
+      checked([&] { return session_.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(); });
+  const auto total = checked([&] { return session_.device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(); });
+  const scene::VoxelGrid& grid = *work.scene.grid;
+  const std::uint64_t voxels = bordered_voxels(grid.size);
+  constexpr std::uint64_t most_voxels = std::numeric_limits<std::int32_t>::max();
+  if (work.options.sampler == Sampler::manual && voxels > most_voxels) {
+    return fmt::format("the volume has {} voxels with its border, the kernel's index reaches {}",
+                       voxels, most_voxels);
+  }
+  const std::uint64_t volume = voxels * scene::bytes_of(grid.format);
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(work.scene.width) * static_cast<std::uint64_t>(work.scene.height);
+  const std::uint64_t counters = pixels * technique::raycast_counter_stride * sizeof(std::uint32_t);
+  if (pixels * technique::raycast_counter_stride > most_voxels) {
+    return fmt::format("{} pixels, the kernel's index reaches {}", pixels,
+                       most_voxels / technique::raycast_counter_stride);
+  }
+  if (std::max(volume, counters) > most) {
+    return fmt::format(
+        "the volume takes {} bytes and the counters {}, "
+        "CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}",
+        volume, counters, most);
+  }
+  const std::uint64_t all = volume + counters + pixels * 4 * sizeof(float);
+  if (all > total) {
+    return fmt::format("{} bytes are needed, CL_DEVICE_GLOBAL_MEM_SIZE is {}", all, total);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> Device::unsupported(const measure::Work& work) const {
+  if (work.technique != "raycast" && work.technique != "speed_of_light") {
+    return fmt::format("OpenCL has no technique '{}'", work.technique);
+  }
+  const auto& volume = std::get<measure::VolumeWork>(work.scene);
+  if (volume.options.sampler == Sampler::hardware) {
+    if (auto defect = image_defect(*volume.scene.grid)) return defect;
+  }
+  return size_defect(volume);
+}
+
+// By hand from a buffer wherever the sampler is not as exact: on CPUs that is also several times
+// faster, in the volume's own format because the kernel is bound by instructions, not by bytes.
+measure::VolumePath Device::default_path(scene::VoxelFormat native) const {
+  const measure::VolumePath hardware{native, Sampler::hardware};
+  constexpr double exact = 1e-5;
+  if (is_gpu_ && image_format(session_, native) && filter_weight_error(hardware) < exact) {
+    return hardware;
+  }
+  return {native, Sampler::manual};
+}
+
+double Device::filter_weight_error(const measure::VolumePath& path) const {
+  if (path.sampler == Sampler::manual) return 0;
+  const auto known = filter_errors_.find(path.voxel);
+  if (known != filter_errors_.end()) return known->second;
+  return filter_errors_.emplace(path.voxel, probe_filter(session_, programs_, path.voxel))
+      .first->second;
+}
+
+std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
+  if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
+  const auto& volume = std::get<measure::VolumeWork>(work.scene);
+  const auto prepare = work.technique == "raycast" ? prepare_raycast : prepare_speed_of_light;
+  return prepare(session_, programs_, volumes_, volume);
+}
+
+}  // namespace
+
+std::unique_ptr<measure::Device> open_device(Found found) {
+  return std::make_unique<Device>(std::move(found));
+}
+
+}  // namespace triptych::opencl_backend

@@ -1,0 +1,12 @@
+#pragma once
+#include <memory>
+
+#include "backends/opencl/devices.hpp"
+#include "measure/backend.hpp"
+
+namespace triptych::opencl_backend {
+
+// Makes a context and a queue. Throws core::ApiError.
+[[nodiscard]] std::unique_ptr<measure::Device> open_device(Found found);
+
+}  // namespace triptych::opencl_backend

@@ -1,0 +1,179 @@
+#include "backends/opencl/devices.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cctype>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "core/error.hpp"
+#include "measure/cpu_features.hpp"
+
+namespace triptych::opencl_backend {
+namespace {
+
+// Variables with which these drivers choose devices, threads and generated code.
+constexpr std::array<std::string_view, 22> variables{"GALLIUM_DRIVER",
+                                                     "GALLIUM_OVERRIDE_CPU_CAPS",
+                                                     "GALLIVM_PERF",
+                                                     "LP_NATIVE_VECTOR_WIDTH",
+                                                     "LP_NUM_THREADS",
+                                                     "POCL_AFFINITY",
+                                                     "POCL_BITCODE_FINALIZER",
+                                                     "POCL_CPU_LOCAL_MEM_SIZE",
+                                                     "POCL_CPU_MAX_CU_COUNT",
+                                                     "POCL_DEVICES",
+                                                     "POCL_EXTRA_BUILD_FLAGS",
+                                                     "POCL_KERNEL_CACHE",
+                                                     "POCL_MAX_PTHREAD_COUNT",
+                                                     "POCL_MAX_WORK_GROUP_SIZE",
+                                                     "POCL_PTHREAD_MAX_WGS",
+                                                     "POCL_PTHREAD_MIN_WGS",
+                                                     "POCL_VECTORIZER_REMARKS",
+                                                     "POCL_WORK_GROUP_METHOD",
+                                                     "POCL_WORK_GROUP_SPECIALIZATION",
+                                                     "RUSTICL_ENABLE",
+                                                     "RUSTICL_FEATURES",
+                                                     "CUDA_VISIBLE_DEVICES"};
+
+// Strings of the API may end in a NUL or blanks, and some hold line breaks.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = ' ';
+  }
+  const auto end = text.find_last_not_of(' ');
+  text.resize(end == std::string::npos ? 0 : end + 1);
+  return text;
+}
+
+template <cl_device_info Name>
+std::string number(const cl::Device& device) {
+  return fmt::format("{}", checked([&] { return device.getInfo<Name>(); }));
+}
+
+std::map<std::string, std::string> limits_of(const cl::Device& device) {
+#define TRI_LIMIT(name) \
+  { #name, number < name>(device) }
+  return {TRI_LIMIT(CL_DEVICE_GLOBAL_MEM_SIZE),    TRI_LIMIT(CL_DEVICE_IMAGE3D_MAX_DEPTH),
+          TRI_LIMIT(CL_DEVICE_IMAGE3D_MAX_HEIGHT), TRI_LIMIT(CL_DEVICE_IMAGE3D_MAX_WIDTH),
+          TRI_LIMIT(CL_DEVICE_IMAGE_SUPPORT),      TRI_LIMIT(CL_DEVICE_MAX_COMPUTE_UNITS),
+          TRI_LIMIT(CL_DEVICE_MAX_MEM_ALLOC_SIZE), TRI_LIMIT(CL_DEVICE_MAX_WORK_GROUP_SIZE)};
+#undef TRI_LIMIT
+}
+
+record::Device describe(const cl::Device& device, const std::string& driver) {
+  return checked([&] {
+    const bool cpu = (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
+    return record::Device{.id = "opencl:" + driver,
+                          .api = "opencl",
+                          .name = one_line(device.getInfo<CL_DEVICE_NAME>()),
+                          .vendor = one_line(device.getInfo<CL_DEVICE_VENDOR>()),
+                          .driver = driver,
+                          .driver_version = one_line(device.getInfo<CL_DRIVER_VERSION>()),
+                          .api_version = one_line(device.getInfo<CL_DEVICE_VERSION>()),
+                          .cpu_features = cpu ? measure::cpu_features() : std::string(),
+                          .environment = measure::set_variables(variables),
+                          .limits = limits_of(device)};
+  });
+}
+
+// Why the device cannot be used; empty when it can.
+std::string defect_of(const cl::Device& device) {
+  return checked([&]() -> std::string {
+    if (device.getInfo<CL_DEVICE_AVAILABLE>() == CL_FALSE) return "CL_DEVICE_AVAILABLE is false";
+    if (device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>() == CL_FALSE) {
+      return "CL_DEVICE_COMPILER_AVAILABLE is false";
+    }
+    const std::string version = device.getInfo<CL_DEVICE_VERSION>();
+    if (version.starts_with("OpenCL 1.0") || version.starts_with("OpenCL 1.1")) {
+      return fmt::format("{}: 1.2 is needed", one_line(version));
+    }
+    return {};
+  });
+}
+
+void add_device(Search& search, const cl::Device& device, const std::string& driver,
+                std::map<std::string, int>& seen) {
+  // Numbered before anything can fail, so that an id does not depend on another device's health.
+  const int ordinal = seen[driver]++;
+  const std::string id =
+      ordinal == 0 ? "opencl:" + driver : fmt::format("opencl:{}#{}", driver, ordinal);
+  try {
+    if (const std::string defect = defect_of(device); !defect.empty()) {
+      search.broken.push_back({"OpenCL device " + id, defect});
+      return;
+    }
+    Found found{.device = device, .info = describe(device, driver)};
+    found.info.id = id;
+    search.found.push_back(std::move(found));
+  } catch (const core::ApiError& error) {
+    search.broken.push_back({"OpenCL device " + id, error.what()});
+  }
+}
+
+void add_platform(Search& search, const cl::Platform& platform, std::map<std::string, int>& seen) {
+  std::string name = "without a name";
+  try {
+    name = one_line(checked([&] { return platform.getInfo<CL_PLATFORM_NAME>(); }));
+    std::vector<cl::Device> devices;
+    const cl_int code = platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+    if (code != CL_SUCCESS || devices.empty()) {
+      search.broken.push_back({"OpenCL platform " + name, "it lists no device"});
+      return;
+    }
+    const std::string driver = driver_of(name);
+    for (const cl::Device& device : devices) add_device(search, device, driver, seen);
+  } catch (const cl::Error& error) {
+    // Switched off or without hardware, a platform answers with this code instead of none.
+    search.broken.push_back(
+        {"OpenCL platform " + name,
+         error.err() == CL_DEVICE_NOT_FOUND
+             ? "it lists no device"
+             : fmt::format("{} returned {}", error.what(), code_name(error.err()))});
+  } catch (const core::ApiError& error) {
+    search.broken.push_back({"OpenCL platform " + name, error.what()});
+  }
+}
+
+}  // namespace
+
+std::string driver_of(std::string_view platform_name) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> known{{
+      {"Portable Computing Language", "pocl"},
+      {"rusticl", "rusticl"},
+      {"Clover", "clover"},
+      {"NVIDIA", "nvidia"},
+      {"AMD", "amd"},
+      {"Intel", "intel"},
+      {"Apple", "apple"},
+  }};
+  for (const auto& [start, driver] : known) {
+    if (platform_name.starts_with(start)) return std::string(driver);
+  }
+  std::string driver;
+  for (const char c : platform_name) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (std::isalnum(letter) != 0) driver += static_cast<char>(std::tolower(letter));
+  }
+  return driver.empty() ? "unknown" : driver;
+}
+
+Search find_devices() {
+  Search search;
+  std::vector<cl::Platform> platforms;
+  try {
+    cl::Platform::get(&platforms);
+  } catch (const cl::Error& error) {
+    search.broken.push_back(
+        {"OpenCL loader", fmt::format("{} returned {}", error.what(), code_name(error.err()))});
+    return search;
+  }
+  if (platforms.empty()) search.broken.push_back({"OpenCL loader", "it lists no platform"});
+  std::map<std::string, int> seen;
+  for (const cl::Platform& platform : platforms) add_platform(search, platform, seen);
+  return search;
+}
+
+}  // namespace triptych::opencl_backend

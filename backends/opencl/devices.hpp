@@ -1,0 +1,28 @@
+#pragma once
+// What the ICD loader lists.
+
+#include <vector>
+
+#include "backends/opencl/objects.hpp"
+#include "measure/backend.hpp"
+
+namespace triptych::opencl_backend {
+
+struct Found {
+  cl::Device device;
+  record::Device info;
+};
+
+struct Search {
+  std::vector<Found> found;
+  std::vector<measure::Broken> broken;
+};
+
+// Never throws because of a driver: a platform or device that fails is named in `broken`.
+[[nodiscard]] Search find_devices();
+
+// "pocl" for "Portable Computing Language"; for a platform not known here, its name in small
+// letters and digits.
+[[nodiscard]] std::string driver_of(std::string_view platform_name);
+
+}  // namespace triptych::opencl_backend

@@ -1,0 +1,117 @@
+#include "backends/opencl/filter_probe.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "backends/opencl/volume_data.hpp"
+#include "core/random.hpp"
+
+namespace triptych::opencl_backend {
+namespace {
+
+constexpr int edge = 8;  // voxels
+constexpr std::size_t place_count = 8192;
+constexpr std::size_t voxel_count = std::size_t{edge} * edge * edge;
+using Bits = std::array<bool, voxel_count>;
+using Place = std::array<float, 4>;  // in voxels; value
+
+Bits random_bits() {
+  core::Random random(1);
+  Bits bits{};
+  for (bool& bit : bits) bit = random.uniform() < 0.5;
+  return bits;
+}
+
+std::vector<Place> random_places() {
+  core::Random random(2);
+  std::vector<Place> places(place_count);
+  for (Place& each : places) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      each.at(axis) = static_cast<float>(random.uniform(0, edge));
+    }
+  }
+  return places;
+}
+
+// 0 and 1 of the format's range.
+scene::VoxelGrid as_grid(const Bits& bits, scene::VoxelFormat format) {
+  scene::VoxelGrid grid{.format = format, .size = {edge, edge, edge}};
+  grid.data.resize(voxel_count * scene::bytes_of(format));
+  const auto fill = [&](auto one) {
+    for (std::size_t i = 0; i < voxel_count; ++i) {
+      if (bits[i]) std::memcpy(&grid.data[i * sizeof one], &one, sizeof one);
+    }
+  };
+  switch (format) {
+    case scene::VoxelFormat::u8:
+      fill(std::uint8_t{255});
+      break;
+    case scene::VoxelFormat::u16:
+      fill(std::uint16_t{65535});
+      break;
+    case scene::VoxelFormat::f32:
+      fill(1.0F);
+      break;
+  }
+  return grid;
+}
+
+double trilinear(const Bits& bits, const Place& place) {
+  double value = 0;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    double weight = 1;
+    std::size_t index = 0;
+    for (std::size_t axis = 3; axis-- > 0;) {
+      const double q = static_cast<double>(place.at(axis)) - 0.5;
+      const double below = std::floor(q);
+      const bool upper = (corner >> axis & 1U) != 0;
+      weight *= upper ? q - below : 1 - (q - below);
+      const int voxel = std::clamp(static_cast<int>(below) + (upper ? 1 : 0), 0, edge - 1);
+      index = index * edge + static_cast<std::size_t>(voxel);
+    }
+    if (bits.at(index)) value += weight;
+  }
+  return value;
+}
+
+void sample_on_device(const Session& session, Programs& programs, const scene::VoxelGrid& grid,
+                      std::vector<Place>& places) {
+  constexpr auto sampler = technique::Sampler::hardware;
+  const cl::Program program =
+      programs.get({"volume.cl", "filter_probe.cl"}, {.sampler = sampler, .voxel = grid.format});
+  technique::RaycastParameters parameters{};
+  parameters.volume_size = {edge, edge, edge, 0};
+  parameters.value_map = {1, 0, 0, 0};
+  const cl::Memory volume = upload(session, grid, sampler);
+  checked([&] {
+    const std::size_t bytes = places.size() * sizeof(Place);
+    const cl::Buffer uniform(session.context, CL_MEM_READ_ONLY, sizeof parameters);
+    const cl::Buffer buffer(session.context, CL_MEM_READ_WRITE, bytes);
+    session.queue.enqueueWriteBuffer(uniform, CL_TRUE, 0, sizeof parameters, &parameters);
+    session.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, places.data());
+    cl::Kernel kernel(program, "filter_probe");
+    kernel.setArg(0, uniform);
+    kernel.setArg(1, volume);
+    kernel.setArg(2, buffer);
+    session.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(places.size()));
+    session.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, places.data());
+  });
+}
+
+}  // namespace
+
+double probe_filter(const Session& session, Programs& programs, scene::VoxelFormat format) {
+  const Bits bits = random_bits();
+  std::vector<Place> places = random_places();
+  sample_on_device(session, programs, as_grid(bits, format), places);
+  double worst = 0;
+  for (const Place& each : places) {
+    worst = std::max(worst, std::abs(static_cast<double>(each[3]) - trilinear(bits, each)));
+  }
+  return worst;
+}
+
+}  // namespace triptych::opencl_backend

@@ -1,0 +1,13 @@
+#pragma once
+#include "backends/opencl/objects.hpp"
+#include "backends/opencl/programs.hpp"
+#include "scene/volume.hpp"
+
+namespace triptych::opencl_backend {
+
+// Largest error of the device's trilinear sampler over seeded random places in a small volume of
+// zeros and ones. Throws core::NotSupported where it has no image format for these voxels.
+[[nodiscard]] double probe_filter(const Session& session, Programs& programs,
+                                  scene::VoxelFormat format);
+
+}  // namespace triptych::opencl_backend

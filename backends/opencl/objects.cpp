@@ -1,0 +1,102 @@
+#include "backends/opencl/objects.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "core/error.hpp"
+
+namespace triptych::opencl_backend {
+namespace {
+
+struct Code {
+  cl_int value;
+  std::string_view name;
+};
+
+#define TRI_CODE(name) \
+  Code {               \
+    name, #name        \
+  }
+constexpr std::array codes{
+    TRI_CODE(CL_DEVICE_NOT_FOUND),
+    TRI_CODE(CL_DEVICE_NOT_AVAILABLE),
+    TRI_CODE(CL_COMPILER_NOT_AVAILABLE),
+    TRI_CODE(CL_MEM_OBJECT_ALLOCATION_FAILURE),
+    TRI_CODE(CL_OUT_OF_RESOURCES),
+    TRI_CODE(CL_OUT_OF_HOST_MEMORY),
+    TRI_CODE(CL_PROFILING_INFO_NOT_AVAILABLE),
+    TRI_CODE(CL_MEM_COPY_OVERLAP),
+    TRI_CODE(CL_IMAGE_FORMAT_MISMATCH),
+    TRI_CODE(CL_IMAGE_FORMAT_NOT_SUPPORTED),
+    TRI_CODE(CL_BUILD_PROGRAM_FAILURE),
+    TRI_CODE(CL_MAP_FAILURE),
+    TRI_CODE(CL_MISALIGNED_SUB_BUFFER_OFFSET),
+    TRI_CODE(CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST),
+    TRI_CODE(CL_COMPILE_PROGRAM_FAILURE),
+    TRI_CODE(CL_LINKER_NOT_AVAILABLE),
+    TRI_CODE(CL_LINK_PROGRAM_FAILURE),
+    TRI_CODE(CL_DEVICE_PARTITION_FAILED),
+    TRI_CODE(CL_KERNEL_ARG_INFO_NOT_AVAILABLE),
+    TRI_CODE(CL_INVALID_VALUE),
+    TRI_CODE(CL_INVALID_DEVICE_TYPE),
+    TRI_CODE(CL_INVALID_PLATFORM),
+    TRI_CODE(CL_INVALID_DEVICE),
+    TRI_CODE(CL_INVALID_CONTEXT),
+    TRI_CODE(CL_INVALID_QUEUE_PROPERTIES),
+    TRI_CODE(CL_INVALID_COMMAND_QUEUE),
+    TRI_CODE(CL_INVALID_HOST_PTR),
+    TRI_CODE(CL_INVALID_MEM_OBJECT),
+    TRI_CODE(CL_INVALID_IMAGE_FORMAT_DESCRIPTOR),
+    TRI_CODE(CL_INVALID_IMAGE_SIZE),
+    TRI_CODE(CL_INVALID_SAMPLER),
+    TRI_CODE(CL_INVALID_BINARY),
+    TRI_CODE(CL_INVALID_BUILD_OPTIONS),
+    TRI_CODE(CL_INVALID_PROGRAM),
+    TRI_CODE(CL_INVALID_PROGRAM_EXECUTABLE),
+    TRI_CODE(CL_INVALID_KERNEL_NAME),
+    TRI_CODE(CL_INVALID_KERNEL_DEFINITION),
+    TRI_CODE(CL_INVALID_KERNEL),
+    TRI_CODE(CL_INVALID_ARG_INDEX),
+    TRI_CODE(CL_INVALID_ARG_VALUE),
+    TRI_CODE(CL_INVALID_ARG_SIZE),
+    TRI_CODE(CL_INVALID_KERNEL_ARGS),
+    TRI_CODE(CL_INVALID_WORK_DIMENSION),
+    TRI_CODE(CL_INVALID_WORK_GROUP_SIZE),
+    TRI_CODE(CL_INVALID_WORK_ITEM_SIZE),
+    TRI_CODE(CL_INVALID_GLOBAL_OFFSET),
+    TRI_CODE(CL_INVALID_EVENT_WAIT_LIST),
+    TRI_CODE(CL_INVALID_EVENT),
+    TRI_CODE(CL_INVALID_OPERATION),
+    TRI_CODE(CL_INVALID_BUFFER_SIZE),
+    TRI_CODE(CL_INVALID_GLOBAL_WORK_SIZE),
+    TRI_CODE(CL_INVALID_IMAGE_DESCRIPTOR),
+    TRI_CODE(CL_INVALID_COMPILER_OPTIONS),
+    TRI_CODE(CL_INVALID_LINKER_OPTIONS),
+    TRI_CODE(CL_INVALID_DEVICE_PARTITION_COUNT),
+    Code{-1001, "CL_PLATFORM_NOT_FOUND_KHR"},
+};
+#undef TRI_CODE
+
+// A GPU whose kernel faulted leaves a queue that answers everything with one of the last two.
+bool means_lost(cl_int code) {
+  return code == CL_DEVICE_NOT_AVAILABLE || code == CL_INVALID_COMMAND_QUEUE ||
+         code == CL_OUT_OF_RESOURCES;
+}
+
+}  // namespace
+
+std::string code_name(cl_int code) {
+  const auto* found = std::ranges::find(codes, code, &Code::value);
+  return found == codes.end() ? fmt::format("error {}", code) : std::string(found->name);
+}
+
+void throw_api_error(const cl::Error& error, std::source_location place) {
+  const std::string call = error.what();
+  if (means_lost(error.err())) throw core::DeviceLost(call, code_name(error.err()), {}, place);
+  throw core::ApiError(call, code_name(error.err()), {}, place);
+}
+
+}  // namespace triptych::opencl_backend

@@ -1,0 +1,69 @@
+#include "backends/opencl/programs.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+#include "technique/sources.hpp"
+#include "triptych_backend_opencl_embedded.hpp"
+
+namespace triptych::opencl_backend {
+namespace {
+
+std::string_view voxel_type(scene::VoxelFormat format) {
+  switch (format) {
+    case scene::VoxelFormat::u8:
+      return "uchar";
+    case scene::VoxelFormat::u16:
+      return "ushort";
+    case scene::VoxelFormat::f32:
+      return "float";
+  }
+  return "float";
+}
+
+}  // namespace
+
+std::string Constants::options() const {
+  // Never -cl-fast-relaxed-math or -cl-mad-enable: the same bits on every run and device.
+  return fmt::format(
+      "-cl-std=CL1.2 -DTRI_MANUAL_SAMPLER={:d} -DTRI_VOXEL={} -DTRI_SHADING={:d} -DTRI_COUNT={:d} "
+      "-DTRI_SPEED_OF_LIGHT={:d} -DTRI_FAULT={} -DTRI_BATCH={}",
+      sampler == technique::Sampler::manual, voxel_type(voxel), shading, count, speed_of_light,
+      static_cast<int>(fault), batch);
+}
+
+std::string program_source(const std::vector<std::string_view>& files) {
+  std::string source{embedded("prelude.cl")};
+  source += technique::source("volume_math.h");
+  source += embedded("parameters.cl");
+  for (const std::string_view file : files) source += embedded(file);
+  return source;
+}
+
+cl::Program build(const Session& session, const std::string& source, const std::string& options) {
+  const cl::Program program = checked([&] { return cl::Program(session.context, source); });
+  try {
+    program.build(session.device, options.c_str());
+  } catch (const cl::Error& error) {
+    const std::string log =
+        checked([&] { return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(session.device); });
+    throw core::ApiError("clBuildProgram", code_name(error.err()),
+                         fmt::format("with {}:\n{}", options, log));
+  }
+  return program;
+}
+
+cl::Program Programs::get(const std::vector<std::string_view>& files, const Constants& constants) {
+  const std::string key = hash(files, constants);
+  if (const auto found = built_.find(key); found != built_.end()) return found->second;
+  cl::Program program = build(session_, program_source(files), constants.options());
+  built_.emplace(key, program);
+  return program;
+}
+
+std::string Programs::hash(const std::vector<std::string_view>& files, const Constants& constants) {
+  return core::content_hash(constants.options() + "\n" + program_source(files));
+}
+
+}  // namespace triptych::opencl_backend

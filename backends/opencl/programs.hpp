@@ -1,0 +1,52 @@
+#pragma once
+// Device code, compiled at run time: once per set of options.
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "backends/opencl/objects.hpp"
+#include "scene/volume.hpp"
+#include "technique/volume/raycast_parameters.hpp"
+
+namespace triptych::opencl_backend {
+
+// The compile-time constants of volume.cl and raycast.cl. A build that does not count, shade or
+// plant a fault holds no trace of it.
+struct Constants {
+  technique::Sampler sampler = technique::Sampler::manual;
+  scene::VoxelFormat voxel = scene::VoxelFormat::f32;
+  bool shading = false;
+  bool count = false;
+  bool speed_of_light = false;
+  technique::Fault fault = technique::Fault::none;
+  int batch = 1;
+
+  [[nodiscard]] std::string options() const;  // as the compiler takes them
+};
+
+// What every program begins with (the prelude, volume_math.h, parameters.cl), and then the named
+// files of this folder.
+[[nodiscard]] std::string program_source(const std::vector<std::string_view>& files);
+
+// Compiles for the session's device. Throws core::ApiError with the compiler's log.
+[[nodiscard]] cl::Program build(const Session& session, const std::string& source,
+                                const std::string& options);
+
+// Programs already compiled, by source and options.
+class Programs {
+ public:
+  explicit Programs(const Session& session) : session_(session) {}
+  [[nodiscard]] cl::Program get(const std::vector<std::string_view>& files,
+                                const Constants& constants);
+  // Content hash of source and options.
+  [[nodiscard]] static std::string hash(const std::vector<std::string_view>& files,
+                                        const Constants& constants);
+
+ private:
+  const Session& session_;
+  std::map<std::string, cl::Program> built_;  // by hash
+};
+
+}  // namespace triptych::opencl_backend

@@ -1,0 +1,266 @@
+// Front-to-back raycasting, one ray per work item: the algorithm of
+// src/technique/volume/raycast/raycast.glsl. Positions are in voxels, lengths along the ray in
+// steps: sample i stands at p0 + (i+½)·g.
+//
+// A batch is fetched and classified whole and composited sample by sample, so a ray may fetch a few
+// samples beyond its end; what is composited and counted is the same for every size of the batch.
+//
+// Compile-time constants: TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, and those of volume.cl.
+
+typedef struct {
+  float3 p0;    // where the ray enters the box, voxels
+  float3 g;     // one step, voxels
+  float3 d;     // unit direction, world
+  float steps;  // length inside the box, steps
+} Ray;
+
+TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {
+  float2 ndc = (2.0f * (convert_float2(pixel) + 0.5f)) / convert_float2(u->viewport.xy) - 1.0f;
+  float3 d = u->ray_centre.xyz + ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz;
+  d = d / sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+  float3 v = d * u->inverse_spacing.xyz;
+  float2 x = tri_slab(u->eye.x, v.x, (float)u->volume_size.x);
+  float2 y = tri_slab(u->eye.y, v.y, (float)u->volume_size.y);
+  float2 z = tri_slab(u->eye.z, v.z, (float)u->volume_size.z);
+  float t0 = max(max(x.x, y.x), max(z.x, 0.0f));
+  float t1 = min(min(x.y, y.y), z.y);
+  Ray ray;
+  ray.d = d;
+  ray.g = v * u->eye.w;
+  ray.p0 = u->eye.xyz + t0 * v;
+  ray.steps = t1 > t0 ? (t1 - t0) / u->eye.w : 0.0f;
+  return ray;
+}
+
+// A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed
+// from the brick's index, not accumulated, so that they do not drift.
+typedef struct {
+  int3 brick;
+  int3 direction;  // −1 or +1 per axis
+  float3 inverse_g;
+  float leave;  // where the ray leaves the brick, steps
+  int axis;     // through which face
+  int outside;  // rounding led out of the grid: the rest of the ray is taken as visible
+} Walk;
+
+TRI_FN void aim(__constant Parameters* u, Walk* walk, const Ray* ray) {
+  float3 face = convert_float3((walk->brick + max(walk->direction, (int3)(0))) * u->brick_grid.w);
+  float3 at = (face - ray->p0) * walk->inverse_g;
+  at.x = ray->g.x == 0.0f ? 3.0e38f : at.x;
+  at.y = ray->g.y == 0.0f ? 3.0e38f : at.y;
+  at.z = ray->g.z == 0.0f ? 3.0e38f : at.z;
+  walk->axis = at.x <= at.y ? (at.x <= at.z ? 0 : 2) : (at.y <= at.z ? 1 : 2);
+  walk->leave = min(at.x, min(at.y, at.z));
+}
+
+TRI_FN Walk start_walk(__constant Parameters* u, const Ray* ray) {
+  Walk walk;
+  walk.brick = clamp(convert_int3(floor(ray->p0 / (float)u->brick_grid.w)), (int3)(0),
+                     u->brick_grid.xyz - 1);
+  walk.direction = (int3)(ray->g.x < 0.0f ? -1 : 1, ray->g.y < 0.0f ? -1 : 1,
+                          ray->g.z < 0.0f ? -1 : 1);
+  walk.inverse_g = 1.0f / ray->g;
+  walk.outside = 0;
+  aim(u, &walk, ray);
+  return walk;
+}
+
+TRI_FN void next_brick(__constant Parameters* u, Walk* walk, const Ray* ray) {
+  walk->brick.x += walk->axis == 0 ? walk->direction.x : 0;
+  walk->brick.y += walk->axis == 1 ? walk->direction.y : 0;
+  walk->brick.z += walk->axis == 2 ? walk->direction.z : 0;
+  walk->outside = any(walk->brick < (int3)(0)) || any(walk->brick >= u->brick_grid.xyz);
+  aim(u, walk, ray);
+}
+
+TRI_FN int visible(__constant Parameters* u, __global const uint* brick_visible, const Walk* walk) {
+  if (walk->outside) return 1;
+  int index = walk->brick.x +
+              u->brick_grid.x * (walk->brick.y + u->brick_grid.y * walk->brick.z);
+  return brick_visible[index] != 0u;
+}
+
+// The first sample at or behind `limit` that lies beyond the brick. A sample within rounding of the
+// face may be counted to either side: the brick's border of one voxel covers half a voxel of error.
+TRI_FN int samples_before(const Walk* walk, int limit) {
+  if (walk->outside || !(walk->leave < (float)limit)) return limit;
+  return clamp((int)ceil(walk->leave - 0.5f), 0, limit);
+}
+
+// What a counting build leaves per pixel, in the order of technique::raycast_counters.
+typedef struct {
+  uint samples;
+  uint nonzero;
+  uint bricks_visited;
+  uint bricks_skipped;
+  uint terminated;
+} Counts;
+
+// Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the
+// ray.
+TRI_FN int2 next_run(__constant Parameters* u, __global const uint* brick_visible, Walk* walk,
+                     const Ray* ray, int begin, int end, Counts* counts) {
+  while (begin < end && !visible(u, brick_visible, walk)) {
+    begin = max(begin, samples_before(walk, end));
+    next_brick(u, walk, ray);
+#if TRI_COUNT
+    counts->bricks_visited++;
+    counts->bricks_skipped++;
+#endif
+  }
+  int stop = begin;
+  while (stop < end && visible(u, brick_visible, walk)) {
+    stop = max(stop, samples_before(walk, end));
+    next_brick(u, walk, ray);
+#if TRI_COUNT
+    counts->bricks_visited++;
+#endif
+  }
+  return (int2)(begin, stop);
+}
+
+// Headlight shading (scene::Shading) of a colour at p: d is the world direction of the ray.
+TRI_FN float4 shade(__constant Parameters* u, TRI_VOLUME volume, float4 colour, float3 p,
+                    float3 d) {
+  Positions at;
+  float value[TRI_LANES];
+  int lanes = TRI_WHOLE_VECTORS(6);
+  for (int k = 0; k < lanes; ++k) {
+    float side = (k & 1) == 0 ? 1.0f : -1.0f;
+    at.x[k] = p.x + (k >> 1 == 0 ? side : 0.0f);
+    at.y[k] = p.y + (k >> 1 == 1 ? side : 0.0f);
+    at.z[k] = p.z + (k >> 1 == 2 ? side : 0.0f);
+  }
+  fetch(u, volume, &at, lanes, value);
+  float3 g = (float3)(value[0] - value[1], value[2] - value[3], value[4] - value[5]);
+  g *= 0.5f * u->inverse_spacing.w * u->inverse_spacing.xyz;
+  float cosine = fabs(g.x * d.x + g.y * d.y + g.z * d.z) /
+                 max(sqrt(g.x * g.x + g.y * g.y + g.z * g.z), u->ray_up.w);
+  float highlight = cosine;
+  for (int i = 0; i < u->volume_size.w; ++i) highlight *= highlight;
+  colour.xyz = colour.xyz * (u->shading.x + u->shading.y * cosine) + u->shading.z * highlight;
+  return colour;
+}
+
+// Colours and opacities per voxel length of n values, linear between the table's 256 entries.
+TRI_FN void classify(__constant float4* table, const float* value, int n, float4* colour,
+                     float* alpha) {
+  int entry[TRI_BATCH];
+  float weight[TRI_BATCH];
+  for (int k = 0; k < n; ++k) {
+    float position = tri_table_position(value[k]);
+    int below = (int)position;
+    entry[k] = below < 254 ? below : 254;
+    weight[k] = position - (float)entry[k];
+  }
+  for (int k = 0; k < n; ++k) {
+    float4 a = table[entry[k]];
+    float4 b = table[entry[k] + 1];
+    colour[k] = a + weight[k] * (b - a);
+    alpha[k] = colour[k].w;
+  }
+}
+
+// Image: premultiplied RGBA, top row first. Work items cover every viewport.z-th row.
+__kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
+                      __global const uint* brick_visible, __global float4* image,
+                      __global uint* counters) {
+  int2 pixel = (int2)((int)get_global_id(0), (int)get_global_id(1) * u->viewport.z);
+  if (pixel.x >= u->viewport.x || pixel.y >= u->viewport.y) return;
+  Ray ray = make_ray(u, pixel);
+  int count = tri_sample_count(ray.steps);
+#if TRI_FAULT == FAULT_EXTRA_SAMPLE
+  if (count > 0) {
+    count += 1;
+    ray.steps = (float)count;
+  }
+  float step_voxels = u->ray_centre.w;
+#elif TRI_FAULT == FAULT_UNCORRECTED_OPACITY
+  float step_voxels = 1.0f;
+#else
+  float step_voxels = u->ray_centre.w;
+#endif
+  float4 sum = (float4)(0.0f);
+  float transmittance = 1.0f;
+  Counts counts = {0u, 0u, 0u, 0u, 0u};
+  int skipping = u->brick_grid.w > 0;
+  Walk walk;
+  if (skipping) walk = start_walk(u, &ray);
+  int i = 0;
+  while (i < count) {
+    int stop = count;
+    if (skipping) {
+      int2 run = next_run(u, brick_visible, &walk, &ray, i, count, &counts);
+      i = run.x;
+      stop = run.y;
+    }
+    while (i < stop) {
+      int n = TRI_BATCH == 1 ? 1 : min(stop - i, TRI_BATCH);
+      int lanes = TRI_WHOLE_VECTORS(n);
+      Positions p;
+      float value[TRI_BATCH];
+      float4 colour[TRI_BATCH];
+      float alpha[TRI_BATCH];
+      for (int k = 0; k < lanes; ++k) {
+        float along = (float)(i + k) + 0.5f;
+        p.x[k] = ray.p0.x + along * ray.g.x;
+        p.y[k] = ray.p0.y + along * ray.g.y;
+        p.z[k] = ray.p0.z + along * ray.g.z;
+      }
+      fetch(u, volume, &p, lanes, value);
+      classify(table, value, lanes, colour, alpha);
+#if TRI_SPEED_OF_LIGHT
+      for (int k = 0; k < n; ++k) sum += colour[k];
+      counts.samples += (uint)n;
+#else
+      float most = 0.0f;
+      for (int k = 0; k < lanes; ++k) most = alpha[k] > most ? alpha[k] : most;
+      if (most > 0.0f) {
+        float opacity[TRI_BATCH];
+        for (int k = 0; k < lanes; ++k) {
+          opacity[k] = tri_opacity(alpha[k], step_voxels * tri_step_share(ray.steps, i + k));
+        }
+        for (int k = 0; k < n; ++k) {
+#if TRI_COUNT
+          counts.samples++;
+          if (alpha[k] > 0.0f) counts.nonzero++;
+#endif
+#if TRI_SHADING
+          if (alpha[k] > 0.0f) {
+            float3 at = ray.p0 + ((float)(i + k) + 0.5f) * ray.g;
+            colour[k] = shade(u, volume, colour[k], at, ray.d);
+          }
+#endif
+          float weight = transmittance * opacity[k];
+          sum += weight * colour[k];
+          transmittance -= weight;
+          if (transmittance < u->ray_right.w) {
+            counts.terminated = 1u;
+            count = 0;  // ends every loop
+            stop = 0;
+            break;
+          }
+        }
+      } else {
+        counts.samples += (uint)n;
+      }
+#endif
+      i += n;
+    }
+  }
+  int at = pixel.y * u->viewport.x + pixel.x;
+#if TRI_SPEED_OF_LIGHT
+  transmittance += sum.w;
+#endif
+  image[at] = (float4)(sum.xyz, 1.0f - transmittance) + transmittance * u->background;
+#if TRI_COUNT
+  int total = tri_sample_count(ray.steps);
+  counters[8 * at] = total > 0 ? 1u : 0u;
+  counters[8 * at + 1] = counts.samples;
+  counters[8 * at + 2] = counts.nonzero;
+  counters[8 * at + 3] = counts.bricks_visited;
+  counters[8 * at + 4] = counts.bricks_skipped;
+  counters[8 * at + 5] = counts.terminated;
+  counters[8 * at + 6] = (uint)total - counts.samples;
+#endif
+}

@@ -1,0 +1,15 @@
+// The fetches and look-ups of raycast alone: the same kernel, built to sum what it reads.
+#include "backends/opencl/techniques.hpp"
+#include "backends/opencl/volume_frames.hpp"
+
+namespace triptych::opencl_backend {
+
+std::unique_ptr<measure::Prepared> prepare_speed_of_light(const Session& session,
+                                                          Programs& programs, VolumeCache& volumes,
+                                                          const measure::VolumeWork& work) {
+  Constants constants = constants_of(session, work);
+  constants.speed_of_light = true;
+  return std::make_unique<VolumeFrames>(session, programs, volumes, work, constants);
+}
+
+}  // namespace triptych::opencl_backend

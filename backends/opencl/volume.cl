@@ -1,0 +1,107 @@
+// Fetching normalised values from the volume, TRI_BATCH or fewer positions at a time.
+//
+// Work is laid out in plain loops over small arrays, one simple step per loop: a CPU's compiler
+// turns each into vector instructions, 16 samples wide where the machine has them; for TRI_BATCH 1,
+// which GPUs are given, nothing remains of the loops.
+//
+// Compile-time constants: TRI_MANUAL_SAMPLER, TRI_VOXEL (the stored type), TRI_FAULT, TRI_BATCH.
+
+// Room for a batch, and for the six neighbours that shading looks at.
+#define TRI_LANES (TRI_BATCH > 8 ? TRI_BATCH : 8)
+// Whole vectors only: what the last one computes beyond n is not used.
+#define TRI_WHOLE_VECTORS(n) (TRI_BATCH > 1 ? (((n) + 7) & ~7) : (n))
+
+#define FAULT_HALF_VOXEL_SHIFT 1
+#define FAULT_FLIPPED_AXIS 2
+#define FAULT_EXTRA_SAMPLE 3
+#define FAULT_UNCORRECTED_OPACITY 4
+#define FAULT_COARSE_FILTER 5
+
+#if TRI_MANUAL_SAMPLER
+// Voxels with a border of one copy of the outermost layer on every side, so that the eight
+// neighbours of a position are four pairs at fixed distances.
+#define TRI_VOLUME __global const TRI_VOXEL*
+#else
+#define TRI_VOLUME __read_only image3d_t
+__constant sampler_t linear_sampler =
+    CLK_NORMALIZED_COORDS_FALSE | CLK_ADDRESS_CLAMP_TO_EDGE | CLK_FILTER_LINEAR;
+#endif
+
+// Positions in voxels, voxel centres at i+½.
+typedef struct {
+  float x[TRI_LANES];
+  float y[TRI_LANES];
+  float z[TRI_LANES];
+} Positions;
+
+TRI_FN float clamp_coordinate(float q, float most) {
+  return q > 0.0f ? (q < most ? q : most) : 0.0f;
+}
+
+TRI_FN float rounded_weight(float f) {
+#if TRI_FAULT == FAULT_COARSE_FILTER
+  return tri_floor(f * 256.0f + 0.5f) / 256.0f;
+#else
+  return f;
+#endif
+}
+
+#if TRI_MANUAL_SAMPLER
+// Trilinear among the eight voxels of which the first is at `v`.
+TRI_FN float trilinear(TRI_VOLUME v, int row, int slice, float fx, float fy, float fz) {
+  float2 v00 = convert_float2(vload2(0, v));
+  float2 v10 = convert_float2(vload2(0, v + row));
+  float2 v01 = convert_float2(vload2(0, v + slice));
+  float2 v11 = convert_float2(vload2(0, v + slice + row));
+  float4 lo = (float4)(v00, v10);
+  float4 hi = (float4)(v01, v11);
+  float4 z = lo + fz * (hi - lo);
+  float2 y = z.xy + fy * (z.zw - z.xy);
+  return y.x + fx * (y.y - y.x);
+}
+#endif
+
+// Normalised values at the first n positions.
+TRI_FN void fetch(__constant Parameters* u, TRI_VOLUME volume, Positions* p, int n, float* value) {
+#if TRI_FAULT == FAULT_HALF_VOXEL_SHIFT
+  for (int k = 0; k < n; ++k) p->x[k] += 0.5f;
+#endif
+#if TRI_FAULT == FAULT_FLIPPED_AXIS
+  for (int k = 0; k < n; ++k) p->y[k] = (float)u->volume_size.y - p->y[k];
+#endif
+  float scale = u->value_map.x;
+  float offset = u->value_map.y;
+#if TRI_MANUAL_SAMPLER
+  // Within the border q = p + ½ is not negative: truncation is floor. Clamping q is clamping to the
+  // edge.
+  float sx = (float)u->volume_size.x;
+  float sy = (float)u->volume_size.y;
+  float sz = (float)u->volume_size.z;
+  int row = u->volume_size.x + 2;
+  int slice = row * (u->volume_size.y + 2);
+  int first[TRI_LANES];
+  for (int k = 0; k < n; ++k) {
+    float qx = clamp_coordinate(p->x[k] + 0.5f, sx);
+    float qy = clamp_coordinate(p->y[k] + 0.5f, sy);
+    float qz = clamp_coordinate(p->z[k] + 0.5f, sz);
+    int ix = (int)qx;
+    int iy = (int)qy;
+    int iz = (int)qz;
+    first[k] = ix + row * iy + slice * iz;
+    p->x[k] = rounded_weight(qx - (float)ix);
+    p->y[k] = rounded_weight(qy - (float)iy);
+    p->z[k] = rounded_weight(qz - (float)iz);
+  }
+  for (int k = 0; k < n; ++k) {
+    value[k] = trilinear(volume + first[k], row, slice, p->x[k], p->y[k], p->z[k]) * scale + offset;
+  }
+#else
+  for (int k = 0; k < n; ++k) {
+    float4 q = (float4)(p->x[k], p->y[k], p->z[k], 0.0f);
+#if TRI_FAULT == FAULT_COARSE_FILTER
+    q = floor((q - 0.5f) * 256.0f + 0.5f) / 256.0f + 0.5f;
+#endif
+    value[k] = read_imagef(volume, linear_sampler, q).x * scale + offset;
+  }
+#endif
+}

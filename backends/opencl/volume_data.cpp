@@ -1,0 +1,150 @@
+#include "backends/opencl/volume_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace triptych::opencl_backend {
+namespace {
+
+std::size_t to_size(int n) {
+  return static_cast<std::size_t>(n);
+}
+
+cl_channel_type channel_type(scene::VoxelFormat voxel) {
+  switch (voxel) {
+    case scene::VoxelFormat::u8:
+      return CL_UNORM_INT8;
+    case scene::VoxelFormat::u16:
+      return CL_UNORM_INT16;
+    case scene::VoxelFormat::f32:
+      return CL_FLOAT;
+  }
+  return CL_FLOAT;
+}
+
+// Slice k − 1 of the grid (clamped) with its border.
+void copy_bordered_slice(const scene::VoxelGrid& grid, int k, std::vector<std::byte>& slice) {
+  const std::size_t bytes = scene::bytes_of(grid.format);
+  const auto [nx, ny, nz] = grid.size;
+  const std::size_t row_bytes = to_size(nx) * bytes;
+  const std::size_t z = to_size(std::clamp(k - 1, 0, nz - 1));
+  std::byte* to = slice.data();
+  for (int j = 0; j < ny + 2; ++j) {
+    const std::size_t y = to_size(std::clamp(j - 1, 0, ny - 1));
+    const std::byte* row = grid.data.data() + (z * to_size(ny) + y) * row_bytes;
+    std::memcpy(to, row, bytes);
+    std::memcpy(to + bytes, row, row_bytes);
+    std::memcpy(to + bytes + row_bytes, row + row_bytes - bytes, bytes);
+    to += row_bytes + 2 * bytes;
+  }
+}
+
+cl::Buffer upload_buffer(const Session& session, const scene::VoxelGrid& grid) {
+  const std::size_t bytes = bordered_voxels(grid.size) * scene::bytes_of(grid.format);
+  const std::size_t slices = to_size(grid.size[2]) + 2;
+  const cl::Buffer buffer(session.context, CL_MEM_READ_ONLY, bytes);
+  std::vector<std::byte> slice(bytes / slices);
+  for (std::size_t k = 0; k < slices; ++k) {
+    copy_bordered_slice(grid, static_cast<int>(k), slice);
+    session.queue.enqueueWriteBuffer(buffer, CL_TRUE, k * slice.size(), slice.size(), slice.data());
+  }
+  return buffer;
+}
+
+// Each voxel as the first of four channels.
+std::vector<std::byte> as_rgba(std::span<const std::byte> voxels, std::size_t bytes) {
+  std::vector<std::byte> result(4 * voxels.size());
+  for (std::size_t at = 0; at < voxels.size(); at += bytes) {
+    std::memcpy(result.data() + 4 * at, voxels.data() + at, bytes);
+  }
+  return result;
+}
+
+cl::Image3D upload_image(const Session& session, const scene::VoxelGrid& grid) {
+  const auto format = image_format(session, grid.format);
+  if (!format) throw core::NotSupported("no 3D image format for these voxels");
+  const std::array<std::size_t, 3> size{to_size(grid.size[0]), to_size(grid.size[1]),
+                                        to_size(grid.size[2])};
+  const cl::Image3D image(session.context, CL_MEM_READ_ONLY, *format, size[0], size[1], size[2]);
+  const std::size_t slice = size[0] * size[1] * scene::bytes_of(grid.format);
+  for (std::size_t k = 0; k < size[2]; ++k) {
+    const std::span voxels(grid.data.data() + k * slice, slice);
+    const auto write = [&](const std::byte* data) {
+      session.queue.enqueueWriteImage(image, CL_TRUE, {0, 0, k}, {size[0], size[1], 1}, 0, 0, data);
+    };
+    if (format->image_channel_order == CL_RGBA) {
+      write(as_rgba(voxels, scene::bytes_of(grid.format)).data());
+    } else {
+      write(voxels.data());
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+std::optional<cl::ImageFormat> image_format(const Session& session, scene::VoxelFormat voxel) {
+  std::vector<cl::ImageFormat> formats;
+  checked([&] {
+    session.context.getSupportedImageFormats(CL_MEM_READ_ONLY, CL_MEM_OBJECT_IMAGE3D, &formats);
+  });
+  for (const cl_channel_order order :
+       std::array<cl_channel_order, 4>{CL_R, CL_INTENSITY, CL_LUMINANCE, CL_RGBA}) {
+    const auto found = std::ranges::find_if(formats, [&](const cl::ImageFormat& each) {
+      return each.image_channel_order == order &&
+             each.image_channel_data_type == channel_type(voxel);
+    });
+    if (found != formats.end()) return *found;
+  }
+  return std::nullopt;
+}
+
+std::uint64_t bordered_voxels(const std::array<int, 3>& size) {
+  std::uint64_t voxels = 1;
+  for (const int n : size) voxels *= static_cast<std::uint64_t>(n) + 2;
+  return voxels;
+}
+
+double stored_maximum(scene::VoxelFormat voxel, technique::Sampler sampler) {
+  if (sampler == technique::Sampler::manual) return 1;
+  switch (voxel) {
+    case scene::VoxelFormat::u8:
+      return 255;
+    case scene::VoxelFormat::u16:
+      return 65535;
+    case scene::VoxelFormat::f32:
+      return 1;
+  }
+  return 1;
+}
+
+cl::Memory upload(const Session& session, const scene::VoxelGrid& grid,
+                  technique::Sampler sampler) {
+  return checked([&]() -> cl::Memory {
+    if (sampler == technique::Sampler::manual) return upload_buffer(session, grid);
+    return upload_image(session, grid);
+  });
+}
+
+const VolumeCache::Entry& VolumeCache::get(const Session& session, const scene::VoxelGrid& grid,
+                                           technique::Sampler sampler) {
+  const std::string key = grid.hash.empty()
+                              ? std::string()
+                              : fmt::format("{} {} {}", grid.hash, scene::name_of(grid.format),
+                                            technique::name_of(sampler));
+  if (!key.empty() && key == key_) return entry_;
+  key_.clear();
+  entry_ = {};  // frees the old volume before the new one is made
+  entry_ = {.volume = upload(session, grid, sampler), .ranges = technique::brick_ranges(grid)};
+  key_ = key;
+  return entry_;
+}
+
+}  // namespace triptych::opencl_backend

@@ -1,0 +1,48 @@
+#pragma once
+// A volume on the device, in the layout that the sampler wants, and its bricks.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "backends/opencl/objects.hpp"
+#include "scene/volume.hpp"
+#include "technique/volume/bricks.hpp"
+#include "technique/volume/raycast_parameters.hpp"
+
+namespace triptych::opencl_backend {
+
+// One-channel format of a 3D image with these voxels: CL_R, else CL_INTENSITY or CL_LUMINANCE, else
+// CL_RGBA; absent when the device has none of them.
+[[nodiscard]] std::optional<cl::ImageFormat> image_format(const Session& session,
+                                                          scene::VoxelFormat voxel);
+
+// Voxels of the buffer that the manual sampler reads: the volume with a border of one copy of its
+// outermost layer on every side.
+[[nodiscard]] std::uint64_t bordered_voxels(const std::array<int, 3>& size);
+
+// The stored number that reaches the kernel as 1 (technique::raycast_parameters).
+[[nodiscard]] double stored_maximum(scene::VoxelFormat voxel, technique::Sampler sampler);
+
+// A cl::Buffer for Sampler::manual, a cl::Image3D for Sampler::hardware; uploaded on return.
+[[nodiscard]] cl::Memory upload(const Session& session, const scene::VoxelGrid& grid,
+                                technique::Sampler sampler);
+
+// The volume drawn last: neighbours in a plan share it.
+class VolumeCache {
+ public:
+  struct Entry {
+    cl::Memory volume;
+    technique::BrickRanges ranges;
+  };
+  // Valid until the next call.
+  [[nodiscard]] const Entry& get(const Session& session, const scene::VoxelGrid& grid,
+                                 technique::Sampler sampler);
+
+ private:
+  std::string key_;
+  Entry entry_;
+};
+
+}  // namespace triptych::opencl_backend

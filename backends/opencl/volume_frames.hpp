@@ -1,0 +1,58 @@
+#pragma once
+// Frames of the volume techniques: one kernel over all pixels.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "backends/opencl/objects.hpp"
+#include "backends/opencl/programs.hpp"
+#include "backends/opencl/volume_data.hpp"
+#include "measure/backend.hpp"
+
+namespace triptych::opencl_backend {
+
+// Constants of the timed build for this work.
+[[nodiscard]] Constants constants_of(const Session& session, const measure::VolumeWork& work);
+
+class VolumeFrames final : public measure::Prepared {
+ public:
+  // Compiles the timed and the counting build and uploads everything.
+  VolumeFrames(const Session& session, Programs& programs, VolumeCache& volumes,
+               const measure::VolumeWork& work, Constants constants);
+
+  [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
+  [[nodiscard]] core::Image image() override;
+  [[nodiscard]] std::string kernel_hash() const override { return hash_; }
+
+ private:
+  struct Launch {
+    cl::Kernel kernel;
+    cl::NDRange global;
+    cl::NDRange local;
+  };
+
+  [[nodiscard]] Launch make_launch(const cl::Program& program, const cl::Buffer& parameters,
+                                   int rows) const;
+  void run(const std::vector<Launch>& launches);
+  [[nodiscard]] std::optional<double> device_ns() const;
+  [[nodiscard]] record::Counts read_counters();
+
+  Session session_;
+  int width_;
+  int height_;
+  std::string hash_;
+  // A kernel does not retain its arguments: they live here.
+  std::vector<cl::Buffer> parameters_;
+  cl::Memory volume_;
+  cl::Buffer table_;
+  cl::Buffer bricks_;
+  cl::Buffer image_;
+  cl::Buffer counters_;
+  std::vector<Launch> timed_;      // the frame, then the planted extra work if there is any
+  std::vector<Launch> counting_;   // the frame alone
+  std::vector<cl::Event> events_;  // of the last frame, one per launch
+  std::vector<std::uint32_t> counts_;
+};
+
+}  // namespace triptych::opencl_backend

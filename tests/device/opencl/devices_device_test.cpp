@@ -1,0 +1,120 @@
+// Listing and opening; what a device says of itself.
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "backends/opencl/devices.hpp"
+#include "core/error.hpp"
+#include "tests/device/opencl/opencl_devices.hpp"
+
+namespace triptych::opencl_backend {
+namespace {
+
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+TEST(OpenClDevices, ListingTwiceIsTheSame) {
+  const auto backend = make_backend();
+  const measure::Listing first = backend->list();
+  EXPECT_EQ(first.devices, backend->list().devices);
+  std::set<std::string> ids;
+  for (const record::Device& each : first.devices) {
+    EXPECT_TRUE(ids.insert(each.id).second) << each.id;
+    EXPECT_THAT(each.id, MatchesRegex("opencl:[a-z0-9]+(#[0-9]+)?"));
+  }
+  EXPECT_FALSE(first.devices.empty() && first.broken.empty());
+}
+
+// Clover without hardware and rusticl without its switch list no device.
+TEST(OpenClDevices, AnEmptyPlatformIsNamedAndCostsOnlyItself) {
+  const measure::Listing listing = make_backend()->list();
+  for (const measure::Broken& each : listing.broken) {
+    EXPECT_THAT(each.what, testing::StartsWith("OpenCL "));
+    EXPECT_FALSE(each.reason.empty()) << each.what;
+  }
+  std::size_t platforms = 0;
+  std::vector<cl::Platform> all;
+  try {
+    cl::Platform::get(&all);
+    platforms = all.size();
+  } catch (const cl::Error&) {
+    GTEST_SKIP() << listing.broken.front().reason;
+  }
+  EXPECT_GE(listing.devices.size() + listing.broken.size(), platforms);
+}
+
+TEST(OpenClDevices, WhatIsListedOpensAsListed) {
+  const auto backend = make_backend();
+  for (const record::Device& each : backend->list().devices) {
+    EXPECT_EQ(backend->open(each.id)->info(), each);
+    EXPECT_EQ(each.api, backend->api());
+    EXPECT_FALSE(each.name.empty());
+    EXPECT_FALSE(each.driver_version.empty());
+  }
+}
+
+TEST(OpenClDevices, AnUnknownDeviceIsNotSupported) {
+  try {
+    static_cast<void>(make_backend()->open("opencl:nothing"));
+    ADD_FAILURE();
+  } catch (const core::NotSupported& error) {
+    EXPECT_THAT(error.what(), HasSubstr("opencl:nothing"));
+  }
+}
+
+TEST(OpenClDevices, DriversHaveShortNames) {
+  EXPECT_EQ(driver_of("Portable Computing Language"), "pocl");
+  EXPECT_EQ(driver_of("rusticl"), "rusticl");
+  EXPECT_EQ(driver_of("NVIDIA CUDA"), "nvidia");
+  EXPECT_EQ(driver_of("Some New Platform!"), "somenewplatform");
+  EXPECT_EQ(driver_of(""), "unknown");
+}
+
+TEST(OpenClDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
+  for_each_device([](const measure::Device& device) {
+    for (const auto native : {scene::VoxelFormat::u8, scene::VoxelFormat::u16}) {
+      const measure::VolumePath path = device.default_path(native);
+      EXPECT_LT(device.filter_weight_error(path), 1e-5);
+    }
+    for (const auto voxel :
+         {scene::VoxelFormat::u8, scene::VoxelFormat::u16, scene::VoxelFormat::f32}) {
+      const double error = device.filter_weight_error({voxel, technique::Sampler::hardware});
+      EXPECT_LT(error, 0.01);  // the coarsest sampler known has 8 bits
+      std::printf("%s %s sampler error %.3g\n", device.info().id.c_str(),
+                  std::string(scene::name_of(voxel)).c_str(), error);
+      EXPECT_EQ(device.filter_weight_error({voxel, technique::Sampler::manual}), 0);
+    }
+  });
+}
+
+TEST(OpenClDevices, LimitsAreReasonsWithBothNumbers) {
+  for_each_device([](const measure::Device& device) {
+    scene::VolumeScene scene = make_scene({});
+    auto grid = *scene.grid;
+    grid.size = {1'000'000, 1, 1};
+    scene.grid = std::make_shared<const scene::VoxelGrid>(grid);
+    const auto wide =
+        device.unsupported(make_work("raycast", scene, {.sampler = technique::Sampler::hardware}));
+    ASSERT_TRUE(wide);
+    EXPECT_THAT(*wide, HasSubstr("1000000x1x1"));
+    EXPECT_THAT(*wide, HasSubstr(device.info().limits.at("CL_DEVICE_IMAGE3D_MAX_WIDTH")));
+    EXPECT_FALSE(device.unsupported(make_work("raycast", scene)));
+
+    grid.size = {4096, 4096, 4096};
+    scene.grid = std::make_shared<const scene::VoxelGrid>(grid);
+    const auto large = device.unsupported(make_work("raycast", scene));
+    ASSERT_TRUE(large);
+    EXPECT_THAT(*large, HasSubstr("68820189192"));  // 4098³
+    EXPECT_THAT(*large, HasSubstr("2147483647"));
+
+    scene = make_scene({.width = 1'000'000, .height = 1'000});
+    EXPECT_THAT(device.unsupported(make_work("raycast", scene)).value_or(""),
+                HasSubstr("1000000000 pixels"));
+    EXPECT_TRUE(device.unsupported(make_work("no_such_technique", make_scene({}))));
+    EXPECT_FALSE(device.unsupported(make_work("raycast", make_scene({}))));
+    EXPECT_FALSE(device.unsupported(make_work("speed_of_light", make_scene({}))));
+  });
+}
+
+}  // namespace
+}  // namespace triptych::opencl_backend
