@@ -10,8 +10,9 @@ namespace {
 constexpr std::string_view timed_shader = "raycast.comp.spv";
 constexpr std::string_view counting_shader = "raycast_counting.comp.spv";
 
-std::uint32_t groups(int size, std::uint32_t group) {
-  return (static_cast<std::uint32_t>(size) + group - 1) / group;
+// Work groups along one side of the picture: raycast.comp takes a tile of 8×8 pixels each.
+std::uint32_t tiles(int pixels) {
+  return (static_cast<std::uint32_t>(pixels) + 7) / 8;
 }
 
 vk::DeviceSize output_bytes(const scene::VolumeScene& scene) {
@@ -51,8 +52,7 @@ void ComputeFrames::record_timed(const vk::raii::CommandBuffer& commands) const 
 void ComputeFrames::dispatch(const vk::raii::CommandBuffer& commands, Pass pass, int rows) const {
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *resources_.layout().pipeline, 0,
                               resources_.set(pass), {});
-  commands.dispatch(groups(width_, constants_.group_width), groups(rows, constants_.group_height),
-                    1);
+  commands.dispatch(tiles(width_), tiles(rows), 1);
 }
 
 void ComputeFrames::prepare_counters() {

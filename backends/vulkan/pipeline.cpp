@@ -25,14 +25,13 @@ vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view name) {
   return {gpu.device, vk::ShaderModuleCreateInfo{.codeSize = code.size(), .pCode = words.data()}};
 }
 
-const std::array<vk::SpecializationMapEntry, 6>& constant_entries() {
-  static constexpr std::array<vk::SpecializationMapEntry, 6> entries{{
+const std::array<vk::SpecializationMapEntry, 5>& constant_entries() {
+  static constexpr std::array<vk::SpecializationMapEntry, 5> entries{{
       {.constantID = 0, .offset = offsetof(Constants, manual_sampler), .size = 4},
       {.constantID = 1, .offset = offsetof(Constants, shading), .size = 4},
       {.constantID = 2, .offset = offsetof(Constants, speed_of_light), .size = 4},
       {.constantID = 3, .offset = offsetof(Constants, fault), .size = 4},
-      {.constantID = 10, .offset = offsetof(Constants, group_width), .size = 4},
-      {.constantID = 11, .offset = offsetof(Constants, group_height), .size = 4},
+      {.constantID = 4, .offset = offsetof(Constants, opacity_form), .size = 4},
   }};
   return entries;
 }
@@ -56,9 +55,9 @@ vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
 
 std::string code_hash(std::string_view shader, const Constants& constants) {
   std::string text(spirv(shader));
-  text += fmt::format("manual_sampler={} shading={} speed_of_light={} fault={} group={}x{}",
+  text += fmt::format("manual_sampler={} shading={} speed_of_light={} fault={} opacity_form={}",
                       constants.manual_sampler, constants.shading, constants.speed_of_light,
-                      constants.fault, constants.group_width, constants.group_height);
+                      constants.fault, constants.opacity_form);
   return core::content_hash(text);
 }
 

@@ -11,17 +11,15 @@
 
 namespace triptych::vulkan_backend {
 
-// Specialization constants, in the order and with the numbers of shaders/prelude.glsl (0…) and
-// raycast.comp (10, 11).
+// Specialization constants in the order of their numbers in shaders/prelude.glsl.
 struct Constants {
   std::int32_t manual_sampler = 1;
   std::int32_t shading = 0;
   std::int32_t speed_of_light = 0;
   std::int32_t fault = 0;
-  std::uint32_t group_width = 8;
-  std::uint32_t group_height = 8;
+  std::int32_t opacity_form = 0;
 };
-static_assert(sizeof(Constants) == 6 * 4);
+static_assert(sizeof(Constants) == 5 * 4);
 
 // The embedded SPIR-V by its file name, "raycast.comp.spv".
 [[nodiscard]] std::string_view spirv(std::string_view name);
@@ -35,6 +33,6 @@ static_assert(sizeof(Constants) == 6 * 4);
 [[nodiscard]] std::string code_hash(std::string_view shader, const Constants& constants);
 
 // Map entries for vk::SpecializationInfo over Constants.
-[[nodiscard]] const std::array<vk::SpecializationMapEntry, 6>& constant_entries();
+[[nodiscard]] const std::array<vk::SpecializationMapEntry, 5>& constant_entries();
 
 }  // namespace triptych::vulkan_backend

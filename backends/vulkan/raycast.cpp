@@ -6,7 +6,7 @@ namespace triptych::vulkan_backend {
 
 std::unique_ptr<measure::Prepared> prepare_raycast(const Gpu& gpu, const Instance& instance,
                                                    const measure::VolumeWork& work) {
-  return std::make_unique<ComputeFrames>(gpu, instance, work, constants_of(gpu, work));
+  return std::make_unique<ComputeFrames>(gpu, instance, work, constants_of(work));
 }
 
 }  // namespace triptych::vulkan_backend

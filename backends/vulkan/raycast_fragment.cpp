@@ -139,7 +139,7 @@ FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
                                const measure::VolumeWork& work)
     : gpu_(gpu),
       instance_(instance),
-      constants_(constants_of(gpu, work)),
+      constants_(constants_of(work)),
       extra_work_stride_(work.options.extra_work_stride),
       target_(gpu, vk::ImageType::e2D, target_format,
               {static_cast<std::uint32_t>(work.scene.width),

@@ -6,7 +6,7 @@ namespace triptych::vulkan_backend {
 
 std::unique_ptr<measure::Prepared> prepare_speed_of_light(const Gpu& gpu, const Instance& instance,
                                                           const measure::VolumeWork& work) {
-  Constants constants = constants_of(gpu, work);
+  Constants constants = constants_of(work);
   constants.speed_of_light = 1;
   return std::make_unique<ComputeFrames>(gpu, instance, work, constants);
 }

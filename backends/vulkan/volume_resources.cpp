@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "technique/volume/bricks.hpp"
+#include "technique/volume/opacity_form.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::vulkan_backend {
@@ -152,12 +153,14 @@ record::Counts VolumeResources::read_counters() const {
   return counts;
 }
 
-Constants constants_of(const Gpu& gpu, const measure::VolumeWork& work) {
-  Constants constants{.manual_sampler = work.options.sampler == technique::Sampler::manual ? 1 : 0,
-                      .shading = work.scene.shading.enabled ? 1 : 0,
-                      .fault = static_cast<std::int32_t>(work.options.fault)};
-  if (gpu.is_cpu()) constants.group_height = 1;
-  return constants;
+Constants constants_of(const measure::VolumeWork& work) {
+  return {.manual_sampler = work.options.sampler == technique::Sampler::manual ? 1 : 0,
+          .shading = work.scene.shading.enabled ? 1 : 0,
+          .speed_of_light = 0,
+          .fault = static_cast<std::int32_t>(work.options.fault),
+          .opacity_form = work.options.fault == technique::Fault::uncorrected_opacity
+                              ? technique::opacity_form(1)
+                              : technique::opacity_form(work.scene.step_voxels)};
 }
 
 }  // namespace triptych::vulkan_backend

@@ -64,6 +64,6 @@ class VolumeResources {
   std::vector<vk::DescriptorSet> sets_;  // freed with the pool
 };
 
-[[nodiscard]] Constants constants_of(const Gpu& gpu, const measure::VolumeWork& work);
+[[nodiscard]] Constants constants_of(const measure::VolumeWork& work);
 
 }  // namespace triptych::vulkan_backend

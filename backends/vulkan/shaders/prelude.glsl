@@ -6,3 +6,5 @@ layout(constant_id = 0) const int TRI_MANUAL_SAMPLER = 1;
 layout(constant_id = 1) const int TRI_SHADING = 0;
 layout(constant_id = 2) const int TRI_SPEED_OF_LIGHT = 0;
 layout(constant_id = 3) const int TRI_FAULT = 0;
+layout(constant_id = 4) const int opacity_form = 0;
+#define TRI_OPACITY_FORM opacity_form

@@ -66,3 +66,20 @@ TRI_FN float tri_opacity(float alpha, float steps) {
   if (alpha >= 1.0f) return 1.0f;
   return tri_1m_exp2(steps * tri_log2_1m(alpha));
 }
+
+// 1 − (1 − alpha)^steps where `form` says that steps is a power of two: 0 for any other steps, k > 0
+// for steps = 2^(1−k), k < 0 for steps = 2^−k. alpha in [0, 1]; exact at both ends.
+// Roots: with r_0 = 1 − alpha and r_i = √r_(i−1), 1 − r_n = alpha / ((1 + r_1)…(1 + r_n)): nothing
+// cancels, each root adds 1.5 and the division 1 rounding. Squares: a → a·(2 − a) twice rounded.
+TRI_FN float tri_opacity_by_form(float alpha, float steps, int form) {
+  if (form == 0) return tri_opacity(alpha, steps);
+  float root = 1.0f - alpha;
+  float divisor = 1.0f;
+  for (int k = 1; k < form; ++k) {
+    root = TRI_SQRT(root);
+    divisor = divisor * (1.0f + root);
+  }
+  float result = form > 1 ? alpha / divisor : alpha;
+  for (int k = 0; k < 0 - form; ++k) result = result * (2.0f - result);
+  return result;
+}

@@ -1,7 +1,11 @@
 // Mirrors technique::RaycastParameters (raycast_parameters.hpp), where the meaning of each field stands.
 // The backend's prelude defines TRI_BINDING(n) and the compile-time constants
 //   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT   (integers),
-// which may be specialization constants, and the macro TRI_COUNT (0 or 1).
+// which may be specialization constants, and the macro TRI_COUNT (0 or 1). Where it also defines the
+// macro TRI_OPACITY_FORM, that is technique::opacity_form of the step.
+#ifndef TRI_OPACITY_FORM
+#define TRI_OPACITY_FORM 0
+#endif
 layout(std140) TRI_BINDING(0) uniform Parameters {
   vec4 eye;
   vec4 ray_centre;

@@ -14,15 +14,30 @@ uint count_bricks_visited = 0u;
 uint count_bricks_skipped = 0u;
 uint count_terminated = 0u;
 
+// What every sample needs of the parameters, loaded once per ray: a uniform named inside the loop is
+// loaded again for every sample by compilers that do not move loads out of loops.
+struct Grid {
+  vec3 inverse_size;
+  ivec3 last;      // largest index per axis
+  vec2 value_map;
+};
+
+Grid load_grid() {
+  Grid grid;
+  grid.inverse_size = 1.0 / vec3(u.volume_size.xyz);
+  grid.last = u.volume_size.xyz - 1;
+  grid.value_map = u.value_map.xy;
+  return grid;
+}
+
 // Trilinear by hand: texels floor(q), floor(q)+1 with q = p − ½, clamped to the edge.
-float fetch_manual(vec3 p) {
+float fetch_manual(Grid grid, vec3 p) {
   vec3 q = p - 0.5;
   vec3 base = floor(q);
   vec3 f = q - base;
   if (TRI_FAULT == fault_coarse_filter) f = floor(f * 256.0 + 0.5) / 256.0;
-  ivec3 last = u.volume_size.xyz - 1;
-  ivec3 a = clamp(ivec3(base), ivec3(0), last);
-  ivec3 b = clamp(ivec3(base) + 1, ivec3(0), last);
+  ivec3 a = clamp(ivec3(base), ivec3(0), grid.last);
+  ivec3 b = clamp(ivec3(base) + 1, ivec3(0), grid.last);
   float v000 = texelFetch(volume_texture, ivec3(a.x, a.y, a.z), 0).r;
   float v100 = texelFetch(volume_texture, ivec3(b.x, a.y, a.z), 0).r;
   float v010 = texelFetch(volume_texture, ivec3(a.x, b.y, a.z), 0).r;
@@ -38,20 +53,20 @@ float fetch_manual(vec3 p) {
   return y.x + f.z * (y.y - y.x);
 }
 
-float fetch_hardware(vec3 p) {
+float fetch_hardware(Grid grid, vec3 p) {
   if (TRI_FAULT == fault_coarse_filter) {
     vec3 q = p - 0.5;
     p = floor(q) + floor(fract(q) * 256.0 + 0.5) / 256.0 + 0.5;
   }
-  return textureLod(volume_texture, p / vec3(u.volume_size.xyz), 0.0).r;
+  return textureLod(volume_texture, p * grid.inverse_size, 0.0).r;
 }
 
 // Normalised value at p.
-float field(vec3 p) {
+float field(Grid grid, vec3 p) {
   if (TRI_FAULT == fault_half_voxel_shift) p.x += 0.5;
-  if (TRI_FAULT == fault_flipped_axis) p.y = float(u.volume_size.y) - p.y;
-  float stored = TRI_MANUAL_SAMPLER == 1 ? fetch_manual(p) : fetch_hardware(p);
-  return stored * u.value_map.x + u.value_map.y;
+  if (TRI_FAULT == fault_flipped_axis) p.y = float(grid.last.y + 1) - p.y;
+  float stored = TRI_MANUAL_SAMPLER == 1 ? fetch_manual(grid, p) : fetch_hardware(grid, p);
+  return stored * grid.value_map.x + grid.value_map.y;
 }
 
 vec4 transfer(float x) {
@@ -63,10 +78,10 @@ vec4 transfer(float x) {
 }
 
 // Headlight shading (scene::Shading): d is the world direction of the ray.
-vec3 shade(vec3 colour, vec3 p, vec3 d) {
-  vec3 g = vec3(field(p + vec3(1, 0, 0)) - field(p - vec3(1, 0, 0)),
-                field(p + vec3(0, 1, 0)) - field(p - vec3(0, 1, 0)),
-                field(p + vec3(0, 0, 1)) - field(p - vec3(0, 0, 1)));
+vec3 shade(Grid grid, vec3 colour, vec3 p, vec3 d) {
+  vec3 g = vec3(field(grid, p + vec3(1, 0, 0)) - field(grid, p - vec3(1, 0, 0)),
+                field(grid, p + vec3(0, 1, 0)) - field(grid, p - vec3(0, 1, 0)),
+                field(grid, p + vec3(0, 0, 1)) - field(grid, p - vec3(0, 0, 1)));
   g *= 0.5 * u.inverse_spacing.w * u.inverse_spacing.xyz;
   float cosine = abs(dot(g, d)) / max(sqrt(dot(g, g)), u.ray_up.w);
   float highlight = cosine;
@@ -101,124 +116,145 @@ Ray make_ray(ivec2 pixel) {
 }
 
 // A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed from the
-// brick's index, not accumulated, so that they do not drift.
+// brick's index, not accumulated, so that they do not drift: the ray leaves brick b through a face of
+// axis a at first[a] + b[a]·spacing[a].
 struct Walk {
   ivec3 brick;
   ivec3 direction;  // −1 or +1 per axis
-  vec3 inverse_g;
-  float leave;      // where the ray leaves the brick, steps
-  int axis;         // through which face
-  bool outside;     // rounding led out of the grid: the rest of the ray is taken as visible
+  vec3 first;       // steps
+  vec3 spacing;     // steps; 0 where the ray never crosses
+  vec3 at;          // where the ray crosses the brick's far face of each axis, steps
+  float leave;      // where it leaves the brick: the least of them
+  bool visible;     // also true outside the grid, where rounding can lead: that rest of a ray is sampled
+  bool outside;
 };
 
-void aim(inout Walk walk, Ray ray) {
-  vec3 face = vec3((walk.brick + max(walk.direction, ivec3(0))) * u.brick_grid.w);
-  vec3 at = (face - ray.p0) * walk.inverse_g;
-  at.x = ray.g.x == 0.0 ? 3.0e38 : at.x;
-  at.y = ray.g.y == 0.0 ? 3.0e38 : at.y;
-  at.z = ray.g.z == 0.0 ? 3.0e38 : at.z;
-  walk.axis = at.x <= at.y ? (at.x <= at.z ? 0 : 2) : (at.y <= at.z ? 1 : 2);
-  walk.leave = min(at.x, min(at.y, at.z));
+void enter(inout Walk walk) {
+  ivec3 size = u.brick_grid.xyz;
+  walk.at = walk.first + vec3(walk.brick) * walk.spacing;
+  walk.leave = min(walk.at.x, min(walk.at.y, walk.at.z));
+  // As unsigned numbers, negative indices are beyond the end too.
+  walk.outside = any(greaterThanEqual(uvec3(walk.brick), uvec3(size)));
+  int index = walk.brick.x + size.x * (walk.brick.y + size.y * walk.brick.z);
+  walk.visible = walk.outside || brick_visible[walk.outside ? 0 : index] != 0u;
 }
 
 Walk start_walk(Ray ray) {
+  float edge = float(u.brick_grid.w);
   Walk walk;
-  walk.brick = clamp(ivec3(floor(ray.p0 / float(u.brick_grid.w))), ivec3(0), u.brick_grid.xyz - 1);
+  walk.brick = clamp(ivec3(floor(ray.p0 / edge)), ivec3(0), u.brick_grid.xyz - 1);
   walk.direction = ivec3(ray.g.x < 0.0 ? -1 : 1, ray.g.y < 0.0 ? -1 : 1, ray.g.z < 0.0 ? -1 : 1);
-  walk.inverse_g = 1.0 / ray.g;
-  walk.outside = false;
-  aim(walk, ray);
+  vec3 inverse_g = 1.0 / ray.g;
+  walk.spacing = edge * inverse_g;
+  walk.first = (edge * vec3(max(walk.direction, ivec3(0))) - ray.p0) * inverse_g;
+  bvec3 parallel = equal(ray.g, vec3(0.0));
+  walk.spacing = mix(walk.spacing, vec3(0.0), parallel);
+  walk.first = mix(walk.first, vec3(3.0e38), parallel);
+  enter(walk);
   return walk;
 }
 
-void next_brick(inout Walk walk, Ray ray) {
-  walk.brick.x += walk.axis == 0 ? walk.direction.x : 0;
-  walk.brick.y += walk.axis == 1 ? walk.direction.y : 0;
-  walk.brick.z += walk.axis == 2 ? walk.direction.z : 0;
-  walk.outside = any(lessThan(walk.brick, ivec3(0))) || any(greaterThanEqual(walk.brick, u.brick_grid.xyz));
-  aim(walk, ray);
-}
-
-bool visible(Walk walk) {
-  if (walk.outside) return true;
-  return brick_visible[walk.brick.x + u.brick_grid.x * (walk.brick.y + u.brick_grid.y * walk.brick.z)] != 0u;
+void next_brick(inout Walk walk) {
+  bool x = walk.at.x <= walk.leave;
+  bool y = !x && walk.at.y <= walk.leave;
+  walk.brick += walk.direction * ivec3(x, y, !x && !y);
+  enter(walk);
 }
 
 // The first sample at or behind `limit` that lies beyond the brick. A sample within rounding of the face
 // may be counted to either side: the brick's border of one voxel covers half a voxel of error.
 int samples_before(Walk walk, int limit) {
-  if (walk.outside || !(walk.leave < float(limit))) return limit;
-  return clamp(int(ceil(walk.leave - 0.5)), 0, limit);
+  return walk.outside || !(walk.leave < float(limit)) ? limit : clamp(int(ceil(walk.leave - 0.5)), 0, limit);
 }
 
 // Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the ray.
-ivec2 next_run(inout Walk walk, Ray ray, int begin, int end) {
-  while (begin < end && !visible(walk)) {
+ivec2 next_run(inout Walk walk, int begin, int end) {
+  while (begin < end && !walk.visible) {
     begin = max(begin, samples_before(walk, end));
-    next_brick(walk, ray);
+    next_brick(walk);
     if (TRI_COUNT == 1) { count_bricks_visited++; count_bricks_skipped++; }
   }
   int stop = begin;
-  while (stop < end && visible(walk)) {
+  while (stop < end && walk.visible) {
     stop = max(stop, samples_before(walk, end));
-    next_brick(walk, ray);
+    next_brick(walk);
     if (TRI_COUNT == 1) count_bricks_visited++;
   }
   return ivec2(begin, stop);
 }
 
+struct Light {
+  vec3 colour;          // premultiplied
+  float transmittance;
+};
+
+// One sample at p. `whole`: it stands for a whole step, else for `share` of one.
+void add_sample(inout Light light, Grid grid, Ray ray, vec3 p, bool whole, float steps) {
+  vec4 c = transfer(field(grid, p));
+  if (TRI_COUNT == 1) count_samples++;
+  if (TRI_SPEED_OF_LIGHT == 1) {
+    light.colour += c.rgb;
+    light.transmittance += c.a;
+  } else if (c.a > 0.0) {
+    if (TRI_COUNT == 1) count_nonzero++;
+    if (TRI_SHADING == 1) c.rgb = shade(grid, c.rgb, p, ray.d);
+    float opacity = whole ? tri_opacity_by_form(c.a, steps, TRI_OPACITY_FORM) : tri_opacity(c.a, steps);
+    float weight = light.transmittance * opacity;
+    light.colour += weight * c.rgb;
+    light.transmittance -= weight;
+  }
+}
+
 // Premultiplied RGBA of the pixel.
 vec4 raycast(ivec2 pixel) {
   Ray ray = make_ray(pixel);
+  Grid grid = load_grid();
   int count = tri_sample_count(ray.steps);
   if (TRI_FAULT == fault_extra_sample && count > 0) { count += 1; ray.steps = float(count); }
-  vec3 colour = vec3(0.0);
-  float transmittance = 1.0;
+  int last = count - 1;  // the sample that may stand for less than a step: it is taken after the loops
   float step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
+  float enough = u.ray_right.w;
+  Light light = Light(vec3(0.0), 1.0);
   bool skipping = u.brick_grid.w > 0;
   Walk walk;
   if (skipping) walk = start_walk(ray);
+  bool last_visible = false;
   int i = 0;
   while (i < count) {
     int stop = count;
     if (skipping) {
-      ivec2 run = next_run(walk, ray, i, count);
+      ivec2 run = next_run(walk, i, count);
       i = run.x;
       stop = run.y;
     }
+    last_visible = stop == count && i < stop;
+    stop = min(stop, last);
     for (; i < stop; ++i) {
-      vec3 p = ray.p0 + (float(i) + 0.5) * ray.g;
-      vec4 c = transfer(field(p));
-      if (TRI_COUNT == 1) count_samples++;
-      if (TRI_SPEED_OF_LIGHT == 1) {
-        colour += c.rgb;
-        transmittance += c.a;
-        continue;
-      }
-      if (c.a > 0.0) {
-        if (TRI_COUNT == 1) count_nonzero++;
-        if (TRI_SHADING == 1) c.rgb = shade(c.rgb, p, ray.d);
-        float weight = transmittance * tri_opacity(c.a, step_voxels * tri_step_share(ray.steps, i));
-        colour += weight * c.rgb;
-        transmittance -= weight;
-        if (transmittance < u.ray_right.w) {
-          if (TRI_COUNT == 1) count_terminated = 1u;
-          count = 0;  // ends both loops
-          break;
-        }
+      add_sample(light, grid, ray, ray.p0 + (float(i) + 0.5) * ray.g, true, step_voxels);
+      if (TRI_SPEED_OF_LIGHT == 0 && light.transmittance < enough) {
+        if (TRI_COUNT == 1) count_terminated = 1u;
+        last_visible = false;
+        stop = 0;  // ends both loops
+        count = 0;
       }
     }
+    if (last_visible) count = 0;
+  }
+  if (last_visible) {
+    float steps = step_voxels * tri_step_share(ray.steps, last);
+    add_sample(light, grid, ray, ray.p0 + (float(last) + 0.5) * ray.g, false, steps);
+    if (TRI_COUNT == 1 && TRI_SPEED_OF_LIGHT == 0 && light.transmittance < enough) count_terminated = 1u;
   }
 #if TRI_COUNT
-    int total = tri_sample_count(ray.steps);
-    int at = 8 * (pixel.y * u.viewport.x + pixel.x);
-    counters[at] = total > 0 ? 1u : 0u;
-    counters[at + 1] = count_samples;
-    counters[at + 2] = count_nonzero;
-    counters[at + 3] = count_bricks_visited;
-    counters[at + 4] = count_bricks_skipped;
-    counters[at + 5] = count_terminated;
-    counters[at + 6] = uint(total) - count_samples;
+  int total = tri_sample_count(ray.steps);
+  int at = 8 * (pixel.y * u.viewport.x + pixel.x);
+  counters[at] = total > 0 ? 1u : 0u;
+  counters[at + 1] = count_samples;
+  counters[at + 2] = count_nonzero;
+  counters[at + 3] = count_bricks_visited;
+  counters[at + 4] = count_bricks_skipped;
+  counters[at + 5] = count_terminated;
+  counters[at + 6] = uint(total) - count_samples;
 #endif
-  return vec4(colour, 1.0 - transmittance) + transmittance * u.background;
+  return vec4(light.colour, 1.0 - light.transmittance) + light.transmittance * u.background;
 }

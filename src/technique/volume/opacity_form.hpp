@@ -1,0 +1,18 @@
+#pragma once
+#include <cmath>
+
+namespace triptych::technique {
+
+// The `form` of tri_opacity_by_form (portable/volume_math.h) for a step: 0 in general, k > 0 for
+// 2^(1−k) voxels, k < 0 for 2^−k voxels. A compile-time constant of kernels (TRI_OPACITY_FORM):
+// roots and squares cost a fraction of a logarithm and an exponential. Beyond three roots or two
+// squares the general form is no slower and errs less.
+[[nodiscard]] inline int opacity_form(double step_voxels) {
+  int exponent = 0;
+  if (std::frexp(step_voxels, &exponent) != 0.5) return 0;
+  const int log2_step = exponent - 1;
+  if (log2_step > 0) return log2_step <= 2 ? -log2_step : 0;
+  return log2_step >= -3 ? 1 - log2_step : 0;
+}
+
+}  // namespace triptych::technique
