@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "core/file.hpp"
+#include "core/image_io.hpp"
 #include "core/json.hpp"
 #include "fixture.hpp"
 #include "judge/json_file.hpp"
@@ -327,6 +328,14 @@ TEST_F(GateTest, AReplacedPictureIsAnError) {
   for (const auto& entry : std::filesystem::directory_iterator(baseline("images"))) {
     core::write_file(std::string_view("version https://git-lfs"), entry.path());
   }
+  EXPECT_THROW((void)gate("a"), core::InputError);
+}
+
+TEST_F(GateTest, APictureOfAnotherSceneIsAnError) {
+  add_run("a");
+  (void)accept_run("a");
+  const std::filesystem::directory_iterator first(baseline("images"));
+  core::write_file(core::encode_exr(core::Image(8, 6)), first->path());
   EXPECT_THROW((void)gate("a"), core::InputError);
 }
 
