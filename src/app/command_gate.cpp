@@ -6,6 +6,7 @@
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/truth.hpp"
+#include "core/json.hpp"
 #include "judge/gate.hpp"
 #include "report/junit.hpp"
 #include "report/markdown.hpp"

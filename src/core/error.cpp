@@ -20,6 +20,20 @@ std::string_view file_name(std::string_view path) {
   return slash == std::string_view::npos ? path : path.substr(slash + 1);
 }
 
+// Compilers of device code answer in many lines; what() has one.
+std::string on_one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    if (c != '\n' && c != '\r') {
+      line += c;
+    } else if (!line.empty() && !line.ends_with(" | ")) {
+      line += " | ";
+    }
+  }
+  while (line.ends_with(" | ")) line.resize(line.size() - 3);
+  return line;
+}
+
 }  // namespace
 
 InputError::InputError(FilePlace place, const std::string& message)
@@ -28,7 +42,7 @@ InputError::InputError(FilePlace place, const std::string& message)
 ApiError::ApiError(std::string call, std::string code, const std::string& detail,
                    std::source_location place)
     : Error(fmt::format("{} returned {} at {}:{}{}{}", call, code, file_name(place.file_name()),
-                        place.line(), detail.empty() ? "" : ": ", detail)),
+                        place.line(), detail.empty() ? "" : ": ", on_one_line(detail))),
       call_(std::move(call)),
       code_(std::move(code)) {}
 

@@ -128,7 +128,11 @@ class Worker {
     answer.record.prepare_ns = prepare_ns;
     answer.record.factors = std::move(configuration);
     describe_work(work, *device_, answer.record);
-    answer.exr = core::encode_exr(measured.image);
+    if (technique::technique(work.technique).picture) {
+      answer.exr = core::encode_exr(measured.image);
+    } else {
+      answer.record.image.clear();  // sums, not a picture
+    }
   }
 
   std::unique_ptr<Device> device_;

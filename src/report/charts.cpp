@@ -14,7 +14,7 @@ Json samples(const PlanData& plan) {
       values.push_back({{"ms", ns / 1e6},
                         {"device", record.device},
                         {"technique", record.technique},
-                        {"scene", scene_title(record)}});
+                        {"scene", scene_title(plan, record)}});
     }
   }
   return values;

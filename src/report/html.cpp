@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
@@ -50,15 +51,28 @@ std::string data_uri(std::span<const std::byte> png) {
   return result;
 }
 
+namespace {
+
+// "12.3 ms", "1 234", "-0.5": a number and at most a unit of two letters.
+bool is_quantity(std::string_view cell) {
+  if (cell.empty() || (cell[0] != '-' && cell[0] != '+' &&
+                       std::isdigit(static_cast<unsigned char>(cell[0])) == 0)) {
+    return false;
+  }
+  const auto letters = std::ranges::count_if(
+      cell, [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
+  return letters <= 2 && std::ranges::count(cell, '.') <= 1;
+}
+
+}  // namespace
+
 std::string table(const std::vector<std::vector<std::string>>& rows, std::string_view css_class) {
   std::string text = fmt::format("<div class=\"scroll\"><table class=\"{}\">\n", css_class);
   bool head = true;
   for (const auto& row : rows) {
     text += "<tr>";
     for (const std::string& cell : row) {
-      const bool number =
-          !cell.empty() && (std::isdigit(static_cast<unsigned char>(cell[0])) != 0 ||
-                            cell[0] == '-' || cell[0] == '+');
+      const bool number = is_quantity(cell);
       text += fmt::format("<{0}{1}>{2}</{0}>", head ? "th" : "td",
                           number && !head ? " class=\"number\"" : "", cell);
     }

@@ -28,6 +28,11 @@ std::string system_line(const record::Run& run) {
   return "<p class=\"system\">" + text + "</p>\n";
 }
 
+std::string common_line(const PlanData& plan) {
+  const std::string common = common_factors(plan);
+  return common.empty() ? common : "<p>All scenes: " + escape(common) + ".</p>\n";
+}
+
 std::string plan_part(const record::Store& store, const PlanReport& report,
                       const PageRequest& request, std::size_t index) {
   const PlanData plan{.anchor = fmt::format("plan{}", index),
@@ -37,8 +42,8 @@ std::string plan_part(const record::Store& store, const PlanReport& report,
   return fmt::format("<section id=\"{}\"><h2>{}</h2><p class=\"banner {}\">{}</p>", plan.anchor,
                      escape(report.run.plan), css_class(report.verdict.exit_code()),
                      escape(report.verdict.headline())) +
-         system_line(report.run) + verdict_section(plan) + devices_section(plan) +
-         scenes_section(store, plan, request.truth) + times_section(plan) +
+         system_line(report.run) + common_line(plan) + verdict_section(plan) +
+         devices_section(plan) + scenes_section(store, plan, request.truth) + times_section(plan) +
          speed_of_light_section(plan) + counts_section(plan) + "</section>\n";
 }
 

@@ -91,7 +91,7 @@ std::string scenes_section(const record::Store& store, const PlanData& plan,
     text += fmt::format(
         "<h4>{}</h4><div class=\"panels\"><figure>{}<figcaption>the truth<br>double "
         "precision</figcaption></figure>",
-        escape(scene_title(*records.front())), picture(first.truth, "the truth"));
+        escape(scene_title(plan, *records.front())), picture(first.truth, "the truth"));
     for (const record::Record* record : records)
       text += device_panel(store, *record, truth(*record));
     text += "</div>\n";

@@ -26,7 +26,11 @@ struct PlanData {
 [[nodiscard]] std::string speed_of_light_section(const PlanData& plan);
 [[nodiscard]] std::string counts_section(const PlanData& plan);
 
-// The factors of a configuration without the technique: what its records have in common.
-[[nodiscard]] std::string scene_title(const record::Record& record);
+// The factors that tell a record's scene from the plan's others, "data=…, camera=…"; all that its
+// configuration names where the plan has one scene only. The technique is never among them.
+[[nodiscard]] std::string scene_title(const PlanData& plan, const record::Record& record);
+
+// What all scenes of the plan have in common; empty when that is nothing.
+[[nodiscard]] std::string common_factors(const PlanData& plan);
 
 }  // namespace triptych::report

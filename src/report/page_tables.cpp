@@ -71,21 +71,6 @@ std::vector<const record::Record*> measured(const PlanData& plan) {
 
 }  // namespace
 
-std::string scene_title(const record::Record& record) {
-  std::string title;
-  std::string_view rest = record.configuration;
-  while (!rest.empty()) {
-    const auto comma = rest.find(',');
-    const std::string_view part = rest.substr(0, comma);
-    if (!part.starts_with("technique=")) {
-      title += title.empty() ? "" : ", ";
-      title += part;
-    }
-    rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
-  }
-  return title;
-}
-
 std::string verdict_section(const PlanData& plan) {
   std::vector<const judge::Finding*> notable;
   std::vector<const judge::Finding*> rest;
@@ -125,7 +110,7 @@ std::string times_section(const PlanData& plan) {
     const auto& samples = record->time_ns();
     const record::Summary summary = *record::summarise(samples);
     rows.push_back(
-        {escape(scene_title(*record)), escape(record->technique), escape(record->device),
+        {escape(scene_title(plan, *record)), escape(record->technique), escape(record->device),
          std::string(record->clock()), duration(summary.minimum), duration(summary.lower_quartile),
          duration(summary.median), duration(summary.upper_quartile),
          duration(record::percentile(samples, 0.9)), duration(summary.maximum),
@@ -146,16 +131,17 @@ std::string speed_of_light_section(const PlanData& plan) {
   std::map<std::pair<std::string, std::string>, double> bound;
   for (const record::Record* record : measured(plan)) {
     if (record->technique == "speed_of_light") {
-      bound[{record->device, scene_title(*record)}] = record::percentile(record->time_ns(), 0.5);
+      bound[{record->device, scene_title(plan, *record)}] =
+          record::percentile(record->time_ns(), 0.5);
     }
   }
   Rows rows{{"scene", "device", "technique", "time", "speed of light", "times as long"}};
   for (const record::Record* record : measured(plan)) {
-    const auto found = bound.find({record->device, scene_title(*record)});
+    const auto found = bound.find({record->device, scene_title(plan, *record)});
     if (record->technique == "speed_of_light" || found == bound.end()) continue;
     const double time = record::percentile(record->time_ns(), 0.5);
-    rows.push_back({escape(scene_title(*record)), escape(record->device), escape(record->technique),
-                    duration(time), duration(found->second),
+    rows.push_back({escape(scene_title(plan, *record)), escape(record->device),
+                    escape(record->technique), duration(time), duration(found->second),
                     fmt::format("{:.2f}", time / found->second)});
   }
   if (rows.size() == 1) return {};
@@ -181,7 +167,7 @@ std::string counts_section(const PlanData& plan) {
       const record::Counts& counts = counts_of(record);
       if (counts.empty()) continue;
       rows.push_back(
-          {escape(scene_title(record)), escape(record.technique), escape(record.device)});
+          {escape(scene_title(plan, record)), escape(record.technique), escape(record.device)});
       for (const std::string& name : names) {
         const auto found = counts.find(name);
         rows.back().push_back(found == counts.end() ? "" : grouped(found->second));

@@ -1,0 +1,63 @@
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "report/page_sections.hpp"
+
+namespace triptych::report {
+namespace {
+
+using Factors = std::map<std::string, std::string>;
+
+// "camera=…,data=…" of a configuration, without the technique.
+Factors named_factors(const record::Record& record) {
+  Factors factors;
+  std::istringstream text(record.configuration);
+  for (std::string part; std::getline(text, part, ',');) {
+    const auto equals = part.find('=');
+    if (equals == std::string::npos || part.starts_with("technique=")) continue;
+    factors[part.substr(0, equals)] = part.substr(equals + 1);
+  }
+  return factors;
+}
+
+// The factors with one value throughout the plan. A factor that some configurations leave at its
+// default is not one of them.
+Factors shared(const PlanData& plan) {
+  std::map<std::string, std::set<std::string>> values;
+  std::map<std::string, std::size_t> named;
+  for (const record::Record& record : plan.records) {
+    for (const auto& [name, value] : named_factors(record)) {
+      values[name].insert(value);
+      ++named[name];
+    }
+  }
+  Factors common;
+  for (const auto& [name, seen] : values) {
+    if (seen.size() == 1 && named[name] == plan.records.size()) common[name] = *seen.begin();
+  }
+  return common;
+}
+
+std::string joined(const Factors& factors) {
+  std::string text;
+  for (const auto& [name, value] : factors) {
+    text += (text.empty() ? "" : ", ") + name + "=" + value;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string scene_title(const PlanData& plan, const record::Record& record) {
+  Factors own = named_factors(record);
+  const Factors all = own;
+  for (const auto& [name, value] : shared(plan)) own.erase(name);
+  return joined(own.empty() ? all : own);
+}
+
+std::string common_factors(const PlanData& plan) {
+  return joined(shared(plan));
+}
+
+}  // namespace triptych::report
