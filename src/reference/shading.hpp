@@ -19,7 +19,8 @@ namespace triptych::reference {
 // device's denominator is at least m' = max(floor, |g| − δ), so that
 //   |cos' − cos| ≤ |δ|/m' + |g·d|·|m − m'|/(m·m') ≤ (1 + cos)·|δ|/m'.
 // The dot product, the root, the division and the unit direction err by at most eight roundings of
-// a quantity that is at most 1.
+// a quantity that is at most 1. The six places stand around one p and share its error; of their own
+// they add the rounding of a coordinate.
 template <typename Stored>
 [[nodiscard]] Bounded headlight_cosine(const Field<Stored>& field, const Ray& ray,
                                        const glm::dvec3& p, const glm::dvec3& gradient_scale,

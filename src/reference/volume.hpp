@@ -19,6 +19,7 @@ struct ErrorModel {
   double table_error = 0;          // of a looked-up colour or opacity, absolute
   double opacity_error = 0;        // of the step-corrected opacity, relative
   double compositing_error = 0;    // of each multiply–add into colour and transmittance, relative
+                                   // and of each operation of shading
   double ert = 0;                  // ε at which a device may stop
 };
 
@@ -26,13 +27,16 @@ struct Truth {
   int width = 0;
   int height = 0;
   std::vector<double> rgba;   // as core::Image, premultiplied, top row first
-  std::vector<double> bound;  // per pixel: the largest error of any channel that the model allows
+  std::vector<double> bound;  // per pixel: the largest error of any channel that the model allows;
+                              // of render_volume_converged: the change by its last halving
 
   [[nodiscard]] core::Image image() const;        // rounded to float
   [[nodiscard]] core::Image bound_image() const;  // the bound in all four channels, rounded up
 };
 
-// Cost: about (samples × 8 voxels) on each of `threads` threads (0: as many as there are).
+// Cost: about (samples × 8 voxels), shared by `threads` threads (0: as many as there are); the
+// result does not depend on their number. Throws InputError for a scene without volume, with a step
+// ≤ 0 or with data that does not match its size.
 [[nodiscard]] Truth render_volume(const scene::VolumeScene& scene, const ErrorModel& model = {},
                                   int threads = 0);
 
