@@ -127,10 +127,11 @@ struct Walk {
   float leave;      // where it leaves the brick: the least of them
   bool visible;     // also true outside the grid, where rounding can lead: that rest of a ray is sampled
   bool outside;
+  ivec3 size;       // bricks per axis
 };
 
 void enter(inout Walk walk) {
-  ivec3 size = u.brick_grid.xyz;
+  ivec3 size = walk.size;
   walk.at = walk.first + vec3(walk.brick) * walk.spacing;
   walk.leave = min(walk.at.x, min(walk.at.y, walk.at.z));
   // As unsigned numbers, negative indices are beyond the end too.
@@ -142,7 +143,8 @@ void enter(inout Walk walk) {
 Walk start_walk(Ray ray) {
   float edge = float(u.brick_grid.w);
   Walk walk;
-  walk.brick = clamp(ivec3(floor(ray.p0 / edge)), ivec3(0), u.brick_grid.xyz - 1);
+  walk.size = u.brick_grid.xyz;
+  walk.brick = clamp(ivec3(floor(ray.p0 / edge)), ivec3(0), walk.size - 1);
   walk.direction = ivec3(ray.g.x < 0.0 ? -1 : 1, ray.g.y < 0.0 ? -1 : 1, ray.g.z < 0.0 ? -1 : 1);
   vec3 inverse_g = 1.0 / ray.g;
   walk.spacing = edge * inverse_g;
@@ -205,7 +207,11 @@ void add_sample(inout Light light, Grid grid, Ray ray, vec3 p, bool whole, float
   }
 }
 
-// Premultiplied RGBA of the pixel.
+// Premultiplied RGBA of the pixel. Two habits of compilers for CPUs shape these loops. They run a block of
+// rays through both sides of a condition, so the opacity of the partial last step must not stand beside
+// that of a whole one: the last sample is taken behind the loops. And Mesa 22.3's llvmpipe goes on
+// computing, with loads that yield 0, the values of a ray that has left a loop while its neighbours have
+// not: a loop may be left at its head only, where every variable is still what the last pass made it.
 vec4 raycast(ivec2 pixel) {
   Ray ray = make_ray(pixel);
   Grid grid = load_grid();
