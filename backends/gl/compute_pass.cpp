@@ -10,8 +10,8 @@ namespace {
 
 constexpr GLuint binding_pixels = 4;  // of shaders/raycast.comp
 
-constexpr GLuint groups(int size, int group) {
-  return static_cast<GLuint>((size + group - 1) / group);
+constexpr GLuint groups(int size) {
+  return static_cast<GLuint>((size + group_edge - 1) / group_edge);
 }
 
 }  // namespace
@@ -28,9 +28,8 @@ std::optional<std::string> ComputePass::unsupported(const Api& gl, int width, in
     return "compute shaders need OpenGL 4.3 or GL_ARB_compute_shader";
   }
   const std::array<int, 2> size{width, height};
-  const std::array<int, 2> group{group_width, group_height};
   for (GLuint axis = 0; axis < size.size(); ++axis) {
-    const std::int64_t needed = groups(size[axis], group[axis]);
+    const std::int64_t needed = groups(size[axis]);
     const std::int64_t most = gl.limit(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis);
     if (needed > most) {
       return fmt::format("{}x{} pixels need {} work groups, GL_MAX_COMPUTE_WORK_GROUP_COUNT is {}",
@@ -56,7 +55,7 @@ void ComputePass::bind(const Api& gl) {
 
 void ComputePass::submit(const Api& gl, Rows rows) {
   const int height = rows == Rows::all ? height_ : extra_rows_;
-  gl.DispatchCompute(groups(width_, group_width), groups(height, group_height), 1);
+  gl.DispatchCompute(groups(width_), groups(height), 1);
 }
 
 core::Image ComputePass::read(const Api& gl) const {

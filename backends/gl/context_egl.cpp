@@ -4,7 +4,7 @@
 #include <glad/egl.h>
 
 #include <array>
-#include <optional>
+#include <vector>
 
 #include "backends/gl/context.hpp"
 #include "backends/gl/library.hpp"
@@ -91,18 +91,20 @@ class EglContext final : public Context {
   }
 
   EGLContext create(bool debug, bool robust) {
-    const std::array<EGLint, 11> attributes{
-        EGL_CONTEXT_MAJOR_VERSION,
-        3,
-        EGL_CONTEXT_MINOR_VERSION,
-        3,
-        EGL_CONTEXT_OPENGL_PROFILE_MASK,
-        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-        EGL_CONTEXT_OPENGL_DEBUG,
-        debug ? EGL_TRUE : EGL_FALSE,
-        robust ? EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY : EGL_NONE,
-        EGL_LOSE_CONTEXT_ON_RESET,
-        EGL_NONE};
+    std::vector<EGLint> attributes{
+        EGL_CONTEXT_MAJOR_VERSION,       3,
+        EGL_CONTEXT_MINOR_VERSION,       3,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+    // The attribute of EGL 1.5 is refused by displays of EGL 1.4 (softpipe's), this one by none.
+    if (debug && egl_.has(display_, "EGL_KHR_create_context")) {
+      attributes.insert(attributes.end(),
+                        {EGL_CONTEXT_FLAGS_KHR, EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR});
+    }
+    if (robust) {
+      attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                           EGL_LOSE_CONTEXT_ON_RESET});
+    }
+    attributes.push_back(EGL_NONE);
     return egl_.create_context(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
   }
 

@@ -14,14 +14,15 @@
 namespace triptych::gl_backend {
 namespace {
 
-constexpr GLuint binding_parameters = 0;  // of technique/volume/raycast/parameters.glsl
+// Of shaders/filter_probe.comp.
 constexpr GLuint unit_volume = 1;
-constexpr GLuint binding_probe = 4;  // of shaders/filter_probe.comp
+constexpr GLuint binding_probe = 4;
+constexpr int group_size = 64;
 
-// A power of two, so that dividing a position by it is exact and only the filter's error is seen.
-constexpr int edge = 8;
-constexpr int row = 32 * group_width;
-constexpr int rows = 16 * group_height;
+// A power of two, so that dividing a position by it is exact and only the filter's error is seen;
+// more than the tiles that renderers cut volumes into, whose seams are a place to err (softpipe).
+constexpr int edge = 64;
+constexpr int point_count = 512 * group_size;
 using Point = std::array<float, 4>;  // position in voxels; the value found there
 
 scene::VoxelGrid random_bits(scene::VoxelFormat format, core::Random& random) {
@@ -71,23 +72,16 @@ double interpolated(const scene::VoxelGrid& grid, const Point& point) {
 
 // Leaves the fetched value in each point.
 void fetch(const Api& gl, const scene::VoxelGrid& grid, std::vector<Point>& points) {
-  technique::RaycastParameters parameters{};
-  parameters.value_map = {1, 0, 0, 0};
-  parameters.volume_size = {edge, edge, edge, 0};
-  parameters.viewport = {row, rows, 1, 0};
-  const Stage stage{GL_COMPUTE_SHADER,
-                    volume_source(gl, {.manual_sampler = false}, "filter_probe.comp")};
+  const Stage stage{GL_COMPUTE_SHADER, plain_source(gl, "filter_probe.comp")};
   const Program program = link(gl, std::span(&stage, 1));
   const Texture volume = volume_texture(gl, grid, true);
-  const Buffer uniform = constant_buffer(gl, std::as_bytes(std::span(&parameters, 1)));
   const Buffer probe = constant_buffer(gl, std::as_bytes(std::span(points)));
 
   gl.UseProgram(program.get());
   gl.ActiveTexture(GL_TEXTURE0 + unit_volume);
   gl.BindTexture(GL_TEXTURE_3D, volume.get());
-  gl.BindBufferBase(GL_UNIFORM_BUFFER, binding_parameters, uniform.get());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_probe, probe.get());
-  gl.DispatchCompute(row / group_width, rows / group_height, 1);
+  gl.DispatchCompute(point_count / group_size, 1, 1);
   gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   gl.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0,
                       static_cast<GLsizeiptr>(std::span(points).size_bytes()), points.data());
@@ -99,7 +93,7 @@ void fetch(const Api& gl, const scene::VoxelGrid& grid, std::vector<Point>& poin
 double probe_filter(const Api& gl, scene::VoxelFormat format) {
   core::Random random(1);
   const scene::VoxelGrid grid = random_bits(format, random);
-  std::vector<Point> points(std::size_t{row} * rows);
+  std::vector<Point> points(point_count);
   for (Point& point : points) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       point[axis] = static_cast<float>(random.uniform(0, edge));

@@ -29,13 +29,12 @@ std::string version_lines(const Api& gl) {
 std::string constant_lines(const Constants& constants) {
   return fmt::format(
       "#define TRI_MANUAL_SAMPLER {:d}\n#define TRI_SHADING {:d}\n#define TRI_COUNT {:d}\n"
-      "#define TRI_SPEED_OF_LIGHT {:d}\n#define TRI_FAULT {}\n"
-      "#define TRI_GROUP_WIDTH {}\n#define TRI_GROUP_HEIGHT {}\n",
+      "#define TRI_SPEED_OF_LIGHT {:d}\n#define TRI_FAULT {}\n#define TRI_OPACITY_FORM {}\n",
       int{constants.manual_sampler}, int{constants.shading}, int{constants.count},
-      int{constants.speed_of_light}, constants.fault, group_width, group_height);
+      int{constants.speed_of_light}, constants.fault, constants.opacity_form);
 }
 
-// "vertex", for messages.
+// For messages.
 std::string_view stage_name(GLenum type) {
   switch (type) {
     case GL_VERTEX_SHADER:

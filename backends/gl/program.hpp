@@ -14,11 +14,11 @@ struct Constants {
   bool count = false;
   bool speed_of_light = false;
   int fault = 0;
+  int opacity_form = 0;  // technique::opacity_form of the step
 };
 
-// Invocations per work group: 64, as every GPU likes them, in a square for neighbouring rays.
-inline constexpr int group_width = 8;
-inline constexpr int group_height = 8;
+// A work group takes a square of this many pixels (shaders/raycast.comp).
+inline constexpr int group_edge = 8;
 
 struct Stage {
   GLenum type = GL_COMPUTE_SHADER;
@@ -29,7 +29,7 @@ struct Stage {
 // backends/gl/shaders/ behind it, in the newest GLSL the context has.
 [[nodiscard]] std::string volume_source(const Api& gl, const Constants& constants,
                                         std::string_view main_file);
-// The named file alone, for stages that share nothing.
+// The named file alone behind the #version line, for stages that share nothing.
 [[nodiscard]] std::string plain_source(const Api& gl, std::string_view main_file);
 
 // Compiles and links; throws core::ApiError with the driver's log.

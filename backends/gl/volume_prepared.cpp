@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "technique/volume/opacity_form.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -164,7 +165,11 @@ Constants constants_of(const measure::VolumeWork& work) {
           .shading = work.scene.shading.enabled,
           .count = false,
           .speed_of_light = false,
-          .fault = static_cast<int>(work.options.fault)};
+          .fault = static_cast<int>(work.options.fault),
+          .opacity_form =
+              technique::opacity_form(work.options.fault == technique::Fault::uncorrected_opacity
+                                          ? 1
+                                          : work.scene.step_voxels)};
 }
 
 std::optional<std::string> volume_unsupported(const Api& gl, const measure::VolumeWork& work) {

@@ -1,8 +1,10 @@
-// Fetches the volume at given positions, as raycast does.
-layout(local_size_x = TRI_GROUP_WIDTH, local_size_y = TRI_GROUP_HEIGHT) in;
-layout(std430) TRI_BINDING(4) buffer Probe { vec4 probe[]; };  // xyz: position in voxels; w: the value found
+// Fetches a volume at given positions by the device's own filter, as raycast.glsl does.
+layout(local_size_x = 64) in;
+layout(binding = 1) uniform sampler3D volume;
+layout(std430, binding = 4) buffer Probe { vec4 probe[]; };  // xyz: position in voxels; w: the value found
 
 void main() {
-  int index = int(gl_GlobalInvocationID.y) * u.viewport.x + int(gl_GlobalInvocationID.x);
-  probe[index].w = field(probe[index].xyz);
+  uint index = gl_GlobalInvocationID.x;
+  vec3 size = vec3(textureSize(volume, 0));
+  probe[index].w = textureLod(volume, probe[index].xyz / size, 0.0).r;
 }

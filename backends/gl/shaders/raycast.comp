@@ -1,10 +1,16 @@
 // One ray per invocation. Row y of the grid is image row y·stride: 1 for the picture, more for planted
-// extra work.
-layout(local_size_x = TRI_GROUP_WIDTH, local_size_y = TRI_GROUP_HEIGHT) in;
+// extra work. A group takes 8×8 pixels in Z order, so that any 4, 8, 16 or 32 consecutive invocations,
+// whichever a device runs in step, are a compact block: neighbouring rays walk alike.
+layout(local_size_x = 64) in;
 layout(std430) TRI_BINDING(4) writeonly buffer Pixels { vec4 pixels[]; };  // top row first
 
+ivec2 pixel_of_group(int i) {
+  return ivec2((i & 1) | (i >> 1 & 2) | (i >> 2 & 4), (i >> 1 & 1) | (i >> 2 & 2) | (i >> 3 & 4));
+}
+
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * ivec2(1, u.viewport.z);
+  ivec2 pixel = 8 * ivec2(gl_WorkGroupID.xy) + pixel_of_group(int(gl_LocalInvocationIndex));
+  pixel.y *= u.viewport.z;
   if (pixel.x >= u.viewport.x || pixel.y >= u.viewport.y) return;
   pixels[pixel.y * u.viewport.x + pixel.x] = raycast(pixel);
 }
