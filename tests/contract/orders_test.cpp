@@ -1,0 +1,132 @@
+// V1–V6 on real devices: the closed forms at the order of convergence that the quadrature must
+// show.
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/analytic_scenes.hpp"
+#include "reference/volume.hpp"
+#include "suites/volume/tolerance.hpp"
+#include "under_test.hpp"
+
+namespace triptych::contract {
+namespace {
+
+using reference::AnalyticProblem;
+
+const std::vector<double> steps{2, 1, 0.5, 0.25};
+
+reference::AnalyticScene scene_of(AnalyticProblem problem, int size, double step) {
+  reference::AnalyticOptions options;
+  options.size = {size, size, size};
+  options.step_voxels = step;
+  return analytic_scene(problem, options);
+}
+
+measure::Work work_of(const measure::Device& device, const scene::VolumeScene& scene) {
+  return {
+      .technique = "raycast",
+      .scene = measure::VolumeWork{
+          .scene = scene,
+          .options = {.sampler = device.default_path(scene::VoxelFormat::f32).sampler, .ert = 0}}};
+}
+
+// Root mean square of the error over pixels and channels against `exact(x, y)`.
+template <class Exact>
+double rms_error(const core::Image& image, const Exact& exact) {
+  double sum = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const auto truth = exact(x, y);
+      for (std::size_t c = 0; c < 4; ++c) sum += std::pow(image.pixel(x, y)[c] - truth[c], 2);
+    }
+  }
+  return std::sqrt(sum / (4.0 * static_cast<double>(image.pixel_count())));
+}
+
+// Least-squares slope of log error over log step.
+double fitted_order(const std::vector<double>& errors) {
+  double sx = 0;
+  double sy = 0;
+  double sxx = 0;
+  double sxy = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double x = std::log(steps[i]);
+    const double y = std::log(errors[i]);
+    sx += x;
+    sy += y;
+    sxx += x * x;
+    sxy += x * y;
+  }
+  const auto n = static_cast<double>(steps.size());
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+double order_on(measure::Device& device, AnalyticProblem problem, int size) {
+  std::vector<double> errors;
+  for (const double step : steps) {
+    const reference::AnalyticScene analytic = scene_of(problem, size, step);
+    const core::Image image = draw(device, work_of(device, analytic.scene));
+    errors.push_back(rms_error(image, [&](int x, int y) { return analytic.exact(x, y).rgba; }));
+  }
+  return fitted_order(errors);
+}
+
+TEST(Orders, V1IsExactForEveryStep) {
+  on_every_device([](measure::Device& device) {
+    for (const double step : {0.125, 0.3, 1.0, 2.0, 7.7, 100.0}) {
+      SCOPED_TRACE(step);
+      const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v1_constant, 16, step);
+      const core::Image image = draw(device, work_of(device, analytic.scene));
+      const auto model = volume_suite::error_model(analytic.scene, {});
+      const core::Image bound = reference::render_volume(analytic.scene, model).bound_image();
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+          const auto exact = analytic.exact(x, y);
+          for (std::size_t c = 0; c < 4; ++c) {
+            ASSERT_NEAR(image.pixel(x, y)[c], exact.rgba[c],
+                        exact.model_error + static_cast<double>(bound.pixel(x, y)[c]))
+                << x << ' ' << y;
+          }
+        }
+      }
+    }
+  });
+}
+
+TEST(Orders, SmoothProblemsAreOfSecondOrder) {
+  on_every_device([](measure::Device& device) {
+    for (const AnalyticProblem problem :
+         {AnalyticProblem::v2_ramp, AnalyticProblem::v3_segment, AnalyticProblem::v5_atmosphere}) {
+      EXPECT_GE(order_on(device, problem, 10), 1.9) << reference::name_of(problem);
+    }
+  });
+}
+
+// The blob's grid is not its closed form, so the order in the step is taken against the grid's
+// limit.
+TEST(Orders, V4IsOfSecondOrder) {
+  on_every_device([](measure::Device& device) {
+    reference::AnalyticScene analytic = scene_of(AnalyticProblem::v4_gaussian, 24, 1);
+    const reference::Truth limit = reference::render_volume_converged(analytic.scene, 1e-7);
+    const core::Image exact = limit.image();
+    std::vector<double> errors;
+    for (const double step : steps) {
+      analytic.scene.step_voxels = step;
+      errors.push_back(rms_error(draw(device, work_of(device, analytic.scene)),
+                                 [&](int x, int y) { return exact.pixel(x, y); }));
+    }
+    EXPECT_GE(fitted_order(errors), 1.9);
+  });
+}
+
+TEST(Orders, V6IsLimitedByItsEdge) {
+  on_every_device([](measure::Device& device) {
+    const double order = order_on(device, AnalyticProblem::v6_layers, 12);
+    EXPECT_GT(order, 0.4);
+    EXPECT_LT(order, 1.8);
+  });
+}
+
+}  // namespace
+}  // namespace triptych::contract

@@ -1,0 +1,55 @@
+// Skipping empty space leaves every bit as it is: for every generator, both transfer functions,
+// shaded or not, and for every real volume.
+
+#include "data_folder.hpp"
+#include "under_test.hpp"
+
+namespace triptych::contract {
+namespace {
+
+void expect_same_bits(measure::Device& device, measure::Work work) {
+  auto& options = std::get<measure::VolumeWork>(work.scene).options;
+  for (const double ert : {0.0, 1.0 / 512}) {
+    options.ert = ert;
+    options.skip = technique::Skip::none;
+    const core::Image without = draw(device, work);
+    options.skip = technique::Skip::bricks;
+    EXPECT_EQ(draw(device, work), without) << "ERT " << ert;
+  }
+}
+
+TEST(Skipping, GeneratedVolumesHaveTheSameBits) {
+  on_every_device([](measure::Device& device) {
+    for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
+      for (const std::string_view function : scene::transfer_function_presets()) {
+        for (const bool shaded : {false, true}) {
+          SCOPED_TRACE(std::string(generator.name) + " " + std::string(function));
+          scene::VolumeScene scene = small_scene(function);
+          scene.shading.enabled = shaded;
+          expect_same_bits(
+              device, default_work(device, scene::generate_volume(generator.name, {37, 41, 23}),
+                                   std::move(scene)));
+        }
+      }
+    }
+  });
+}
+
+TEST(Skipping, RealVolumesHaveTheSameBits) {
+  const auto files = real_volumes();
+  if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
+  on_every_device([&](measure::Device& device) {
+    for (const auto& file : files) {
+      for (const std::string_view function : scene::transfer_function_presets()) {
+        SCOPED_TRACE(file.filename().string() + " " + std::string(function));
+        scene::VolumeScene scene = small_scene(function);
+        scene.shading.enabled = function == "surfaces";
+        expect_same_bits(device,
+                         default_work(device, scene::load_volume(file.string()), std::move(scene)));
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace triptych::contract

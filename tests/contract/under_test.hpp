@@ -1,0 +1,59 @@
+#pragma once
+// What every contract test starts from: the backend, and each of its devices opened in turn.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+
+#include "measure/backend.hpp"
+#include "scene/generators.hpp"
+
+namespace triptych::contract {
+
+[[nodiscard]] std::unique_ptr<measure::Backend> backend_under_test();
+
+// Runs `body` on every device; skips, with the reasons the backend gives, where there is none.
+inline void on_every_device(const std::function<void(measure::Device&)>& body) {
+  const auto backend = backend_under_test();
+  const measure::Listing listing = backend->list();
+  if (listing.devices.empty()) {
+    std::string reasons;
+    for (const measure::Broken& each : listing.broken)
+      reasons += each.what + ": " + each.reason + "; ";
+    GTEST_SKIP() << "no device: " << reasons;
+  }
+  for (const record::Device& info : listing.devices) {
+    SCOPED_TRACE(info.id);
+    const auto device = backend->open(info.id);
+    body(*device);
+  }
+}
+
+// The scene on the path that the device takes by default.
+inline measure::Work default_work(const measure::Device& device, scene::Volume volume,
+                                  scene::VolumeScene scene) {
+  const measure::VolumePath path = device.default_path(scene::lossless_format(volume.type));
+  scene.grid =
+      std::make_shared<const scene::VoxelGrid>(scene::encode(std::move(volume), path.voxel));
+  scene.camera = scene::camera_at("orbit_y:1/8", scene.box(), 90);
+  return {.technique = "raycast",
+          .scene =
+              measure::VolumeWork{.scene = std::move(scene), .options = {.sampler = path.sampler}}};
+}
+
+// The picture of one frame.
+inline core::Image draw(measure::Device& device, const measure::Work& work) {
+  const auto prepared = device.prepare(work);
+  static_cast<void>(prepared->frame(measure::Purpose::timing));
+  return prepared->image();
+}
+
+inline scene::VolumeScene small_scene(std::string_view transfer_function) {
+  return {.transfer_function = scene::load_transfer_function(transfer_function),
+          .width = 64,
+          .height = 48,
+          .step_voxels = 0.5};
+}
+
+}  // namespace triptych::contract
