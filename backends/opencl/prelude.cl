@@ -11,14 +11,18 @@
 #define TRI_AS_INT(x) as_int(x)
 #define TRI_AS_FLOAT(x) as_float(x)
 #define TRI_FLOOR(x) tri_floor(x)
-#define TRI_CEIL(x) ceil(x)
+#define TRI_CEIL(x) tri_ceil(x)
 #define TRI_SQRT(x) sqrt(x)
 #define TRI_INT(x) ((int)(x))
 #define TRI_TO_FLOAT(x) ((float)(x))
 #define TRI_PRECISE
 
-// floor for |x| < 2³¹, by conversions: PoCL's floor() is a call.
+// For |x| < 2³¹, by conversions: PoCL's floor() and ceil() are calls.
 TRI_FN float tri_floor(float x) {
   float whole = (float)(int)x;
   return whole > x ? whole - 1.0f : whole;
+}
+TRI_FN float tri_ceil(float x) {
+  float whole = (float)(int)x;
+  return whole < x ? whole + 1.0f : whole;
 }

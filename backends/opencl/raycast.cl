@@ -55,7 +55,7 @@ TRI_FN void aim(__constant Parameters* u, Walk* walk, const Ray* ray) {
 
 TRI_FN Walk start_walk(__constant Parameters* u, const Ray* ray) {
   Walk walk;
-  walk.brick = clamp(convert_int3(floor(ray->p0 / (float)u->brick_grid.w)), (int3)(0),
+  walk.brick = clamp(convert_int3(ray->p0 / (float)u->brick_grid.w), (int3)(0),
                      u->brick_grid.xyz - 1);
   walk.direction = (int3)(ray->g.x < 0.0f ? -1 : 1, ray->g.y < 0.0f ? -1 : 1,
                           ray->g.z < 0.0f ? -1 : 1);
@@ -84,10 +84,10 @@ TRI_FN int visible(__constant Parameters* u, __global const uint* brick_visible,
 // face may be counted to either side: the brick's border of one voxel covers half a voxel of error.
 TRI_FN int samples_before(const Walk* walk, int limit) {
   if (walk->outside || !(walk->leave < (float)limit)) return limit;
-  return clamp((int)ceil(walk->leave - 0.5f), 0, limit);
+  return clamp((int)tri_ceil(walk->leave - 0.5f), 0, limit);
 }
 
-// What a counting build leaves per pixel, in the order of technique::raycast_counters.
+// What a counting build counts along a ray; the others drop it.
 typedef struct {
   uint samples;
   uint nonzero;
@@ -161,6 +161,86 @@ TRI_FN void classify(__constant float4* table, const float* value, int n, float4
   }
 }
 
+// What a ray has gathered so far.
+typedef struct {
+  float4 sum;  // premultiplied colour; w is not used
+  float transmittance;
+} Gathered;
+
+// Composites the first n of the samples that begin with the i-th; 1 where the ray ends among them.
+TRI_FN int composite(__constant Parameters* u, TRI_VOLUME volume, const Ray* ray, int i, int n,
+                     const float4* colour, const float* alpha, Gathered* gathered,
+                     Counts* counts) {
+  int lanes = TRI_WHOLE_VECTORS(n);
+  float most = 0.0f;
+  for (int k = 0; k < lanes; ++k) most = alpha[k] > most ? alpha[k] : most;
+  if (!(most > 0.0f)) {
+    counts->samples += (uint)n;
+    return 0;
+  }
+  float step_voxels = TRI_FAULT == FAULT_UNCORRECTED_OPACITY ? 1.0f : u->ray_centre.w;
+  float opacity[TRI_BATCH];
+  for (int k = 0; k < lanes; ++k) {
+    opacity[k] = tri_opacity(alpha[k], step_voxels * tri_step_share(ray->steps, i + k));
+  }
+  for (int k = 0; k < n; ++k) {
+    float4 c = colour[k];
+#if TRI_COUNT
+    counts->samples++;
+    if (alpha[k] > 0.0f) counts->nonzero++;
+#endif
+#if TRI_SHADING
+    if (alpha[k] > 0.0f) {
+      c = shade(u, volume, c, ray->p0 + ((float)(i + k) + 0.5f) * ray->g, ray->d);
+    }
+#endif
+    float weight = gathered->transmittance * opacity[k];
+    gathered->sum += weight * c;
+    gathered->transmittance -= weight;
+    if (gathered->transmittance < u->ray_right.w) {
+      counts->terminated = 1u;
+      return 1;
+    }
+  }
+  return 0;
+}
+
+// Takes the n samples from the i-th on; 1 where the ray ends among them.
+TRI_FN int take_batch(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
+                      const Ray* ray, int i, int n, Gathered* gathered, Counts* counts) {
+  int lanes = TRI_WHOLE_VECTORS(n);
+  Positions p;
+  float value[TRI_BATCH];
+  float4 colour[TRI_BATCH];
+  float alpha[TRI_BATCH];
+  for (int k = 0; k < lanes; ++k) {
+    float along = (float)(i + k) + 0.5f;
+    p.x[k] = ray->p0.x + along * ray->g.x;
+    p.y[k] = ray->p0.y + along * ray->g.y;
+    p.z[k] = ray->p0.z + along * ray->g.z;
+  }
+  fetch(u, volume, &p, lanes, value);
+  classify(table, value, lanes, colour, alpha);
+#if TRI_SPEED_OF_LIGHT
+  for (int k = 0; k < n; ++k) gathered->sum += colour[k];
+  counts->samples += (uint)n;
+  return 0;
+#else
+  return composite(u, volume, ray, i, n, colour, alpha, gathered, counts);
+#endif
+}
+
+// What the kernel leaves for a pixel, in the order of technique::raycast_counters.
+TRI_FN void store_counts(__global uint* to, const Counts* counts, int total) {
+  to[0] = total > 0 ? 1u : 0u;
+  to[1] = counts->samples;
+  to[2] = counts->nonzero;
+  to[3] = counts->bricks_visited;
+  to[4] = counts->bricks_skipped;
+  to[5] = counts->terminated;
+  to[6] = (uint)total - counts->samples;
+}
+
 // Image: premultiplied RGBA, top row first. Work items cover every viewport.z-th row.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const uint* brick_visible, __global float4* image,
@@ -170,97 +250,35 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
   Ray ray = make_ray(u, pixel);
   int count = tri_sample_count(ray.steps);
 #if TRI_FAULT == FAULT_EXTRA_SAMPLE
-  if (count > 0) {
-    count += 1;
-    ray.steps = (float)count;
-  }
-  float step_voxels = u->ray_centre.w;
-#elif TRI_FAULT == FAULT_UNCORRECTED_OPACITY
-  float step_voxels = 1.0f;
-#else
-  float step_voxels = u->ray_centre.w;
+  if (count > 0) ray.steps = (float)++count;
 #endif
-  float4 sum = (float4)(0.0f);
-  float transmittance = 1.0f;
+  Gathered gathered = {(float4)(0.0f), 1.0f};
   Counts counts = {0u, 0u, 0u, 0u, 0u};
   int skipping = u->brick_grid.w > 0;
   Walk walk;
   if (skipping) walk = start_walk(u, &ray);
   int i = 0;
-  while (i < count) {
+  int ended = 0;
+  while (i < count && !ended) {
     int stop = count;
     if (skipping) {
       int2 run = next_run(u, brick_visible, &walk, &ray, i, count, &counts);
       i = run.x;
       stop = run.y;
     }
-    while (i < stop) {
+    while (i < stop && !ended) {
       int n = TRI_BATCH == 1 ? 1 : min(stop - i, TRI_BATCH);
-      int lanes = TRI_WHOLE_VECTORS(n);
-      Positions p;
-      float value[TRI_BATCH];
-      float4 colour[TRI_BATCH];
-      float alpha[TRI_BATCH];
-      for (int k = 0; k < lanes; ++k) {
-        float along = (float)(i + k) + 0.5f;
-        p.x[k] = ray.p0.x + along * ray.g.x;
-        p.y[k] = ray.p0.y + along * ray.g.y;
-        p.z[k] = ray.p0.z + along * ray.g.z;
-      }
-      fetch(u, volume, &p, lanes, value);
-      classify(table, value, lanes, colour, alpha);
-#if TRI_SPEED_OF_LIGHT
-      for (int k = 0; k < n; ++k) sum += colour[k];
-      counts.samples += (uint)n;
-#else
-      float most = 0.0f;
-      for (int k = 0; k < lanes; ++k) most = alpha[k] > most ? alpha[k] : most;
-      if (most > 0.0f) {
-        float opacity[TRI_BATCH];
-        for (int k = 0; k < lanes; ++k) {
-          opacity[k] = tri_opacity(alpha[k], step_voxels * tri_step_share(ray.steps, i + k));
-        }
-        for (int k = 0; k < n; ++k) {
-#if TRI_COUNT
-          counts.samples++;
-          if (alpha[k] > 0.0f) counts.nonzero++;
-#endif
-#if TRI_SHADING
-          if (alpha[k] > 0.0f) {
-            float3 at = ray.p0 + ((float)(i + k) + 0.5f) * ray.g;
-            colour[k] = shade(u, volume, colour[k], at, ray.d);
-          }
-#endif
-          float weight = transmittance * opacity[k];
-          sum += weight * colour[k];
-          transmittance -= weight;
-          if (transmittance < u->ray_right.w) {
-            counts.terminated = 1u;
-            count = 0;  // ends every loop
-            stop = 0;
-            break;
-          }
-        }
-      } else {
-        counts.samples += (uint)n;
-      }
-#endif
+      ended = take_batch(u, volume, table, &ray, i, n, &gathered, &counts);
       i += n;
     }
   }
   int at = pixel.y * u->viewport.x + pixel.x;
 #if TRI_SPEED_OF_LIGHT
-  transmittance += sum.w;
+  gathered.transmittance += gathered.sum.w;
 #endif
-  image[at] = (float4)(sum.xyz, 1.0f - transmittance) + transmittance * u->background;
+  image[at] = (float4)(gathered.sum.xyz, 1.0f - gathered.transmittance) +
+              gathered.transmittance * u->background;
 #if TRI_COUNT
-  int total = tri_sample_count(ray.steps);
-  counters[8 * at] = total > 0 ? 1u : 0u;
-  counters[8 * at + 1] = counts.samples;
-  counters[8 * at + 2] = counts.nonzero;
-  counters[8 * at + 3] = counts.bricks_visited;
-  counters[8 * at + 4] = counts.bricks_skipped;
-  counters[8 * at + 5] = counts.terminated;
-  counters[8 * at + 6] = (uint)total - counts.samples;
+  store_counts(counters + 8 * at, &counts, count);
 #endif
 }
