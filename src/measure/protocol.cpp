@@ -62,15 +62,16 @@ WarmUp warm_up(Prepared& prepared, const Protocol& protocol) {
   return result;
 }
 
-const record::ClockTrust* clock_for(technique::Work kind,
-                                    const std::vector<record::ClockTrust>& clocks) {
-  const auto found = std::ranges::find(clocks, technique::name_of(kind), &record::ClockTrust::work);
-  return found == clocks.end() ? nullptr : &*found;
+bool is_trusted(technique::Work kind, const std::vector<record::ClockTrust>& clocks) {
+  return std::ranges::any_of(clocks, [kind](const record::ClockTrust& clock) {
+    return clock.trusted && clock.work == technique::name_of(kind);
+  });
 }
 
 // The timed frames. A device that told no time for one of them told none: a list with holes would
-// pair the wrong values.
-core::Json time_into(record::Record& record, Prepared& prepared, int frames, bool trusted,
+// pair the wrong values. The benchmark's real time is the wall time, device time a key beside it:
+// whether that is to be believed is known only when all frames are there.
+core::Json time_into(record::Record& record, Prepared& prepared, int frames,
                      const std::string& name, double& work_ns) {
   std::vector<std::optional<double>> device_ns;
   record.wall_ns.reserve(static_cast<std::size_t>(frames));
@@ -82,15 +83,13 @@ core::Json time_into(record::Record& record, Prepared& prepared, int frames, boo
     const bool told = frame.device_ns && std::isfinite(*frame.device_ns);
     record.wall_ns.push_back(frame.wall_ns);
     device_ns.push_back(told ? frame.device_ns : std::nullopt);
-    IterationTime time{.ns = trusted && told ? *frame.device_ns : frame.wall_ns,
-                       .facts = {{"wall_ns", frame.wall_ns}}};
+    IterationTime time{.ns = frame.wall_ns, .facts = {}};
     if (told) time.facts["device_ns"] = *frame.device_ns;
     return time;
   });
   if (std::ranges::all_of(device_ns, [](const auto& ns) { return ns.has_value(); })) {
     for (const auto& ns : device_ns) record.device_ns.push_back(*ns);
   }
-  record.device_clock_trusted = trusted && plausible(record.device_ns, record.wall_ns);
   return std::move(result.entries);
 }
 
@@ -139,9 +138,9 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   record.loop_frames =
       frames_to_fill(protocol.least_loop_ns, warm.fastest_ns, protocol.most_loop_frames);
 
-  const record::ClockTrust* clock = clock_for(work_kind, clocks);
-  const bool trusted = clock != nullptr && clock->trusted;
-  core::Json entries = time_into(record, prepared, protocol.timed_frames, trusted, name, work_ns);
+  core::Json entries = time_into(record, prepared, protocol.timed_frames, name, work_ns);
+  record.device_clock_trusted =
+      is_trusted(work_kind, clocks) && plausible(record.device_ns, record.wall_ns);
   result.image = prepared.image();
 
   if (protocol.statistics) {
@@ -158,6 +157,7 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   for (core::Json& entry : loop.entries) entries.push_back(std::move(entry));
   add_counts(entries, record.counters);
   add_counts(entries, record.statistics);
+  add_counts(entries, {{"device_clock_trusted", record.device_clock_trusted ? 1U : 0U}});
   record.benchmark_json = entries.dump();
   record.image = image_hash(result.image);
   record.kernel_hash = prepared.kernel_hash();

@@ -91,13 +91,11 @@ class DeviceRun {
   }
 
   [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key) {
-    const auto start = Clock::now();
     Job job{.name = device_ + "/" + key,
             .configuration = configuration,
             .protocol = context_.options.protocol,
             .plants = context_.plants_for(key, device_)};
-    Done done =
-        ensure_worker() ? ask(job, start) : Done{ended(record::Outcome::failed, no_worker_)};
+    Done done = ensure_worker() ? ask(job) : Done{ended(record::Outcome::failed, no_worker_)};
     record::Record& record = done.record;
     record.run = context_.run;
     record.suite = context_.plan.suite;
@@ -186,7 +184,8 @@ class DeviceRun {
     context_.store.add_device(context_.run, *known_, clocks_);
   }
 
-  Done ask(const Job& job, Clock::time_point start) {
+  Done ask(const Job& job) {
+    const auto start = Clock::now();
     WorkerLink::Reply reply = worker_->ask(to_message(job), context_.options.limit);
     if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
       worker_.reset();

@@ -96,6 +96,17 @@ TEST(Plausible, NeedsATimePerFrameAboveZeroAndWithinTheWallTime) {
   EXPECT_FALSE(plausible({1.1 * ms}, {1 * ms}));
 }
 
+TEST(Plausible, ExcusesLaunchesAndAFewLateWakeUpsButNotMissingWork) {
+  EXPECT_TRUE(plausible({0.05 * ms}, {0.3 * ms}));   // a short frame on a fast device
+  EXPECT_FALSE(plausible({0.05 * ms}, {1.3 * ms}));  // the same of a frame that is not short
+  const std::vector<double> wall_ns(8, 30 * ms);
+  std::vector<double> device_ns(8, 29 * ms);
+  device_ns[2] = device_ns[5] = 5 * ms;
+  EXPECT_TRUE(plausible(device_ns, wall_ns));
+  device_ns[6] = 5 * ms;
+  EXPECT_FALSE(plausible(device_ns, wall_ns));
+}
+
 // Frames last 0.1 ms per voxel length at step 1 and grow with the number of samples.
 class GrowingDevice final : public Device {
  public:

@@ -137,6 +137,14 @@ TEST(Protocol, ATrustedClockThatLiesInThisConfigurationIsNotBelieved) {
   }
 }
 
+TEST(Protocol, ATrustedClockThatLeavesOutTheWorkOfThisConfigurationIsNotBelieved) {
+  ScriptedPrepared prepared = steady(28 * ms, 0.009 * ms);
+  const record::Record record = measured(prepared, {}, trusting(Work::compute)).record;
+  EXPECT_EQ(record.clock(), "wall");
+  EXPECT_THAT(record.device_ns, Each(0.009 * ms));
+  EXPECT_EQ(core::Json::parse(record.benchmark_json).at(0).at("device_clock_trusted"), 0);
+}
+
 TEST(Protocol, AnErrorOfAFrameComesOutAsItWas) {
   for (const int failing : {2, 7, 13}) {  // warming up, timed, for the counters
     ScriptedPrepared prepared([=](int n) {
@@ -164,19 +172,21 @@ TEST(Protocol, BenchmarkEntriesCarrySamplesStatisticsAndCountsAsFlatKeys) {
     if (entry.at("run_type") == "iteration" && !loop) {
       samples.push_back(entry.at("real_time"));
       EXPECT_EQ(entry.at("samples"), 512);
-      EXPECT_NEAR(entry.at("wall_ns").get<double>(), (53.0 + static_cast<double>(samples.size())) * ms, 1);
+      EXPECT_NEAR(entry.at("device_ns").get<double>(),
+                  (52.0 + static_cast<double>(samples.size())) * ms, 1);
+      EXPECT_EQ(entry.at("device_clock_trusted"), 1);
     }
     if (entry.value("aggregate_name", "") == "median") {
-      EXPECT_NEAR(entry.at("real_time").get<double>(), 56.5 * ms, 1);
+      EXPECT_NEAR(entry.at("real_time").get<double>(), 57.5 * ms, 1);
     }
     if (entry.value("aggregate_name", "") == "min") {
-      EXPECT_NEAR(entry.at("real_time").get<double>(), 53 * ms, 1);
+      EXPECT_NEAR(entry.at("real_time").get<double>(), 54 * ms, 1);
     }
   }
-  // The clock that counts is the device's: 49 + n from the fourth frame on.
+  // Wall times from the fifth frame on.
   ASSERT_EQ(samples.size(), 8U);
   for (std::size_t i = 0; i < 8; ++i) {
-    EXPECT_NEAR(samples[i], (53.0 + static_cast<double>(i)) * ms, 1);
+    EXPECT_NEAR(samples[i], (54.0 + static_cast<double>(i)) * ms, 1);
   }
 }
 
