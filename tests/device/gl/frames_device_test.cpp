@@ -97,8 +97,10 @@ TEST(GlFrames, StatisticsTellTheStagesInUseAndNoOthers) {
         }
       } else {
         EXPECT_FALSE(counts.contains("vertex_invocations"));
+        // Whole groups of 8x8; softpipe 22.3.6 counts the groups.
         if (counts.contains("compute_invocations")) {
-          EXPECT_EQ(counts["compute_invocations"], 40U * 32U);  // whole groups of 8x8
+          const bool groups = device.info().driver == "softpipe";
+          EXPECT_EQ(counts["compute_invocations"], groups ? 5U * 4U : 40U * 32U);
         }
       }
     }

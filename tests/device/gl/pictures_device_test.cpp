@@ -166,9 +166,12 @@ TEST(GlPictures, RepeatsHaveTheSameBits) {
 }
 
 TEST(GlPictures, PlantedFaultsLeaveTheBound) {
+  // A sampler that is worse than 8 bits has a bound that hides faults.
+  constexpr double coarse = 1.0 / 64;
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : picture_techniques) {
       for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
+        if (device.filter_weight_error({VoxelFormat::f32, sampler}) > coarse) continue;
         for (const Fault fault : {Fault::half_voxel_shift, Fault::flipped_axis, Fault::extra_sample,
                                   Fault::uncorrected_opacity, Fault::coarse_filter}) {
           const scene::VolumeScene scene =
