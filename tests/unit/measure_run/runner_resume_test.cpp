@@ -87,6 +87,19 @@ TEST_F(RunResume, ATerminatedSupervisorTakesItsWorkerAlongAndLeavesAStoreToGoOnW
   }
 }
 
+TEST_F(RunResume, AWorkerStuckInItsDriverDoesNotOutliveItsSupervisor) {
+  const Variable stuck("TRIPTYCH_NULL_SCRIPT", R"({"failures": [{"kind": "hang", "at": "open"}]})");
+  Process supervisor = supervise();
+  for (int i = 0; i < 500 && started_workers().empty(); ++i) {
+    std::this_thread::sleep_for(milliseconds(10));
+  }
+  std::this_thread::sleep_for(milliseconds(200));  // until it hangs
+  ::kill(supervisor.pid(), SIGKILL);
+  ASSERT_TRUE(supervisor.wait(seconds(5)));
+  ASSERT_EQ(started_workers().size(), 1U);
+  expect_workers_gone();
+}
+
 class RunAgain : public RunTest {};
 
 TEST_F(RunAgain, AFinishedRunResumesToNothingAndWithoutResumeBeginsAnew) {
