@@ -57,11 +57,14 @@ Pixel Compositor::finish() const {
         const double left = std::min(sample.front * (1.0 - opacity_lo), model_.ert);
         lost[channel] = std::max(lost[channel], left * std::abs(behind - background_[channel]));
       }
-      if (reached) {
+      // A rounded transmittance scales what lies behind; opacity is one minus the transmittance left,
+      // so there it scales what is not covered, and no sum of small weights absorbs it.
+      const double scaled = channel < 3 ? std::abs(behind) : 1.0 - behind;
+      if (reached && opacity_hi > 0) {
         error[channel] +=
             sample.front *
             (sample.opacity_error * std::abs(colour - behind) + opacity_hi * colour_error +
-             model_.compositing_error * (opacity_hi * colour + std::abs(behind)));
+             model_.compositing_error * (opacity_hi * colour + scaled));
       }
       pixel.rgba[channel] = sample.opacity * colour + (1.0 - sample.opacity) * behind;
     }

@@ -47,6 +47,6 @@ struct Truth {
                                             int threads = 0);
 
 // Version of this renderer: changes whenever its pictures may.
-inline constexpr const char* volume_version = "1";
+inline constexpr const char* volume_version = "2";
 
 }  // namespace triptych::reference

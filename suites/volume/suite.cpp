@@ -140,8 +140,8 @@ measure::Work VolumeSuite::calibration(technique::Work kind) {
       .grid = std::make_shared<const scene::VoxelGrid>(
           scene::encode(std::move(volume), scene::VoxelFormat::f32)),
       .transfer_function = scene::load_transfer_function("haze"),
-      .width = 384,
-      .height = 384,
+      .width = 224,
+      .height = 224,
       .step_voxels = 0.125,
   };
   scene.camera = scene::camera_at("orbit_y:1/8", scene.box(), 60);

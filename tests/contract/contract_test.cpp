@@ -63,6 +63,7 @@ TEST(Contract, CountingChangesNeitherPictureNorItself) {
 
 TEST(Contract, OtherDeviceCodeHasAnotherHash) {
   on_every_device([](measure::Device& device) {
+    if (device.info().api == "null") GTEST_SKIP() << "a script has no device code";
     measure::Work work = some_work(device);
     const std::string hash = device.prepare(work)->kernel_hash();
     EXPECT_FALSE(hash.empty());

@@ -14,7 +14,7 @@ namespace {
 
 using reference::AnalyticProblem;
 
-const std::vector<double> steps{2, 1, 0.5, 0.25};
+const std::vector<double> steps{1, 0.5, 0.25, 0.125};
 
 reference::AnalyticScene scene_of(AnalyticProblem problem, int size, double step) {
   reference::AnalyticOptions options;
