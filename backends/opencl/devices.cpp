@@ -15,28 +15,23 @@ namespace triptych::opencl_backend {
 namespace {
 
 // Variables with which these drivers choose devices, threads and generated code.
-constexpr std::array<std::string_view, 22> variables{"GALLIUM_DRIVER",
-                                                     "GALLIUM_OVERRIDE_CPU_CAPS",
-                                                     "GALLIVM_PERF",
-                                                     "LP_NATIVE_VECTOR_WIDTH",
-                                                     "LP_NUM_THREADS",
-                                                     "POCL_AFFINITY",
-                                                     "POCL_BITCODE_FINALIZER",
-                                                     "POCL_CPU_LOCAL_MEM_SIZE",
-                                                     "POCL_CPU_MAX_CU_COUNT",
-                                                     "POCL_DEVICES",
-                                                     "POCL_EXTRA_BUILD_FLAGS",
-                                                     "POCL_KERNEL_CACHE",
-                                                     "POCL_MAX_PTHREAD_COUNT",
-                                                     "POCL_MAX_WORK_GROUP_SIZE",
-                                                     "POCL_PTHREAD_MAX_WGS",
-                                                     "POCL_PTHREAD_MIN_WGS",
-                                                     "POCL_VECTORIZER_REMARKS",
-                                                     "POCL_WORK_GROUP_METHOD",
-                                                     "POCL_WORK_GROUP_SPECIALIZATION",
-                                                     "RUSTICL_ENABLE",
-                                                     "RUSTICL_FEATURES",
-                                                     "CUDA_VISIBLE_DEVICES"};
+constexpr auto variables = std::to_array<std::string_view>(
+    {"GALLIUM_DRIVER", "GALLIUM_OVERRIDE_CPU_CAPS", "GALLIVM_PERF", "LP_NATIVE_VECTOR_WIDTH",
+     "LP_NUM_THREADS", "POCL_AFFINITY", "POCL_BITCODE_FINALIZER", "POCL_CPU_LOCAL_MEM_SIZE",
+     "POCL_CPU_MAX_CU_COUNT", "POCL_DEVICES", "POCL_EXTRA_BUILD_FLAGS", "POCL_MAX_PTHREAD_COUNT",
+     "POCL_MAX_WORK_GROUP_SIZE", "POCL_PTHREAD_MAX_WGS", "POCL_PTHREAD_MIN_WGS",
+     "POCL_WORK_GROUP_METHOD", "POCL_WORK_GROUP_SPECIALIZATION", "RUSTICL_ENABLE",
+     "RUSTICL_FEATURES"});
+
+std::map<std::string, std::string> environment() {
+  auto set = measure::set_variables(variables);
+  // Workers are started with this one at 1; a listing made outside a worker is of the same device.
+  if (const auto found = set.find("POCL_PTHREAD_MIN_WGS");
+      found != set.end() && found->second == "1") {
+    set.erase(found);
+  }
+  return set;
+}
 
 // Strings of the API may end in a NUL or blanks, and some hold line breaks.
 std::string one_line(std::string text) {
@@ -74,7 +69,7 @@ record::Device describe(const cl::Device& device, const std::string& driver) {
                           .driver_version = one_line(device.getInfo<CL_DRIVER_VERSION>()),
                           .api_version = one_line(device.getInfo<CL_DEVICE_VERSION>()),
                           .cpu_features = cpu ? measure::cpu_features() : std::string(),
-                          .environment = measure::set_variables(variables),
+                          .environment = environment(),
                           .limits = limits_of(device)};
   });
 }

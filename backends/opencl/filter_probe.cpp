@@ -36,27 +36,38 @@ std::vector<Place> random_places() {
   return places;
 }
 
-// 0 and 1 of the format's range.
-scene::VoxelGrid as_grid(const Bits& bits, scene::VoxelFormat format) {
+// Voxels of 0 and one other value, and what brings that value back to 1 when it is sampled.
+struct Pattern {
+  scene::VoxelGrid grid;
+  double scale = 1;
+};
+
+template <typename T>
+Pattern make_pattern(const Bits& bits, scene::VoxelFormat format, T range, T one) {
   scene::VoxelGrid grid{.format = format, .size = {edge, edge, edge}};
-  grid.data.resize(voxel_count * scene::bytes_of(format));
-  const auto fill = [&](auto one) {
-    for (std::size_t i = 0; i < voxel_count; ++i) {
-      if (bits[i]) std::memcpy(&grid.data[i * sizeof one], &one, sizeof one);
-    }
+  grid.data.resize(voxel_count * sizeof one);
+  for (std::size_t i = 0; i < voxel_count; ++i) {
+    if (bits[i]) std::memcpy(&grid.data[i * sizeof one], &one, sizeof one);
+  }
+  return {.grid = std::move(grid), .scale = static_cast<double>(range) / static_cast<double>(one)};
+}
+
+// Neighbours that differ by the whole range show rounded weights; neighbours that differ by one
+// step show a result that is rounded to the format's steps.
+std::vector<Pattern> patterns(const Bits& bits, scene::VoxelFormat format) {
+  const auto both = [&](auto range, auto step) {
+    return std::vector{make_pattern(bits, format, range, range),
+                       make_pattern(bits, format, range, step)};
   };
   switch (format) {
     case scene::VoxelFormat::u8:
-      fill(std::uint8_t{255});
-      break;
+      return both(std::uint8_t{255}, std::uint8_t{1});
     case scene::VoxelFormat::u16:
-      fill(std::uint16_t{65535});
-      break;
+      return both(std::uint16_t{65535}, std::uint16_t{1});
     case scene::VoxelFormat::f32:
-      fill(1.0F);
-      break;
+      return both(1.0F, 0x1p-16F);
   }
-  return grid;
+  return {};
 }
 
 double trilinear(const Bits& bits, const Place& place) {
@@ -77,15 +88,16 @@ double trilinear(const Bits& bits, const Place& place) {
   return value;
 }
 
-void sample_on_device(const Session& session, Programs& programs, const scene::VoxelGrid& grid,
+// Leaves in each place the sampled value.
+void sample_on_device(const Session& session, Programs& programs, const Pattern& pattern,
                       std::vector<Place>& places) {
   constexpr auto sampler = technique::Sampler::hardware;
-  const cl::Program program =
-      programs.get({"volume.cl", "filter_probe.cl"}, {.sampler = sampler, .voxel = grid.format});
+  const cl::Program program = programs.get({"volume.cl", "filter_probe.cl"},
+                                           {.sampler = sampler, .voxel = pattern.grid.format});
   technique::RaycastParameters parameters{};
   parameters.volume_size = {edge, edge, edge, 0};
-  parameters.value_map = {1, 0, 0, 0};
-  const cl::Memory volume = upload(session, grid, sampler);
+  parameters.value_map = {static_cast<float>(pattern.scale), 0, 0, 0};
+  const cl::Memory volume = upload(session, pattern.grid, sampler);
   checked([&] {
     const std::size_t bytes = places.size() * sizeof(Place);
     const cl::Buffer uniform(session.context, CL_MEM_READ_ONLY, sizeof parameters);
@@ -105,11 +117,13 @@ void sample_on_device(const Session& session, Programs& programs, const scene::V
 
 double probe_filter(const Session& session, Programs& programs, scene::VoxelFormat format) {
   const Bits bits = random_bits();
-  std::vector<Place> places = random_places();
-  sample_on_device(session, programs, as_grid(bits, format), places);
   double worst = 0;
-  for (const Place& each : places) {
-    worst = std::max(worst, std::abs(static_cast<double>(each[3]) - trilinear(bits, each)));
+  for (const Pattern& pattern : patterns(bits, format)) {
+    std::vector<Place> places = random_places();
+    sample_on_device(session, programs, pattern, places);
+    for (const Place& each : places) {
+      worst = std::max(worst, std::abs(static_cast<double>(each[3]) - trilinear(bits, each)));
+    }
   }
   return worst;
 }

@@ -5,8 +5,9 @@
 
 namespace triptych::opencl_backend {
 
-// Largest error of the device's trilinear sampler over seeded random places in a small volume of
-// zeros and ones. Throws core::NotSupported where it has no image format for these voxels.
+// Largest error of the device's trilinear sampler over seeded random places, as a share of the
+// difference between neighbouring voxels: of the format's whole range and of its smallest step.
+// Throws core::NotSupported where the device has no image format for these voxels.
 [[nodiscard]] double probe_filter(const Session& session, Programs& programs,
                                   scene::VoxelFormat format);
 

@@ -21,9 +21,9 @@
 // Voxels with a border of one copy of the outermost layer on every side, so that the eight
 // neighbours of a position are four pairs at fixed distances.
 #define TRI_VOLUME __global const TRI_VOXEL*
-#define TRI_EIGHT_(type) type##8
-#define TRI_EIGHT(type) TRI_EIGHT_(type)
-#define TRI_VOXEL8 TRI_EIGHT(TRI_VOXEL)
+#define TRI_FOUR_(type) type##4
+#define TRI_FOUR(type) TRI_FOUR_(type)
+#define TRI_VOXEL4 TRI_FOUR(TRI_VOXEL)
 #else
 #define TRI_VOLUME __read_only image3d_t
 __constant sampler_t linear_sampler =
@@ -52,10 +52,10 @@ TRI_FN float rounded_weight(float f) {
 #if TRI_MANUAL_SAMPLER
 // Trilinear among the eight voxels of which the first is at `v`.
 TRI_FN float trilinear(TRI_VOLUME v, int row, int slice, float fx, float fy, float fz) {
-  TRI_VOXEL8 corners = (TRI_VOXEL8)(vload2(0, v), vload2(0, v + row), vload2(0, v + slice),
-                                    vload2(0, v + slice + row));
-  float4 lo = convert_float4(corners.lo);
-  float4 hi = convert_float4(corners.hi);
+  TRI_VOXEL4 near_pairs = (TRI_VOXEL4)(vload2(0, v), vload2(0, v + row));
+  TRI_VOXEL4 far_pairs = (TRI_VOXEL4)(vload2(0, v + slice), vload2(0, v + slice + row));
+  float4 lo = convert_float4(near_pairs);
+  float4 hi = convert_float4(far_pairs);
   float4 z = lo + fz * (hi - lo);
   float2 y = z.xy + fy * (z.zw - z.xy);
   return y.x + fx * (y.y - y.x);

@@ -53,6 +53,24 @@ TEST(OpenClDevices, WhatIsListedOpensAsListed) {
   }
 }
 
+TEST(OpenClDevices, WhatChangesGeneratedCodeIsPartOfTheIdentity) {
+  const auto environment_with = [](const char* value) {
+    setenv("POCL_WORK_GROUP_METHOD", value, 1);
+    setenv("POCL_PTHREAD_MIN_WGS", "1", 1);
+    const measure::Listing listing = make_backend()->list();
+    unsetenv("POCL_WORK_GROUP_METHOD");
+    return listing.devices;
+  };
+  for (const record::Device& each : environment_with("loops")) {
+    EXPECT_THAT(each.environment,
+                testing::Contains(testing::Pair("POCL_WORK_GROUP_METHOD", "loops")));
+    EXPECT_EQ(each.environment.count("POCL_PTHREAD_MIN_WGS"), 0U);  // what the program itself sets
+    if (each.driver == "pocl") {
+      EXPECT_FALSE(each.cpu_features.empty());
+    }
+  }
+}
+
 TEST(OpenClDevices, AnUnknownDeviceIsNotSupported) {
   try {
     static_cast<void>(make_backend()->open("opencl:nothing"));
@@ -79,7 +97,8 @@ TEST(OpenClDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
     for (const auto voxel :
          {scene::VoxelFormat::u8, scene::VoxelFormat::u16, scene::VoxelFormat::f32}) {
       const double error = device.filter_weight_error({voxel, technique::Sampler::hardware});
-      EXPECT_LT(error, 0.01);  // the coarsest sampler known has 8 bits
+      // The coarsest sampler known rounds its results to 8 bits, more than once.
+      EXPECT_LT(error, voxel == scene::VoxelFormat::u8 ? 2 : 0.01);
       std::printf("%s %s sampler error %.3g\n", device.info().id.c_str(),
                   std::string(scene::name_of(voxel)).c_str(), error);
       EXPECT_EQ(device.filter_weight_error({voxel, technique::Sampler::manual}), 0);
