@@ -34,7 +34,7 @@ ComputeFrames::ComputeFrames(const Gpu& gpu, const Instance& instance,
               vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc,
               Place::device),
       resources_(gpu, work, &output_),
-      pipeline_(make_compute_pipeline(gpu, resources_.layout(), timed_shader, constants)),
+      pipeline_(make_compute_pipeline(gpu, resources_.layout(), spirv(timed_shader), constants)),
       counting_pipeline_(nullptr),
       frames_(gpu, vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations,
               [this](const vk::raii::CommandBuffer& commands) { record_timed(commands); }) {
@@ -58,7 +58,7 @@ void ComputeFrames::dispatch(const vk::raii::CommandBuffer& commands, Pass pass,
 void ComputeFrames::prepare_counters() {
   resources_.bind_counters();
   counting_pipeline_ =
-      make_compute_pipeline(gpu_, resources_.layout(), counting_shader, constants_);
+      make_compute_pipeline(gpu_, resources_.layout(), spirv(counting_shader), constants_);
   frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *counting_pipeline_);
     dispatch(commands, Pass::counting, height_);
@@ -86,7 +86,7 @@ core::Image ComputeFrames::image() {
 }
 
 std::string ComputeFrames::kernel_hash() const {
-  return code_hash(timed_shader, constants_);
+  return code_hash(spirv(timed_shader), constants_);
 }
 
 }  // namespace triptych::vulkan_backend

@@ -103,7 +103,7 @@ void sample_on_device(const Gpu& gpu, const Image& volume, std::vector<Sample>& 
   }};
   const Layout layout = make_layout(gpu, bindings);
   const vk::raii::Pipeline pipeline =
-      make_compute_pipeline(gpu, layout, "filter_probe.comp.spv", Constants{});
+      make_compute_pipeline(gpu, layout, spirv("filter_probe.comp.spv"), Constants{});
   const vk::raii::DescriptorPool pool = make_pool(gpu, 1);
   const vk::DescriptorSet set = allocate_sets(gpu, pool, layout, 1).front();
   const vk::raii::Sampler sampler = make_sampler(gpu, vk::Filter::eLinear);

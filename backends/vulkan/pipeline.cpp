@@ -18,8 +18,7 @@ std::string_view spirv(std::string_view name) {
   return code;
 }
 
-vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view name) {
-  const std::string_view code = spirv(name);
+vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view code) {
   std::vector<std::uint32_t> words(code.size() / sizeof(std::uint32_t));  // aligned, as Vulkan asks
   std::memcpy(words.data(), code.data(), code.size());
   return {gpu.device, vk::ShaderModuleCreateInfo{.codeSize = code.size(), .pCode = words.data()}};
@@ -37,14 +36,14 @@ const std::array<vk::SpecializationMapEntry, 5>& constant_entries() {
 }
 
 vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
-                                         std::string_view shader, const Constants& constants) {
+                                         std::string_view code, const Constants& constants) {
   const auto& entries = constant_entries();
   const vk::SpecializationInfo specialization{
       .mapEntryCount = static_cast<std::uint32_t>(entries.size()),
       .pMapEntries = entries.data(),
       .dataSize = sizeof constants,
       .pData = &constants};
-  const vk::raii::ShaderModule module = make_shader(gpu, shader);
+  const vk::raii::ShaderModule module = make_shader(gpu, code);
   return {gpu.device, nullptr,
           vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
                                                   .module = *module,
@@ -53,8 +52,8 @@ vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
                                         .layout = *layout.pipeline}};
 }
 
-std::string code_hash(std::string_view shader, const Constants& constants) {
-  std::string text(spirv(shader));
+std::string code_hash(std::string_view code, const Constants& constants) {
+  std::string text(code);
   text += fmt::format("manual_sampler={} shading={} speed_of_light={} fault={} opacity_form={}",
                       constants.manual_sampler, constants.shading, constants.speed_of_light,
                       constants.fault, constants.opacity_form);

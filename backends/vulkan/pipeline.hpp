@@ -23,14 +23,15 @@ static_assert(sizeof(Constants) == 5 * 4);
 
 // The embedded SPIR-V by its file name, "raycast.comp.spv".
 [[nodiscard]] std::string_view spirv(std::string_view name);
-[[nodiscard]] vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view name);
+// A module from the bytes of a SPIR-V file.
+[[nodiscard]] vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view code);
 
 [[nodiscard]] vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
-                                                       std::string_view shader,
+                                                       std::string_view code,
                                                        const Constants& constants);
 
-// Content hash of the named SPIR-V and the constants.
-[[nodiscard]] std::string code_hash(std::string_view shader, const Constants& constants);
+// Content hash of the SPIR-V and the constants.
+[[nodiscard]] std::string code_hash(std::string_view code, const Constants& constants);
 
 // Map entries for vk::SpecializationInfo over Constants.
 [[nodiscard]] const std::array<vk::SpecializationMapEntry, 5>& constant_entries();

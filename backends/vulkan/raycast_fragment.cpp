@@ -65,8 +65,8 @@ vk::raii::Pipeline make_draw_pipeline(const Gpu& gpu, const Layout& layout,
       .pMapEntries = entries.data(),
       .dataSize = sizeof constants,
       .pData = &constants};
-  const vk::raii::ShaderModule vertex = make_shader(gpu, vertex_shader);
-  const vk::raii::ShaderModule fragment = make_shader(gpu, fragment_shader);
+  const vk::raii::ShaderModule vertex = make_shader(gpu, spirv(vertex_shader));
+  const vk::raii::ShaderModule fragment = make_shader(gpu, spirv(fragment_shader));
   const std::array<vk::PipelineShaderStageCreateInfo, 2> stages{{
       {.stage = vk::ShaderStageFlagBits::eVertex, .module = *vertex, .pName = "main"},
       {.stage = vk::ShaderStageFlagBits::eFragment,
@@ -113,7 +113,7 @@ class FragmentFrames final : public measure::Prepared {
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
   [[nodiscard]] core::Image image() override;
   [[nodiscard]] std::string kernel_hash() const override {
-    return code_hash(timed_shader, constants_);
+    return code_hash(spirv(timed_shader), constants_);
   }
 
  private:

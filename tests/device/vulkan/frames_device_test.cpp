@@ -1,0 +1,193 @@
+// What a frame tells beside its picture: times, counters, pipeline statistics.
+#include <gmock/gmock.h>
+
+#include <cstdint>
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "tests/device/vulkan/vulkan_devices.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+using measure::Purpose;
+using technique::Skip;
+
+constexpr std::array<std::string_view, 2> picture_techniques{"raycast", "raycast_fragment"};
+
+record::Counts counters(measure::Device& device, std::string_view technique,
+                        const scene::VolumeScene& scene, const technique::RaycastOptions& options) {
+  return device.prepare(make_work(technique, scene, options))->frame(Purpose::counters).counts;
+}
+
+// Samples on every ray's lattice, in double precision.
+struct Lattice {
+  std::uint64_t rays_hit = 0;
+  std::uint64_t samples = 0;
+};
+Lattice count_lattice(const scene::VolumeScene& scene) {
+  const scene::Box box = scene.box();
+  Lattice lattice;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      const glm::dvec3 d = scene.camera.ray_direction(x, y, scene.width, scene.height);
+      double enter = 0;
+      double leave = 1e300;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double a = (box.lo[axis] - scene.camera.eye[axis]) / d[axis];
+        const double b = (box.hi[axis] - scene.camera.eye[axis]) / d[axis];
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+      }
+      if (!(leave > enter)) continue;
+      ++lattice.rays_hit;
+      lattice.samples +=
+          static_cast<std::uint64_t>(std::ceil((leave - enter) / scene.step_world()));
+    }
+  }
+  return lattice;
+}
+
+TEST(VulkanFrames, CountersEqualACountOnTheHost) {
+  for_each_device([](measure::Device& device) {
+    const scene::VolumeScene scene = make_scene({.camera = "random:4", .step_voxels = 0.3});
+    const Lattice expected = count_lattice(scene);
+    for (const std::string_view technique : picture_techniques) {
+      const record::Counts counts =
+          counters(device, technique, scene, {.skip = Skip::none, .ert = 0});
+      EXPECT_EQ(counts.at("rays"), 37U * 26U);
+      EXPECT_EQ(counts.at("rays_hit"), expected.rays_hit);
+      // A ray whose length is a whole number of steps within rounding may have one sample more.
+      EXPECT_NEAR(static_cast<double>(counts.at("samples")), static_cast<double>(expected.samples),
+                  1e-4 * static_cast<double>(expected.samples));
+      EXPECT_EQ(counts.at("bricks_visited"), 0U);
+      EXPECT_EQ(counts.at("samples_saved"), 0U);
+      EXPECT_EQ(counts.at("rays_terminated"), 0U);
+    }
+  });
+}
+
+TEST(VulkanFrames, WhatIsSkippedIsSavedAndNothingVisibleIs) {
+  for_each_device([](measure::Device& device) {
+    const scene::VolumeScene scene = make_scene({.data = "generate:sparse_field:48"});
+    for (const std::string_view technique : picture_techniques) {
+      const auto brute = counters(device, technique, scene, {.skip = Skip::none, .ert = 0});
+      const auto skipped = counters(device, technique, scene, {.skip = Skip::bricks, .ert = 0});
+      EXPECT_EQ(skipped.at("samples") + skipped.at("samples_saved"), brute.at("samples"));
+      EXPECT_EQ(skipped.at("samples_nonzero"), brute.at("samples_nonzero"));
+      EXPECT_LT(skipped.at("samples"), brute.at("samples"));
+      EXPECT_GT(skipped.at("bricks_skipped"), 0U);
+      EXPECT_GT(skipped.at("bricks_visited"), skipped.at("bricks_skipped"));
+      const auto ended = counters(device, technique, scene, {.ert = 0.02});
+      EXPECT_GT(ended.at("rays_terminated"), 0U);
+      EXPECT_LT(ended.at("samples"), skipped.at("samples"));
+    }
+  });
+}
+
+TEST(VulkanFrames, ComputeAndFragmentCountAlike) {
+  for_each_device([](measure::Device& device) {
+    const scene::VolumeScene scene = make_scene({.data = "generate:nested_shells:40"});
+    EXPECT_EQ(counters(device, "raycast", scene, {}),
+              counters(device, "raycast_fragment", scene, {}));
+  });
+}
+
+TEST(VulkanFrames, StatisticsAreExactAndStayTheSame) {
+  for_each_device([](measure::Device& device) {
+    if (device.info().limits.at("pipelineStatisticsQuery") == "no") GTEST_SKIP();
+    const auto compute = device.prepare(make_work("raycast", make_scene()));
+    const auto draw = device.prepare(make_work("raycast_fragment", make_scene()));
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      const record::Counts of_compute = compute->frame(Purpose::statistics).counts;
+      // Tiles of 8×8 pixels over 37×26.
+      EXPECT_EQ(of_compute, (record::Counts{{"compute_invocations", 5U * 4U * 64U}}));
+      const record::Counts of_draw = draw->frame(Purpose::statistics).counts;
+      EXPECT_EQ(of_draw.at("input_assembly_vertices"), 3U);
+      EXPECT_EQ(of_draw.at("input_assembly_primitives"), 1U);
+      EXPECT_EQ(of_draw.at("vertex_invocations"), 3U);
+      EXPECT_EQ(of_draw.at("clipping_invocations"), 1U);
+      EXPECT_GE(of_draw.at("clipping_primitives"), 1U);
+      EXPECT_GE(of_draw.at("fragment_invocations"), 37U * 26U);
+      EXPECT_FALSE(of_draw.contains("compute_invocations"));
+      EXPECT_FALSE(of_draw.contains("geometry_invocations"));
+    }
+  });
+}
+
+TEST(VulkanFrames, TimesAreOfTimedFramesOnly) {
+  for_each_device([](measure::Device& device) {
+    for (const std::string_view technique : {"raycast", "raycast_fragment", "speed_of_light"}) {
+      const auto prepared = device.prepare(make_work(technique, make_scene()));
+      const measure::Frame timed = prepared->frame(Purpose::timing);
+      EXPECT_GT(timed.wall_ns, 0);
+      EXPECT_GE(timed.device_ns.value_or(0), 0);
+      EXPECT_TRUE(timed.counts.empty());
+      EXPECT_FALSE(prepared->frame(Purpose::statistics).device_ns);
+      EXPECT_FALSE(prepared->frame(Purpose::counters).device_ns);
+    }
+  });
+}
+
+TEST(VulkanFrames, AWholeRenderPassIsTimedByTheDevice) {
+  for_each_device([](measure::Device& device) {
+    const auto prepared =
+        device.prepare(make_work("raycast_fragment", make_scene({.width = 256, .height = 256})));
+    static_cast<void>(prepared->frame(Purpose::timing));  // the first frame compiles
+    const measure::Frame frame = prepared->frame(Purpose::timing);
+    if (!frame.device_ns) GTEST_SKIP() << "no clock";
+    EXPECT_LE(*frame.device_ns, frame.wall_ns);
+    const double least = device.info().driver == "llvmpipe" ? 0.5 * frame.wall_ns : 0;
+    EXPECT_GE(*frame.device_ns, least);
+  });
+}
+
+TEST(VulkanFrames, EveryPurposeAndExtraWorkLeaveThePicture) {
+  for_each_device([](measure::Device& device) {
+    for (const std::string_view technique : picture_techniques) {
+      const core::Image plain = picture(device, make_work(technique, make_scene()));
+      for (const int stride : {1, 3, 33, 1000}) {
+        const auto prepared =
+            device.prepare(make_work(technique, make_scene(), {.extra_work_stride = stride}));
+        for (const Purpose purpose : {Purpose::timing, Purpose::statistics, Purpose::counters}) {
+          static_cast<void>(prepared->frame(purpose));
+          EXPECT_EQ(prepared->image(), plain) << technique << " stride " << stride;
+        }
+      }
+    }
+  });
+}
+
+TEST(VulkanFrames, ExtraWorkIsDone) {
+  for_each_device([](measure::Device& device) {
+    if (device.info().limits.at("pipelineStatisticsQuery") == "no") GTEST_SKIP();
+    const auto prepared =
+        device.prepare(make_work("raycast", make_scene(), {.extra_work_stride = 2}));
+    // 13 rows more: two rows of tiles.
+    EXPECT_EQ(prepared->frame(Purpose::statistics).counts.at("compute_invocations"),
+              5U * (4U + 2U) * 64U);
+    const auto drawn =
+        device.prepare(make_work("raycast_fragment", make_scene(), {.extra_work_stride = 2}));
+    EXPECT_GT(drawn->frame(Purpose::statistics).counts.at("input_assembly_vertices"), 3U);
+  });
+}
+
+TEST(VulkanFrames, TheHashIsOfDeviceCodeAlone) {
+  for_each_device([](measure::Device& device) {
+    const auto hash = [&](std::string_view technique, const scene::VolumeScene& scene,
+                          const technique::RaycastOptions& options = {}) {
+      return device.prepare(make_work(technique, scene, options))->kernel_hash();
+    };
+    const std::string base = hash("raycast", make_scene());
+    EXPECT_EQ(hash("raycast", make_scene({.camera = "random:1"}), {.skip = Skip::none}), base);
+    EXPECT_NE(hash("raycast_fragment", make_scene()), base);
+    EXPECT_NE(hash("speed_of_light", make_scene()), base);
+    EXPECT_NE(hash("raycast", make_scene({.shading = true})), base);
+    EXPECT_NE(hash("raycast", make_scene({.step_voxels = 0.7})), base);
+    EXPECT_NE(hash("raycast", make_scene(), {.sampler = technique::Sampler::hardware}), base);
+    EXPECT_NE(hash("raycast", make_scene(), {.fault = technique::Fault::flipped_axis}), base);
+  });
+}
+
+}  // namespace
+}  // namespace triptych::vulkan_backend

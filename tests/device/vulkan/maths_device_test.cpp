@@ -1,0 +1,137 @@
+// The portable maths as GLSL gives what it gives as C++.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <span>
+#include <vector>
+
+#include "backends/vulkan/descriptors.hpp"
+#include "backends/vulkan/devices.hpp"
+#include "backends/vulkan/instance.hpp"
+#include "backends/vulkan/pipeline.hpp"
+#include "core/random.hpp"
+#include "technique/portable/prelude.hpp"
+#include "technique/volume/opacity_form.hpp"
+#include "vulkan_device_test_embedded.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+namespace portable = technique::portable;
+using Vector = std::array<float, 2>;    // opacity, steps
+using Results = std::array<float, 16>;  // maths.comp
+
+std::vector<Vector> vectors() {
+  std::vector<Vector> all;
+  for (const float alpha :
+       {0.0F, 0x1p-30F, 0x1p-24F, 0x1p-12F, 0.25F, 0.5F, 0.75F, 1 - 0x1p-24F, 1.0F}) {
+    for (const float steps : {0.0F, 0x1p-10F, 0.1F, 0.5F, 1.0F, 1.5F, 2.0F}) {
+      all.push_back({alpha, steps});
+    }
+  }
+  core::Random random(11);
+  while (all.size() < 4096) {
+    all.push_back({static_cast<float>(random.uniform()), static_cast<float>(random.uniform(0, 2))});
+  }
+  return all;
+}
+
+Results on_host(const Vector& vector) {
+  const auto [x, y] = vector;
+  const auto slab = portable::tri_slab(x * 20.0F - 5.0F, y - 1.0F, 9.0F);
+  Results results{slab.x,
+                  slab.y,
+                  static_cast<float>(portable::tri_sample_count(y * 300.0F)),
+                  portable::tri_step_share(y * 3.0F, 2),
+                  portable::tri_table_position(x),
+                  portable::tri_log2_1m(x),
+                  portable::tri_1m_exp2(-8.0F * y),
+                  portable::tri_opacity(x, y)};
+  for (int form = -2; form <= 4; ++form) {
+    results.at(static_cast<std::size_t>(10 + form)) = portable::tri_opacity_by_form(x, y, form);
+  }
+  return results;
+}
+
+std::vector<Results> on_device(const Gpu& gpu, const std::vector<Vector>& in) {
+  using enum vk::DescriptorType;
+  constexpr auto stage = vk::ShaderStageFlagBits::eCompute;
+  const std::array<vk::DescriptorSetLayoutBinding, 2> bindings{{
+      {.binding = 0, .descriptorType = eStorageBuffer, .descriptorCount = 1, .stageFlags = stage},
+      {.binding = 1, .descriptorType = eStorageBuffer, .descriptorCount = 1, .stageFlags = stage},
+  }};
+  const Layout layout = make_layout(gpu, bindings);
+  const vk::raii::Pipeline pipeline =
+      make_compute_pipeline(gpu, layout, test_shaders::embedded("maths.comp.spv"), Constants{});
+  const vk::raii::DescriptorPool pool = make_pool(gpu, 1);
+  const vk::DescriptorSet set = allocate_sets(gpu, pool, layout, 1).front();
+  std::vector<Results> out(in.size());
+  const Buffer from =
+      make_buffer(gpu, std::as_bytes(std::span(in)), vk::BufferUsageFlagBits::eStorageBuffer);
+  const Buffer to(gpu, std::as_bytes(std::span(out)).size(),
+                  vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc,
+                  Place::device);
+  bind_buffer(gpu, set, 0, eStorageBuffer, from);
+  bind_buffer(gpu, set, 1, eStorageBuffer, to);
+  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout.pipeline, 0, set, {});
+    commands.dispatch(static_cast<std::uint32_t>(in.size() / 64), 1, 1);
+  });
+  download(gpu, to, std::as_writable_bytes(std::span(out)));
+  return out;
+}
+
+// Distance in units in the last place; 0 for equal bits, for +0 and −0 and for two not-a-numbers.
+std::int64_t ulps(float a, float b) {
+  if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
+  const auto ordered = [](float x) {
+    const auto bits = std::bit_cast<std::int32_t>(x);
+    return bits < 0 ? -static_cast<std::int64_t>(bits & 0x7fffffff) : std::int64_t{bits};
+  };
+  return std::llabs(ordered(a) - ordered(b));
+}
+
+TEST(VulkanMaths, EqualsTheHosts) {
+  const std::vector<Vector> in = vectors();
+  const Instance instance;
+  for (const Candidate& each : candidates(instance.physical_devices())) {
+    SCOPED_TRACE(each.info.id);
+    const Gpu gpu = open_gpu(each.physical);
+    const std::vector<Results> out = on_device(gpu, in);
+    // Only sums, products, quotients and roots. A quotient may be 2.5 ulp off and sums and products
+    // be contracted; the longest chain is stated to 8 ulp of the exact value on either side.
+    constexpr std::int64_t allowed = 16;
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      const Results host = on_host(in[i]);
+      for (std::size_t k = 0; k < host.size(); ++k) {
+        ASSERT_LE(ulps(host.at(k), out[i].at(k)), allowed)
+            << "result " << k << " of " << in[i][0] << ", " << in[i][1] << ": " << host.at(k)
+            << " and " << out[i].at(k);
+      }
+    }
+  }
+}
+
+TEST(VulkanMaths, ClosedFormsAreWhatTheGeneralOneIs) {
+  for (const double step : {0.125, 0.25, 0.5, 1.0, 2.0, 4.0}) {
+    const int form = technique::opacity_form(step);
+    ASSERT_NE(form, 0);
+    for (const Vector& each : vectors()) {
+      const double alpha = static_cast<double>(each[0]);
+      const double exact = alpha < 1 ? -std::expm1(step * std::log1p(-alpha)) : 1.0;
+      const auto closed = static_cast<double>(
+          portable::tri_opacity_by_form(each[0], static_cast<float>(step), form));
+      EXPECT_NEAR(closed, exact, 8 * 0x1p-24 * exact) << alpha << " step " << step;
+    }
+  }
+  for (const double step : {0.7, 3.0, 0.0625, 8.0, 1000.0}) {
+    EXPECT_EQ(technique::opacity_form(step), 0);
+  }
+}
+
+}  // namespace
+}  // namespace triptych::vulkan_backend
