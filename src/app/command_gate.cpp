@@ -58,6 +58,7 @@ void print_text(const judge::GateResult& result) {
 
 core::ExitCode gate(const GateArguments& arguments) {
   const Registry registry = make_registry();
+  require_store(arguments.store);
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
   judge::GateRequest request{
@@ -84,6 +85,7 @@ core::ExitCode gate(const GateArguments& arguments) {
 
 core::ExitCode accept(const AcceptArguments& arguments) {
   const Registry registry = make_registry();
+  require_store(arguments.store);
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
   const std::vector<std::string> changes = judge::accept(

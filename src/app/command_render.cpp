@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <system_error>
+#include <utility>
 
 #include "app/arguments.hpp"
 #include "app/listing.hpp"
@@ -19,6 +21,23 @@ struct RenderArguments {
   std::string device;
   std::vector<std::string> set;
   std::string out;
+};
+
+// The store of the one run that a picture is; gone when the picture is written.
+class ScratchFile {
+ public:
+  explicit ScratchFile(fs::path path) : path_(std::move(path)) { remove(); }
+  ~ScratchFile() { remove(); }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  void remove() const {
+    std::error_code ignored;
+    for (const char* suffix : {"", "-wal", "-shm"}) fs::remove(path_.string() + suffix, ignored);
+  }
+  fs::path path_;
 };
 
 core::Json clock_json(const std::vector<double>& samples) {
@@ -52,21 +71,24 @@ core::ExitCode render(const RenderArguments& arguments) {
   }
   const fs::path out(arguments.out);
   require_writable(out);
+  if (const std::string reason = suite.missing_data(plan.configurations.front()); !reason.empty()) {
+    throw core::InputError(reason);
+  }
   const std::vector<std::string> devices =
       choose_devices(list_devices(registry), {arguments.device});
   if (devices.size() != 1) {
     throw core::InputError(
         fmt::format("--device {} matches {} devices; name one", arguments.device, devices.size()));
   }
-  const fs::path file = out / "render.sqlite";
-  fs::remove(file);
-  record::Store store(file, record::Store::Mode::append);
+  const ScratchFile file(out / ".render.sqlite");
+  record::Store store(file.path(), record::Store::Mode::append);
   const measure::RunResult result = measure::run_plan(
       plan, devices, suite, store, {.worker_command = {own_program(), "worker", "--device"}},
       [](const measure::Progress&) {});
   const record::Record record = store.records(result.run).at(0);
   if (record.outcome == record::Outcome::skipped) throw core::NotSupported(record.reason);
   if (record.outcome != record::Outcome::measured) throw core::InputError(record.reason);
+  if (record.image.empty()) throw core::InputError(record.technique + " draws no picture");
   const core::Image image = core::decode_exr(store.image(record.image));
   core::write_exr(image, out / "image.exr");
   core::write_png(image, out / "image.png");

@@ -24,6 +24,7 @@ struct ReportArguments {
 core::ExitCode write_report(const ReportArguments& arguments) {
   const Registry registry = make_registry();
   require_writable(std::filesystem::path(arguments.out).parent_path());
+  require_store(arguments.store);
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
   report::PageRequest request{

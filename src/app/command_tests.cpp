@@ -179,6 +179,7 @@ std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
 
 core::ExitCode check(const CheckArguments& arguments) {
   const Registry registry = make_registry();
+  require_store(arguments.store);
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
   const auto run = store.latest_run(arguments.plan);

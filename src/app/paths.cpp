@@ -51,6 +51,12 @@ void require_writable(const fs::path& folder) {
   }
 }
 
+void require_store(const fs::path& file) {
+  if (fs::exists(file)) return;
+  throw core::NotSupported(fmt::format(
+      "there is no store {0}: measure first with `triptych run PLAN --store {0}`", file.string()));
+}
+
 void write_text(const fs::path& file, const std::string& text) {
   require_writable(file.parent_path());
   const fs::path aside = file.string() + ".new";

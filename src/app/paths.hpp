@@ -22,6 +22,9 @@ namespace triptych::app {
 // that nothing is measured that could not be kept.
 void require_writable(const std::filesystem::path& folder);
 
+// Throws core::NotSupported saying how to measure when there is no such store.
+void require_store(const std::filesystem::path& file);
+
 // Writes a text file aside and renames it. Throws core::IoError.
 void write_text(const std::filesystem::path& file, const std::string& text);
 

@@ -62,7 +62,7 @@ struct RunResult {
   int skipped = 0;
   int failed = 0;  // failed, crashed, hung or lost
   double wall_ns = 0;
-  double overhead_ns = 0;
+  double overhead_ns = 0;  // of wall_ns, what was neither opening devices, preparing nor frames
 };
 
 // Every configuration of the plan on every device, devices one after the other so that none
