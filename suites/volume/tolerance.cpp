@@ -37,13 +37,15 @@ double position_error(const scene::VolumeScene& scene) {
 
 reference::ErrorModel error_model(const scene::VolumeScene& scene, const PathPrecision& path) {
   const scene::VoxelGrid& grid = *scene.grid;
-  const double magnitude =
-      std::abs(grid.scale) * largest_stored(grid.format) + std::abs(grid.offset);
-  const double filter = std::max(path.filter_weight_error, unit_roundoff);
+  const double format_range = std::abs(grid.scale) * largest_stored(grid.format);
+  const double magnitude = format_range + std::abs(grid.offset);
+  const double filter =
+      std::exp2(std::ceil(std::log2(std::max(path.filter_weight_error, unit_roundoff))));
   return {
       .position_error_voxels = position_error(scene),
-      .value_error = 13 * unit_roundoff * std::max(magnitude, 1.0) + path.storage_step / 2,
-      .filter_weight_error = std::exp2(std::ceil(std::log2(filter))),
+      .value_error = 13 * unit_roundoff * std::max(magnitude, 1.0) + path.storage_step / 2 +
+                     filter * format_range,
+      .filter_weight_error = filter,
       .table_error = 3 * unit_roundoff,
       .opacity_error = 14 * unit_roundoff,
       .compositing_error = 4 * unit_roundoff,

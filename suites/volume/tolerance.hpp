@@ -31,7 +31,11 @@ struct PathPrecision {
 // value, then
 //   stored·scale + offset, 2u: 11u·M, M = |scale|·stored_max + |offset|; a u of the table position
 //   256·x − ½ twice more: 13u·M. Half a storage step where the voxel format loses values.
-// filter. The probed error of the weights, rounded up to a power of two; never less than u.
+// filter. The probed error of the weights, rounded up to a power of two; never less than u. A
+// sampler
+//   that rounds its result to the steps of the format errs by that much between equal voxels too;
+//   the probe, whose neighbours differ by the whole range, sees both errors together, so what it
+//   found is an absolute error of the value as well.
 // table. Interpolation between two entries: 3u.
 // opacity, relative. tri_opacity is stated to 8u, its exponent's two factors 2u each, the share of
 // the
