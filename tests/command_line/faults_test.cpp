@@ -1,0 +1,56 @@
+// Workers that die, and what is kept.
+
+#include "program.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+// Three configurations of which the one with step 0.5 is hit.
+const std::string three =
+    std::string("run volume/quick ") + tiny + " --set step=0.25,0.5,1 --store s.sqlite";
+
+TEST(Faults, ACrashCostsOneConfiguration) {
+  const Program program;
+  const Result result = program.run(three + " --plant 'crash@*step=0.5*'");
+  EXPECT_NE(result.output.find("2 measured, 0 skipped, 1 failed"), std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find("crashed"), std::string::npos) << result.output;
+}
+
+TEST(Faults, AHangCostsOneConfiguration) {
+  const Program program;
+  const Result result = program.run(three + " --limit 1 --plant 'hang@*step=0.5*'");
+  EXPECT_NE(result.output.find("2 measured, 0 skipped, 1 failed"), std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find("hung"), std::string::npos) << result.output;
+}
+
+TEST(Faults, ALostDeviceCostsOneConfiguration) {
+  const Program program;
+  const Result result = program.run(three + " --plant 'device_lost@*step=0.5*'");
+  EXPECT_NE(result.output.find("2 measured, 0 skipped, 1 failed"), std::string::npos)
+      << result.output;
+}
+
+TEST(Faults, AKilledRunIsResumed) {
+  const Program program;
+  // The first configuration is stored, the second hangs until the supervisor is killed.
+  const Result killed =
+      program.run(three + " --limit 60 --plant 'hang@*step=0.5*'", "{}", "timeout -s KILL 3");
+  EXPECT_NE(killed.code, 0);
+  const Result resumed = program.run(three + " --resume");
+  EXPECT_EQ(resumed.code, 0) << resumed.output;
+  EXPECT_NE(resumed.output.find("2 measured, 0 skipped, 0 failed"), std::string::npos)
+      << resumed.output;
+}
+
+TEST(Faults, NothingMeasuredIsNoPass) {
+  const Program program;
+  const Result result =
+      program.run("run volume/quick --device 'null:*' --set data=gone.nrrd --store s.sqlite");
+  EXPECT_EQ(result.code, 2) << result.output;
+  EXPECT_EQ(program.run("gate volume/quick --store s.sqlite --baselines b").code, 2);
+}
+
+}  // namespace
+}  // namespace triptych::command_line

@@ -1,0 +1,138 @@
+// Measure, accept, judge: the whole way on scripted devices whose answers are known.
+
+#include <fmt/format.h>
+
+#include "core/image_io.hpp"
+#include "measure/plan.hpp"
+#include "program.hpp"
+#include "suites/volume/suite.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+// The truth of the tiny plan's scene as a file, for a device to replay.
+std::filesystem::path right_picture(const Program& program) {
+  const auto suite = volume_suite::make_suite({});
+  const measure::Plan plan =
+      measure::load_plan("volume/quick",
+                         {{"technique", {"raycast"}},
+                          {"data", {"generate:gaussian_blob:16"}},
+                          {"transfer_function", {"haze"}},
+                          {"viewport", {"16"}}},
+                         [&](std::string_view) -> measure::Suite& { return *suite; });
+  const auto file = program.folder() / "right.exr";
+  core::write_exr(suite->truth(plan.configurations.at(0), {}).image, file);
+  return file;
+}
+
+// `speed`: factor on all times of the device.
+std::string script(const std::filesystem::path& picture, double speed, int seed) {
+  return fmt::format(
+      R"({{"images": {{"*": "{}"}}, "devices": [{}], "seed": {}, "base_ns": 5e6, "noise": 0.003}})",
+      picture.string(), speed, seed);
+}
+
+std::string measure_into(const std::string& store) {
+  return fmt::format("run volume/quick {} --store {}", tiny, store);
+}
+
+std::string judge_from(const std::string& store) {
+  return fmt::format("gate volume/quick --store {} --baselines baselines", store);
+}
+
+void accept_runs(const Program& program, const std::filesystem::path& picture, int count) {
+  for (int i = 0; i < count; ++i) {
+    const std::string store = fmt::format("history{}.sqlite", i);
+    ASSERT_EQ(program.run(measure_into(store), script(picture, 1, i)).code, 0);
+    const Result accepted = program.run(fmt::format(
+        "accept volume/quick --reason history --store {} --baselines baselines", store));
+    ASSERT_EQ(accepted.code, 0) << accepted.output;
+  }
+}
+
+TEST(Gate, PassesOnWhatWasAccepted) {
+  const Program program;
+  const auto picture = right_picture(program);
+  accept_runs(program, picture, 1);
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(picture, 1, 99)).code, 0);
+  const Result judged = program.run(judge_from("s.sqlite") + " --junit j.xml --markdown m.md");
+  EXPECT_EQ(judged.code, 0) << judged.output;
+  EXPECT_TRUE(std::filesystem::exists(program.folder() / "j.xml"));
+  EXPECT_EQ(program.run(judge_from("s.sqlite") + " --json").output,
+            program.run(judge_from("s.sqlite") + " --json").output);
+}
+
+TEST(Gate, CannotJudgeWithoutBaselines) {
+  const Program program;
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(right_picture(program), 1, 1)).code, 0);
+  const Result judged = program.run(judge_from("s.sqlite"));
+  EXPECT_EQ(judged.code, 2) << judged.output;
+  EXPECT_NE(judged.output.find("triptych accept volume/quick"), std::string::npos) << judged.output;
+}
+
+TEST(Gate, AWrongPictureIsARegression) {
+  const Program program;
+  accept_runs(program, right_picture(program), 1);
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), "{}").code, 0);  // the null device's own pattern
+  EXPECT_EQ(program.run(judge_from("s.sqlite")).code, 1);
+}
+
+TEST(Gate, AKernelTwentyPercentSlowerIsARegression) {
+  const Program program;
+  const auto picture = right_picture(program);
+  accept_runs(program, picture, 6);
+  ASSERT_EQ(program.run(measure_into("same.sqlite"), script(picture, 1, 77)).code, 0);
+  const Result same = program.run(judge_from("same.sqlite"));
+  EXPECT_EQ(same.code, 0) << same.output;
+  ASSERT_EQ(program.run(measure_into("slow.sqlite"), script(picture, 1.2, 77)).code, 0);
+  const Result slow = program.run(judge_from("slow.sqlite"));
+  EXPECT_EQ(slow.code, 1) << slow.output;
+  EXPECT_NE(slow.output.find("volume.quick.timing.null:scripted"), std::string::npos)
+      << slow.output;
+}
+
+TEST(Gate, ARequiredDeviceThatIsAbsentIsNoPass) {
+  const Program program;
+  const auto picture = right_picture(program);
+  accept_runs(program, picture, 1);
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(picture, 1, 1)).code, 0);
+  const Result judged = program.run(judge_from("s.sqlite") + " --require 'vulkan:*'");
+  EXPECT_EQ(judged.code, 2) << judged.output;
+  EXPECT_NE(judged.output.find("vulkan:*"), std::string::npos);
+}
+
+TEST(Gate, ACorruptBaselineIsNamedWithItsLine) {
+  const Program program;
+  const auto picture = right_picture(program);
+  accept_runs(program, picture, 1);
+  program.write("baselines/volume/quick/counters.json", "{\n \"camera\": {\n");
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(picture, 1, 1)).code, 0);
+  const Result judged = program.run(judge_from("s.sqlite"));
+  EXPECT_EQ(judged.code, 3) << judged.output;
+  EXPECT_NE(judged.output.find("counters.json:"), std::string::npos) << judged.output;
+}
+
+TEST(Gate, AcceptNeedsAReasonAndAnHonestRun) {
+  const Program program;
+  ASSERT_EQ(program.run(measure_into("s.sqlite") + " --plant half_voxel_shift").code, 0);
+  EXPECT_EQ(program.run("accept volume/quick --store s.sqlite --baselines b --reason ok").code, 3);
+  EXPECT_EQ(program.run("accept volume/quick --store s.sqlite --baselines b --reason ' '").code, 3);
+  EXPECT_FALSE(std::filesystem::exists(program.folder() / "b"));
+}
+
+TEST(Gate, TheReportNeedsNoNetwork) {
+  const Program program;
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(right_picture(program), 1, 1)).code, 0);
+  const Result written = program.run(
+      "report --store s.sqlite --baselines b --out r/page.html "
+      "--benchmark-json r/benchmark.json");
+  ASSERT_EQ(written.code, 0) << written.output;
+  std::ifstream in(program.folder() / "r/page.html");
+  const std::string page(std::istreambuf_iterator<char>(in), {});
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+  EXPECT_NE(page.find("null:scripted"), std::string::npos);
+  EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace triptych::command_line

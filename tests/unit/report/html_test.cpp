@@ -1,0 +1,44 @@
+#include "report/html.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace triptych::report {
+namespace {
+
+TEST(Html, EscapesWhatHasMeaning) {
+  EXPECT_EQ(escape("a<b & \"c\">\x01"), "a&lt;b &amp; &quot;c&quot;&gt;");
+}
+
+// RFC 4648, section 10.
+TEST(Html, DataUriIsBase64) {
+  const auto encoded = [](std::string_view text) {
+    return data_uri(std::as_bytes(std::span(text.data(), text.size()))).substr(22);
+  };
+  EXPECT_EQ(encoded(""), "");
+  EXPECT_EQ(encoded("f"), "Zg==");
+  EXPECT_EQ(encoded("fo"), "Zm8=");
+  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+}
+
+TEST(Html, DurationsHaveThreeDigits) {
+  EXPECT_EQ(duration(999), "999 ns");
+  EXPECT_EQ(duration(12345), "12.3 µs");
+  EXPECT_EQ(duration(1234567), "1.23 ms");
+  EXPECT_EQ(duration(2.5e9), "2.50 s");
+}
+
+TEST(Html, NumbersAreGrouped) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(1234567), "1\u2009234\u2009567");
+}
+
+TEST(Html, OnlyQuantitiesAreFlushRight) {
+  const std::string text = table({{"head"}, {"12.3 ms"}, {"3.1+debian"}, {"gl"}});
+  EXPECT_NE(text.find("<td class=\"number\">12.3 ms"), std::string::npos);
+  EXPECT_NE(text.find("<td>3.1+debian"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace triptych::report
