@@ -59,7 +59,7 @@ void Api::collect_messages() {
   DebugMessageCallback(&Api::on_message, messages_.get());
 }
 
-void Api::check(std::string_view call, std::source_location place) const {
+void Api::check(std::string_view call, core::CodePlace place) const {
   // A lost context may answer every question with an error of its own, so it is asked first.
   const GLenum reset = GetGraphicsResetStatus != nullptr ? GetGraphicsResetStatus() : GL_NO_ERROR;
   const GLenum error = GetError();

@@ -5,10 +5,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <source_location>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/code_place.hpp"
 
 namespace triptych::gl_backend {
 
@@ -23,8 +24,7 @@ struct Api : GladGLContext {
 
   // Throws core::DeviceLost or core::ApiError when any call since the last check failed; `call`
   // names the last of them, or the one that matters.
-  void check(std::string_view call,
-             std::source_location place = std::source_location::current()) const;
+  void check(std::string_view call, core::CodePlace place = core::CodePlace::current()) const;
 
   [[nodiscard]] std::string text(GLenum name) const;  // glGetString; empty for null
   [[nodiscard]] std::int64_t limit(GLenum name) const;

@@ -39,7 +39,7 @@ struct Egl {
            fmt::format(" {} ", names).find(fmt::format(" {} ", extension)) != std::string::npos;
   }
   [[nodiscard]] core::ApiError error(std::string call,
-                                     std::source_location place = std::source_location::current()) {
+                                     core::CodePlace place = core::CodePlace::current()) {
     return {std::move(call), code_name(get_error()), {}, place};
   }
 

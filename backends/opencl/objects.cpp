@@ -93,7 +93,7 @@ std::string code_name(cl_int code) {
   return found == codes.end() ? fmt::format("error {}", code) : std::string(found->name);
 }
 
-void throw_api_error(const cl::Error& error, std::source_location place) {
+void throw_api_error(const cl::Error& error, core::CodePlace place) {
   const std::string call = error.what();
   if (means_lost(error.err())) throw core::DeviceLost(call, code_name(error.err()), {}, place);
   throw core::ApiError(call, code_name(error.err()), {}, place);

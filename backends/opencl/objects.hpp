@@ -6,9 +6,10 @@
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
 #define CL_HPP_TARGET_OPENCL_VERSION 120
 #include <CL/opencl.hpp>
-#include <source_location>
 #include <string>
 #include <utility>
+
+#include "core/code_place.hpp"
 
 namespace triptych::opencl_backend {
 
@@ -16,11 +17,11 @@ namespace triptych::opencl_backend {
 [[nodiscard]] std::string code_name(cl_int code);
 
 // Throws core::DeviceLost for the codes with which drivers report that, else core::ApiError.
-[[noreturn]] void throw_api_error(const cl::Error& error, std::source_location place);
+[[noreturn]] void throw_api_error(const cl::Error& error, core::CodePlace place);
 
 // Runs a call of the API and turns its exception into ours.
 template <typename Call>
-decltype(auto) checked(Call&& call, std::source_location place = std::source_location::current()) {
+decltype(auto) checked(Call&& call, core::CodePlace place = core::CodePlace::current()) {
   try {
     return std::forward<Call>(call)();
   } catch (const cl::Error& error) {

@@ -7,7 +7,7 @@
 
 namespace triptych::vulkan_backend {
 
-void rethrow(const vk::SystemError& error, std::source_location place) {
+void rethrow(const vk::SystemError& error, core::CodePlace place) {
   // Vulkan-Hpp words its errors "vk::Queue::submit: ErrorDeviceLost".
   const std::string_view text = error.what();
   const std::string call(text.substr(0, text.find(": ")));

@@ -58,7 +58,7 @@ measure::RunResult run_and_tell(const RunArguments& arguments) {
       .plants = parse_plants(arguments.plants),
       .worker_command = {own_program(), "worker", "--device"},
   };
-  const measure::RunResult result =
+  measure::RunResult result =
       measure::run_plan(plan, devices, registry.suite(plan.suite), store, options, show);
   fmt::print(
       "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",

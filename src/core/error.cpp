@@ -40,7 +40,7 @@ InputError::InputError(FilePlace place, const std::string& message)
     : Error(describe(place, message)), place_(std::move(place)) {}
 
 ApiError::ApiError(std::string call, std::string code, const std::string& detail,
-                   std::source_location place)
+                   core::CodePlace place)
     : Error(fmt::format("{} returned {} at {}:{}{}{}", call, code, file_name(place.file_name()),
                         place.line(), detail.empty() ? "" : ": ", on_one_line(detail))),
       call_(std::move(call)),

@@ -4,9 +4,10 @@
 
 #include <cstdint>
 #include <optional>
-#include <source_location>
 #include <stdexcept>
 #include <string>
+
+#include "core/code_place.hpp"
 
 namespace triptych::core {
 
@@ -56,7 +57,7 @@ class NotSupported : public Error {
 class ApiError : public Error {
  public:
   ApiError(std::string call, std::string code, const std::string& detail = {},
-           std::source_location place = std::source_location::current());
+           core::CodePlace place = core::CodePlace::current());
   [[nodiscard]] const std::string& call() const noexcept { return call_; }
   [[nodiscard]] const std::string& code() const noexcept { return code_; }
 

@@ -319,6 +319,7 @@ RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices, co
   result.run = context.run;
   Report report(static_cast<int>(plan.configurations.size() * devices.size()), on_progress);
   std::vector<std::pair<std::string, std::vector<const Configuration*>>> work;
+  work.reserve(devices.size());
   for (const std::string& device : devices) {
     work.emplace_back(device, pending(context, device, report));
   }

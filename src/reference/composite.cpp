@@ -57,8 +57,8 @@ Pixel Compositor::finish() const {
         const double left = std::min(sample.front * (1.0 - opacity_lo), model_.ert);
         lost[channel] = std::max(lost[channel], left * std::abs(behind - background_[channel]));
       }
-      // A rounded transmittance scales what lies behind; opacity is one minus the transmittance left,
-      // so there it scales what is not covered, and no sum of small weights absorbs it.
+      // A rounded transmittance scales what lies behind; opacity is one minus the transmittance
+      // left, so there it scales what is not covered, and no sum of small weights absorbs it.
       const double scaled = channel < 3 ? std::abs(behind) : 1.0 - behind;
       if (reached && opacity_hi > 0) {
         error[channel] +=

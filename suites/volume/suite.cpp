@@ -56,7 +56,7 @@ class VolumeSuite final : public measure::SuiteWithTruth {
 
   const Loaded& load(const std::string& data, const ChooseFormat& choose);
   scene::VolumeScene scene(const Configuration& configuration,
-                           std::shared_ptr<const scene::VoxelGrid> grid) const;
+                           const std::shared_ptr<const scene::VoxelGrid>& grid) const;
 
   std::vector<std::filesystem::path> folders_;
   Loaded loaded_;
@@ -95,7 +95,7 @@ const VolumeSuite::Loaded& VolumeSuite::load(const std::string& data, const Choo
 }
 
 scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
-                                      std::shared_ptr<const scene::VoxelGrid> grid) const {
+                                      const std::shared_ptr<const scene::VoxelGrid>& grid) const {
   const auto [width, height] = parse_viewport(configuration.at("viewport"));
   return {
       .grid = grid,

@@ -56,8 +56,8 @@ struct RaycastParameters {
       brick_grid;                        // bricks per axis; w: brick edge in voxels, 0: no skipping
   std::array<std::int32_t, 4> viewport;  // width, height, row stride, 0
 };
-static_assert(sizeof(RaycastParameters) == 11 * 16);
-static_assert(offsetof(RaycastParameters, volume_size) == 8 * 16);
+static_assert(sizeof(RaycastParameters) == std::size_t{11} * 16);
+static_assert(offsetof(RaycastParameters, volume_size) == std::size_t{8} * 16);
 
 // The stored integer of a u8 or u16 grid arrives in a shader as itself (buffer) or over its maximum
 // (UNORM texture): `stored_maximum` is 1 or 255 or 65535 accordingly.

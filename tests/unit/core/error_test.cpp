@@ -21,7 +21,7 @@ TEST(InputError, LeavesOutWhatIsNotKnown) {
 }
 
 TEST(ApiError, NamesCallCodeAndPlace) {
-  const auto here = std::source_location::current();
+  const auto here = core::CodePlace::current();
   const ApiError error("clFinish", "CL_OUT_OF_RESOURCES", "after the kernel", here);
   const std::string text = error.what();
   EXPECT_EQ(text, "clFinish returned CL_OUT_OF_RESOURCES at error_test.cpp:" +

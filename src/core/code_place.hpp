@@ -1,0 +1,23 @@
+#pragma once
+// std::source_location as clang 14 can read it too, whose clang-tidy checks this code.
+
+namespace triptych::core {
+
+class CodePlace {
+ public:
+  // Of the caller, when used as a default argument.
+  [[nodiscard]] static constexpr CodePlace current(const char* file = __builtin_FILE(),
+                                                   int line = __builtin_LINE()) noexcept {
+    return CodePlace(file, line);
+  }
+  [[nodiscard]] constexpr const char* file_name() const noexcept { return file_; }
+  [[nodiscard]] constexpr int line() const noexcept { return line_; }
+
+ private:
+  constexpr CodePlace(const char* file, int line) noexcept : file_(file), line_(line) {}
+
+  const char* file_;
+  int line_;
+};
+
+}  // namespace triptych::core
