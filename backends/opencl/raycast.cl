@@ -7,118 +7,6 @@
 //
 // Compile-time constants: TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, and those of volume.cl.
 
-typedef struct {
-  float3 p0;    // where the ray enters the box, voxels
-  float3 g;     // one step, voxels
-  float3 d;     // unit direction, world
-  float steps;  // length inside the box, steps
-} Ray;
-
-TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {
-  float2 ndc = (2.0f * (convert_float2(pixel) + 0.5f)) / convert_float2(u->viewport.xy) - 1.0f;
-  float3 d = u->ray_centre.xyz + ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz;
-  d = d / sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-  float3 v = d * u->inverse_spacing.xyz;
-  float2 x = tri_slab(u->eye.x, v.x, (float)u->volume_size.x);
-  float2 y = tri_slab(u->eye.y, v.y, (float)u->volume_size.y);
-  float2 z = tri_slab(u->eye.z, v.z, (float)u->volume_size.z);
-  float t0 = max(max(x.x, y.x), max(z.x, 0.0f));
-  float t1 = min(min(x.y, y.y), z.y);
-  Ray ray;
-  ray.d = d;
-  ray.g = v * u->eye.w;
-  ray.p0 = u->eye.xyz + t0 * v;
-  ray.steps = t1 > t0 ? (t1 - t0) / u->eye.w : 0.0f;
-  return ray;
-}
-
-// A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed
-// from the brick's index, not accumulated, so that they do not drift.
-typedef struct {
-  int3 brick;
-  int3 direction;  // −1 or +1 per axis
-  float3 inverse_g;
-  float leave;  // where the ray leaves the brick, steps
-  int axis;     // through which face
-  int outside;  // rounding led out of the grid: the rest of the ray is taken as visible
-} Walk;
-
-TRI_FN void aim(__constant Parameters* u, Walk* walk, const Ray* ray) {
-  float3 face = convert_float3((walk->brick + max(walk->direction, (int3)(0))) * u->brick_grid.w);
-  float3 at = (face - ray->p0) * walk->inverse_g;
-  at.x = ray->g.x == 0.0f ? 3.0e38f : at.x;
-  at.y = ray->g.y == 0.0f ? 3.0e38f : at.y;
-  at.z = ray->g.z == 0.0f ? 3.0e38f : at.z;
-  walk->axis = at.x <= at.y ? (at.x <= at.z ? 0 : 2) : (at.y <= at.z ? 1 : 2);
-  walk->leave = min(at.x, min(at.y, at.z));
-}
-
-TRI_FN Walk start_walk(__constant Parameters* u, const Ray* ray) {
-  Walk walk;
-  walk.brick = clamp(convert_int3(ray->p0 / (float)u->brick_grid.w), (int3)(0),
-                     u->brick_grid.xyz - 1);
-  walk.direction = (int3)(ray->g.x < 0.0f ? -1 : 1, ray->g.y < 0.0f ? -1 : 1,
-                          ray->g.z < 0.0f ? -1 : 1);
-  walk.inverse_g = 1.0f / ray->g;
-  walk.outside = 0;
-  aim(u, &walk, ray);
-  return walk;
-}
-
-TRI_FN void next_brick(__constant Parameters* u, Walk* walk, const Ray* ray) {
-  walk->brick.x += walk->axis == 0 ? walk->direction.x : 0;
-  walk->brick.y += walk->axis == 1 ? walk->direction.y : 0;
-  walk->brick.z += walk->axis == 2 ? walk->direction.z : 0;
-  walk->outside = any(walk->brick < (int3)(0)) || any(walk->brick >= u->brick_grid.xyz);
-  aim(u, walk, ray);
-}
-
-TRI_FN int visible(__constant Parameters* u, __global const uint* brick_visible, const Walk* walk) {
-  if (walk->outside) return 1;
-  int index = walk->brick.x +
-              u->brick_grid.x * (walk->brick.y + u->brick_grid.y * walk->brick.z);
-  return brick_visible[index] != 0u;
-}
-
-// The first sample at or behind `limit` that lies beyond the brick. A sample within rounding of the
-// face may be counted to either side: the brick's border of one voxel covers half a voxel of error.
-TRI_FN int samples_before(const Walk* walk, int limit) {
-  if (walk->outside || !(walk->leave < (float)limit)) return limit;
-  return clamp((int)tri_ceil(walk->leave - 0.5f), 0, limit);
-}
-
-// What a counting build counts along a ray; the others drop it.
-typedef struct {
-  uint samples;
-  uint nonzero;
-  uint bricks_visited;
-  uint bricks_skipped;
-  uint terminated;
-} Counts;
-
-// Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the
-// ray.
-TRI_FN int2 next_run(__constant Parameters* u, __global const uint* brick_visible, Walk* walk,
-                     const Ray* ray, int begin, int end, Counts* counts) {
-  while (begin < end && !visible(u, brick_visible, walk)) {
-    begin = max(begin, samples_before(walk, end));
-    next_brick(u, walk, ray);
-#if TRI_COUNT
-    counts->bricks_visited++;
-    counts->bricks_skipped++;
-#endif
-  }
-  int stop = begin;
-  while (stop < end && visible(u, brick_visible, walk)) {
-    stop = max(stop, samples_before(walk, end));
-    next_brick(u, walk, ray);
-#if TRI_COUNT
-    counts->bricks_visited++;
-#endif
-  }
-  return (int2)(begin, stop);
-}
-
 // Headlight shading (scene::Shading) of a colour at p: d is the world direction of the ray.
 TRI_FN float4 shade(__constant Parameters* u, TRI_VOLUME volume, float4 colour, float3 p,
                     float3 d) {
@@ -243,7 +131,7 @@ TRI_FN void store_counts(__global uint* to, const Counts* counts, int total) {
 
 // Image: premultiplied RGBA, top row first. Work items cover every viewport.z-th row.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
-                      __global const uint* brick_visible, __global float4* image,
+                      __global const int* brick_reach, __global float4* image,
                       __global uint* counters) {
   int2 pixel = (int2)((int)get_global_id(0), (int)get_global_id(1) * u->viewport.z);
   if (pixel.x >= u->viewport.x || pixel.y >= u->viewport.y) return;
@@ -254,7 +142,7 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 #endif
   Gathered gathered = {(float4)(0.0f), 1.0f};
   Counts counts = {0u, 0u, 0u, 0u, 0u};
-  int skipping = u->brick_grid.w > 0;
+  int skipping = skips(u, brick_reach);
   Walk walk;
   if (skipping) walk = start_walk(u, &ray);
   int i = 0;
@@ -262,7 +150,7 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
   while (i < count && !ended) {
     int stop = count;
     if (skipping) {
-      int2 run = next_run(u, brick_visible, &walk, &ray, i, count, &counts);
+      int2 run = next_run(u, brick_reach, &walk, &ray, i, count, &counts);
       i = run.x;
       stop = run.y;
     }

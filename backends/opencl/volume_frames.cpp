@@ -4,13 +4,14 @@
 #include <cstdint>
 #include <span>
 
+#include "backends/opencl/brick_reach.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
 
-const std::vector<std::string_view> source_files{"volume.cl", "raycast.cl"};
+const std::vector<std::string_view> source_files{"volume.cl", "ray.cl", "raycast.cl"};
 
 // Pixels of a work-group: wide enough for a GPU's waves; a CPU is indifferent.
 constexpr std::size_t group_width = 16;
@@ -54,7 +55,8 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
     volume_ = volume.volume;
     table_ = upload_bytes(session, std::as_bytes(std::span(work.scene.transfer_function.entries)));
     const auto visible = technique::brick_visibility(volume.ranges, work.scene.transfer_function);
-    bricks_ = upload_bytes(session, std::as_bytes(std::span(visible)));
+    const auto reach = brick_reach(volume.ranges.counts, visible);
+    bricks_ = upload_bytes(session, std::as_bytes(std::span(reach)));
     image_ = cl::Buffer(session.context, CL_MEM_WRITE_ONLY,
                         core::Image(width_, height_).rgba.size() * sizeof(float));
     counters_ =

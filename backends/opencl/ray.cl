@@ -1,0 +1,205 @@
+// Rays, and the runs of samples along them that lie in visible bricks.
+//
+// Raycasting that is timed leaps over whole cubes of bricks that are all visible or all invisible.
+// A sample within rounding of a face may then be given to the other side than a walk from brick to
+// brick gives it to: no matter for an image to which invisible bricks add nothing, which is the same
+// bit for bit with leaps, with a walk and without bricks. The build that counts, and speed_of_light,
+// which adds up every colour that it fetches, walk.
+//
+// brick_reach: n > 0 where all bricks fewer than n away (the greatest distance along any axis) are
+// visible, n < 0 where all fewer than −n away are invisible (brick_reach.hpp).
+
+typedef struct {
+  float3 p0;    // where the ray enters the box, voxels
+  float3 g;     // one step, voxels
+  float3 d;     // unit direction, world
+  float steps;  // length inside the box, steps
+} Ray;
+
+TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {
+  float2 ndc = (2.0f * (convert_float2(pixel) + 0.5f)) / convert_float2(u->viewport.xy) - 1.0f;
+  float3 d = u->ray_centre.xyz + ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz;
+  d = d / sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+  float3 v = d * u->inverse_spacing.xyz;
+  float2 x = tri_slab(u->eye.x, v.x, (float)u->volume_size.x);
+  float2 y = tri_slab(u->eye.y, v.y, (float)u->volume_size.y);
+  float2 z = tri_slab(u->eye.z, v.z, (float)u->volume_size.z);
+  float t0 = max(max(x.x, y.x), max(z.x, 0.0f));
+  float t1 = min(min(x.y, y.y), z.y);
+  Ray ray;
+  ray.d = d;
+  ray.g = v * u->eye.w;
+  ray.p0 = u->eye.xyz + t0 * v;
+  ray.steps = t1 > t0 ? (t1 - t0) / u->eye.w : 0.0f;
+  return ray;
+}
+
+// Whether there is anything to skip. The build that counts walks through a full volume too.
+TRI_FN int skips(__constant Parameters* u, __global const int* brick_reach) {
+  int4 grid = u->brick_grid;
+  if (TRI_COUNT) return grid.w > 0;
+  return grid.w > 0 && brick_reach[0] < max(grid.x, max(grid.y, grid.z));
+}
+
+// What a counting build counts along a ray; the others drop it.
+typedef struct {
+  uint samples;
+  uint nonzero;
+  uint bricks_visited;
+  uint bricks_skipped;
+  uint terminated;
+} Counts;
+
+#if TRI_COUNT || TRI_SPEED_OF_LIGHT
+
+// A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed
+// from the brick's index, not accumulated, so that they do not drift.
+typedef struct {
+  int3 brick;
+  int3 direction;  // −1 or +1 per axis
+  float3 inverse_g;
+  float leave;  // where the ray leaves the brick, steps
+  int axis;     // through which face
+  int outside;  // rounding led out of the grid: the rest of the ray is taken as visible
+} Walk;
+
+TRI_FN void aim(__constant Parameters* u, Walk* walk, const Ray* ray) {
+  float3 face = convert_float3((walk->brick + max(walk->direction, (int3)(0))) * u->brick_grid.w);
+  float3 at = (face - ray->p0) * walk->inverse_g;
+  at.x = ray->g.x == 0.0f ? 3.0e38f : at.x;
+  at.y = ray->g.y == 0.0f ? 3.0e38f : at.y;
+  at.z = ray->g.z == 0.0f ? 3.0e38f : at.z;
+  walk->axis = at.x <= at.y ? (at.x <= at.z ? 0 : 2) : (at.y <= at.z ? 1 : 2);
+  walk->leave = min(at.x, min(at.y, at.z));
+}
+
+TRI_FN Walk start_walk(__constant Parameters* u, const Ray* ray) {
+  Walk walk;
+  walk.brick = clamp(convert_int3(ray->p0 / (float)u->brick_grid.w), (int3)(0),
+                     u->brick_grid.xyz - 1);
+  walk.direction = (int3)(ray->g.x < 0.0f ? -1 : 1, ray->g.y < 0.0f ? -1 : 1,
+                          ray->g.z < 0.0f ? -1 : 1);
+  walk.inverse_g = 1.0f / ray->g;
+  walk.outside = 0;
+  aim(u, &walk, ray);
+  return walk;
+}
+
+TRI_FN void next_brick(__constant Parameters* u, Walk* walk, const Ray* ray) {
+  walk->brick.x += walk->axis == 0 ? walk->direction.x : 0;
+  walk->brick.y += walk->axis == 1 ? walk->direction.y : 0;
+  walk->brick.z += walk->axis == 2 ? walk->direction.z : 0;
+  walk->outside = any(walk->brick < (int3)(0)) || any(walk->brick >= u->brick_grid.xyz);
+  aim(u, walk, ray);
+}
+
+TRI_FN int visible(__constant Parameters* u, __global const int* brick_reach, const Walk* walk) {
+  if (walk->outside) return 1;
+  int index = walk->brick.x +
+              u->brick_grid.x * (walk->brick.y + u->brick_grid.y * walk->brick.z);
+  return brick_reach[index] > 0;
+}
+
+// The first sample at or behind `limit` that lies beyond the brick. A sample within rounding of the
+// face may be counted to either side: the brick's border of one voxel covers half a voxel of error.
+TRI_FN int samples_before(const Walk* walk, int limit) {
+  if (walk->outside || !(walk->leave < (float)limit)) return limit;
+  return clamp((int)tri_ceil(walk->leave - 0.5f), 0, limit);
+}
+
+// Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the
+// ray.
+TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_reach, Walk* walk,
+                     const Ray* ray, int begin, int end, Counts* counts) {
+  while (begin < end && !visible(u, brick_reach, walk)) {
+    begin = max(begin, samples_before(walk, end));
+    next_brick(u, walk, ray);
+    counts->bricks_visited++;
+    counts->bricks_skipped++;
+  }
+  int stop = begin;
+  while (stop < end && visible(u, brick_reach, walk)) {
+    stop = max(stop, samples_before(walk, end));
+    next_brick(u, walk, ray);
+    counts->bricks_visited++;
+  }
+  return (int2)(begin, stop);
+}
+
+#else
+
+// What leaps need to know of a ray.
+typedef struct {
+  float3 inverse_g;
+  float edge;  // of a brick, voxels
+  float inverse_edge;
+} Walk;
+
+// A ray that runs along a face takes 10²⁰ steps to the next: never, without dividing by zero.
+TRI_FN float inverse_step(float g) {
+  return 1.0f / (fabs(g) > 1.0e-20f ? g : 1.0e-20f);
+}
+
+TRI_FN Walk start_walk(__constant Parameters* u, const Ray* ray) {
+  Walk walk;
+  walk.inverse_g =
+      (float3)(inverse_step(ray->g.x), inverse_step(ray->g.y), inverse_step(ray->g.z));
+  walk.edge = (float)u->brick_grid.w;
+  walk.inverse_edge = 1.0f / walk.edge;
+  return walk;
+}
+
+TRI_FN int brick_at(float p, float inverse_edge, int bricks) {
+  int brick = (int)(p * inverse_edge);
+  return brick < 0 ? 0 : (brick < bricks ? brick : bricks - 1);
+}
+
+// Where a ray leaves the bricks fewer than `reach` away from `brick` along one axis, steps.
+TRI_FN float crossing(float p0, float inverse_g, float edge, int brick, int reach) {
+  int face = inverse_g < 0.0f ? brick - reach + 1 : brick + reach;
+  return ((float)face * edge - p0) * inverse_g;
+}
+
+// The first sample after the i-th that lies beyond the cube of bricks that are like that of the
+// i-th; `end` at most. Each leap starts from its sample's own position: nothing drifts.
+TRI_FN int leap(__constant Parameters* u, __global const int* brick_reach, const Walk* walk,
+                const Ray* ray, int i, int end, int* visible) {
+  float along = (float)i + 0.5f;
+  int4 grid = u->brick_grid;
+  int x = brick_at(ray->p0.x + along * ray->g.x, walk->inverse_edge, grid.x);
+  int y = brick_at(ray->p0.y + along * ray->g.y, walk->inverse_edge, grid.y);
+  int z = brick_at(ray->p0.z + along * ray->g.z, walk->inverse_edge, grid.z);
+  int signed_reach = brick_reach[x + grid.x * (y + grid.y * z)];
+  *visible = signed_reach > 0;
+  int reach = *visible ? signed_reach : -signed_reach;
+  float at_x = crossing(ray->p0.x, walk->inverse_g.x, walk->edge, x, reach);
+  float at_y = crossing(ray->p0.y, walk->inverse_g.y, walk->edge, y, reach);
+  float at_z = crossing(ray->p0.z, walk->inverse_g.z, walk->edge, z, reach);
+  float leave = at_x < at_y ? at_x : at_y;
+  leave = at_z < leave ? at_z : leave;
+  if (!(leave < (float)end)) return end;
+  int next = (int)tri_ceil(leave - 0.5f);
+  next = next > i ? next : i + 1;
+  return next < end ? next : end;
+}
+
+// Narrows [begin, end) to visible bricks at or after begin; empty at the end of the ray. It looks
+// no further than a batch needs: an opaque ray may end there.
+TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_reach, Walk* walk,
+                     const Ray* ray, int begin, int end, Counts* counts) {
+  int visible = 0;
+  int stop = begin;
+  while (!visible && stop < end) {
+    begin = stop;
+    stop = leap(u, brick_reach, walk, ray, begin, end, &visible);
+  }
+  if (!visible) return (int2)(end, end);
+  while (visible && stop < end && stop - begin < TRI_BATCH) {
+    int beyond = leap(u, brick_reach, walk, ray, stop, end, &visible);
+    stop = visible ? beyond : stop;
+  }
+  return (int2)(begin, stop);
+}
+
+#endif
+
