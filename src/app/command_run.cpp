@@ -94,9 +94,11 @@ void add_worker_command(Commands& commands) {
   worker->add_option("--device", *device)->required();
   worker->group("");  // not shown: only `run` starts it
   auto api = std::make_shared<std::string>();
-  CLI::App* listing = commands.add(
-      "list-api", "List the devices of one API (started by devices)",
-      [api] { return answer_listing(make_registry(), *api, measure::Process::child_answer_fd); });
+  CLI::App* listing =
+      commands.add("list-api", "List the devices of one API (started by devices)", [api] {
+        return answer_listing(make_registry(), *api, measure::Process::child_request_fd,
+                              measure::Process::child_answer_fd);
+      });
   listing->add_option("API", *api)->required();
   listing->group("");
 }

@@ -92,6 +92,9 @@ std::vector<std::string> choose_devices(const measure::Listing& listing,
         "no device at all: no OpenCL, Vulkan or OpenGL driver answers; ci/setup installs software "
         "drivers, `triptych devices` says what each loader found");
   }
+  for (const measure::Broken& each : listing.broken) {
+    known += fmt::format("; {}: {}", each.what, each.reason);
+  }
   throw core::NotSupported(fmt::format("no device matches {}; there are:{}", globs.front(), known));
 }
 
@@ -107,7 +110,10 @@ Greeting greet(const record::Device& device, const std::string& suite) {
   return {device, {}, reason_of(reply)};
 }
 
-core::ExitCode answer_listing(const Registry& registry, const std::string& api, int answer_fd) {
+core::ExitCode answer_listing(const Registry& registry, const std::string& api, int request_fd,
+                              int answer_fd) {
+  // To answer and leave before the question was put would close the pipe on the one who asks.
+  static_cast<void>(measure::receive(request_fd));
   measure::send(answer_fd, {.json = as_json(registry.backend(api).list()), .binary = {}});
   return core::ExitCode::pass;
 }

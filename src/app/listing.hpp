@@ -25,8 +25,8 @@ struct Greeting {
 };
 [[nodiscard]] Greeting greet(const record::Device& device, const std::string& suite);
 
-// What the process started for one API does: sends its listing to `answer_fd`.
+// What the process started for one API does: waits to be asked, then sends its listing.
 [[nodiscard]] core::ExitCode answer_listing(const Registry& registry, const std::string& api,
-                                            int answer_fd);
+                                            int request_fd, int answer_fd);
 
 }  // namespace triptych::app
