@@ -137,7 +137,7 @@ void judge_device(std::span<const TimingCase* const> cases,
 }  // namespace
 
 bool TimingJudgement::too_noisy(double tolerance) const {
-  return !(tolerance + half_width <= std::log(TimingModel::must_be_told));
+  return !(std::max(tolerance, log_ratio) + half_width <= std::log(TimingModel::must_be_told));
 }
 
 std::vector<TimingJudgement> judge_timings(std::span<const TimingCase> cases) {

@@ -14,7 +14,8 @@ struct TimingModel {
   static constexpr double share_of_false_alarms = 0.05;  // q of Benjamini–Hochberg
   static constexpr int least_runs = 5;                   // fewer stored runs decide nothing
   static constexpr double tolerated = 1.02;  // slower by this factor is not worth a finding
-  // Noise or a clock that hides a slowdown by this factor leaves a configuration undecided.
+  // A configuration passes only where a slowdown by this factor can be excluded; where noise or a
+  // coarse clock leave it possible, nothing is decided.
   static constexpr double must_be_told = 1.20;
 };
 
