@@ -7,12 +7,11 @@
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
-#include <fstream>
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/file.hpp"
 
 namespace triptych::app {
 namespace fs = std::filesystem;
@@ -59,16 +58,7 @@ void require_store(const fs::path& file) {
 
 void write_text(const fs::path& file, const std::string& text) {
   require_writable(file.parent_path());
-  const fs::path aside = file.string() + ".new";
-  std::ofstream out(aside, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) fs::rename(aside, file, error);
-  if (!out || error) {
-    fs::remove(aside, error);
-    throw core::IoError(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
-  }
+  core::write_file(text, file);
 }
 
 }  // namespace triptych::app

@@ -25,7 +25,7 @@ void require_writable(const std::filesystem::path& folder);
 // Throws core::NotSupported saying how to measure when there is no such store.
 void require_store(const std::filesystem::path& file);
 
-// Writes a text file aside and renames it. Throws core::IoError.
+// core::write_file into a folder that is made if it is missing. Throws core::IoError.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace triptych::app

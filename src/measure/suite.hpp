@@ -58,7 +58,8 @@ class Suite {
   // `configuration`. The suite keeps the last data set loaded, so that neighbours in a plan share
   // it.
   [[nodiscard]] virtual Work work(Configuration& configuration, const Device& device) = 0;
-  // A work for calibrating clocks and devices: lasts about `target_ms` on a slow device, tells
+  // A work for calibrating clocks: small enough for a very slow device; calibrate_clock lengthens it
+  // where it is too short to tell. Its picture tells
   // nothing.
   [[nodiscard]] virtual Work calibration(technique::Work kind) = 0;
 };

@@ -134,14 +134,15 @@ measure::Work VolumeSuite::work(Configuration& configuration, const measure::Dev
 }
 
 measure::Work VolumeSuite::calibration(technique::Work kind) {
-  // A field without empty space, sampled finely: some ten milliseconds on a slow device.
+  // A field without empty space, sampled finely: milliseconds on a software device, and not minutes
+  // on a very slow one. Whoever calibrates lengthens what is too short to tell.
   scene::Volume volume = scene::generate_volume("uniform_box", {32, 32, 32});
   scene::VolumeScene scene{
       .grid = std::make_shared<const scene::VoxelGrid>(
           scene::encode(std::move(volume), scene::VoxelFormat::f32)),
       .transfer_function = scene::load_transfer_function("haze"),
-      .width = 224,
-      .height = 224,
+      .width = 64,
+      .height = 64,
       .step_voxels = 0.125,
   };
   scene.camera = scene::camera_at("orbit_y:1/8", scene.box(), 60);
@@ -152,7 +153,8 @@ measure::Work VolumeSuite::calibration(technique::Work kind) {
                   .sampler = technique::Sampler::manual, .skip = technique::Skip::none, .ert = 0}}};
 }
 
-// Half a step of the voxel format where it cannot hold the data's own values, in normalised value.
+// A step of the voxel format where it cannot hold the data's own values, in normalised value; else
+// 0.
 double storage_step(const Configuration& configuration, scene::VoxelFormat native) {
   if (configuration.at("voxel") == "auto") return 0;
   const scene::VoxelFormat format = scene::voxel_format(configuration.at("voxel"));
