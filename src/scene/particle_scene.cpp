@@ -1,0 +1,23 @@
+#include "scene/particle_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace triptych::scene {
+
+double depth_scale(const Box& box, const glm::dvec3& eye) {
+  const glm::dvec3 outside = eye - glm::clamp(eye, box.lo, box.hi);
+  const double extent = glm::length(box.hi - box.lo) + glm::length(outside);
+  return std::exp2(std::floor(std::log2(extent)) - 24);
+}
+
+Camera particle_camera(std::string_view spec, const ParticleSet& set, double fov_y_deg) {
+  const Box box = bounding_box(set);
+  Camera camera = camera_at(spec, box, fov_y_deg);
+  camera.near = depth_scale(box, camera.eye);
+  return camera;
+}
+
+}  // namespace triptych::scene

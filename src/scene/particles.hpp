@@ -1,0 +1,77 @@
+#pragma once
+// Particles: what a file or a generator gives (ParticleSet).
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/camera.hpp"
+
+namespace triptych::scene {
+
+// What colours a particle: the levels of the factor `colour`.
+enum class ColourKind : std::uint8_t {
+  rgba8,     // four bytes, red in the lowest
+  rgba32,    // four floats
+  intensity  // one float in [0, 1], coloured by a transfer function
+};
+[[nodiscard]] std::string_view name_of(ColourKind kind);
+[[nodiscard]] ColourKind colour_kind(std::string_view name);  // throws InputError
+
+// Spheres, one array per property; all arrays that are not empty have the same length. Every sphere
+// is finite with a radius > 0: what is not was dropped and counted.
+struct ParticleSet {
+  std::string name;  // the `data` factor: a file name or generate:NAME:COUNT
+  std::vector<std::array<float, 4>> spheres;  // centre x, y, z and radius, world units
+  std::vector<std::uint32_t> ids;  // index in the file, counting from 0 the dropped ones too;
+                                   // ascending unless the set was permuted
+  ColourKind colour = ColourKind::rgba8;
+  // Exactly the one that `colour` names is filled. Colours are straight; alpha is not used, spheres
+  // are opaque.
+  std::vector<std::uint32_t> rgba8;
+  std::vector<std::array<float, 4>> rgba32;
+  std::vector<float> intensity;
+  std::uint64_t dropped = 0;  // radius ≤ 0 or not finite, centre not finite
+  std::string hash;           // content hash of all of the above but the name
+
+  [[nodiscard]] std::size_t count() const noexcept { return spheres.size(); }
+};
+
+// The box around all spheres, their radii included; the unit box for none.
+[[nodiscard]] Box bounding_box(const ParticleSet& set);
+
+// Appends one particle as read from a file, or counts it as dropped. `index` is its place in the
+// file. The caller appends the colour only where this returns true.
+[[nodiscard]] bool append(ParticleSet& set, const std::array<double, 4>& sphere,
+                          std::uint32_t index);
+
+// Called now and then while particles are read or made, with the share done in [0, 1].
+using Progress = std::function<void(double share)>;
+
+// `data` as in a plan: "generate:NAME:COUNT" (scene/particle_generators.hpp) or a file, plain or
+// gzipped: .pdb, .cif, .gro, .xyz, .lammpstrj and .dump, .data and .lmp (LAMMPS), .mmpld. The first
+// frame of a trajectory, or the K-th (from 0) of "FILE@K". A relative file is looked for as it is,
+// then in each of `folders`.
+//
+// Radii: the file's own (MMPLD; LAMMPS `radius`), else van der Waals radii by element (Bondi 1964;
+// 2.0 Å for elements not listed there), in the file's unit of length; for LAMMPS types without
+// elements half the median distance to the nearest neighbour. Colours: the file's own (MMPLD), else
+// one per element or type; intensity: the file's own, else the element's or type's index among
+// those in the file over the number of them, and the rank in between where there is only one.
+//
+// Throws InputError with file, line and what was expected; IoError when nothing is there; an empty
+// file is an InputError.
+[[nodiscard]] ParticleSet load_particles(std::string_view data, ColourKind colour,
+                                         const std::vector<std::filesystem::path>& folders = {},
+                                         const Progress& progress = {});
+
+// Whether `data` names something that can be loaded here; false for a file that is not present.
+[[nodiscard]] bool particles_present(std::string_view data,
+                                     const std::vector<std::filesystem::path>& folders = {});
+
+}  // namespace triptych::scene
