@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 
 namespace triptych::scene {
 
@@ -28,6 +30,16 @@ ColourKind colour_kind(std::string_view name) {
   }
   throw core::InputError(
       fmt::format("unknown colour '{}'; there are: rgba8, rgba32, intensity", name));
+}
+
+std::string particle_hash(const ParticleSet& set) {
+  // The hash of the arrays' hashes: one over their bytes would need a copy of all of them.
+  const auto of = [](const auto& values) {
+    return core::content_hash(std::as_bytes(std::span(values)));
+  };
+  return core::content_hash(fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n", of(set.spheres),
+                                        of(set.ids), name_of(set.colour), of(set.rgba8),
+                                        of(set.rgba32), of(set.intensity), set.dropped));
 }
 
 Box bounding_box(const ParticleSet& set) {

@@ -42,6 +42,9 @@ struct ParticleSet {
   [[nodiscard]] std::size_t count() const noexcept { return spheres.size(); }
 };
 
+// What ParticleSet::hash holds: needed again by whoever permutes a set.
+[[nodiscard]] std::string particle_hash(const ParticleSet& set);
+
 // The box around all spheres, their radii included; the unit box for none.
 [[nodiscard]] Box bounding_box(const ParticleSet& set);
 

@@ -1,0 +1,290 @@
+#include "scene/particle_generators.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "scene/exact_math.hpp"
+#include "scene/particle_colours.hpp"
+#include "scene/progress_steps.hpp"
+
+namespace triptych::scene {
+namespace {
+
+constexpr std::uint64_t largest_count = 20'000'000;
+constexpr std::uint64_t place_seed = 0x7472697074796368;
+constexpr std::uint64_t colour_seed = 0x636F6C6F75727321;
+
+double cube_root(double x) {
+  return exponential(logarithm(x) / 3);
+}
+
+// The radius at which `count` spheres together have `filling` of a volume, overlaps counted twice.
+double filling_radius(double filling, double volume, double count) {
+  return cube_root(filling * volume / count * 3 / (4 * std::numbers::pi));
+}
+
+double ball_volume(double radius) {
+  return 4 * std::numbers::pi / 3 * radius * radius * radius;
+}
+
+// A place within the unit ball. Rejection, because it needs no function that is not exact.
+glm::dvec3 place_in_ball(core::Random& random) {
+  for (;;) {
+    glm::dvec3 place;
+    for (int axis = 0; axis < 3; ++axis) place[axis] = random.uniform(-1, 1);
+    if (glm::dot(place, place) <= 1) return place;
+  }
+}
+
+glm::dvec3 place_in_box(core::Random& random, const Box& box) {
+  glm::dvec3 place;
+  for (int axis = 0; axis < 3; ++axis) place[axis] = random.uniform(box.lo[axis], box.hi[axis]);
+  return place;
+}
+
+// A set in the making. Colours come from a sequence of their own, so that the places do not depend
+// on the kind of colour.
+class Maker {
+ public:
+  Maker(std::uint64_t count, ColourKind colour, const Progress& progress)
+      : count_(count), progress_(progress, count) {
+    set_.colour = colour;
+    reserve(set_, count);
+  }
+
+  // Intensity rises from 0 to 1 along `axis` of the box.
+  void colour_along(int axis, const Box& box) {
+    axis_ = axis;
+    box_ = box;
+  }
+
+  void add(const glm::dvec3& centre, double radius) {
+    const auto index = static_cast<std::uint32_t>(set_.count());
+    if (!append(set_, {centre.x, centre.y, centre.z, radius}, index)) return;
+    const double hue = colours_.uniform();
+    append_colour(set_, hue_colour(hue),
+                  (centre[axis_] - box_.lo[axis_]) / (box_.hi[axis_] - box_.lo[axis_]));
+    progress_.reach(set_.count());
+  }
+
+  [[nodiscard]] core::Random& random() { return random_; }
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  [[nodiscard]] std::uint64_t left() const { return count_ - set_.count(); }
+  [[nodiscard]] ParticleSet take() { return std::move(set_); }
+
+ private:
+  std::uint64_t count_;
+  ParticleSet set_;
+  core::Random random_{place_seed};
+  core::Random colours_{colour_seed};
+  ProgressSteps progress_;
+  int axis_ = 0;
+  Box box_;
+};
+
+constexpr double paper_filling = 0.1;
+const Box cube{glm::dvec3(0), glm::dvec3(10)};
+constexpr double cube_volume = 1000;
+
+void uniform(Maker& maker) {
+  maker.colour_along(2, cube);
+  const double radius =
+      filling_radius(paper_filling, cube_volume, static_cast<double>(maker.count()));
+  while (maker.left() > 0) maker.add(place_in_box(maker.random(), cube), radius);
+}
+
+// Half of a liquid's volume is filled: as dense as spheres lie that just do not freeze.
+constexpr double liquid_filling = 0.5;
+
+struct Ball {
+  glm::dvec3 centre;
+  double radius;
+};
+
+void droplets(Maker& maker) {
+  static constexpr double in_droplets = 0.95;
+  const Box box{glm::dvec3(0), glm::dvec3(20, 10, 10)};
+  const std::array<Ball, 3> balls{{{{5, 5, 5}, 3}, {{12, 3.5, 6}, 2}, {{16.5, 7, 4}, 1.5}}};
+  double liquid = 0;
+  for (const Ball& ball : balls) liquid += ball_volume(ball.radius);
+  const double radius =
+      filling_radius(liquid_filling, liquid, in_droplets * static_cast<double>(maker.count()));
+  maker.colour_along(0, box);
+  const auto in_ball = [](const glm::dvec3& place, const Ball& ball) {
+    const glm::dvec3 offset = place - ball.centre;
+    return glm::dot(offset, offset) <= ball.radius * ball.radius;
+  };
+  core::Random& random = maker.random();
+  while (maker.left() > 0) {
+    if (random.uniform() < in_droplets) {
+      double share = random.uniform() * liquid;
+      std::size_t chosen = 0;
+      while (chosen + 1 < balls.size() && share >= ball_volume(balls.at(chosen).radius)) {
+        share -= ball_volume(balls.at(chosen++).radius);
+      }
+      const Ball& ball = balls.at(chosen);
+      maker.add(ball.centre + ball.radius * place_in_ball(random), radius);
+    } else {
+      glm::dvec3 place = place_in_box(random, box);
+      while (std::ranges::any_of(balls, [&](const Ball& ball) { return in_ball(place, ball); })) {
+        place = place_in_box(random, box);
+      }
+      maker.add(place, radius);
+    }
+  }
+}
+
+void layer(Maker& maker) {
+  static constexpr double in_liquid = 0.95;
+  static constexpr double thickness = 8;
+  static constexpr double interface = 0.4;  // how far the liquid's surface is smeared
+  const Box box{glm::dvec3(0), glm::dvec3(5, 5, 40)};
+  maker.colour_along(2, box);
+  const double middle = box.hi.z / 2;
+  const double volume = box.hi.x * box.hi.y * thickness;
+  const double radius =
+      filling_radius(liquid_filling, volume, in_liquid * static_cast<double>(maker.count()));
+  core::Random& random = maker.random();
+  while (maker.left() > 0) {
+    glm::dvec3 place = place_in_box(random, box);
+    if (random.uniform() < in_liquid) {
+      place.z = middle + random.uniform(-thickness / 2, thickness / 2);
+      place.z += random.uniform(-interface, interface);
+    } else {
+      while (std::abs(place.z - middle) < thickness / 2) place = place_in_box(random, box);
+    }
+    maker.add(place, radius);
+  }
+}
+
+// The target of the plume: its upper face lies at y = 0, the crater is half a ball cut out of it.
+struct Slab {
+  double half_side = 10;
+  double depth = 5;
+  double crater = 4;
+
+  [[nodiscard]] double volume() const {
+    return 4 * half_side * half_side * depth - ball_volume(crater) / 2;
+  }
+};
+
+// Sites of a cubic lattice, touching spheres: many exactly equal depths.
+void add_lattice(Maker& maker, const Slab& slab, double spacing) {
+  const auto across =
+      static_cast<std::uint64_t>(std::max(1.0, std::floor(2 * slab.half_side / spacing)));
+  const auto down = static_cast<std::uint64_t>(std::max(1.0, std::floor(slab.depth / spacing)));
+  const double begin = -spacing * static_cast<double>(across - 1) / 2;
+  for (std::uint64_t j = 0; j < down; ++j) {
+    for (std::uint64_t k = 0; k < across; ++k) {
+      for (std::uint64_t i = 0; i < across; ++i) {
+        const glm::dvec3 site(begin + static_cast<double>(i) * spacing,
+                              -(static_cast<double>(j) + 0.5) * spacing,
+                              begin + static_cast<double>(k) * spacing);
+        if (glm::dot(site, site) < slab.crater * slab.crater) continue;
+        if (maker.left() == 0) return;
+        maker.add(site, spacing / 2);
+      }
+    }
+  }
+}
+
+// A place in a cone that opens from the crater upwards. The square makes low heights more likely.
+glm::dvec3 place_in_plume(core::Random& random, const Slab& slab, double height) {
+  const double u = random.uniform();
+  const double h = height * u * u;
+  glm::dvec3 place = place_in_ball(random);
+  const double spread = slab.crater / 2 + h / 2;
+  return {place.x * spread, h, place.z * spread};
+}
+
+void plume(Maker& maker) {
+  static constexpr double in_slab = 0.6;
+  static constexpr double height = 25;
+  static constexpr double clustered = 0.1;  // the share of draws that start a cluster
+  static constexpr std::uint64_t largest_cluster = 32;
+  const Slab slab;
+  maker.colour_along(1, {{-10, -slab.depth, -10}, {10, height, 10}});
+  const double spacing =
+      cube_root(slab.volume() / std::max(1.0, in_slab * static_cast<double>(maker.count())));
+  add_lattice(maker, slab, spacing);
+  core::Random& random = maker.random();
+  while (maker.left() > 0) {
+    const glm::dvec3 place = place_in_plume(random, slab, height);
+    if (random.uniform() >= clustered) {
+      maker.add(place, spacing / 2);
+      continue;
+    }
+    const std::uint64_t size = std::min(maker.left(), 2 + random.bits() % (largest_cluster - 1));
+    const double radius = spacing / 2 * random.uniform(1, 2);
+    const double extent = radius * cube_root(static_cast<double>(size));
+    for (std::uint64_t i = 0; i < size; ++i) {
+      maker.add(place + extent * place_in_ball(random), radius);
+    }
+  }
+}
+
+void coincident(Maker& maker) {
+  static constexpr std::uint64_t copies = 8;
+  const std::uint64_t places = (maker.count() + copies - 1) / copies;
+  maker.colour_along(2, cube);
+  const double radius = filling_radius(paper_filling, cube_volume, static_cast<double>(places));
+  // The same sequence from its beginning each time: equal places are far apart in the set.
+  for (std::uint64_t copy = 0; copy < copies; ++copy) {
+    core::Random random(place_seed);
+    for (std::uint64_t i = 0; i < places && maker.left() > 0; ++i) {
+      maker.add(place_in_box(random, cube), radius);
+    }
+  }
+}
+
+struct Generator {
+  GeneratorInfo info;
+  void (*make)(Maker&);
+};
+
+constexpr std::array<Generator, 5> generators{{
+    {{"uniform", "uniformly in a box, equal radii that fill a tenth of it"}, uniform},
+    {{"droplets", "three dense droplets in thin vapour"}, droplets},
+    {{"layer", "a liquid layer across a long box, vapour on both sides"}, layer},
+    {{"plume", "a lattice slab with a crater and an expanding cone of clusters above it"}, plume},
+    {{"coincident", "every position eight times, in different colours: ties"}, coincident},
+}};
+
+}  // namespace
+
+std::vector<GeneratorInfo> particle_generators() {
+  std::vector<GeneratorInfo> infos;
+  for (const Generator& generator : generators) infos.push_back(generator.info);
+  return infos;
+}
+
+ParticleSet generate_particles(std::string_view name, std::uint64_t count, ColourKind colour,
+                               const Progress& progress) {
+  const auto found = std::ranges::find(
+      generators, name, [](const Generator& generator) { return generator.info.name; });
+  if (found == generators.end()) {
+    throw core::InputError(fmt::format(
+        "unknown particle generator '{}'; there are: uniform, droplets, layer, plume, coincident",
+        name));
+  }
+  if (count < 1 || count > largest_count) {
+    throw core::InputError(
+        fmt::format("generate:{}:{}: expected a count from 1 to {}", name, count, largest_count));
+  }
+  Maker maker(count, colour, progress);
+  found->make(maker);
+  ParticleSet set = maker.take();
+  set.name = fmt::format("generate:{}:{}", name, count);
+  set.hash = particle_hash(set);
+  return set;
+}
+
+}  // namespace triptych::scene

@@ -1,0 +1,33 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+
+#include "scene/particles.hpp"
+
+namespace triptych::scene {
+
+// Calls a Progress at most once per hundredth of the work, however often it is told how far the
+// work has come.
+class ProgressSteps {
+ public:
+  // `progress` may be empty. Shares are mapped to [begin, end], for work that is part of another.
+  ProgressSteps(const Progress& progress, std::uint64_t total, double begin = 0, double end = 1)
+      : progress_(progress), total_(std::max<std::uint64_t>(total, 1)), begin_(begin), end_(end) {}
+
+  void reach(std::uint64_t done) {
+    if (done < next_) return;
+    next_ = done + std::max<std::uint64_t>(total_ / 100, 1);
+    if (!progress_) return;
+    const double share = static_cast<double>(std::min(done, total_)) / static_cast<double>(total_);
+    progress_(begin_ + (end_ - begin_) * share);
+  }
+
+ private:
+  const Progress& progress_;
+  std::uint64_t total_;
+  double begin_;
+  double end_;
+  std::uint64_t next_ = 0;
+};
+
+}  // namespace triptych::scene
