@@ -164,21 +164,38 @@ Script parse_script(std::string_view json) {
   return script;
 }
 
+namespace {
+
+std::string describe(const std::string& technique, const measure::VolumeWork& work) {
+  const scene::VolumeScene& scene = work.scene;
+  const technique::RaycastOptions& options = work.options;
+  return fmt::format(
+      "technique={},data={},step={},ert={},sampler={},skip={},shading={},width={},height={},"
+      "eye={:.4g}/{:.4g}/{:.4g},fault={},extra_work_stride={}",
+      technique, scene.grid ? scene.grid->name : "", scene.step_voxels, options.ert,
+      technique::name_of(options.sampler), technique::name_of(options.skip),
+      scene.shading.enabled ? 1 : 0, scene.width, scene.height, scene.camera.eye.x,
+      scene.camera.eye.y, scene.camera.eye.z, static_cast<int>(options.fault),
+      options.extra_work_stride);
+}
+
+std::string describe(const std::string& technique, const measure::ParticleWork& work) {
+  const scene::ParticleScene& scene = work.scene;
+  const technique::ParticleOptions& options = work.options;
+  return fmt::format(
+      "technique={},data={},culling={},ray={},transfer={},conservative_depth={},corners={},"
+      "radius_scale={},width={},height={},eye={:.4g}/{:.4g}/{:.4g},fault={},extra_work_stride={}",
+      technique, scene.particles ? scene.particles->name : "", technique::name_of(options.culling),
+      technique::name_of(options.ray), technique::name_of(options.transfer),
+      options.conservative_depth ? 1 : 0, options.corners, scene.radius_scale, scene.width,
+      scene.height, scene.camera.eye.x, scene.camera.eye.y, scene.camera.eye.z,
+      static_cast<int>(options.fault), options.extra_work_stride);
+}
+
+}  // namespace
+
 std::string describe(const measure::Work& work) {
-  return std::visit(
-      [&](const measure::VolumeWork& volume) {
-        const scene::VolumeScene& scene = volume.scene;
-        const technique::RaycastOptions& options = volume.options;
-        return fmt::format(
-            "technique={},data={},step={},ert={},sampler={},skip={},shading={},width={},height={},"
-            "eye={:.4g}/{:.4g}/{:.4g},fault={},extra_work_stride={}",
-            work.technique, scene.grid ? scene.grid->name : "", scene.step_voxels, options.ert,
-            technique::name_of(options.sampler), technique::name_of(options.skip),
-            scene.shading.enabled ? 1 : 0, scene.width, scene.height, scene.camera.eye.x,
-            scene.camera.eye.y, scene.camera.eye.z, static_cast<int>(options.fault),
-            options.extra_work_stride);
-      },
-      work.scene);
+  return std::visit([&](const auto& scene) { return describe(work.technique, scene); }, work.scene);
 }
 
 bool matches(const std::string& glob, const std::string& subject) {

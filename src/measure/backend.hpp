@@ -12,8 +12,10 @@
 
 #include "core/image.hpp"
 #include "record/record.hpp"
+#include "scene/particle_scene.hpp"
 #include "scene/volume_scene.hpp"
 #include "technique/catalogue.hpp"
+#include "technique/particles/particle_options.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::measure {
@@ -23,10 +25,18 @@ struct VolumeWork {
   technique::RaycastOptions options;
 };
 
-// What is to be drawn and how.
+// Its images carry depth (Z, distance along the view axis) and ids; its counters are
+// technique::particle_counters and visible_ids.
+struct ParticleWork {
+  scene::ParticleScene scene;
+  technique::ParticleOptions options;
+};
+
+// What is to be drawn and how. The kind of scene is the one that the technique's suite in the
+// catalogue says.
 struct Work {
   std::string technique;  // catalogue id
-  std::variant<VolumeWork> scene;
+  std::variant<VolumeWork, ParticleWork> scene;
 };
 
 // A frame is made for one purpose only.

@@ -59,14 +59,23 @@ std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::siz
                      is_short ? ", but frames this short tell little" : "");
 }
 
-// Finer steps along the rays are the same kind of work, only more of it. False when this work
-// cannot grow.
+// Finer steps along the rays are the same kind of work, only more of it; so are more pixels of the
+// same particles. False when this work cannot grow.
 bool lengthen(Work& work, double factor) {
-  auto* volume = std::get_if<VolumeWork>(&work.scene);
-  if (volume == nullptr) return false;
-  constexpr double finest_step_voxels = 1e-3;
-  if (volume->scene.step_voxels <= finest_step_voxels) return false;
-  volume->scene.step_voxels = std::max(volume->scene.step_voxels / factor, finest_step_voxels);
+  if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {
+    constexpr double finest_step_voxels = 1e-3;
+    if (volume->scene.step_voxels <= finest_step_voxels) return false;
+    volume->scene.step_voxels = std::max(volume->scene.step_voxels / factor, finest_step_voxels);
+    return true;
+  }
+  scene::ParticleScene& scene = std::get<ParticleWork>(work.scene).scene;
+  constexpr int most_pixels_a_side = 4096;
+  const auto grown = [&](int side) {
+    return std::min(static_cast<int>(std::ceil(side * std::sqrt(factor))), most_pixels_a_side);
+  };
+  if (std::max(scene.width, scene.height) >= most_pixels_a_side) return false;
+  scene.width = grown(scene.width);
+  scene.height = grown(scene.height);
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -17,22 +18,31 @@ namespace triptych::measure {
 namespace {
 
 using technique::Fault;
+using technique::ParticleFault;
 
-constexpr std::array<std::pair<std::string_view, Fault>, 5> faults{{
+constexpr std::array<std::pair<std::string_view, Fault>, 5> volume_faults{{
     {"half_voxel_shift", Fault::half_voxel_shift},
     {"flipped_axis", Fault::flipped_axis},
     {"extra_sample", Fault::extra_sample},
     {"uncorrected_opacity", Fault::uncorrected_opacity},
     {"coarse_filter", Fault::coarse_filter},
 }};
+constexpr std::array<std::pair<std::string_view, ParticleFault>, 7> particle_faults{{
+    {"small_sprite", ParticleFault::small_sprite},
+    {"unresolved_ties", ParticleFault::unresolved_ties},
+    {"reversed_depth", ParticleFault::reversed_depth},
+    {"wrong_sense", ParticleFault::wrong_sense},
+    {"culled_visible", ParticleFault::culled_visible},
+    {"lost_at_border", ParticleFault::lost_at_border},
+    {"missing_barrier", ParticleFault::missing_barrier},
+}};
 constexpr std::array<std::string_view, 3> mishaps{"crash", "hang", "device_lost"};
 constexpr std::string_view slowdown = "slowdown:";
 
-std::optional<Fault> fault_named(std::string_view name) {
-  for (const auto& [each, fault] : faults) {
-    if (each == name) return fault;
-  }
-  return std::nullopt;
+template <typename Faults>
+auto named(const Faults& faults, std::string_view name) {
+  const auto found = std::ranges::find(faults, name, &Faults::value_type::first);
+  return found == faults.end() ? std::nullopt : std::optional(found->second);
 }
 
 // Every stride-th row twice is 1/stride more work. Empty when `text` is no percentage in (0, 100].
@@ -65,10 +75,11 @@ bool is_mishap(std::string_view fault) {
 }  // namespace
 
 void check_plant(std::string_view fault) {
-  if (fault_named(fault) || is_mishap(fault)) return;
+  if (named(volume_faults, fault) || named(particle_faults, fault) || is_mishap(fault)) return;
   if (fault.starts_with(slowdown) && stride_of(fault.substr(slowdown.size()))) return;
   std::vector<std::string_view> names;
-  for (const auto& [name, unused] : faults) names.push_back(name);
+  for (const auto& [name, unused] : volume_faults) names.push_back(name);
+  for (const auto& [name, unused] : particle_faults) names.push_back(name);
   names.insert(names.end(), mishaps.begin(), mishaps.end());
   throw core::InputError(
       fmt::format("unknown fault '{}'; there are: {}, slowdown:PERCENT (0.01 to 100)", fault,
@@ -80,15 +91,20 @@ void apply_plant(std::string_view fault, Work& work) {
   if (fault == "crash") crash();
   if (fault == "hang") hang();
   if (fault == "device_lost") throw core::DeviceLost("plant", "device_lost");
-  auto* volume = std::get_if<VolumeWork>(&work.scene);
-  if (volume == nullptr) {
-    throw core::NotSupported(
-        fmt::format("technique {} has no fault '{}' to plant", work.technique, fault));
-  }
-  if (const auto planted = fault_named(fault)) {
-    volume->options.fault = *planted;
+  const auto plant_into = [&](auto& options, const auto& faults) {
+    if (const auto planted = named(faults, fault)) {
+      options.fault = *planted;
+    } else if (fault.starts_with(slowdown)) {
+      options.extra_work_stride = *stride_of(fault.substr(slowdown.size()));
+    } else {
+      throw core::NotSupported(
+          fmt::format("technique {} has no fault '{}' to plant", work.technique, fault));
+    }
+  };
+  if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {
+    plant_into(volume->options, volume_faults);
   } else {
-    volume->options.extra_work_stride = *stride_of(fault.substr(slowdown.size()));
+    plant_into(std::get<ParticleWork>(work.scene).options, particle_faults);
   }
 }
 

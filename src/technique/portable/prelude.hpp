@@ -21,4 +21,6 @@
 
 namespace triptych::technique::portable {
 #include "technique/portable/volume_math.h"
+
+#include "technique/portable/sphere_math.h"
 }  // namespace triptych::technique::portable

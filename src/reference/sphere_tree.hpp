@@ -1,0 +1,112 @@
+#pragma once
+// Which spheres a ray may come near: a tree of boxes around spheres, seen from one eye.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "scene/particle_scene.hpp"
+
+namespace triptych::reference {
+
+// Split at the median centre along the widest axis, so that neither clusters nor one giant among
+// dwarfs make it deep: ⌈log₂(count/4)⌉ levels. About 36 bytes a sphere.
+class SphereTree {
+ public:
+  struct Sphere {
+    glm::vec3 centre{};   // world
+    float radius = 0;     // scaled
+    std::uint32_t index;  // in the set
+  };
+
+  // Every box is grown by `growth` times the distance of its farthest corner from the eye. Throws
+  // InputError where a scaled radius is not finite; one that vanishes is left out.
+  SphereTree(const scene::ParticleScene& scene, double growth);
+
+  // Distance of the farthest point of any sphere's box from the eye.
+  [[nodiscard]] double farthest() const { return farthest_; }
+  [[nodiscard]] const Sphere& sphere(std::uint32_t place) const { return spheres_[place]; }
+
+  // Calls visit(place) at least for every sphere whose grown box the ray meets at some t ≥ 0 with
+  // t ≤ limit(), nearer boxes first. `limit` may fall meanwhile. `direction` is unit.
+  template <typename Limit, typename Visit>
+  void walk(const glm::dvec3& direction, const Limit& limit, const Visit& visit) const {
+    if (nodes_.empty()) return;
+    const glm::dvec3 inverse = inverse_of(direction);
+    std::array<Pending, 64> stack;  // a level pushes one, and there are fewer than 32
+    std::size_t size = 0;
+    Pending at{0, entry(nodes_[0], inverse)};
+    for (;;) {
+      if (at.entry <= limit()) {
+        const Node& node = nodes_[at.node];
+        if (node.count == 0) {
+          Pending near{at.node + 1, entry(nodes_[at.node + 1], inverse)};
+          Pending far{node.next, entry(nodes_[node.next], inverse)};
+          if (far.entry < near.entry) std::swap(near, far);
+          if (far.entry < missed) stack[size++] = far;
+          at = near;
+          continue;
+        }
+        if (at.entry < missed) {
+          for (std::uint32_t i = 0; i < node.count; ++i) visit(node.next + i);
+        }
+      }
+      if (size == 0) return;
+      at = stack[--size];
+    }
+  }
+
+ private:
+  // The first child follows its parent.
+  struct Node {
+    std::array<float, 3> lo{};  // relative to the eye
+    std::array<float, 3> hi{};
+    std::uint32_t next = 0;   // the second child, or the first sphere of a leaf
+    std::uint32_t count = 0;  // of spheres in a leaf, 0 for an inner node
+  };
+  struct Pending {
+    std::uint32_t node;
+    double entry;
+  };
+  static constexpr double missed = std::numeric_limits<double>::infinity();
+
+  // A component of ±0 becomes so small that the ray stays in its slab, without 0·∞.
+  static glm::dvec3 inverse_of(const glm::dvec3& direction) {
+    glm::dvec3 inverse;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double size = std::max(std::abs(direction[axis]), 1e-250);
+      inverse[axis] = std::copysign(1 / size, direction[axis]);
+    }
+    return inverse;
+  }
+
+  static double entry(const Node& node, const glm::dvec3& inverse) {
+    double near = 0;
+    double far = std::numeric_limits<double>::max();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double speed = inverse[static_cast<glm::length_t>(axis)];
+      const double a = static_cast<double>(node.lo[axis]) * speed;
+      const double b = static_cast<double>(node.hi[axis]) * speed;
+      near = std::max(near, std::min(a, b));
+      far = std::min(far, std::max(a, b));
+    }
+    return near <= far ? near : missed;
+  }
+
+  void build(std::uint32_t first, std::uint32_t last);
+  [[nodiscard]] Node enclose(std::uint32_t first, std::uint32_t last);
+
+  glm::dvec3 eye_;
+  double growth_;
+  double farthest_ = 0;
+  std::vector<Sphere> spheres_;  // in the order of the leaves
+  std::vector<Node> nodes_;
+};
+
+}  // namespace triptych::reference

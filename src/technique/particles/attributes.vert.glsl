@@ -1,0 +1,15 @@
+// Vertex stage of the techniques that read a vertex buffer: one vertex per particle.
+layout(location = 0) in vec4 sphere;
+layout(location = 1) in vec4 colour;  // whatever its kind, widened by the vertex fetch
+layout(location = 2) in uint id;
+
+TRI_LINK(0) out vec4 particle_sphere;
+TRI_LINK(1) out vec4 particle_colour;
+TRI_LINK(2) flat out uint particle_id;
+
+void main() {
+  particle_sphere = camera_space(sphere);
+  particle_colour = colour_at_vertex(colour);
+  particle_id = id;
+  gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
+}

@@ -1,0 +1,20 @@
+// A particle's colour on its way to the pixel. Until resolve_colour, intensity travels in the first
+// component.
+
+// Linear between entry centres, constant outside them.
+vec4 transfer_colour(float intensity) {
+  float position = tri_table_position(intensity);
+  int lower = min(int(position), 254);
+  float share = position - float(lower);
+  vec4 a = transfer_entries[lower];
+  vec4 b = transfer_entries[lower + 1];
+  return a + share * (b - a);
+}
+
+vec4 colour_at_vertex(vec4 stored) {
+  return TRI_COLOUR == 2 && TRI_TRANSFER_AT_PIXEL == 0 ? transfer_colour(stored.x) : stored;
+}
+
+vec4 colour_at_pixel(vec4 passed) {
+  return TRI_COLOUR == 2 && TRI_TRANSFER_AT_PIXEL == 1 ? transfer_colour(passed.x) : passed;
+}

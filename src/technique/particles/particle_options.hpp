@@ -1,0 +1,60 @@
+#pragma once
+// How particles may be drawn: the factors that do not decide the picture.
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace triptych::technique {
+
+// Where something is computed that the vertex and the pixel stage both could.
+enum class ComputedAt : std::uint8_t { vertex, pixel };
+// Which cells are left out: none, those outside the view, those hidden as well.
+enum class Culling : std::uint8_t { none, frustum, occlusion };
+[[nodiscard]] std::string_view name_of(ComputedAt stage);
+[[nodiscard]] std::string_view name_of(Culling culling);
+[[nodiscard]] ComputedAt computed_at(std::string_view name);  // throws InputError
+[[nodiscard]] Culling culling(std::string_view name);         // throws InputError
+
+// Faults that can be planted to prove that the gate catches them; compile-time constants of shaders
+// and kernels where they are not parameters.
+enum class ParticleFault : std::uint8_t {
+  none = 0,
+  small_sprite = 1,     // every sprite reaches 1 % less far than the silhouette
+  unresolved_ties = 2,  // of equal depths the last one drawn is kept
+  reversed_depth = 3,   // of two depths the farther one is kept
+  wrong_sense = 4,      // early rejection takes the sphere's back for its front; the shader
+                        // promises the opposite of what conservative depth does
+  culled_visible = 5,   // the frustum is taken to be a tenth narrower than it is
+  lost_at_border = 6,   // a particle is not put into the last tile that it reaches
+  missing_barrier = 7   // a work group does not wait for what it shares
+};
+
+struct ParticleOptions {
+  ComputedAt transfer = ComputedAt::vertex;  // where the transfer function is looked up
+  ComputedAt ray = ComputedAt::pixel;        // where the ray is made
+  bool conservative_depth = false;
+  int corners = 4;  // of polygon_tess: 4…8, 16, 32
+  Culling culling = Culling::frustum;
+  ParticleFault fault = ParticleFault::none;
+  // Every extra_work_stride-th particle (in evenly spread runs) is drawn a second time: a planted
+  // slowdown of about 1/stride by real work that changes no pixel; 0: none.
+  int extra_work_stride = 0;
+};
+
+// Our own counters, the same words on every API. A technique tells those that mean something for
+// it; they come from Purpose::counters frames.
+//   cells, cells_culled          cells of the arrangement, and those left out
+//   particles_submitted          particles of the cells that were drawn
+//   particles_culled             the rest
+//   sprites                      particles whose sprite (or, for tiles, pixel rectangle) is not
+//   empty vertices                     their corners (0 for tiles) fragments pixel centres that the
+//   sprites cover, before any depth test fragments_discarded          of those, the ones whose ray
+//   misses the sphere or finds it behind fragments_kept               the others bin_entries (tile,
+//   particle) pairs: tiles, and OpenCL's rasterizer visible_ids                  different
+//   particles in the picture
+inline constexpr std::array<std::string_view, 10> particle_counters{
+    "cells",    "cells_culled", "particles_submitted", "particles_culled", "sprites",
+    "vertices", "fragments",    "fragments_discarded", "fragments_kept",   "bin_entries"};
+
+}  // namespace triptych::technique

@@ -1,0 +1,55 @@
+#include "technique/particles/particle_parameters.hpp"
+
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+namespace triptych::technique {
+namespace {
+
+float nearest(double value) {
+  return static_cast<float>(value);
+}
+
+float rest(double value) {
+  return static_cast<float>(value - static_cast<double>(nearest(value)));
+}
+
+std::array<float, 4> nearest(const glm::dvec3& v, float w) {
+  return {nearest(v.x), nearest(v.y), nearest(v.z), w};
+}
+
+std::array<float, 4> rest(const glm::dvec3& v, float w = 0) {
+  return {rest(v.x), rest(v.y), rest(v.z), w};
+}
+
+}  // namespace
+
+ParticleParameters particle_parameters(const scene::ParticleScene& scene,
+                                       const ParticleOptions& options,
+                                       const Arrangement& arrangement) {
+  const scene::Camera& camera = scene.camera;
+  const double half_y = std::tan(glm::radians(camera.fov_y_deg) / 2);
+  const double half_x = half_y * scene.width / scene.height;
+  const float sprite_scale = options.fault == ParticleFault::small_sprite ? 0.99F : 1.0F;
+  const float view_scale = options.fault == ParticleFault::culled_visible ? 0.9F : 1.0F;
+  return {
+      .eye = nearest(camera.eye, nearest(camera.near)),
+      .eye_rest = rest(camera.eye, sprite_scale),
+      .right = nearest(camera.right(), nearest(0.5 / half_x)),
+      .right_rest = rest(camera.right()),
+      .up = nearest(camera.up, nearest(0.5 / half_y)),
+      .up_rest = rest(camera.up),
+      .forward = nearest(camera.forward, view_scale),
+      .forward_rest = rest(camera.forward),
+      .plane = {nearest(half_x), nearest(half_y), nearest(2 * half_x / scene.width),
+                nearest(2 * half_y / scene.height)},
+      .shading = {nearest(scene.shading.ambient), nearest(scene.shading.diffuse), 0, 0},
+      .background = scene.background,
+      .viewport = {scene.width, scene.height, options.corners,
+                   static_cast<std::int32_t>(arrangement.colour)},
+      .counts = {static_cast<std::uint32_t>(arrangement.count()),
+                 static_cast<std::uint32_t>(arrangement.cells.size()), 0, 0},
+  };
+}
+
+}  // namespace triptych::technique

@@ -1,0 +1,41 @@
+#pragma once
+// What the shaders and kernels of every API are given.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "scene/particle_scene.hpp"
+#include "technique/particles/arrangement.hpp"
+#include "technique/particles/particle_options.hpp"
+
+namespace triptych::technique {
+
+// Mirrors particles/parameters.glsl (std140) and particle_parameters.cl. Doubles come in two
+// floats: the nearest, and the rest (portable/sphere_math.h: tri_along_axis).
+struct ParticleParameters {
+  std::array<float, 4> eye;       // xyz world; w: near, the scale of the depth buffer
+  std::array<float, 4> eye_rest;  // w: sprite scale, 1 unless ParticleFault::small_sprite
+  std::array<float, 4> right;     // camera axes; w of right: 1/(width of the image plane at z = 1)
+  std::array<float, 4> right_rest;
+  std::array<float, 4> up;  // w: 1/(height of the image plane)
+  std::array<float, 4> up_rest;
+  std::array<float, 4>
+      forward;  // w: how much of the frustum culling believes in: 1, or 0.9 planted
+  std::array<float, 4> forward_rest;
+  // The image plane z = 1: pixel (x, y), top row first, looks through
+  //   sx = (x + ½)·plane.z − plane.x,   sy = plane.y − (y + ½)·plane.w.
+  std::array<float, 4> plane;            // half extents x, y; size of a pixel x, y
+  std::array<float, 4> shading;          // ambient, diffuse, 0, 0
+  std::array<float, 4> background;       // premultiplied RGBA
+  std::array<std::int32_t, 4> viewport;  // width, height, corners, colour kind
+  std::array<std::uint32_t, 4> counts;   // particles, cells, 0, 0
+};
+static_assert(sizeof(ParticleParameters) == std::size_t{13} * 16);
+static_assert(offsetof(ParticleParameters, plane) == std::size_t{8} * 16);
+
+[[nodiscard]] ParticleParameters particle_parameters(const scene::ParticleScene& scene,
+                                                     const ParticleOptions& options,
+                                                     const Arrangement& arrangement);
+
+}  // namespace triptych::technique

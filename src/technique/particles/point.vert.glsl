@@ -1,0 +1,34 @@
+// Vertex stage of point sprites: the square around the part of the silhouette that lies in the viewport.
+// Spheres that need a larger square than the device draws are left to a second draw, as screen-aligned
+// quads. TRI_LARGEST_POINT: the device's largest point, in pixels.
+layout(location = 0) in vec4 sphere;
+layout(location = 1) in vec4 colour;
+layout(location = 2) in uint id;
+
+TRI_LINK(0) flat out vec4 sprite_sphere;
+TRI_LINK(1) flat out vec4 sprite_colour;
+TRI_LINK(2) flat out uint sprite_id;
+TRI_LINK(3) out vec3 sprite_ray;
+
+void main() {
+  sprite_sphere = camera_space(sphere);
+  sprite_colour = colour_at_vertex(colour);
+  sprite_id = id;
+  sprite_ray = vec3(0.0, 0.0, 1.0);  // a point has one vertex: its rays are made per pixel
+  vec2 low;
+  vec2 high;
+  image_bounds(sprite_sphere, low, high);
+  vec2 pixels = (high - low) / u.plane.zw;
+  float size = max(pixels.x, pixels.y);
+  Corner corner = nowhere();
+  if (low.x <= high.x && low.y <= high.y && size <= TRI_LARGEST_POINT) {
+    float front = (sprite_sphere.z - sprite_sphere.w) * 0.9990234375;
+    corner = corner_on_image(low, high, vec2(0.0), max(front, u.eye.w));
+#if TRI_COUNT
+    add_count(TRI_COUNT_SPRITES, id, 1u);
+    add_count(TRI_COUNT_VERTICES, id, 1u);
+#endif
+  }
+  gl_Position = corner.position;
+  gl_PointSize = size;
+}

@@ -1,0 +1,29 @@
+// The pixel stage of every sprite technique: the ray through this pixel against the sphere.
+TRI_LINK(0) flat in vec4 sprite_sphere;  // camera space
+TRI_LINK(1) flat in vec4 sprite_colour;
+TRI_LINK(2) flat in uint sprite_id;
+TRI_LINK(3) in vec3 sprite_ray;
+
+layout(location = 0) out vec4 out_colour;
+layout(location = 1) out uint out_id;
+#if TRI_CONSERVATIVE_DEPTH
+// Reversed depth: the surface lies behind the sprite, so it is written with less than the sprite's depth.
+layout(depth_less) out float gl_FragDepth;
+#endif
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec2 s = TRI_RAY_AT_VERTEX == 1 ? sprite_ray.xy / sprite_ray.z : pixel_ray(pixel);
+  vec4 c = sprite_sphere;
+  float discriminant = tri_sphere_discriminant(c.x, c.y, c.z, c.w, s.x, s.y);
+  float distance = discriminant >= 0.0 ? tri_sphere_distance(c.x, c.y, c.z, s.x, s.y, discriminant) : 0.0;
+#if TRI_COUNT
+  add_count(TRI_COUNT_FRAGMENTS, uint(pixel.y), 1u);
+  if (!(distance > 0.0)) add_count(TRI_COUNT_DISCARDED, uint(pixel.y), 1u);
+#endif
+  if (!(distance > 0.0)) discard;
+  float light = u.shading.x + u.shading.y * tri_sphere_cosine(c.w, s.x, s.y, discriminant);
+  out_colour = vec4(light * colour_at_pixel(sprite_colour).rgb, 1.0);
+  out_id = sprite_id;
+  gl_FragDepth = tri_depth(u.eye.w, distance);
+}

@@ -1,0 +1,100 @@
+// Sprites of all techniques: a centre's frame, and from it the corners in clip space. Depth is reversed with
+// an infinite far plane: clip z is `near` everywhere, so that z/w = near/distance, and nothing that matters
+// is nearer than `near`. Rows are counted from the top as Vulkan does: clip y points down.
+
+struct Corner {
+  vec4 position;  // clip space
+  vec3 ray;       // a point on the ray through the corner, camera space
+};
+
+Corner corner_at(vec3 place) {
+  return Corner(vec4(place.x / u.plane.x, -place.y / u.plane.y, u.eye.w, place.z), place);
+}
+
+// A corner (±1, ±1) of a rectangle on the image plane, drawn at the depth of `distance`.
+Corner corner_on_image(vec2 low, vec2 high, vec2 side, float distance) {
+  vec2 place = mix(low, high, 0.5 * side + 0.5);
+  return Corner(vec4(place.x / u.plane.x, -place.y / u.plane.y, tri_depth(u.eye.w, distance), 1.0),
+                vec3(place, 1.0));
+}
+
+// No pixel: every corner at one place outside the view.
+Corner nowhere() { return Corner(vec4(2.0, 2.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0)); }
+
+// The part of the image plane that a sphere covers, with a margin of 1/64 pixel, within the viewport.
+// low > high: none. The planted fault takes 1 % off.
+void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
+  vec2 x = tri_sphere_interval(sphere.x, sphere.z, sphere.w);
+  vec2 y = tri_sphere_interval(sphere.y, sphere.z, sphere.w);
+  vec2 margin = 0.015625 * u.plane.zw;
+  low = vec2(x.x, y.x) - margin;
+  high = vec2(x.y, y.y) + margin;
+  if (u.eye_rest.w < 1.0) {
+    vec2 shrink = 0.5 * (1.0 - u.eye_rest.w) * (high - low);
+    low += shrink;
+    high -= shrink;
+  }
+  low = max(low, -u.plane.xy);
+  high = min(high, u.plane.xy);
+}
+
+// Screen-aligned: the rectangle around the silhouette, at the depth of the sphere's front.
+Corner screen_corner(vec4 sphere, vec2 side) {
+  vec2 low;
+  vec2 high;
+  image_bounds(sphere, low, high);
+  if (low.x > high.x || low.y > high.y) return nowhere();
+  float front = (sphere.z - sphere.w) * 0.9990234375;
+  return corner_on_image(low, high, side, max(front, u.eye.w));
+}
+
+// The frame in which a ray-aligned sprite lies: across the ray to the centre, just before the sphere.
+struct Frame {
+  vec3 centre;
+  vec3 right;  // of the length of the sprite's radius
+  vec3 up;
+  int everywhere;  // 1: the sprite is the whole viewport
+};
+
+Frame sprite_frame(vec4 sphere) {
+  float d2 = dot(sphere.xyz, sphere.xyz);
+  float d = sqrt(d2);
+  vec3 v = sphere.xyz / d;
+  vec3 reference = abs(v.y) > 0.9 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+  vec3 right = normalize(cross(v, reference));
+  float plane = tri_sprite_plane(d, sphere.w);
+  float radius = tri_sprite_radius(d, sphere.w, plane, max(u.plane.z, u.plane.w), u.eye_rest.w);
+  return Frame(v * plane, radius * right, radius * cross(right, v), tri_surrounds(d2, sphere.w));
+}
+
+// Corner (±1, ±1) of the square.
+Corner quad_corner(Frame frame, vec2 side) {
+  if (frame.everywhere == 1) return corner_on_image(-u.plane.xy, u.plane.xy, side, u.eye.w);
+  return corner_at(frame.centre + side.x * frame.right + side.y * frame.up);
+}
+
+// The k-th of n ≥ 4 corners of the polygon around the circle. Where the sprite is the whole viewport, they
+// are its four corners, the last one again and again.
+Corner polygon_corner(Frame frame, int k, int n) {
+  if (frame.everywhere == 1) {
+    vec2 side = vec2(k == 0 || k >= 3 ? -1.0 : 1.0, k < 2 ? -1.0 : 1.0);
+    return corner_on_image(-u.plane.xy, u.plane.xy, side, u.eye.w);
+  }
+  float turns = (float(k) + 0.5) / float(n);
+  float reach = 1.00001 / tri_cosine_turns(0.5 / float(n));
+  return corner_at(frame.centre + reach * (tri_cosine_turns(turns) * frame.right +
+                                           tri_sine_turns(turns) * frame.up));
+}
+
+// The middle of the polygon.
+Corner polygon_centre(Frame frame) {
+  if (frame.everywhere == 1) {
+    return corner_on_image(-u.plane.xy, u.plane.xy, vec2(0.0), u.eye.w);
+  }
+  return corner_at(frame.centre);
+}
+
+int corners_of(vec4 sphere) {
+  return tri_adaptive_corners(
+      tri_projected_radius(length(sphere.xyz), sphere.w, max(u.plane.z, u.plane.w)));
+}

@@ -1,0 +1,176 @@
+// Sphere maths in the common subset of C++, GLSL and OpenCL C, as volume_math.h. Everything is in camera
+// space: x right, y up, z the distance along the view axis, and (sx, sy) is the place on the image plane
+// z = 1 that a ray goes through, so that its direction is (sx, sy, 1).
+
+// ---- From world to camera space -------------------------------------------------------------------
+// A centre's camera coordinate is axis·(P − eye). In plain floats it errs by the rounding of the *largest*
+// product, which at a narrow field of view is more than a pixel. Here products and sums carry their
+// rounding errors along (Dekker 1971; Ogita, Rump, Oishi 2005: Dot2), so that the result is as if computed
+// in twice the precision and then rounded. Axis and eye come in two floats each: the nearest, and the rest.
+
+TRI_FN float tri_sum_error(float a, float b, float sum) {
+  TRI_PRECISE float part = sum - a;
+  TRI_PRECISE float whole = sum - part;
+  TRI_PRECISE float error = (a - whole) + (b - part);
+  return error;
+}
+
+// The upper 12 bits of a's significand, for |a| < 2^115.
+TRI_FN float tri_upper_half(float a) {
+  TRI_PRECISE float wide = a * 4097.0f;
+  TRI_PRECISE float rest = wide - a;
+  TRI_PRECISE float upper = wide - rest;
+  return upper;
+}
+
+TRI_FN float tri_product_error(float a, float b, float product) {
+  TRI_PRECISE float a_hi = tri_upper_half(a);
+  TRI_PRECISE float b_hi = tri_upper_half(b);
+  TRI_PRECISE float a_lo = a - a_hi;
+  TRI_PRECISE float b_lo = b - b_hi;
+  TRI_PRECISE float error = ((a_hi * b_hi - product) + a_hi * b_lo + a_lo * b_hi) + a_lo * b_lo;
+  return error;
+}
+
+// (axis + axis_rest)·(P − eye − eye_rest), all by component.
+TRI_FN float tri_along_axis(float px, float py, float pz, float ex, float ey, float ez, float ex_rest,
+                            float ey_rest, float ez_rest, float ax, float ay, float az, float ax_rest,
+                            float ay_rest, float az_rest) {
+  TRI_PRECISE float dx = px - ex;
+  TRI_PRECISE float dy = py - ey;
+  TRI_PRECISE float dz = pz - ez;
+  TRI_PRECISE float dx_rest = tri_sum_error(px, 0.0f - ex, dx) - ex_rest;
+  TRI_PRECISE float dy_rest = tri_sum_error(py, 0.0f - ey, dy) - ey_rest;
+  TRI_PRECISE float dz_rest = tri_sum_error(pz, 0.0f - ez, dz) - ez_rest;
+  TRI_PRECISE float x = ax * dx;
+  TRI_PRECISE float y = ay * dy;
+  TRI_PRECISE float z = az * dz;
+  TRI_PRECISE float xy = x + y;
+  TRI_PRECISE float xyz = xy + z;
+  TRI_PRECISE float rest = tri_sum_error(x, y, xy) + tri_sum_error(xy, z, xyz) +
+                           tri_product_error(ax, dx, x) + tri_product_error(ay, dy, y) +
+                           tri_product_error(az, dz, z);
+  TRI_PRECISE float small = (ax * dx_rest + ay * dy_rest + az * dz_rest) +
+                            (ax_rest * dx + ay_rest * dy + az_rest * dz);
+  TRI_PRECISE float result = xyz + (rest + small);
+  return result;
+}
+
+// ---- Ray and sphere -------------------------------------------------------------------------------
+// (c, r) against the ray through (sx, sy): with q = |d|² and m = c × d, the ray passes the centre at the
+// distance |m|/√q. The cross product keeps the precision that b² − |c|² + r² loses: every term of m is as
+// small as the distance from the image's centre that it stands for.
+
+TRI_FN float tri_ray_square(float sx, float sy) {
+  TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
+  return q;
+}
+
+// r²·q − |m|²: negative, or NaN, where the ray misses.
+TRI_FN float tri_sphere_discriminant(float cx, float cy, float cz, float r, float sx, float sy) {
+  TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
+  TRI_PRECISE float mx = cy - cz * sy;
+  TRI_PRECISE float my = cz * sx - cx;
+  TRI_PRECISE float mz = cx * sy - cy * sx;
+  TRI_PRECISE float discriminant = r * r * q - (mx * mx + my * my + mz * mz);
+  return discriminant;
+}
+
+// Distance along the view axis of the first surface point in front of the eye, for a discriminant ≥ 0: the
+// entry, or the exit where the entry lies behind. Not positive where the whole sphere lies behind.
+TRI_FN float tri_sphere_distance(float cx, float cy, float cz, float sx, float sy, float discriminant) {
+  TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
+  TRI_PRECISE float b = cx * sx + cy * sy + cz;
+  TRI_PRECISE float root = TRI_SQRT(discriminant);
+  TRI_PRECISE float entry = (b - root) / q;
+  TRI_PRECISE float leave = (b + root) / q;
+  return entry > 0.0f ? entry : leave;
+}
+
+// Cosine between the surface normal and the ray, |n·d|.
+TRI_FN float tri_sphere_cosine(float r, float sx, float sy, float discriminant) {
+  TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
+  TRI_PRECISE float cosine = TRI_SQRT(discriminant / q) / r;
+  return cosine < 1.0f ? cosine : 1.0f;
+}
+
+// Reversed depth near/Z, 1 for what lies before `near`.
+TRI_FN float tri_depth(float near, float distance) {
+  TRI_PRECISE float depth = near / distance;
+  return depth < 1.0f ? depth : 1.0f;
+}
+
+// ---- Where a sphere lies on the image plane -------------------------------------------------------
+// Exact bounds along one axis (Mara and McGuire 2013): the sphere's silhouette lies between the two
+// tangents in the plane of that axis and the view axis, at the angles φ ± β with φ = atan2(a, z),
+// sin β = r/√(a² + z²); of them the part within (−90°, 90°) is in front of the eye. Returns (low, high),
+// ±3e38 for no bound, low > high for nothing in front.
+TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
+  const float huge = 3.0e38f;
+  float side = a < 0.0f ? 0.0f - a : a;  // by symmetry the axis points to the sphere's side
+  float k2 = side * side + z * z - r * r;
+  float low = 0.0f - huge;
+  float high = huge;
+  if (k2 > 0.0f) {
+    float k = TRI_SQRT(k2);
+    float low_z = z * k + side * r;
+    float high_z = z * k - side * r;
+    low = low_z > 0.0f ? (side * k - z * r) / low_z : huge;
+    high = high_z > 0.0f ? (side * k + z * r) / high_z : huge;
+    if (low_z <= 0.0f) high = 0.0f - huge;
+  }
+  return a < 0.0f ? TRI_MAKE_FLOAT2(0.0f - high, 0.0f - low) : TRI_MAKE_FLOAT2(low, high);
+}
+
+// ---- Sprites --------------------------------------------------------------------------------------
+// A ray-aligned sprite lies across v = c/|c| at tri_sprite_plane, just before the sphere: every point of
+// the sphere's front lies behind it, which conservative depth needs. There the silhouette is a circle of
+// radius tri_silhouette_on_plane ≤ r.
+
+// Whether the eye is so near or inside that the silhouette covers (almost) half of all directions: then the
+// sprite is the whole viewport. d2 = |c|².
+TRI_FN int tri_surrounds(float d2, float r) { return d2 > r * r * 1.001f ? 0 : 1; }
+
+TRI_FN float tri_sprite_plane(float d, float r) { return (d - r) * 0.9990234375f; }
+
+// plane·tan α, sin α = r/d.
+TRI_FN float tri_silhouette_on_plane(float d, float r, float plane) {
+  return plane * r / TRI_SQRT((d - r) * (d + r));
+}
+
+// Half-size of a sprite with a margin of 1/64 pixel, which is more than vertices move when they are
+// snapped to the rasterizer's grid (1/256 pixel). `pixel`: a pixel's size on the image plane; `scale` < 1
+// makes the sprite so much smaller than the silhouette: a planted fault.
+TRI_FN float tri_sprite_radius(float d, float r, float plane, float pixel, float scale) {
+  return scale < 1.0f ? scale * tri_silhouette_on_plane(d, r, plane) : r + 0.015625f * pixel * d;
+}
+
+// Radius in pixels of a sphere's silhouette, for choosing corners: r over a pixel's size at its distance.
+TRI_FN float tri_projected_radius(float d, float r, float pixel) { return r / (d * pixel); }
+
+// Corners, 4…16, that cost least: an N-gon around a disc of radius R covers ≈ πR²·(π/N)²/3 pixels too many
+// (tan x ≈ x + x³/3), and a corner costs as much as about 64 fragments; the sum is least at
+// N³ = 2π³R²/(3·64) ≈ 0.323·R².
+TRI_FN int tri_adaptive_corners(float projected_radius) {
+  float cube = 0.323f * projected_radius * projected_radius;
+  int corners = 4;
+  for (int n = 5; n <= 16; ++n) {
+    float half_way = TRI_TO_FLOAT(n) - 0.5f;
+    corners = cube >= half_way * half_way * half_way ? n : corners;
+  }
+  return corners;
+}
+
+// Cosine of an angle in turns, |turns| ≤ 1, by its series in the nearest quarter: off by less than 1e-6.
+// The languages promise less (2⁻¹¹) or nothing.
+TRI_FN float tri_cosine_turns(float turns) {
+  float a = turns < 0.0f ? 0.0f - turns : turns;  // even
+  float b = a > 0.5f ? 1.0f - a : a;              // symmetric about half a turn: now 0…½
+  float c = b > 0.25f ? 0.5f - b : b;             // and antisymmetric about a quarter: now 0…¼
+  float x = c * 6.28318530718f;
+  float y = x * x;
+  float value = 1.0f - y * (0.5f - y * (0.0416666667f - y * (0.00138888889f - y * (0.0000248015873f -
+                y * 0.000000275573192f))));
+  return b > 0.25f ? 0.0f - value : value;
+}
+TRI_FN float tri_sine_turns(float turns) { return tri_cosine_turns(turns - 0.25f); }
