@@ -25,9 +25,10 @@ class Grid {
     const glm::dvec3 size = hi - lo;
     const double wanted = static_cast<double>(set.count()) / particles_per_cell;
     edge_ = edge_for(size, std::max(wanted, 1.0));
-    for (int axis = 0; axis < 3; ++axis) {
-      counts_[axis] = static_cast<std::uint32_t>(std::floor(size[axis] / edge_)) + 1;
-    }
+    const auto parts = [&](double length) {
+      return static_cast<std::uint32_t>(std::floor(length / edge_)) + 1;
+    };
+    counts_ = {parts(size.x), parts(size.y), parts(size.z)};
   }
 
   [[nodiscard]] double edge() const { return edge_; }
