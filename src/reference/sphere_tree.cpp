@@ -32,7 +32,7 @@ SphereTree::SphereTree(const scene::ParticleScene& scene, double growth)
     if (radius > 0) spheres_.push_back({{x, y, z}, radius, static_cast<std::uint32_t>(i)});
   }
   if (spheres_.empty()) return;
-  nodes_.reserve(spheres_.size() / (leaf_size / 2) + 1);
+  nodes_.reserve(spheres_.size());  // a leaf has at least two spheres, unless it is the root
   build(0, static_cast<std::uint32_t>(spheres_.size()));
 }
 
@@ -58,10 +58,9 @@ void SphereTree::build(std::uint32_t first, std::uint32_t last) {
   if (width.z > width[widest]) widest = 2;
   const std::uint32_t middle = first + (last - first) / 2;
   const auto begin = spheres_.begin();
-  std::nth_element(begin + first, begin + middle, begin + last,
-                   [widest](const Sphere& a, const Sphere& b) {
-                     return a.centre[widest] < b.centre[widest];
-                   });
+  std::nth_element(
+      begin + first, begin + middle, begin + last,
+      [widest](const Sphere& a, const Sphere& b) { return a.centre[widest] < b.centre[widest]; });
   build(first, middle);
   nodes_[own].next = static_cast<std::uint32_t>(nodes_.size());
   build(middle, last);

@@ -16,13 +16,13 @@
 namespace triptych::reference {
 
 // Split at the median centre along the widest axis, so that neither clusters nor one giant among
-// dwarfs make it deep: ⌈log₂(count/4)⌉ levels. About 36 bytes a sphere.
+// dwarfs make it deep: ⌈log₂(count/4)⌉ levels. At most 52 bytes a sphere.
 class SphereTree {
  public:
   struct Sphere {
-    glm::vec3 centre{};   // world
-    float radius = 0;     // scaled
-    std::uint32_t index;  // in the set
+    glm::vec3 centre{};       // world
+    float radius = 0;         // scaled
+    std::uint32_t index = 0;  // in the set
   };
 
   // Every box is grown by `growth` times the distance of its farthest corner from the eye. Throws

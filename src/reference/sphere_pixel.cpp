@@ -1,0 +1,193 @@
+#include "reference/sphere_pixel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+namespace triptych::reference {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double largest_difference(const std::array<double, 4>& a, const std::array<double, 4>& b) {
+  double largest = 0;
+  for (std::size_t channel = 0; channel < 4; ++channel) {
+    largest = std::max(largest, std::abs(a[channel] - b[channel]));
+  }
+  return largest;
+}
+
+}  // namespace
+
+SpherePicture::SpherePicture(const scene::ParticleScene& scene_, const SphereErrorModel& model_)
+    : scene(scene_),
+      model(model_),
+      pixel_(2 * std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360) / scene.height),
+      table_(scene.intensity_colours, 0.0),
+      tree(scene, growth()) {}
+
+// A displacement by ε in the plane at distance 1, where the ray has come 1/along far, turns it by φ
+// with sin φ ≤ x = ε·along; 2·sin(φ/2) = x/cos(φ/2). From x = 1 on, even opposite rays are
+// possible.
+double SpherePicture::chord(double pixels, double along) const {
+  const double sine = pixels * pixel_ * along;
+  if (!(sine < 1)) return 2;
+  return sine / std::sqrt(0.5 + 0.5 * std::sqrt(1 - sine * sine));
+}
+
+// With D the distance of a box's farthest corner and κ = chord + shift, a sphere inside is reached
+// where the central ray comes within δ ≤ κD of it, at a point that Reach moves along the ray by up
+// to Δb ≤ (chord + chord²/2)·D; 1e-12 is for rounding.
+double SpherePicture::growth() const {
+  const double turn = chord(std::max(model.margin_px, model.lateral_px), 1.0);
+  const double kappa = turn + model.lateral_relative;
+  return (kappa + turn + 0.5 * turn * turn) * (1 + 1e-9) + 1e-12;
+}
+
+std::array<double, 3> SpherePicture::colour(std::size_t index) const {
+  const scene::ParticleSet& set = *scene.particles;
+  switch (set.colour) {
+    case scene::ColourKind::rgba8: {
+      const std::uint32_t packed = set.rgba8[index];
+      return {(packed & 0xFFU) / 255.0, (packed >> 8 & 0xFFU) / 255.0,
+              (packed >> 16 & 0xFFU) / 255.0};
+    }
+    case scene::ColourKind::rgba32: {
+      const auto& [red, green, blue, alpha] = set.rgba32[index];
+      return {red, green, blue};
+    }
+    case scene::ColourKind::intensity:
+      break;
+  }
+  return table_.look_up(Table::span_of({static_cast<double>(set.intensity[index]), 0.0})).colour;
+}
+
+SpherePixel SphereTracer::operator()(int x, int y) {
+  const View view = this->view(x, y);
+  candidates_.clear();
+  covered_ = distance_ = infinity;
+  const double slack = picture_.model.depth_relative * picture_.tree.farthest();
+  picture_.tree.walk(
+      view.direction, [&] { return (covered_ + slack) / view.along * (1 + 1e-12); },
+      [&](std::uint32_t place) { meet(view, place); });
+
+  SpherePixel pixel;
+  const bool hit = distance_ < infinity;
+  if (hit) {
+    const Passage ray = pass(view, shown_);
+    pixel.rgba = shaded(shown_, std::sqrt(ray.half_squared) / ray.radius);
+    pixel.depth = distance_ * view.along;
+    pixel.id = picture_.scene.particles->ids[picture_.tree.sphere(shown_).index];
+  } else {
+    std::ranges::copy(picture_.scene.background, pixel.rgba.begin());
+    pixel.depth = infinity;
+    pixel.id = core::Image::no_particle;
+  }
+  const bool covers = covered_ < infinity;
+  pixel.certain = covers == hit && std::ranges::none_of(candidates_, [this](const Candidate& c) {
+                    return is_rival(c);
+                  });
+  if (!pixel.certain) {
+    bound_all(view, pixel);
+  } else if (hit) {
+    bound_shown(view, pixel);
+  }
+  pixel.bound += picture_.model.colour_relative;
+  return pixel;
+}
+
+SphereTracer::View SphereTracer::view(int x, int y) const {
+  const scene::ParticleScene& scene = picture_.scene;
+  const SphereErrorModel& model = picture_.model;
+  View view;
+  view.direction = scene.camera.ray_direction(x, y, scene.width, scene.height);
+  view.along = glm::dot(view.direction, scene.camera.forward);
+  view.lateral = {picture_.chord(model.lateral_px, view.along), model.lateral_relative,
+                  model.depth_relative};
+  view.margin = view.lateral;
+  view.margin.chord = picture_.chord(std::max(model.margin_px, model.lateral_px), view.along);
+  return view;
+}
+
+Passage SphereTracer::pass(const View& view, std::uint32_t place) const {
+  const SphereTree::Sphere& sphere = picture_.tree.sphere(place);
+  return passage(view.direction, glm::dvec3(sphere.centre) - picture_.scene.camera.eye,
+                 sphere.radius);
+}
+
+void SphereTracer::meet(const View& view, std::uint32_t place) {
+  const Passage ray = pass(view, place);
+  const Reach reached = reach(ray, view.margin);
+  if (!reached.possible) return;
+  const double error = picture_.model.depth_relative * (ray.distance + ray.radius);
+  const double nearest = reached.nearest * view.along - error;
+  if (nearest > covered_) return;
+  candidates_.push_back({place, nearest});
+  if (reached.covers) covered_ = std::min(covered_, reached.farthest * view.along + error);
+
+  const double distance = first_surface(ray);
+  if (!(distance <= distance_) || distance == infinity) return;
+  const auto id = [&](std::uint32_t other) {
+    return picture_.scene.particles->ids[picture_.tree.sphere(other).index];
+  };
+  if (distance < distance_ || id(place) < id(shown_)) {
+    distance_ = distance;
+    shown_ = place;
+  }
+}
+
+bool SphereTracer::is_rival(const Candidate& candidate) const {
+  if (candidate.nearest > covered_) return false;  // became a candidate before that was known
+  if (distance_ == infinity) return true;
+  const SphereTree::Sphere& shown = picture_.tree.sphere(shown_);
+  const SphereTree::Sphere& other = picture_.tree.sphere(candidate.place);
+  return other.centre != shown.centre || other.radius != shown.radius;
+}
+
+std::array<double, 4> SphereTracer::shaded(std::uint32_t place, double half) const {
+  const scene::SphereShading& shading = picture_.scene.shading;
+  const std::array<double, 3> colour = picture_.colour(picture_.tree.sphere(place).index);
+  const double light = shading.ambient + shading.diffuse * half;
+  return {colour[0] * light, colour[1] * light, colour[2] * light, 1.0};
+}
+
+// t' lies in Reach's interval and h' in its; Z = t·cos α, where the turn changes the angle α to the
+// view axis as well:  |cos α' − cos α| = 2·sin(φ/2)·|sin(α ± φ/2)| ≤ chord·(sin α + chord/2).
+// The colour is linear in h.
+void SphereTracer::bound_shown(const View& view, SpherePixel& pixel) const {
+  const Passage ray = pass(view, shown_);
+  const Reach reached = reach(ray, view.lateral);
+  const double change =
+      std::max(reached.farthest - distance_, distance_ - reached.nearest) * view.along;
+  const double sine = std::sqrt(std::max(1 - view.along * view.along, 0.0));
+  const double turn =
+      view.lateral.chord * std::min(sine + 0.5 * view.lateral.chord, 1.0) * reached.farthest;
+  pixel.depth_bound = change + turn + picture_.model.depth_relative * (ray.distance + ray.radius);
+  for (const double half : {reached.half_lo, std::min(reached.half_hi, ray.radius)}) {
+    pixel.bound =
+        std::max(pixel.bound, largest_difference(pixel.rgba, shaded(shown_, half / ray.radius)));
+  }
+}
+
+void SphereTracer::bound_all(const View& view, SpherePixel& pixel) const {
+  pixel.depth_bound = infinity;
+  if (covered_ == infinity) {
+    std::array<double, 4> background{};
+    std::ranges::copy(picture_.scene.background, background.begin());
+    pixel.bound = largest_difference(pixel.rgba, background);
+  }
+  for (const Candidate& candidate : candidates_) {
+    if (candidate.nearest > covered_) continue;
+    const Passage ray = pass(view, candidate.place);
+    const Reach reached = reach(ray, view.margin);
+    for (const double half : {reached.half_lo, std::min(reached.half_hi, ray.radius)}) {
+      const auto other = shaded(candidate.place, half / ray.radius);
+      pixel.bound = std::max(pixel.bound, largest_difference(pixel.rgba, other));
+    }
+  }
+}
+
+}  // namespace triptych::reference
