@@ -1,5 +1,7 @@
 #include "backends/null/device.hpp"
 
+#include "backends/null/invented.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,25 +20,6 @@
 namespace triptych::null_backend {
 namespace {
 
-std::uint64_t number_of(const std::string& text) {
-  return std::stoull(core::content_hash(text).substr(0, 16), nullptr, 16);
-}
-
-const measure::VolumeWork& volume_of(const measure::Work& work) {
-  return std::get<measure::VolumeWork>(work.scene);
-}
-
-double pixels_of(const measure::VolumeWork& work) {
-  return static_cast<double>(work.scene.width) * static_cast<double>(work.scene.height);
-}
-
-// How many samples a raycaster would take about: what times and counts are made of.
-double samples_of(const measure::VolumeWork& work) {
-  int longest = 1;
-  if (work.scene.grid) longest = std::ranges::max(work.scene.grid->size);
-  return pixels_of(work) * longest / work.scene.step_voxels;
-}
-
 // Nearly normal, mean 0, variance 1: twelve uniform numbers. Needs no function whose bits may
 // differ.
 double normal(core::Random& random) {
@@ -47,9 +30,8 @@ double normal(core::Random& random) {
 
 double frame_ns(const Script& script, const measure::Work& work, double device_factor,
                 const std::string& subject, int frame) {
-  const measure::VolumeWork& volume = volume_of(work);
-  double ns = device_factor * (script.base_ns + script.ns_per_sample * samples_of(volume));
-  if (volume.options.extra_work_stride > 0) ns *= 1 + 1.0 / volume.options.extra_work_stride;
+  double ns = device_factor * (script.base_ns + script.ns_per_sample * samples_of(work));
+  ns *= 1 + extra_share(work);
   if (frame == 0) ns *= script.warm_up_factor;
   core::Random random(script.seed ^ number_of(fmt::format("{},frame={}", subject, frame)));
   ns *= std::max(0.01, 1 + script.noise * normal(random));
@@ -57,68 +39,12 @@ double frame_ns(const Script& script, const measure::Work& work, double device_f
   return ns;
 }
 
-record::Counts counters_of(const measure::VolumeWork& work) {
-  const auto rays = static_cast<std::uint64_t>(pixels_of(work));
-  const auto samples = static_cast<std::uint64_t>(samples_of(work));
-  const bool bricks = work.options.skip != technique::Skip::none;
-  const bool ends_early = work.options.ert > 0;
-  return {{"rays_hit", rays},
-          {"samples", samples},
-          {"samples_nonzero", samples / 2},
-          {"bricks_visited", bricks ? samples / 8 : 0},
-          {"bricks_skipped", bricks ? samples / 16 : 0},
-          {"rays_terminated", ends_early ? rays / 4 : 0},
-          {"samples_saved", ends_early ? samples / 8 : 0}};
-}
-
-record::Counts statistics_of(const measure::Work& work) {
-  const auto pixels = static_cast<std::uint64_t>(pixels_of(volume_of(work)));
-  if (technique::technique(work.technique).work == technique::Work::compute) {
-    return {{"compute_invocations", pixels}};
-  }
-  return {{"input_assembly_vertices", 3}, {"input_assembly_primitives", 1},
-          {"vertex_invocations", 3},      {"clipping_invocations", 1},
-          {"clipping_primitives", 1},     {"fragment_invocations", pixels}};
-}
-
-// Everything that decides a picture, and nothing about how it is computed.
-std::string picture_key(const scene::VolumeScene& scene) {
-  const scene::Camera& c = scene.camera;
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", scene.grid ? scene.grid->name : "",
-                     scene.transfer_function.name, scene.step_voxels, scene.shading.enabled,
-                     c.eye.x, c.eye.y, c.eye.z, c.forward.x, c.forward.y, c.forward.z, c.up.x,
-                     c.fov_y_deg);
-}
-
-// Slopes in x and y whose strength and ground depend on the scene; a planted fault of the technique
-// shows in it as it would in a picture.
-core::Image pattern(const measure::VolumeWork& work) {
-  const scene::VolumeScene& scene = work.scene;
-  core::Random random(number_of(picture_key(scene)));
-  core::Image image(scene.width, scene.height);
-  const auto fault = static_cast<double>(work.options.fault);
-  for (int channel = 0; channel < 4; ++channel) {
-    const double ground = random.uniform(0.1, 0.4) + 0.02 * fault;
-    const double along_x = random.uniform(0, 0.25);
-    const double along_y = random.uniform(0, 0.25);
-    for (int y = 0; y < scene.height; ++y) {
-      for (int x = 0; x < scene.width; ++x) {
-        const auto i = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) +
-                            static_cast<std::size_t>(x));
-        image.rgba[i + static_cast<std::size_t>(channel)] = static_cast<float>(
-            ground + along_x * (x + 0.5) / scene.width + along_y * (y + 0.5) / scene.height);
-      }
-    }
-  }
-  return image;
-}
-
 core::Image picture(const Script& script, const measure::Work& work, const std::string& subject) {
   if (script.draw) return script.draw(work);
   for (const auto& [glob, file] : script.images) {
     if (matches(glob, subject)) return core::read_exr(file);
   }
-  return pattern(volume_of(work));
+  return pattern(work);
 }
 
 class NullPrepared final : public measure::Prepared {
@@ -147,7 +73,7 @@ class NullPrepared final : public measure::Prepared {
     if (purpose == measure::Purpose::timing) {
       if (script_->device_over_wall) frame.device_ns = frame.wall_ns * *script_->device_over_wall;
     } else if (script_->counts) {
-      frame.counts = purpose == measure::Purpose::counters ? counters_of(volume_of(work_))
+      frame.counts = purpose == measure::Purpose::counters ? counters_of(work_)
                                                            : statistics_of(work_);
     }
     return frame;
@@ -168,11 +94,7 @@ class NullPrepared final : public measure::Prepared {
   }
 
   std::string kernel_hash() const override {
-    const technique::RaycastOptions& options = volume_of(work_).options;
-    return core::content_hash(
-        fmt::format("null {} {} {} {} {} {}", script_->driver_version, work_.technique,
-                    technique::name_of(options.sampler), technique::name_of(options.skip),
-                    static_cast<int>(options.fault), options.extra_work_stride));
+    return core::content_hash("null " + script_->driver_version + " " + code_key(work_));
   }
 
  private:
