@@ -1,0 +1,13 @@
+#pragma once
+#include <cstdint>
+
+#include "scene/atoms.hpp"
+#include "scene/line_reader.hpp"
+
+namespace triptych::scene {
+
+// GROMACS: title, count, atoms in fixed columns (any number of decimals), box; frames follow one
+// another. Nanometres. Throws InputError with file and line.
+[[nodiscard]] ParticleSet read_gro(LineReader& reader, std::uint64_t frame, ColourKind colour);
+
+}  // namespace triptych::scene

@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+
+#include "scene/lammps.hpp"
+
+namespace triptych::scene {
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+// Where type and place stand in a line of the Atoms section (LAMMPS manual, read_data); the id is
+// always first. Three image flags may follow.
+struct Style {
+  std::string_view name;
+  std::size_t type;
+  std::size_t place;
+  std::optional<std::size_t> diameter;
+
+  [[nodiscard]] bool fits(std::size_t words) const {
+    return words == place + 3 || words == place + 6;
+  }
+};
+
+constexpr std::array<Style, 7> styles{{{"atomic", 1, 2, std::nullopt},
+                                       {"charge", 1, 3, std::nullopt},
+                                       {"molecular", 2, 3, std::nullopt},
+                                       {"bond", 2, 3, std::nullopt},
+                                       {"angle", 2, 3, std::nullopt},
+                                       {"full", 2, 4, std::nullopt},
+                                       {"sphere", 1, 4, 2}}};
+
+std::string_view without_comment(std::string_view line) {
+  return trimmed(line.substr(0, line.find('#')));
+}
+
+const Style* named_style(std::string_view comment, const LineReader& reader) {
+  const std::string_view name = trimmed(comment);
+  if (name.empty()) return nullptr;
+  const auto found = std::ranges::find(styles, name, &Style::name);
+  if (found == styles.end()) {
+    reader.reject(
+        fmt::format("expected Atoms in the style atomic, charge, molecular, bond, angle, "
+                    "full or sphere, found '{}'",
+                    name));
+  }
+  return &*found;
+}
+
+// Without a comment the number of columns must do: 5 are atomic, 7 full (sphere has as many, but
+// says so); 6 could be two things, and 8 atomic with image flags.
+const Style& guessed_style(std::size_t words, const LineReader& reader) {
+  if (styles[0].fits(words)) return styles[0];
+  if (styles[5].fits(words)) return styles[5];
+  reader.reject(
+      fmt::format("expected the style of {} columns in a comment, such as 'Atoms # charge' or "
+                  "'Atoms # molecular'",
+                  words));
+}
+
+// Reads the header up to the Atoms section, whose style comment it returns.
+std::string_view find_atoms(LineReader& reader, std::optional<std::uint64_t>& count) {
+  static_cast<void>(reader.require("a title"));
+  for (;;) {
+    const std::string_view line = reader.require("the section Atoms");
+    const std::string_view text = without_comment(line);
+    if (text == "Atoms") {
+      const std::size_t comment = line.find('#');
+      return comment == std::string_view::npos ? std::string_view{} : line.substr(comment + 1);
+    }
+    const Words words = split_words(text);
+    if (words.size() == 2 && words[1] == "atoms") {
+      count = reader.count(words[0], "the number of atoms");
+    }
+  }
+}
+
+void add_atom(Atoms& atoms, const Words& words, const Style& style, const LineReader& reader) {
+  if (!style.fits(words.size())) {
+    reader.reject(fmt::format("expected {} or, with image flags, {} columns (style {}), found {}",
+                              style.place + 3, style.place + 6, style.name, words.size()));
+  }
+  atoms.order.push_back(reader.integer(words[0], "id"));
+  atoms.add({reader.number(words[style.place], "x"), reader.number(words[style.place + 1], "y"),
+             reader.number(words[style.place + 2], "z")},
+            atoms.kind(words[style.type]));
+  if (style.diameter) {
+    atoms.radii.push_back(reader.number(words[*style.diameter], "diameter") / 2);
+  }
+}
+
+}  // namespace
+
+ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame, ColourKind colour) {
+  if (frame > 0) reader.reject(fmt::format("there is no frame {}; the file has 1", frame));
+  std::optional<std::uint64_t> count;
+  const std::string_view comment = find_atoms(reader, count);
+  if (!count) reader.reject("expected 'N atoms' before the section Atoms");
+  if (*count == 0) reader.reject("expected atoms, found none");
+  const Style* style = named_style(comment, reader);
+  if (!trimmed(reader.require("a blank line")).empty()) {
+    reader.reject("expected a blank line after 'Atoms'");
+  }
+  const std::string atoms_wanted = fmt::format("the last of {} atoms", *count);
+  const int first_line = reader.line() + 1;
+  Atoms atoms;
+  atoms.elements = false;
+  atoms.places.reserve(reader.room(*count, 10));
+  Words words;
+  for (std::uint64_t i = 0; i < *count; ++i) {
+    split_words_into(without_comment(reader.require(atoms_wanted)), words);
+    if (words.empty()) {
+      reader.reject(fmt::format("the section ends after {} atoms, expected {}", i, *count));
+    }
+    if (style == nullptr) style = &guessed_style(words.size(), reader);
+    add_atom(atoms, words, *style, reader);
+  }
+  // What follows is blank or nothing: else the count was too small.
+  const auto after = reader.next();
+  if (after && !trimmed(*after).empty()) {
+    reader.reject(fmt::format("expected the section to end after {} atoms", *count));
+  }
+  return to_particles(std::move(atoms), colour, reader, first_line);
+}
+
+}  // namespace triptych::scene

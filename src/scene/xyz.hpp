@@ -1,0 +1,13 @@
+#pragma once
+#include <cstdint>
+
+#include "scene/atoms.hpp"
+#include "scene/line_reader.hpp"
+
+namespace triptych::scene {
+
+// XYZ: count, comment, then element (symbol or atomic number), x, y, z and whatever else; frames
+// follow one another. Ångström. Throws InputError with file and line.
+[[nodiscard]] ParticleSet read_xyz(LineReader& reader, std::uint64_t frame, ColourKind colour);
+
+}  // namespace triptych::scene
