@@ -39,7 +39,7 @@ inline double first_surface(const Passage& ray) {
 }
 
 // What may be off. `chord` is the largest |d' − d| of two unit directions, the shift is that of
-// the sphere's centre across the ray relative to its distance, the skin how near to its surface
+// the sphere's centre across the ray relative to its radius, the skin how near to its surface
 // the eye may be taken for being on the other side, relative to distance + radius.
 struct Wobble {
   double chord = 0;
@@ -58,19 +58,20 @@ struct Reach {
 };
 
 // Seen from the ray, the centre C (at b along it, p across) turns about the eye by an angle φ,
-// 2·sin(φ/2) ≤ chord, and shifts across by up to shift·|C|:
-//   |p' − p| ≤ δ = (chord + shift)·|C|,
+// 2·sin(φ/2) ≤ chord, and shifts across by up to shift·r:
+//   |p' − p| ≤ δ = chord·|C| + shift·r,
 //   |b' − b| = |b·(cos φ − 1) ± p·sin φ| ≤ Δb = p·chord + |b|·chord²/2,
 //   h'² = r² − p'² between h² − ((p + δ)² − p²) and h² + (p² − (p − δ)²),
-// with p' never above |C|·(1 + shift) nor below 0. The interval of t = b' ∓ h' follows term by
+// with p' never above |C| + shift·r nor below 0. The interval of t = b' ∓ h' follows term by
 // term. h² is changed rather than computed afresh, so that no wobble is no change to the bit.
 inline Reach reach(const Passage& ray, const Wobble& wobble) {
   Reach result;
-  const double delta = (wobble.chord + wobble.shift) * ray.distance;
+  const double shift = wobble.shift * ray.radius;
+  const double delta = wobble.chord * ray.distance + shift;
   const double down = std::min(delta, ray.across);
   const double highest = ray.half_squared + down * (2 * ray.across - down);
   if (!(highest >= 0)) return result;
-  const double room = std::max(ray.distance * (1 + wobble.shift) - ray.across, 0.0);
+  const double room = std::max(ray.distance + shift - ray.across, 0.0);
   const double up = std::min(delta, room);
   const double lowest = ray.half_squared - up * (2 * ray.across + up);
   const double slide =
@@ -79,8 +80,7 @@ inline Reach reach(const Passage& ray, const Wobble& wobble) {
   result.half_lo = std::sqrt(std::max(lowest, 0.0));
 
   const double rounding = 1e-14;
-  const double skin =
-      wobble.shift * ray.distance + (wobble.skin + rounding) * (ray.distance + ray.radius);
+  const double skin = shift + (wobble.skin + rounding) * (ray.distance + ray.radius);
   const double outside = ray.distance - ray.radius;
   if (std::abs(outside) <= skin) {  // the first surface may be either of the two
     result.farthest = ray.along + slide + result.half_hi;

@@ -18,7 +18,7 @@ struct SphereErrorModel {
   // in pixels, and no other surface is as near as the bounds on depth.
   double margin_px = 1.0 / 256;
   double lateral_px = 0;        // how far a device's ray may be off, in pixels
-  double lateral_relative = 0;  // and its sphere's centre, across the ray, relative to its distance
+  double lateral_relative = 0;  // and its sphere's centre, across the ray, relative to its radius
   double depth_relative = 0;    // of Z, relative to (distance of the centre + radius)
   double colour_relative = 0;   // of each channel, relative to full scale
 };

@@ -1,0 +1,43 @@
+#pragma once
+// Particle scenes built by hand, and a renderer that tries every sphere for every pixel.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/random.hpp"
+#include "reference/spheres.hpp"
+#include "scene/particle_scene.hpp"
+
+namespace triptych::reference {
+
+// Looks from the origin along −z.
+[[nodiscard]] scene::ParticleScene scene_of(scene::ParticleSet set, int width, int height,
+                                            double fov_y_deg);
+
+// Centre and radius; the id is the index, the colour a hash of it.
+[[nodiscard]] scene::ParticleSet set_of(const std::vector<std::array<double, 4>>& spheres);
+
+// Spheres in the cube [−1, 1]³ with log-uniform radii.
+[[nodiscard]] scene::ParticleSet random_set(std::uint64_t seed, int count, double smallest,
+                                            double largest);
+
+// The same particles, ids and colours carried along, in another order.
+[[nodiscard]] scene::ParticleSet shuffled(const scene::ParticleSet& set, std::uint64_t seed);
+
+struct Shown {
+  std::uint32_t id = core::Image::no_particle;
+  double depth = 0;
+  std::array<double, 4> rgba{};
+};
+
+// What the ray in this direction shows; every sphere is tried.
+[[nodiscard]] Shown brute_force(const scene::ParticleScene& scene, const glm::dvec3& direction);
+
+// The ray through a place in the image, in pixels from its upper left corner.
+[[nodiscard]] glm::dvec3 ray_at(const scene::ParticleScene& scene, double x, double y);
+
+}  // namespace triptych::reference
