@@ -45,6 +45,23 @@ void add_numbers(Finding& finding, const ImageComparison& comparison) {
   set_number(finding, "error_99", comparison.error_99);
   set_number(finding, "pixels_over", static_cast<double>(comparison.over_bound));
   set_number(finding, "pixels_not_finite", static_cast<double>(comparison.non_finite));
+  set_number(finding, "pixels_of_another_particle", static_cast<double>(comparison.wrong_ids));
+  set_number(finding, "pixels_at_another_depth", static_cast<double>(comparison.wrong_depths));
+}
+
+std::string particle_name(std::uint32_t id) {
+  return id == core::Image::no_particle ? "none" : fmt::format("particle {}", id);
+}
+
+std::string describe_surfaces(const ImageComparison& comparison, std::string_view name) {
+  const ImageComparison::Surface& first = comparison.first_wrong;
+  return fmt::format(
+      "{} of {} pixels show another particle than {}, {} more the right one at another depth; "
+      "first "
+      "at pixel ({}, {}): {} at depth {:.6g}, expected {} at {:.6g} ± {:.3g}",
+      comparison.wrong_ids, comparison.pixels, name, comparison.wrong_depths, first.x, first.y,
+      particle_name(first.id), first.depth, particle_name(first.expected_id), first.expected_depth,
+      first.bound);
 }
 
 // What is wrong with a picture held against `name`; empty when nothing is.
@@ -61,6 +78,9 @@ std::string fault(const ImageComparison& comparison, const core::Image& image,
   if (comparison.over_bound > 0) {
     return fmt::format("{} of {} pixels are over the bound against {}; {}", comparison.over_bound,
                        comparison.pixels, name, describe(comparison));
+  }
+  if (comparison.wrong_ids + comparison.wrong_depths > 0) {
+    return describe_surfaces(comparison, name);
   }
   return comparison.pixels == 0 ? std::string("the picture is empty") : std::string();
 }
@@ -107,7 +127,7 @@ class SceneJudge {
                                             fmt::format("no truth to judge by: {}", error.what())));
       return;
     }
-    check_truth(pair.truth);
+    check_truth(pair);
     core::Image image;
     try {
       image = core::decode_exr(view_.store.image(record.image));
@@ -128,7 +148,7 @@ class SceneJudge {
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
       for (std::size_t j = i + 1; j < pictures_.size(); ++j) {
         if (pictures_[i].record->device == pictures_[j].record->device) continue;
-        const double rms = root_mean_square(pictures_[i].image, pictures_[j].image);
+        const double rms = root_mean_square(pictures_[i].image, pictures_[j].image, bound_);
         if (!(rms > largest)) continue;
         std::tie(left, right, largest) = std::tuple(&pictures_[i], &pictures_[j], rms);
       }
@@ -154,12 +174,14 @@ class SceneJudge {
     out_.findings.push_back(std::move(finding));
     if (!right) out_.wrong[{record.device, record.configuration}] = wrong;
     if (right && on_default_path(record)) {
-      pictures_.push_back({&record, std::move(image), comparison.rmse});
+      const double rmse = root_mean_square(image, pair.truth, pair.bound);
+      pictures_.push_back({&record, std::move(image), rmse});
+      if (!pair.bound.ids.empty()) bound_ = pair.bound;
     }
   }
 
   // Once per scene: is the truth the one that was accepted?
-  void check_truth(const core::Image& truth) {
+  void check_truth(const TruthPair& pair) {
     if (truth_checked_ || !view_.baselines.present()) return;
     truth_checked_ = true;
     Finding finding = finding_about(view_, Check::image, Verdict::pass, {});
@@ -169,9 +191,13 @@ class SceneJudge {
       finding.message =
           fmt::format("no stored picture of this scene; accept one: {}", view_.accept_command());
     } else {
-      const ImageComparison comparison = compare(truth, *stored_, truth_tolerance);
+      const ImageComparison comparison = compare(pair.truth, *stored_, truth_tolerance);
       add_numbers(finding, comparison);
-      const std::string wrong = fault(comparison, truth, *stored_, "the stored one");
+      std::string wrong = fault(comparison, pair.truth, *stored_, "the stored one");
+      if (wrong.empty()) {  // ids and depths, where they are certain
+        wrong = fault(compare(pair.truth, *stored_, pair.bound), pair.truth, *stored_,
+                      "the stored one");
+      }
       finding.verdict = wrong.empty() ? Verdict::pass : Verdict::regression;
       finding.message = wrong.empty()
                             ? fmt::format("the truth is the stored one; largest difference {:.3g}",
@@ -208,6 +234,7 @@ class SceneJudge {
   std::optional<core::Image> stored_;
   bool truth_checked_ = false;
   std::vector<Picture> pictures_;
+  core::Image bound_;  // of a particle scene: says where ids are certain
 };
 
 // Records whose bits nothing stored can be held against, per device.

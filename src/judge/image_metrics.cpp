@@ -16,7 +16,8 @@ namespace triptych::judge {
 namespace {
 
 bool same_size(const core::Image& a, const core::Image& b) {
-  return a.width == b.width && a.height == b.height && a.rgba.size() == b.rgba.size();
+  return a.width == b.width && a.height == b.height && a.rgba.size() == b.rgba.size() &&
+         a.ids.size() == b.ids.size() && a.depth.size() == b.depth.size();
 }
 
 std::span<const float, 4> channels(const core::Image& image, std::size_t pixel) {
@@ -77,14 +78,46 @@ ImageComparison compare_with(const core::Image& image, const core::Image& truth,
   return result;
 }
 
+// The id of this pixel is not left open.
+bool id_is_certain(const core::Image& bound, std::size_t pixel) {
+  return bound.ids[pixel] == 0;
+}
+
+bool same_depth(double depth, double expected, double bound) {
+  return depth == expected || std::abs(depth - expected) <= bound;
+}
+
+void compare_surfaces(const core::Image& image, const core::Image& truth, const core::Image& bound,
+                      ImageComparison& result) {
+  for (std::size_t i = 0; i < truth.ids.size(); ++i) {
+    const bool wrong_id = id_is_certain(bound, i) && image.ids[i] != truth.ids[i];
+    const bool wrong_depth =
+        id_is_certain(bound, i) && !same_depth(image.depth[i], truth.depth[i], bound.depth[i]);
+    if (!wrong_id && !wrong_depth) continue;
+    if (result.first_wrong.x < 0) {
+      const auto width = static_cast<std::size_t>(image.width);
+      result.first_wrong = {.x = static_cast<int>(i % width),
+                            .y = static_cast<int>(i / width),
+                            .id = image.ids[i],
+                            .expected_id = truth.ids[i],
+                            .depth = image.depth[i],
+                            .expected_depth = truth.depth[i],
+                            .bound = bound.depth[i]};
+    }
+    ++(wrong_id ? result.wrong_ids : result.wrong_depths);
+  }
+}
+
 }  // namespace
 
 ImageComparison compare(const core::Image& image, const core::Image& truth,
                         const core::Image& bound, double slack) {
   if (!same_size(image, truth) || !same_size(image, bound)) return {.size_mismatch = true};
-  return compare_with(image, truth, [&](std::size_t pixel, std::size_t channel) {
+  ImageComparison result = compare_with(image, truth, [&](std::size_t pixel, std::size_t channel) {
     return static_cast<double>(bound.rgba[4 * pixel + channel]) + slack;
   });
+  compare_surfaces(image, truth, bound, result);
+  return result;
 }
 
 ImageComparison compare(const core::Image& image, const core::Image& truth, double bound) {
@@ -92,15 +125,21 @@ ImageComparison compare(const core::Image& image, const core::Image& truth, doub
   return compare_with(image, truth, [bound](std::size_t, std::size_t) { return bound; });
 }
 
-double root_mean_square(const core::Image& a, const core::Image& b) {
-  if (!same_size(a, b) || a.rgba.empty()) return std::numeric_limits<double>::quiet_NaN();
+double root_mean_square(const core::Image& a, const core::Image& b, const core::Image& bound) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!same_size(a, b) || a.rgba.empty()) return none;
   double squares = 0;
-  for (std::size_t i = 0; i < a.rgba.size(); ++i) {
-    const double error = difference(a.rgba[i], b.rgba[i]);
-    squares += error * error;
+  std::size_t pixels = 0;
+  for (std::size_t i = 0; i < a.pixel_count(); ++i) {
+    if (!bound.ids.empty() && !id_is_certain(bound, i)) continue;
+    ++pixels;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double error = difference(a.rgba[4 * i + c], b.rgba[4 * i + c]);
+      squares += error * error;
+    }
   }
-  const double mean = squares / static_cast<double>(a.rgba.size());
-  return std::isfinite(mean) ? std::sqrt(mean) : std::numeric_limits<double>::quiet_NaN();
+  const double mean = squares / (4.0 * static_cast<double>(pixels));
+  return std::isfinite(mean) ? std::sqrt(mean) : none;
 }
 
 double psnr(const core::Image& a, const core::Image& b) {

@@ -2,6 +2,7 @@
 // Numbers that compare two pictures. Values only: writing files and messages is the caller's.
 
 #include <cstddef>
+#include <cstdint>
 
 #include "core/image.hpp"
 
@@ -19,6 +20,17 @@ struct ImageComparison {
     double ratio = 0;  // error/bound; infinite where the bound is 0 and the error is not
   };
 
+  // A pixel that shows another particle, or the right one at another depth.
+  struct Surface {
+    int x = -1;  // -1: there is none
+    int y = -1;
+    std::uint32_t id = core::Image::no_particle;
+    std::uint32_t expected_id = core::Image::no_particle;
+    double depth = 0;
+    double expected_depth = 0;
+    double bound = 0;  // of the depth
+  };
+
   bool size_mismatch = false;  // then nothing below is filled in
   std::size_t pixels = 0;
   std::size_t non_finite = 0;
@@ -27,13 +39,21 @@ struct ImageComparison {
   Place largest;        // of the largest error
   double rmse = 0;      // over all channels of the pixels compared
   double error_99 = 0;  // 99th percentile of the pixels' errors
+  // Of particle pictures; 0 for others.
+  std::size_t wrong_ids = 0;
+  std::size_t wrong_depths = 0;
+  Surface first_wrong;
 
   [[nodiscard]] bool within_bound() const {
-    return !size_mismatch && non_finite == 0 && over_bound == 0 && pixels > 0;
+    return !size_mismatch && non_finite == 0 && over_bound == 0 && wrong_ids == 0 &&
+           wrong_depths == 0 && pixels > 0;
   }
 };
 
-// `slack` is added to every bound. All three images must be of one size, else size_mismatch.
+// `slack` is added to every bound of a colour. All three images must be of one size, and all or
+// none of them particle pictures, else size_mismatch. Where the truth carries ids, the id must be
+// the truth's in every pixel whose id in `bound` is 0, and the depth within the bound's depth of
+// the truth's; no surface at all is as far as no surface.
 [[nodiscard]] ImageComparison compare(const core::Image& image, const core::Image& truth,
                                       const core::Image& bound, double slack = 0);
 
@@ -42,8 +62,10 @@ struct ImageComparison {
                                       double bound);
 
 // Root of the mean square difference over all channels; NaN for different sizes or values that are
-// not finite.
-[[nodiscard]] double root_mean_square(const core::Image& a, const core::Image& b);
+// not finite. Where `bound` carries ids, only over the pixels whose id must be right: at the edge
+// of a sphere two right pictures may differ by a whole colour.
+[[nodiscard]] double root_mean_square(const core::Image& a, const core::Image& b,
+                                      const core::Image& bound = {});
 
 // Peak signal-to-noise ratio in dB for a peak of 1; infinite for equal pictures.
 [[nodiscard]] double psnr(const core::Image& a, const core::Image& b);

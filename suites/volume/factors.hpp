@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <string_view>
 #include <vector>
 
@@ -14,9 +13,6 @@ namespace triptych::volume_suite {
 // viewport. Throws InputError saying what was expected.
 void check_value(const measure::Factor& factor, std::string_view value,
                  const std::vector<std::filesystem::path>& folders);
-
-// "N" or "WxH" → {width, height}; throws InputError.
-[[nodiscard]] std::array<int, 2> parse_viewport(std::string_view value);
 
 // The paper's field of view for volumes, in degrees.
 inline constexpr double field_of_view = 90;

@@ -1,21 +1,12 @@
 #include "suites/volume/frame_description.hpp"
 
 #include "core/json.hpp"
+#include "measure/factor.hpp"
 
 namespace triptych::volume_suite {
 namespace {
 
 using core::Json;
-
-Json as_json(const glm::dvec3& v) {
-  return Json::array({v.x, v.y, v.z});
-}
-
-Json camera_json(const scene::Camera& camera) {
-  return {{"eye", as_json(camera.eye)}, {"forward", as_json(camera.forward)},
-          {"up", as_json(camera.up)},   {"fov_y_deg", camera.fov_y_deg},
-          {"near", camera.near},        {"far", camera.far}};
-}
 
 Json shading_json(const scene::Shading& shading) {
   if (!shading.enabled) return {{"model", "none"}};
@@ -29,7 +20,7 @@ Json shading_json(const scene::Shading& shading) {
 Json describe_frame(const scene::VolumeScene& scene, double ert) {
   const scene::VoxelGrid& grid = *scene.grid;
   return {{"viewport", {scene.width, scene.height}},
-          {"camera", camera_json(scene.camera)},
+          {"camera", measure::camera_json(scene.camera)},
           {"volume",
            {{"size", grid.size},
             {"spacing", grid.spacing},

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <utility>
 
 #include "core/json.hpp"
+#include "measure/factor.hpp"
 #include "reference/volume.hpp"
 #include "scene/generators.hpp"
 #include "suites/volume/factors.hpp"
@@ -18,11 +18,8 @@
 namespace triptych::volume_suite {
 namespace {
 
+using measure::as_number;
 using measure::Configuration;
-
-double as_number(const Configuration& configuration, const std::string& factor) {
-  return std::strtod(configuration.at(factor).c_str(), nullptr);
-}
 
 class VolumeSuite final : public measure::SuiteWithTruth {
  public:
@@ -96,7 +93,7 @@ const VolumeSuite::Loaded& VolumeSuite::load(const std::string& data, const Choo
 
 scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
                                       const std::shared_ptr<const scene::VoxelGrid>& grid) const {
-  const auto [width, height] = parse_viewport(configuration.at("viewport"));
+  const auto [width, height] = measure::parse_viewport(configuration.at("viewport"));
   return {
       .grid = grid,
       .transfer_function =

@@ -1,0 +1,69 @@
+#include "suites/particles/factors.hpp"
+
+#include "measure/factor.hpp"
+#include "scene/camera.hpp"
+#include "scene/particle_generators.hpp"
+#include "scene/transfer_function.hpp"
+
+namespace triptych::particles_suite {
+namespace {
+
+using measure::choice;
+using measure::Decides;
+using measure::Factor;
+using measure::number;
+using measure::text;
+
+std::vector<std::string_view> generator_names() {
+  std::vector<std::string_view> names;
+  for (const scene::GeneratorInfo& each : scene::particle_generators()) names.push_back(each.name);
+  return names;
+}
+
+constexpr double any_field_of_view = 60;  // for checking a camera's spelling
+
+}  // namespace
+
+const std::vector<Factor>& particle_factors() {
+  static const std::vector<Factor> factors{
+      choice("technique", measure::technique_ids("particles"), "quad_instanced",
+             Decides::how_it_is_made, "how the spheres are drawn"),
+      text("data", "generate:uniform:10000",
+           "a particle file (.pdb, .cif, .gro, .xyz, .lammpstrj, .dump, .data, .lmp, .mmpld, plain "
+           "or .gz; FILE@K: its K-th frame) or generate:NAME:COUNT"),
+      choice("colour", {"rgba8", "rgba32", "intensity"}, "rgba8", Decides::the_picture,
+             "what colours a particle"),
+      text("transfer_function", "haze",
+           "colours of the intensities: haze, surfaces, or a file of 256 RGBA entries"),
+      choice("transfer", {"vertex", "pixel"}, "vertex", Decides::how_it_is_made,
+             "stage in which the transfer function is looked up"),
+      choice("ray", {"vertex", "pixel"}, "pixel", Decides::how_it_is_made,
+             "stage in which the ray is made"),
+      choice("conservative_depth", {"off", "on"}, "off", Decides::how_it_is_made,
+             "whether the shader promises that the surface lies behind its sprite"),
+      choice("corners", {"4", "5", "6", "7", "8", "16", "32"}, "8", Decides::how_it_is_made,
+             "corners of polygon_tess"),
+      choice("culling", {"none", "frustum", "occlusion"}, "frustum", Decides::how_it_is_made,
+             "which cells of particles are left out"),
+      number("radius_scale", 1e-6, 1e6, "1", Decides::the_picture, "factor of every radius"),
+      text("camera", "orbit_y:1/8", "PATH:i/n (orbit_y:1/8, path_z:3/36, …) or random:SEED"),
+      number("fov", 0.0005, 179, "60", Decides::the_picture, "vertical field of view in degrees"),
+      text("viewport", "256", "N for NxN, or WxH, in pixels"),
+  };
+  return factors;
+}
+
+void check_value(const Factor& factor, std::string_view value,
+                 const std::vector<std::filesystem::path>& folders) {
+  if (factor.name == "viewport") {
+    static_cast<void>(measure::parse_viewport(value));
+  } else if (factor.name == "camera") {
+    static_cast<void>(scene::camera_at(value, scene::Box{}, any_field_of_view));
+  } else if (factor.name == "data") {
+    if (value.starts_with("generate:")) measure::check_generator(value, generator_names());
+  } else if (factor.name == "transfer_function") {
+    static_cast<void>(scene::load_transfer_function(value, folders));
+  }
+}
+
+}  // namespace triptych::particles_suite

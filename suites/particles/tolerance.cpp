@@ -1,0 +1,20 @@
+#include "suites/particles/tolerance.hpp"
+
+#include <algorithm>
+
+namespace triptych::particles_suite {
+
+reference::SphereErrorModel error_model(const scene::ParticleScene& scene,
+                                        technique::ComputedAt ray) {
+  constexpr double u = 0x1.0p-24;
+  const double snapping = ray == technique::ComputedAt::vertex ? 1.0 / 256 : 0;
+  const bool looked_up = scene.particles->colour == scene::ColourKind::intensity;
+  return {
+      .lateral_px = 8 * u * std::max(scene.width, scene.height) + snapping,
+      .lateral_relative = 5 * u,
+      .depth_relative = 24 * u,
+      .colour_relative = looked_up ? 288 * u : 32 * u,
+  };
+}
+
+}  // namespace triptych::particles_suite
