@@ -7,7 +7,8 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
-#include <tuple>
+#include <optional>
+#include <utility>
 
 #include "scene/elements.hpp"
 #include "scene/nearest_neighbours.hpp"
@@ -23,13 +24,13 @@ struct Look {
   double intensity = 0;
 };
 
-// The kinds in an order that does not depend on which comes first in the file: elements by atomic
-// number, types by number, others after them by name. Element k of the answer is the rank of kind k.
+// The ranks of the kinds in an order that does not depend on which comes first in the file: elements
+// by atomic number, types by number, whatever else there is after them by name.
 std::vector<std::size_t> ranks_of(const Atoms& atoms) {
   const auto key = [&atoms](std::size_t kind) {
     const std::string& name = atoms.kind_names[kind];
-    const auto number =
-    return std::tuple(number.value_or(std::numeric_limits<int>::max()), name);
+    const auto number = atoms.elements ? atomic_number(name) : parse_number<int>(name);
+    return std::pair(number.value_or(std::numeric_limits<int>::max()), name);
   };
   std::vector<std::size_t> sorted(atoms.kind_names.size());
   std::iota(sorted.begin(), sorted.end(), std::size_t{0});
@@ -39,5 +40,79 @@ std::vector<std::size_t> ranks_of(const Atoms& atoms) {
   return ranks;
 }
 
+// Half the median distance to the nearest neighbour; a unit across where there is no other place.
+double radius_without_elements(const Atoms& atoms) {
+  constexpr double lonely_radius = 0.5;
+  const auto distance = median_nearest_distance(atoms.places);
+  return distance ? *distance / 2 : lonely_radius;
+}
+
+std::vector<Look> looks_of(const Atoms& atoms) {
+  constexpr double golden_ratio = 0.6180339887498949;  // neighbours get hues far apart
+  const std::vector<std::size_t> ranks = ranks_of(atoms);
+  const bool radius_by_type = !atoms.elements && atoms.radii.empty();
+  const double type_radius = radius_by_type ? radius_without_elements(atoms) : 0;
+  std::vector<Look> looks;
+  for (std::size_t kind = 0; kind < ranks.size(); ++kind) {
+    const std::string& name = atoms.kind_names[kind];
+    const auto rank = static_cast<double>(ranks[kind]);
+    Look look;
+    look.intensity = rank / static_cast<double>(ranks.size());
+    look.radius = atoms.elements ? van_der_waals_radius(name) * atoms.angstrom : type_radius;
+    const double turns = golden_ratio * rank;
+    look.rgb = atoms.elements ? element_colour(name) : hue_colour(turns - std::floor(turns));
+    looks.push_back(look);
+  }
+  return looks;
+}
+
+// The atoms' indices in ascending order of their numbers.
+std::vector<std::uint32_t> sorted_by_number(const Atoms& atoms, const LineReader& reader,
+                                            int first_line) {
+  std::vector<std::uint32_t> sorted(atoms.places.size());
+  std::iota(sorted.begin(), sorted.end(), 0U);
+  if (atoms.order.empty()) return sorted;
+  const auto number = [&atoms](std::uint32_t index) { return atoms.order[index]; };
+  std::ranges::stable_sort(sorted, {}, number);
+  const auto twice = std::ranges::adjacent_find(sorted, {}, number);
+  if (twice != sorted.end()) {
+    const std::uint32_t second = *std::next(twice);
+    reader.reject_at(first_line + static_cast<int>(second),
+                     fmt::format("atom {} is there twice; expected each number once",
+                                 number(second)));
+  }
+  return sorted;
+}
+
 }  // namespace
+
+std::uint32_t Atoms::kind(std::string_view name) {
+  const auto found = index_.find(name);
+  if (found != index_.end()) return found->second;
+  const auto index = static_cast<std::uint32_t>(kind_names.size());
+  kind_names.emplace_back(name);
+  index_.emplace(name, index);
+  return index;
+}
+
+ParticleSet to_particles(Atoms atoms, ColourKind colour, const LineReader& reader,
+                         int first_line) {
+  const std::vector<Look> looks = looks_of(atoms);
+  const std::vector<std::uint32_t> sorted = sorted_by_number(atoms, reader, first_line);
+  const bool one_kind = looks.size() == 1;
+  const auto total = static_cast<double>(sorted.size());
+  ParticleSet set;
+  set.colour = colour;
+  reserve(set, sorted.size());
+  for (std::uint32_t id = 0; id < sorted.size(); ++id) {
+    const std::uint32_t index = sorted[id];
+    const Look& look = looks[atoms.kinds[index]];
+    const auto& place = atoms.places[index];
+    const double radius = atoms.radii.empty() ? look.radius : atoms.radii[index];
+    if (!append(set, {place[0], place[1], place[2], radius}, id)) continue;
+    append_colour(set, look.rgb, one_kind ? id / total : look.intensity);
+  }
+  return set;
+}
+
 }  // namespace triptych::scene

@@ -19,11 +19,13 @@ std::vector<char> read_content(const std::filesystem::path& file, const Progress
     return {begin, begin + bytes.size()};
   }
   constexpr std::size_t piece = std::size_t{1} << 20;
+  // Small enough that the progress moves in steps of a hundredth.
+  const std::size_t sip = std::max<std::size_t>(bytes.size() / 200, 1);
   ProgressSteps steps(progress, bytes.size());
   std::size_t taken = 0;
   Inflater inflater(
       [&](std::span<std::byte> out) {
-        const std::size_t size = std::min(out.size(), bytes.size() - taken);
+        const std::size_t size = std::min({out.size(), bytes.size() - taken, sip});
         if (size > 0) std::memcpy(out.data(), bytes.data() + taken, size);
         taken += size;
         steps.reach(taken);

@@ -89,10 +89,12 @@ TextReader reader_of(const std::filesystem::path& file) {
 }
 
 ParticleSet read(const Source& source, ColourKind colour, const Progress& progress) {
-  constexpr double unpacked = 0.25;  // of the progress
+  // The share of the progress that unpacking has.
+  const double unpacked = lower_case(source.file.extension().string()) == ".gz" ? 0.25 : 0;
   const TextReader reader = reader_of(source.file);
   const Progress unpacking =
-      progress ? Progress([&progress](double share) { progress(unpacked * share); }) : Progress{};
+      progress ? Progress([&progress, unpacked](double share) { progress(unpacked * share); })
+               : Progress{};
   const std::vector<char> content = read_content(source.file, unpacking);
   const std::string name = source.file.string();
   if (content.empty()) throw core::InputError({.file = name}, "is empty; expected particles");
@@ -117,6 +119,7 @@ ParticleSet load_particles(std::string_view data, ColourKind colour,
   ParticleSet set = read(*source, colour, progress);
   set.name = data;
   set.hash = particle_hash(set);
+  if (progress) progress(1);
   return set;
 }
 

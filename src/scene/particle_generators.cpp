@@ -284,6 +284,7 @@ ParticleSet generate_particles(std::string_view name, std::uint64_t count, Colou
   ParticleSet set = maker.take();
   set.name = fmt::format("generate:{}:{}", name, count);
   set.hash = particle_hash(set);
+  if (progress) progress(1);
   return set;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scene/elements.hpp"
 
 namespace triptych::scene {
@@ -68,7 +70,8 @@ ParticleSet read_pdb(LineReader& reader, std::uint64_t frame, ColourKind colour)
   if (in_model) reader.reject("the file ends here, where ENDMDL was expected");
   if (is_entry && !ended) reader.reject("the file ends here, where END was expected");
   if (frame > 0 && frame >= models) {
-    reader.reject(fmt::format("there is no frame {}; the file has {}", frame, models));
+    reader.reject(fmt::format("there is no frame {}; the file has {}", frame,
+                              std::max<std::uint64_t>(models, 1)));
   }
   if (atoms.places.empty()) reader.reject("expected ATOM or HETATM records, found none");
   return to_particles(std::move(atoms), colour, reader);
