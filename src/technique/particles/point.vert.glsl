@@ -1,6 +1,6 @@
 // Vertex stage of point sprites: the square around the part of the silhouette that lies in the viewport.
 // Spheres that need a larger square than the device draws are left to a second draw, as screen-aligned
-// quads. TRI_LARGEST_POINT: the device's largest point, in pixels.
+// quads (point_large.vert.glsl). TRI_LARGEST_POINT: the device's largest point, in pixels.
 layout(location = 0) in vec4 sphere;
 layout(location = 1) in vec4 colour;
 layout(location = 2) in uint id;
@@ -18,8 +18,7 @@ void main() {
   vec2 low;
   vec2 high;
   image_bounds(sprite_sphere, low, high);
-  vec2 pixels = (high - low) / u.plane.zw;
-  float size = max(pixels.x, pixels.y);
+  float size = point_size(low, high);
   Corner corner = nowhere();
   if (low.x <= high.x && low.y <= high.y && size <= TRI_LARGEST_POINT) {
     float front = (sprite_sphere.z - sprite_sphere.w) * 0.9990234375;

@@ -24,7 +24,7 @@ void main() {
 #if TRI_SCREEN_ALIGNED
   vec2 low;
   vec2 high;
-  image_bounds(particle_sphere[0], low, high);
+  screen_bounds(particle_sphere[0], low, high);
   if (low.x > high.x || low.y > high.y) return;
 #else
   Frame frame = sprite_frame(particle_sphere[0]);

@@ -6,9 +6,12 @@ TRI_LINK(3) in vec3 sprite_ray;
 
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out uint out_id;
-#if TRI_CONSERVATIVE_DEPTH
-// Reversed depth: the surface lies behind the sprite, so it is written with less than the sprite's depth.
+// TRI_CONSERVATIVE_DEPTH, 0: nothing is promised. 1: depth is reversed and the surface lies behind the
+// sprite, so it is written with less than the sprite's depth. 2: the opposite promise, a planted fault.
+#if TRI_CONSERVATIVE_DEPTH == 1
 layout(depth_less) out float gl_FragDepth;
+#elif TRI_CONSERVATIVE_DEPTH == 2
+layout(depth_greater) out float gl_FragDepth;
 #endif
 
 void main() {

@@ -38,11 +38,21 @@ void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   high = min(high, u.plane.xy);
 }
 
-// Screen-aligned: the rectangle around the silhouette, at the depth of the sphere's front.
+// Where the paper's screen-aligned quad lies: the rectangle around the silhouette where there is one, the
+// whole viewport for a sphere that reaches the plane of the eye. low > high: nowhere.
+void screen_bounds(vec4 sphere, out vec2 low, out vec2 high) {
+  image_bounds(sphere, low, high);
+  if (tri_eye_plane(sphere.z, sphere.w) == 1) {
+    low = -u.plane.xy;
+    high = u.plane.xy;
+  }
+}
+
+// Screen-aligned, at the depth of the sphere's front.
 Corner screen_corner(vec4 sphere, vec2 side) {
   vec2 low;
   vec2 high;
-  image_bounds(sphere, low, high);
+  screen_bounds(sphere, low, high);
   if (low.x > high.x || low.y > high.y) return nowhere();
   float front = (sphere.z - sphere.w) * 0.9990234375;
   return corner_on_image(low, high, side, max(front, u.eye.w));

@@ -122,6 +122,12 @@ TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
   return a < 0.0f ? TRI_MAKE_FLOAT2(0.0f - high, 0.0f - low) : TRI_MAKE_FLOAT2(low, high);
 }
 
+// Whether a sphere reaches the plane through the eye that is parallel to the image, or comes so near that
+// its projection grows beyond bounds. The paper's screen-aligned quad, a rectangle around projected tangent
+// points, does not exist for it: it is then the whole viewport, which is what makes that technique costly
+// among near spheres. -1: wholly behind that plane; 1: reaches it; 0: before it.
+TRI_FN int tri_eye_plane(float z, float r) { return z + r <= 0.0f ? 0 - 1 : (z - r > 0.001f * r ? 0 : 1); }
+
 // ---- Sprites --------------------------------------------------------------------------------------
 // A ray-aligned sprite lies across v = c/|c| at tri_sprite_plane, just before the sphere: every point of
 // the sphere's front lies behind it, which conservative depth needs. There the silhouette is a circle of

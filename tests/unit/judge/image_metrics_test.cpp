@@ -74,6 +74,71 @@ TEST(ImageMetrics, SizesMustMatch) {
   EXPECT_THROW((void)difference_image(filled(2, 3, 0), filled(3, 2, 0), 1), core::InputError);
 }
 
+// A picture of four pixels: particles 7 and 8 at depths 2 and 3, then nothing, then an uncertain
+// pixel.
+core::Image particles() {
+  core::Image image = filled(4, 1, 0.5F);
+  constexpr float none = std::numeric_limits<float>::infinity();
+  image.ids = {7, 8, core::Image::no_particle, 9};
+  image.depth = {2, 3, none, 4};
+  return image;
+}
+
+core::Image particle_bound() {
+  core::Image bound = filled(4, 1, 0.0F);
+  bound.ids = {0, 0, 0, core::Image::no_particle};
+  bound.depth = {0.5F, 0.5F, 0, std::numeric_limits<float>::infinity()};
+  return bound;
+}
+
+TEST(ImageMetrics, ParticlesAreComparedByIdAndDepth) {
+  core::Image image = particles();
+  EXPECT_TRUE(compare(image, particles(), particle_bound()).within_bound());
+  image.depth[1] = 3.25F;
+  EXPECT_TRUE(compare(image, particles(), particle_bound()).within_bound()) << "within its bound";
+  image.depth[1] = 3.75F;
+  ImageComparison result = compare(image, particles(), particle_bound());
+  EXPECT_FALSE(result.within_bound());
+  EXPECT_EQ(result.wrong_depths, 1U);
+  EXPECT_EQ(result.first_wrong.x, 1);
+  image = particles();
+  image.ids[0] = 8;
+  result = compare(image, particles(), particle_bound());
+  EXPECT_FALSE(result.within_bound());
+  EXPECT_EQ(result.wrong_ids, 1U);
+  EXPECT_EQ(result.first_wrong.expected_id, 7U);
+}
+
+TEST(ImageMetrics, ALostAndAnInventedParticleAreWrong) {
+  core::Image image = particles();
+  image.ids[0] = core::Image::no_particle;
+  image.depth[0] = std::numeric_limits<float>::infinity();
+  image.ids[2] = 7;
+  image.depth[2] = 2;
+  EXPECT_EQ(compare(image, particles(), particle_bound()).wrong_ids, 2U);
+}
+
+TEST(ImageMetrics, DepthThatIsNotANumberIsWrong) {
+  core::Image image = particles();
+  image.depth[0] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(compare(image, particles(), particle_bound()).wrong_depths, 1U);
+}
+
+TEST(ImageMetrics, AnUncertainPixelMayShowWhatItsColourAllows) {
+  core::Image image = particles();
+  image.ids[3] = 7;
+  image.depth[3] = 1;
+  EXPECT_TRUE(compare(image, particles(), particle_bound()).within_bound());
+  channel(image, 3, 0, 0) = 1;
+  EXPECT_FALSE(compare(image, particles(), particle_bound()).within_bound());
+  EXPECT_GT(root_mean_square(image, particles()), 0);
+  EXPECT_EQ(root_mean_square(image, particles(), particle_bound()), 0);
+}
+
+TEST(ImageMetrics, APictureWithoutIdsIsNoParticlePicture) {
+  EXPECT_TRUE(compare(filled(4, 1, 0.5F), particles(), particle_bound()).size_mismatch);
+}
+
 TEST(ImageMetrics, EmptyPicturesPassNothing) {
   EXPECT_FALSE(compare(core::Image(), core::Image(), 1.0).within_bound());
 }

@@ -1,0 +1,71 @@
+// What is counted: consistent in itself, and the paper's finding.
+
+#include <algorithm>
+
+#include "particle_scenes.hpp"
+
+namespace triptych::contract {
+namespace {
+
+using technique::Culling;
+
+record::Counts counted(measure::Device& device, const measure::Work& work) {
+  const auto prepared = device.prepare(work);
+  static_cast<void>(prepared->frame(measure::Purpose::timing));
+  return prepared->frame(measure::Purpose::counters).counts;
+}
+
+std::uint64_t visible_ids(const core::Image& image) {
+  std::set<std::uint32_t> ids(image.ids.begin(), image.ids.end());
+  ids.erase(core::Image::no_particle);
+  return ids.size();
+}
+
+TEST(ParticleCounters, AddUp) {
+  on_every_device([](measure::Device& device) {
+    for (const Culling culling : {Culling::none, Culling::frustum}) {
+      SCOPED_TRACE(technique::name_of(culling));
+      ParticleWork work = generated_work("uniform", 20000, "path_z:7/8", 64);
+      work.options.culling = culling;
+      const std::uint64_t visible = visible_ids(truth_of(work).image());
+      with_every_technique(device, work, [&](const measure::Work& whole) {
+        const record::Counts counts = counted(device, whole);
+        EXPECT_EQ(counts.at("particles_submitted") + counts.at("particles_culled"), 20000U);
+        EXPECT_EQ(counts.at("particles_culled") > 0, culling == Culling::frustum);
+        EXPECT_EQ(counts.at("cells_culled") > 0, culling == Culling::frustum);
+        EXPECT_LE(counts.at("sprites"), counts.at("particles_submitted"));
+        EXPECT_NEAR(static_cast<double>(counts.at("visible_ids")), static_cast<double>(visible),
+                    0.01 * static_cast<double>(visible) + 2);
+        if (counts.contains("fragments")) {
+          EXPECT_EQ(counts.at("fragments"),
+                    counts.at("fragments_kept") + counts.at("fragments_discarded"));
+          EXPECT_GT(counts.at("fragments_kept"), 0U);
+        }
+      });
+    }
+  });
+}
+
+// Every sphere's disc is covered by sprites of any shape, so that all keep the same fragments, and
+// a polygon wastes fewer the more corners it has (S6).
+TEST(ParticleCounters, SpritesOfEveryShapeKeepTheSameFragments) {
+  on_every_device([](measure::Device& device) {
+    const ParticleWork work = generated_work("uniform", 300, "orbit_y:1/8", 256);
+    std::map<std::string, record::Counts> counts;
+    with_every_technique(device, work, [&](const measure::Work& whole) {
+      counts[whole.technique] = counted(device, whole);
+    });
+    std::optional<std::uint64_t> kept;
+    for (const auto& [technique, each] : counts) {
+      if (!each.contains("fragments_kept")) continue;
+      if (!kept) kept = each.at("fragments_kept");
+      EXPECT_EQ(each.at("fragments_kept"), *kept) << technique;
+    }
+    if (!counts.contains("polygon_tess")) return;
+    EXPECT_LT(counts["polygon_tess"]["fragments"], counts["quad_tess"]["fragments"]);
+    EXPECT_LT(counts["polygon_adaptive"]["fragments"], counts["quad_tess"]["fragments"]);
+  });
+}
+
+}  // namespace
+}  // namespace triptych::contract

@@ -1,0 +1,223 @@
+// Spheres by every technique against the truth, and what must not change the picture.
+
+#include "scene/particles.hpp"
+
+#include <algorithm>
+
+#include "data_folder.hpp"
+#include "particle_scenes.hpp"
+
+namespace triptych::contract {
+namespace {
+
+using technique::Culling;
+
+void expect_all_true(measure::Device& device, const ParticleWork& work) {
+  const reference::SphereTruth truth = truth_of(work);
+  with_every_technique(
+      device, work, [&](const measure::Work& whole) { expect_true(draw(device, whole), truth); });
+}
+
+struct View {
+  std::string name;
+  std::vector<std::array<double, 4>> spheres;
+  scene::Camera camera;
+};
+
+// A sphere of radius 1 at the origin with a small neighbour, seen from everywhere that widely used
+// sprites lose pixels.
+std::vector<View> difficult_views() {
+  const std::vector<std::array<double, 4>> one{{0, 0, 0, 1}, {1.2, 0.3, 0.1, 0.2}};
+  const glm::dvec3 side = glm::normalize(glm::dvec3{1, 0.5, 2});
+  std::vector<View> views;
+  for (const double distance : {1.0001, 1.25, 2.0, 1e5}) {
+    const double fov =
+        distance > 1e3 ? 4 / distance * 180 / 3.14159265358979 : (distance > 1.5 ? 75 : 120);
+    views.push_back(
+        {fmt::format("at {} radii", distance), one, looking(distance * side, {0, 0, 0}, fov)});
+  }
+  views.push_back({"inside", one, looking({0.3, 0.2, 0.1}, {1, 0.4, -2}, 90)});
+  views.push_back({"across the eye's plane", one, looking({0, 0, 1.3}, {2, 0.3, 1.3}, 100)});
+  views.push_back({"centre behind the eye", one, looking({1.05, 0, 0.2}, {1.3, 0.1, 1.2}, 150)});
+  views.push_back({"at the edge of the screen", one, looking({0, 0, 5}, {2.4, 1.9, 0}, 60)});
+  views.push_back({"150 degrees", one, looking({0.4, 0.2, 2}, {1, 1, 0}, 150)});
+  views.push_back({"all behind", one, looking({0, 0, 3}, {0, 0, 5}, 60)});
+  views.push_back({"a neighbour of 10000 radii",
+                   {{0, 0, 0, 1}, {0, -10001, 0, 10000}, {2.5, 0, -1, 1}},
+                   looking({1, 2, 7}, {0, 0, 0}, 60)});
+  views.push_back({"a hundredth of a pixel",
+                   {{0, 0, 0, 1e-4}, {0.5, 0.1, 0, 1e-4}, {-0.3, 0.2, 0.2, 0.4}},
+                   looking({0, 0, 2}, {0, 0, 0}, 60)});
+  return views;
+}
+
+TEST(Particles, NoViewLosesAPixel) {
+  on_every_device([](measure::Device& device) {
+    for (const View& view : difficult_views()) {
+      SCOPED_TRACE(view.name);
+      expect_all_true(device, particle_work(particles_of(view.spheres), view.camera, 97, 83));
+    }
+  });
+}
+
+TEST(Particles, EveryStructureIsTrue) {
+  on_every_device([](measure::Device& device) {
+    for (const scene::GeneratorInfo& generator : scene::particle_generators()) {
+      for (const char* camera : {"orbit_y:1/8", "path_z:7/8", "random:3"}) {
+        SCOPED_TRACE(std::string(generator.name) + " " + camera);
+        expect_all_true(device, generated_work(generator.name, 3000, camera, 128));
+      }
+    }
+  });
+}
+
+TEST(Particles, EveryColourIsTrueWhereverItIsLookedUp) {
+  on_every_device([](measure::Device& device) {
+    for (const auto colour :
+         {scene::ColourKind::rgba8, scene::ColourKind::rgba32, scene::ColourKind::intensity}) {
+      for (const auto stage : {technique::ComputedAt::vertex, technique::ComputedAt::pixel}) {
+        SCOPED_TRACE(std::string(scene::name_of(colour)) + " " +
+                     std::string(technique::name_of(stage)));
+        ParticleWork work = generated_work("uniform", 500, "orbit_y:1/8", 64, colour);
+        work.options.transfer = stage;
+        expect_all_true(device, work);
+      }
+    }
+  });
+}
+
+TEST(Particles, ARayMadeAtTheVerticesIsTrue) {
+  on_every_device([](measure::Device& device) {
+    for (const View& view : difficult_views()) {
+      SCOPED_TRACE(view.name);
+      ParticleWork work = particle_work(particles_of(view.spheres), view.camera, 97, 83);
+      work.options.ray = technique::ComputedAt::vertex;
+      expect_all_true(device, work);
+    }
+  });
+}
+
+// Ties, culling, conservative depth, corners: how it is made, not what is seen.
+TEST(Particles, AllTechniquesAndOptionsDrawTheSameBits) {
+  on_every_device([](measure::Device& device) {
+    for (const char* camera : {"orbit_y:1/8", "path_z:7/8"}) {
+      SCOPED_TRACE(camera);
+      const ParticleWork plain = generated_work("coincident", 8000, camera, 96);
+      std::optional<core::Image> first;
+      with_every_technique(device, plain, [&](const measure::Work& whole) {
+        for (const Culling culling : {Culling::none, Culling::frustum, Culling::occlusion}) {
+          for (const bool conservative : {false, true}) {
+            SCOPED_TRACE(std::string(technique::name_of(culling)) +
+                         (conservative ? " conservative" : ""));
+            measure::Work work = whole;
+            auto& options = std::get<ParticleWork>(work.scene).options;
+            options.culling = culling;
+            options.conservative_depth = conservative;
+            options.corners = 5;
+            const auto prepared = device.prepare(work);
+            for (int frame = 0; frame < 3; ++frame) {  // occlusion remembers the frame before
+              static_cast<void>(prepared->frame(measure::Purpose::timing));
+            }
+            const core::Image image = prepared->image();
+            if (!first) first = image;
+            EXPECT_EQ(image.ids, first->ids);
+            EXPECT_EQ(image.depth, first->depth);
+            EXPECT_EQ(image.rgba, first->rgba);
+          }
+        }
+      });
+    }
+  });
+}
+
+TEST(Particles, TheOrderInTheFileChangesNothing) {
+  on_every_device([](measure::Device& device) {
+    const ParticleWork work = generated_work("coincident", 3000, "orbit_y:1/8", 64);
+    scene::ParticleSet shuffled = *work.scene.particles;
+    core::Random random(5);
+    for (std::size_t i = shuffled.count() - 1; i > 0; --i) {
+      const std::size_t j = random.bits() % (i + 1);
+      std::swap(shuffled.spheres[i], shuffled.spheres[j]);
+      std::swap(shuffled.ids[i], shuffled.ids[j]);
+      std::swap(shuffled.rgba8[i], shuffled.rgba8[j]);
+    }
+    ParticleWork other = work;
+    other.scene.particles = std::make_shared<const scene::ParticleSet>(std::move(shuffled));
+    with_every_technique(device, work, [&](const measure::Work& whole) {
+      EXPECT_EQ(draw(device, whole), draw(device, {.technique = whole.technique, .scene = other}));
+    });
+  });
+}
+
+TEST(Particles, AnyNumberOfThemIsDrawn) {
+  on_every_device([](measure::Device& device) {
+    for (const std::uint64_t count : {1U, 63U, 64U, 65U, 511U, 513U}) {
+      SCOPED_TRACE(count);
+      expect_all_true(device, generated_work("uniform", count, "orbit_y:1/8", 33));
+    }
+    SCOPED_TRACE("none");
+    expect_all_true(device, particle_work({}, looking({0, 0, 3}, {0, 0, 0}, 60), 33, 17));
+  });
+}
+
+TEST(Particles, EveryShapeOfAPictureIsDrawn) {
+  on_every_device([](measure::Device& device) {
+    for (const auto& [width, height] :
+         std::vector<std::pair<int, int>>{{1, 1}, {1, 40}, {40, 1}, {17, 13}, {130, 65}}) {
+      SCOPED_TRACE(fmt::format("{}x{}", width, height));
+      ParticleWork work = generated_work("uniform", 2000, "orbit_y:1/8", 8);
+      work.scene.width = width;
+      work.scene.height = height;
+      expect_all_true(device, work);
+    }
+  });
+}
+
+TEST(Particles, RepeatsAreTheSameBits) {
+  on_every_device([](measure::Device& device) {
+    const ParticleWork work = generated_work("plume", 5000, "orbit_y:1/8", 96);
+    with_every_technique(device, work, [&](const measure::Work& whole) {
+      const auto prepared = device.prepare(whole);
+      static_cast<void>(prepared->frame(measure::Purpose::timing));
+      const core::Image first = prepared->image();
+      for (int i = 0; i < 20; ++i) {
+        static_cast<void>(prepared->frame(measure::Purpose::timing));
+        ASSERT_EQ(prepared->image(), first) << "frame " << i;
+      }
+    });
+  });
+}
+
+// What is dropped leaves its neighbours alone.
+TEST(Particles, WhatIsNoSphereIsDropped) {
+  const double nan = std::nan("");
+  const double inf = std::numeric_limits<double>::infinity();
+  const scene::ParticleSet set = particles_of({{0, 0, 0, 1},
+                                               {0, 0, 0.5, 0},
+                                               {0, 0, 0.5, -1},
+                                               {0, 0, 0.5, nan},
+                                               {0, 0, 0.5, inf},
+                                               {nan, 0, 0.5, 1},
+                                               {1, 0, 0.5, 0.7}});
+  EXPECT_EQ(set.dropped, 5U);
+  EXPECT_EQ(set.ids, (std::vector<std::uint32_t>{0, 6}));
+  on_every_device([&](measure::Device& device) {
+    expect_all_true(device, particle_work(set, looking({0, 0, 4}, {0, 0, 0}, 60), 48, 48));
+  });
+}
+
+TEST(Particles, RealFilesAreTrue) {
+  const auto files = real_particles();
+  if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with particles/";
+  on_every_device([&](measure::Device& device) {
+    for (const auto& file : files) {
+      SCOPED_TRACE(file.filename().string());
+      scene::ParticleSet set = scene::load_particles(file.string(), scene::ColourKind::rgba8);
+      const scene::Camera camera = scene::particle_camera("orbit_y:1/8", set, 60);
+      expect_all_true(device, particle_work(std::move(set), camera, 160, 160));
+    }
+  });
+}
+
+}  // namespace
+}  // namespace triptych::contract
