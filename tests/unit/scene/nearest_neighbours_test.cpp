@@ -1,0 +1,52 @@
+#include "scene/nearest_neighbours.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/random.hpp"
+
+namespace triptych::scene {
+namespace {
+
+using Place = std::array<double, 3>;
+
+TEST(NearestNeighbours, AgreeWithLookingAtAllPairs) {
+  core::Random random(1);
+  std::vector<Place> places(301);
+  for (Place& place : places) {
+    for (double& x : place) x = random.uniform() * random.uniform();
+  }
+  places[7] = {1e12, 0, 0};  // far from all others
+  std::vector<double> nearest;
+  for (const Place& a : places) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const Place& b : places) {
+      if (a != b) best = std::min(best, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+    }
+    nearest.push_back(best);
+  }
+  std::ranges::sort(nearest);
+  const auto median = median_nearest_distance(places);
+  ASSERT_TRUE(median);
+  EXPECT_NEAR(*median, nearest[150], 1e-12);
+}
+
+TEST(NearestNeighbours, LeaveOutEqualAndInfinitePlaces) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  const std::vector<Place> places{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {3, 0, 0}, {inf, 0, 0}};
+  EXPECT_EQ(median_nearest_distance(places), 3);
+  EXPECT_EQ(median_nearest_distance({{1, 2, 3}, {1, 2, 3}}), std::nullopt);
+  EXPECT_EQ(median_nearest_distance({}), std::nullopt);
+}
+
+TEST(NearestNeighbours, AskASampleOfMany) {
+  std::vector<Place> places;
+  for (int i = 0; i < 300'000; ++i) places.push_back({i * 0.5, 0, 0});
+  EXPECT_EQ(median_nearest_distance(std::move(places)), 0.5);
+}
+
+}  // namespace
+}  // namespace triptych::scene

@@ -1,0 +1,253 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "raw_files.hpp"
+#include "scene/particles.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace triptych::scene {
+namespace {
+
+using test::TemporaryFolder;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+using Sphere = std::array<float, 4>;
+
+ParticleSet load(const std::string& name, const std::string& text,
+                 ColourKind colour = ColourKind::rgba8, const std::string& suffix = "") {
+  const TemporaryFolder folder;
+  folder.write(name, text);
+  return load_particles(name + suffix, colour, {folder.path()});
+}
+
+void expect_refused(const std::string& name, const std::string& text, const std::string& place,
+                    const std::string& expectation, const std::string& suffix = "") {
+  SCOPED_TRACE(text);
+  EXPECT_THAT(
+      [&] { load(name, text, ColourKind::rgba8, suffix); },
+      ThrowsMessage<core::InputError>(AllOf(HasSubstr(name + place), HasSubstr(expectation))));
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& with) {
+  return text.replace(text.find(old), old.size(), with);
+}
+
+const std::string pdb =
+    "HEADER    PLANT PROTEIN                           30-APR-81   1CRN\n"
+    "ATOM      1  N   THR A   1      17.047  14.099   3.625  1.00 13.79           N  \n"
+    "ATOM      2  CA  THR A   1      16.967  12.784   4.338  1.00 10.80           C  \n"
+    "TER\n"
+    "HETATM    3 CA    CA A   2       1.000   2.000-100.500  1.00 10.80          CA  \n"
+    "END\n";
+
+TEST(Pdb, TakesElementsFromTheirColumns) {
+  const ParticleSet set = load("a.pdb", pdb);
+  EXPECT_THAT(set.spheres,
+              ElementsAre(Sphere{17.047F, 14.099F, 3.625F, 1.55F},
+                          Sphere{16.967F, 12.784F, 4.338F, 1.7F}, Sphere{1, 2, -100.5F, 2}));
+  EXPECT_THAT(set.ids, ElementsAre(0U, 1U, 2U));
+  EXPECT_EQ(set.name, "a.pdb");
+  EXPECT_EQ(set.rgba8.size(), 3U);
+  // By atomic number: C, N, Ca.
+  EXPECT_THAT(load("a.pdb", pdb, ColourKind::intensity).intensity,
+              ElementsAre(1.F / 3, 0.F, 2.F / 3));
+}
+
+TEST(Pdb, TakesElementsFromNamesWhereThereAreNone) {
+  const ParticleSet set = load("a.pdb",
+                               "ATOM      1  CA  THR A   1       1.000   2.000   3.000\r\n"
+                               "ATOM      2 1HB  THR A   1       1.000   2.000   3.000\r\n"
+                               "HETATM    3 ZN    ZN A   1       1.000   2.000   3.000\r\n");
+  EXPECT_EQ(set.spheres[0][3], 1.7F);
+  EXPECT_EQ(set.spheres[1][3], 1.2F);
+  EXPECT_EQ(set.spheres[2][3], 1.39F);
+}
+
+TEST(Pdb, FramesAreModels) {
+  const std::string atom = "ATOM      1  CA  THR A   1       1.000   2.000   3.000\n";
+  const std::string text =
+      "MODEL        1\n" + atom + "ENDMDL\nMODEL        2\n" + atom + atom + "ENDMDL\n";
+  EXPECT_EQ(load("a.pdb", text).count(), 1U);
+  EXPECT_EQ(load("a.pdb", text, ColourKind::rgba8, "@1").count(), 2U);
+  expect_refused("a.pdb", text, "", "no frame 2; the file has 2", "@2");
+  expect_refused("a.pdb", pdb, "", "no frame 1; the file has 1", "@1");
+  expect_refused("a.pdb", text.substr(0, text.size() - 7), ":6", "ENDMDL was expected");
+}
+
+TEST(Pdb, RefusesBrokenFiles) {
+  expect_refused("a.pdb", replaced(pdb, "12.784", "12.x84"),
+                 ":3:", "y in columns 39 to 46: expected a number, found '12.x84'");
+  expect_refused("a.pdb", pdb.substr(0, 190), ":3:", "expected an atom with its place");
+  expect_refused("a.pdb", replaced(pdb, "END\n", ""), ":5:", "END was expected");
+  expect_refused("a.pdb", "REMARK\n", ":1:", "found none");
+}
+
+TEST(Pdb, DropsPlacesThatAreNotFinite) {
+  const ParticleSet set = load("a.pdb", replaced(pdb, "12.784", "   nan"));
+  EXPECT_EQ(set.dropped, 1U);
+  EXPECT_THAT(set.ids, ElementsAre(0U, 2U));
+  EXPECT_EQ(set.rgba8.size(), 2U);
+}
+
+const std::string cif =
+    "data_X # comment\n"
+    "_struct.title   'It''s a \"title\"'\n"
+    "_struct.text\n;loop_\n_atom_site.no\n;\n"
+    "loop_\n_entity.id\n_entity.name\n1 'loop_ of names'\n"
+    "loop_\n_atom_site.type_symbol\n_atom_site.label_atom_id\n_atom_site.Cartn_x\n"
+    "_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.pdbx_PDB_model_num\n"
+    "O \"O5'\" -12.750 53.499 64.877 1\n"
+    "MG 'a b' 1 2 3\n 1\n"
+    "C C 1 2 3 7\n"
+    "#\nloop_\n_other.x\n1\n";
+
+TEST(Mmcif, ReadsTheLoopOverAtoms) {
+  const ParticleSet set = load("a.cif", cif);
+  EXPECT_THAT(set.spheres,
+              ElementsAre(Sphere{-12.75F, 53.499F, 64.877F, 1.52F}, Sphere{1, 2, 3, 1.73F}));
+  EXPECT_EQ(load("a.cif", cif, ColourKind::rgba8, "@1").spheres[0][3], 1.7F);
+  EXPECT_EQ(load("a.cif.gz", gzipped(cif)).hash, set.hash);
+}
+
+TEST(Mmcif, RefusesBrokenFiles) {
+  expect_refused("a.cif", cif, "", "no frame 2; the file has 2", "@2");
+  expect_refused("a.cif", replaced(cif, "53.499", "?"),
+                 ":18:", "Cartn_y: expected a number, found '?'");
+  expect_refused("a.cif", replaced(cif, "C C 1 2 3 7", "C C 1 2"), "",
+                 "expected 6 values in each row of _atom_site., found 4 in the last one");
+  expect_refused("a.cif", replaced(cif, "_atom_site.Cartn_z", "_atom_site.z"), "",
+                 "expected a column _atom_site.Cartn_z");
+  expect_refused("a.cif", "data_X\n", ":1:", "expected a loop over _atom_site.");
+  expect_refused("a.cif", "data_X\n_a\n;text\n", ":3:", "the ';' that ends a text field");
+  expect_refused("a.cif", "data_X\n_a 'text\n", ":2:", "expected a closing '");
+}
+
+const std::string gro =
+    "Title\n"
+    " 4\n"
+    "    1POPC   C12    1   0.519   8.005   7.185\n"
+    "    1POPC  H12A    2   1.000  -2.000   3.000  0.1  0.1  0.1\n"
+    "    2NA      NA    3   0.000   0.000   0.000\n"
+    "    3ALA     CA99999   0.000   0.000   1.000\n"
+    "   8.13950   8.13950  10.40000\n";
+
+TEST(Gro, IsInNanometres) {
+  const ParticleSet set = load("a.gro", gro);
+  EXPECT_THAT(set.spheres, ElementsAre(Sphere{0.519F, 8.005F, 7.185F, 0.17F},
+                                       Sphere{1, -2, 3, static_cast<float>(1.2 * 0.1)},
+                                       Sphere{0, 0, 0, static_cast<float>(2.27 * 0.1)},
+                                       Sphere{0, 0, 1, static_cast<float>(1.7 * 0.1)}));
+}
+
+TEST(Gro, TakesAnyNumberOfDecimalsAndFrames) {
+  const std::string fine = "Title\n1\n    1POPC   C12    1   0.51912-118.00512   7.18512\n 1 2 3\n";
+  EXPECT_EQ(load("a.gro", fine).spheres[0][1], -118.00512F);
+  EXPECT_EQ(load("a.gro", fine + gro, ColourKind::rgba8, "@1").count(), 4U);
+  expect_refused("a.gro", fine + gro, "", "no frame 2; the file has 2", "@2");
+}
+
+TEST(Gro, RefusesBrokenFiles) {
+  expect_refused("a.gro", replaced(gro, " 4\n", " 3\n"), ":6:", "expected the box");
+  expect_refused("a.gro", replaced(gro, " 4\n", " 5\n"), ":7:", "expected an atom");
+  expect_refused("a.gro", replaced(gro, " 4\n", " 9\n"), ":7:", "");
+  expect_refused("a.gro", replaced(gro, " 4\n", " four\n"),
+                 ":2:", "expected the number of atoms, found 'four'");
+  expect_refused("a.gro", replaced(gro, " 4\n", " 4294967295\n"),
+                 ":2:", "too many; at most 4294967294");
+  expect_refused("a.gro", replaced(gro, "-2.000", "-2.0o0"), ":4:", "y: expected a number");
+  expect_refused("a.gro", gro.substr(0, 90), ":4:", "expected an atom with its place");
+  expect_refused("a.gro", gro.substr(0, gro.size() - 31), ":6:", "the box was expected");
+  expect_refused("a.gro", "Title\n", ":1:", "where the number of atoms was expected");
+}
+
+const std::string xyz = "3\ncomment\nC 0 0 0\nO1 1 2 3 0.5 extra\n30 1e1 +2 -3\n";
+
+TEST(Xyz, TakesSymbolsAndAtomicNumbers) {
+  EXPECT_THAT(load("a.xyz", xyz).spheres,
+              ElementsAre(Sphere{0, 0, 0, 1.7F}, Sphere{1, 2, 3, 1.52F}, Sphere{10, 2, -3, 1.39F}));
+  EXPECT_EQ(load("a.XYZ", xyz + "1\n\nXx 5 5 5\n\n", ColourKind::rgba8, "@1").spheres[0][3], 2.F);
+}
+
+TEST(Xyz, OneElementHasTheRankAsIntensity) {
+  EXPECT_THAT(
+      load("a.xyz", "4\n\nC 0 0 0\nC 1 0 0\nC 0 inf 0\nC 2 0 0\n", ColourKind::intensity).intensity,
+      ElementsAre(0.F, 0.25F, 0.75F));
+}
+
+TEST(Xyz, RefusesBrokenFiles) {
+  expect_refused("a.xyz", replaced(xyz, "3\n", "2\n"), ":5:", "the next frame's number of atoms");
+  expect_refused("a.xyz", replaced(xyz, "3\n", "4\n"),
+                 ":5:", "the file ends here, where the last of 4 atoms was expected");
+  expect_refused("a.xyz", replaced(xyz, "O1 1 2 3", "O1 1 2,0 3"),
+                 ":4:", "y: expected a number, found '2,0'");
+  expect_refused("a.xyz", replaced(xyz, "O1 1 2 3 0.5 extra", "O1 1 2"),
+                 ":4:", "expected an element, x, y and z");
+  expect_refused("a.xyz", replaced(xyz, "30", "300"), ":5:", "expected an element, found '300'");
+  expect_refused("a.xyz", "-1\n\n", ":1:", "expected the number of atoms, found '-1'");
+  expect_refused("a.xyz", "0\n\n", ":2:", "expected atoms, found none");
+  expect_refused("a.xyz", xyz, "", "no frame 1; the file has 1", "@1");
+  // A count beyond the file's size must not make us ask for that much memory.
+  expect_refused("a.xyz", replaced(xyz, "3\n", "4294967294\n"), ":5:", "the file ends here");
+}
+
+TEST(ParticleFiles, AreFoundByNameFolderAndFrame) {
+  const TemporaryFolder folder;
+  folder.write("a.xyz", xyz);
+  folder.write("b@1.xyz", xyz);
+  EXPECT_TRUE(particles_present("a.xyz", {folder.path()}));
+  EXPECT_TRUE(particles_present("a.xyz@3", {folder.path()}));
+  EXPECT_TRUE(particles_present("b@1.xyz", {folder.path()}));
+  EXPECT_TRUE(particles_present("generate:uniform:10"));
+  EXPECT_FALSE(particles_present("c.xyz", {folder.path()}));
+  EXPECT_FALSE(particles_present("a.xyz"));
+  EXPECT_EQ(load_particles("b@1.xyz", ColourKind::rgba8, {folder.path()}).count(), 3U);
+  EXPECT_EQ(load_particles("a.xyz@0", ColourKind::rgba8, {folder.path()}).name, "a.xyz@0");
+  EXPECT_EQ(load_particles("generate:uniform:10", ColourKind::rgba8).count(), 10U);
+  EXPECT_THROW(load_particles("c.xyz", ColourKind::rgba8, {folder.path()}), core::IoError);
+  EXPECT_THROW(load_particles("a.xyz@b", ColourKind::rgba8, {folder.path()}), core::InputError);
+}
+
+TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
+  for (const std::string name : {"a.pdb", "a.cif", "a.gro", "a.xyz", "a.lammpstrj", "a.dump",
+                                 "a.data", "a.lmp", "a.mmpld"}) {
+    expect_refused(name, "", ": ", "is empty");
+    expect_refused(name + ".gz", gzipped(""), ": ", "is empty");
+    expect_refused(name, "\n", ":", "");
+    expect_refused(name, std::string(1000, '\0'), ":", "");
+  }
+  const std::string packed = gzipped(xyz);
+  expect_refused("a.xyz.gz", packed.substr(0, packed.size() - 9), ": ", "broken gzip stream");
+  expect_refused("a.xyz.gz", xyz, ": ", "broken gzip stream");
+  expect_refused("a.abc", xyz, ": ", "'.abc' is no known kind of particles; expected .pdb");
+  EXPECT_THAT([] { static_cast<void>(load_particles("generate:uniform", ColourKind::rgba8)); },
+              ThrowsMessage<core::InputError>(HasSubstr("expected generate:NAME:COUNT")));
+  EXPECT_THROW(load_particles("generate:uniform:1e3", ColourKind::rgba8), core::InputError);
+}
+
+TEST(ParticleFiles, TellTheirProgressInHundredths) {
+  std::string text = "10000\n\n";
+  for (int i = 0; i < 10'000; ++i) text += "C " + std::to_string(i) + " 0 0\n";
+  const TemporaryFolder folder;
+  folder.write("a.xyz", text);
+  folder.write("a.xyz.gz", gzipped(text));
+  for (const char* name : {"a.xyz", "a.xyz.gz"}) {
+    double last = 0;
+    const ParticleSet set =
+        load_particles(name, ColourKind::rgba8, {folder.path()}, [&](double share) {
+          EXPECT_GE(share, last);
+          EXPECT_LE(share, last + 0.0105) << name;
+          last = share;
+        });
+    EXPECT_EQ(last, 1);
+  }
+}
+
+}  // namespace
+}  // namespace triptych::scene
