@@ -8,6 +8,7 @@
 #include <map>
 
 #include "backends/opencl/filter_probe.hpp"
+#include "backends/opencl/particle_limits.hpp"
 #include "backends/opencl/programs.hpp"
 #include "backends/opencl/techniques.hpp"
 #include "backends/opencl/volume_data.hpp"
@@ -17,6 +18,12 @@ namespace triptych::opencl_backend {
 namespace {
 
 using technique::Sampler;
+
+const std::map<std::string_view, decltype(&prepare_raycast)> volume_techniques{
+    {"raycast", prepare_raycast}, {"speed_of_light", prepare_speed_of_light}};
+
+const std::map<std::string_view, decltype(&prepare_tiles)> particle_techniques{
+    {"tiles", prepare_tiles}};
 
 Session open_session(const Found& found) {
   return checked([&] {
@@ -115,9 +122,18 @@ std::optional<std::string> Device::size_defect(const measure::VolumeWork& work) 
 }
 
 std::optional<std::string> Device::unsupported(const measure::Work& work) const {
-  if (work.technique != "raycast" && work.technique != "speed_of_light") {
+  if (!volume_techniques.contains(work.technique) &&
+      !particle_techniques.contains(work.technique)) {
     return fmt::format("OpenCL has no technique '{}'", work.technique);
   }
+  const auto* particles = std::get_if<measure::ParticleWork>(&work.scene);
+  const bool draws_particles = particle_techniques.contains(work.technique);
+  if (draws_particles != (particles != nullptr)) {
+    return fmt::format("'{}' draws {}, the scene holds {}", work.technique,
+                       draws_particles ? "particles" : "volumes",
+                       draws_particles ? "a volume" : "particles");
+  }
+  if (particles != nullptr) return particle_defect(session_, work.technique, *particles);
   const auto& volume = std::get<measure::VolumeWork>(work.scene);
   if (volume.options.sampler == Sampler::hardware) {
     if (auto defect = image_defect(*volume.scene.grid)) return defect;
@@ -148,9 +164,11 @@ double Device::filter_weight_error(const measure::VolumePath& path) const {
 
 std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
+  if (const auto* particles = std::get_if<measure::ParticleWork>(&work.scene)) {
+    return particle_techniques.at(work.technique)(session_, programs_, *particles);
+  }
   const auto& volume = std::get<measure::VolumeWork>(work.scene);
-  const auto prepare = work.technique == "raycast" ? prepare_raycast : prepare_speed_of_light;
-  return prepare(session_, programs_, volumes_, volume);
+  return volume_techniques.at(work.technique)(session_, programs_, volumes_, volume);
 }
 
 }  // namespace

@@ -81,8 +81,9 @@ double trilinear(const Bits& bits, const Place& place) {
 void sample_on_device(const Session& session, Programs& programs, const scene::VoxelGrid& pattern,
                       std::vector<Place>& places) {
   constexpr auto sampler = technique::Sampler::hardware;
-  const cl::Program program =
-      programs.get({"volume.cl", "filter_probe.cl"}, {.sampler = sampler, .voxel = pattern.format});
+  const Constants constants{.sampler = sampler, .voxel = pattern.format};
+  const cl::Program program = programs.get(
+      program_source({"parameters.cl", "volume.cl", "filter_probe.cl"}), constants.options());
   technique::RaycastParameters parameters{};
   parameters.volume_size = {edge, edge, edge, 0};
   parameters.value_map = {1, 0, 0, 0};

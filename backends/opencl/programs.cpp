@@ -36,8 +36,10 @@ std::string Constants::options() const {
 std::string program_source(const std::vector<std::string_view>& files) {
   std::string source{embedded("prelude.cl")};
   source += technique::source("volume_math.h");
-  source += embedded("parameters.cl");
-  for (const std::string_view file : files) source += embedded(file);
+  for (const std::string_view file : files) {
+    const std::string_view own = embedded(file);
+    source += own.empty() ? technique::source(file) : own;
+  }
   return source;
 }
 
@@ -54,16 +56,16 @@ cl::Program build(const Session& session, const std::string& source, const std::
   return program;
 }
 
-cl::Program Programs::get(const std::vector<std::string_view>& files, const Constants& constants) {
-  const std::string key = hash(files, constants);
+cl::Program Programs::get(const std::string& source, const std::string& options) {
+  const std::string key = hash(source, options);
   if (const auto found = built_.find(key); found != built_.end()) return found->second;
-  cl::Program program = build(session_, program_source(files), constants.options());
+  cl::Program program = build(session_, source, options);
   built_.emplace(key, program);
   return program;
 }
 
-std::string Programs::hash(const std::vector<std::string_view>& files, const Constants& constants) {
-  return core::content_hash(constants.options() + "\n" + program_source(files));
+std::string Programs::hash(const std::string& source, const std::string& options) {
+  return core::content_hash(options + "\n" + source);
 }
 
 }  // namespace triptych::opencl_backend

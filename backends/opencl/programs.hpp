@@ -26,8 +26,8 @@ struct Constants {
   [[nodiscard]] std::string options() const;  // as the compiler takes them
 };
 
-// What every program begins with (the prelude, volume_math.h, parameters.cl), and then the named
-// files of this folder.
+// What every program begins with (the prelude, volume_math.h), and then the named files: of this
+// folder, or else shared ones (technique::source).
 [[nodiscard]] std::string program_source(const std::vector<std::string_view>& files);
 
 // Compiles for the session's device. Throws core::ApiError with the compiler's log.
@@ -38,11 +38,9 @@ struct Constants {
 class Programs {
  public:
   explicit Programs(const Session& session) : session_(session) {}
-  [[nodiscard]] cl::Program get(const std::vector<std::string_view>& files,
-                                const Constants& constants);
+  [[nodiscard]] cl::Program get(const std::string& source, const std::string& options);
   // Content hash of source and options.
-  [[nodiscard]] static std::string hash(const std::vector<std::string_view>& files,
-                                        const Constants& constants);
+  [[nodiscard]] static std::string hash(const std::string& source, const std::string& options);
 
  private:
   const Session& session_;

@@ -1,5 +1,5 @@
 #pragma once
-// One file per technique: raycast.cpp, speed_of_light.cpp.
+// One file per technique, named as in the catalogue.
 
 #include <memory>
 
@@ -17,5 +17,9 @@ namespace triptych::opencl_backend {
 [[nodiscard]] std::unique_ptr<measure::Prepared> prepare_speed_of_light(
     const Session& session, Programs& programs, VolumeCache& volumes,
     const measure::VolumeWork& work);
+
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_tiles(const Session& session,
+                                                               Programs& programs,
+                                                               const measure::ParticleWork& work);
 
 }  // namespace triptych::opencl_backend

@@ -11,21 +11,12 @@
 namespace triptych::opencl_backend {
 namespace {
 
-const std::vector<std::string_view> source_files{"volume.cl", "ray.cl", "raycast.cl"};
+const std::vector<std::string_view> source_files{"parameters.cl", "volume.cl", "ray.cl",
+                                                 "raycast.cl"};
 
 // Pixels of a work-group: wide enough for a GPU's waves; a CPU is indifferent.
 constexpr std::size_t group_width = 16;
 constexpr std::size_t group_height = 4;
-
-std::size_t round_up(std::size_t n, std::size_t multiple) {
-  return (n + multiple - 1) / multiple * multiple;
-}
-
-cl::Buffer upload_bytes(const Session& session, std::span<const std::byte> bytes) {
-  const cl::Buffer buffer(session.context, CL_MEM_READ_ONLY, bytes.size());
-  session.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes.size(), bytes.data());
-  return buffer;
-}
 
 }  // namespace
 
@@ -42,12 +33,12 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
     : session_(session),
       width_(work.scene.width),
       height_(work.scene.height),
-      hash_(Programs::hash(source_files, constants)),
+      hash_(Programs::hash(program_source(source_files), constants.options())),
       counts_(technique::raycast_counter_stride * static_cast<std::size_t>(width_) *
               static_cast<std::size_t>(height_)) {
-  const cl::Program timed = programs.get(source_files, constants);
+  const cl::Program timed = programs.get(program_source(source_files), constants.options());
   constants.count = true;
-  const cl::Program counting = programs.get(source_files, constants);
+  const cl::Program counting = programs.get(program_source(source_files), constants.options());
   const VolumeCache::Entry& volume = volumes.get(session, *work.scene.grid, constants.sampler);
   technique::RaycastParameters parameters = technique::raycast_parameters(
       work.scene, work.options, stored_maximum(constants.voxel, constants.sampler));
@@ -65,59 +56,26 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
       return upload_bytes(session, std::as_bytes(std::span(&parameters, 1)));
     };
     parameters_.push_back(upload_parameters());
-    timed_.push_back(make_launch(timed, parameters_.back(), height_));
-    counting_.push_back(make_launch(counting, parameters_.back(), height_));
+    timed_.push_back(launch(timed, parameters_.back(), height_));
+    counting_.push_back(launch(counting, parameters_.back(), height_));
     if (const int stride = work.options.extra_work_stride; stride > 0) {
       parameters.viewport[2] = stride;
       parameters_.push_back(upload_parameters());
-      timed_.push_back(make_launch(timed, parameters_.back(), (height_ + stride - 1) / stride));
+      timed_.push_back(launch(timed, parameters_.back(), (height_ + stride - 1) / stride));
     }
-    events_.resize(timed_.size());
   });
 }
 
-VolumeFrames::Launch VolumeFrames::make_launch(const cl::Program& program,
-                                               const cl::Buffer& parameters, int rows) const {
-  cl::Kernel kernel(program, "raycast");
-  kernel.setArg(0, parameters);
-  kernel.setArg(1, volume_);
-  kernel.setArg(2, table_);
-  kernel.setArg(3, bricks_);
-  kernel.setArg(4, image_);
-  kernel.setArg(5, counters_);
+Launch VolumeFrames::launch(const cl::Program& program, const cl::Buffer& parameters,
+                            int rows) const {
   const auto width = static_cast<std::size_t>(width_);
   const auto height = static_cast<std::size_t>(rows);
-  const auto most = kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(session_.device);
-  const bool fits = most >= group_width * group_height;
-  return {.kernel = std::move(kernel),
-          .global = cl::NDRange(round_up(width, group_width), round_up(height, group_height)),
-          .local = fits ? cl::NDRange(group_width, group_height) : cl::NullRange};
-}
-
-void VolumeFrames::run(const std::vector<Launch>& launches) {
-  for (std::size_t i = 0; i < launches.size(); ++i) {
-    session_.queue.enqueueNDRangeKernel(launches[i].kernel, cl::NullRange, launches[i].global,
-                                        launches[i].local, nullptr, &events_[i]);
-  }
-  session_.queue.finish();
-}
-
-std::optional<double> VolumeFrames::device_ns() const {
-  double sum = 0;
-  for (const cl::Event& event : events_) {
-    cl_ulong start = 0;
-    cl_ulong end = 0;
-    try {
-      event.getProfilingInfo(CL_PROFILING_COMMAND_START, &start);
-      event.getProfilingInfo(CL_PROFILING_COMMAND_END, &end);
-    } catch (const cl::Error& error) {
-      if (error.err() == CL_PROFILING_INFO_NOT_AVAILABLE) return std::nullopt;
-      throw;
-    }
-    if (end < start) return std::nullopt;
-    sum += static_cast<double>(end - start);
-  }
-  return sum;
+  const cl::NDRange global(round_up(width, group_width), round_up(height, group_height));
+  Launch made = make_launch(program, "raycast", global, cl::NDRange(group_width, group_height),
+                            parameters, volume_, table_, bricks_, image_, counters_);
+  const auto most = made.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(session_.device);
+  if (most < group_width * group_height) made.local = cl::NullRange;
+  return made;
 }
 
 measure::Frame VolumeFrames::frame(measure::Purpose purpose) {
@@ -125,10 +83,10 @@ measure::Frame VolumeFrames::frame(measure::Purpose purpose) {
     const bool counts = purpose == measure::Purpose::counters;
     measure::Frame frame;
     const auto begin = std::chrono::steady_clock::now();
-    run(counts ? counting_ : timed_);
+    run(session_, counts ? counting_ : timed_, events_);
     const auto end = std::chrono::steady_clock::now();
     frame.wall_ns = std::chrono::duration<double, std::nano>(end - begin).count();
-    if (purpose == measure::Purpose::timing) frame.device_ns = device_ns();
+    if (purpose == measure::Purpose::timing) frame.device_ns = device_ns(events_);
     if (counts) frame.counts = read_counters();
     return frame;  // OpenCL has no pipeline statistics: they stay absent
   });

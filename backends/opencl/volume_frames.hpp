@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "backends/opencl/launches.hpp"
 #include "backends/opencl/objects.hpp"
 #include "backends/opencl/programs.hpp"
 #include "backends/opencl/volume_data.hpp"
@@ -26,23 +27,14 @@ class VolumeFrames final : public measure::Prepared {
   [[nodiscard]] std::string kernel_hash() const override { return hash_; }
 
  private:
-  struct Launch {
-    cl::Kernel kernel;
-    cl::NDRange global;
-    cl::NDRange local;
-  };
-
-  [[nodiscard]] Launch make_launch(const cl::Program& program, const cl::Buffer& parameters,
-                                   int rows) const;
-  void run(const std::vector<Launch>& launches);
-  [[nodiscard]] std::optional<double> device_ns() const;
+  [[nodiscard]] Launch launch(const cl::Program& program, const cl::Buffer& parameters,
+                              int rows) const;
   [[nodiscard]] record::Counts read_counters();
 
   Session session_;
   int width_;
   int height_;
   std::string hash_;
-  // A kernel does not retain its arguments: they live here.
   std::vector<cl::Buffer> parameters_;
   cl::Memory volume_;
   cl::Buffer table_;

@@ -1,0 +1,170 @@
+// From the listed cells to the particles of each bin, in the order of the arrangement. A bin is a
+// tile of the image, or, for particles that reach more than TRI_MOST_TILES tiles, a coarse tile of
+// 8×8 of them; the coarse bins follow the fine ones. `chunks` work items take a run of the listed
+// cells each and count for themselves, so that nothing is fought over and the order is kept.
+
+TRI_FN int tiles_across(const Particles* u) {
+  return (u->viewport.x + TRI_TILE - 1) >> TRI_TILE_SHIFT;
+}
+TRI_FN int tiles_down(const Particles* u) {
+  return (u->viewport.y + TRI_TILE - 1) >> TRI_TILE_SHIFT;
+}
+
+// Pixel rectangles are kept in two words: x in the lower half, y in the upper; the first corner and
+// the last, both within.
+#define TRI_EMPTY_FIRST 0x00000001u
+#define TRI_EMPTY_LAST 0u
+TRI_FN uint packed(int x, int y) { return (uint)x | (uint)y << 16; }
+TRI_FN int unpacked_x(uint corner) { return (int)(corner & 0xFFFFu); }
+TRI_FN int unpacked_y(uint corner) { return (int)(corner >> 16); }
+
+// The bins of one particle: counted, or filled in.
+TRI_FN void into_bins(uint first, uint last, int across, int down, bool fill, uint particle,
+                      __global uint* restrict cursors, __global const uint* restrict begins,
+                      __global uint* restrict entries) {
+  int shift = TRI_TILE_SHIFT;
+  int x0 = unpacked_x(first) >> shift, x1 = unpacked_x(last) >> shift;
+  int y0 = unpacked_y(first) >> shift, y1 = unpacked_y(last) >> shift;
+  int bins = 0;
+  if ((x1 - x0 + 1) * (y1 - y0 + 1) > TRI_MOST_TILES) {
+    bins = across * down;
+    across = (across + 7) >> 3;
+    x0 >>= 3;
+    x1 >>= 3;
+    y0 >>= 3;
+    y1 >>= 3;
+  }
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      int bin = bins + y * across + x;
+#if TRI_LOST_AT_BORDER
+      if (x == x1 && y == y1 && (x > x0 || y > y0)) continue;
+#endif
+      uint at = cursors[bin]++;
+      if (fill) entries[begins[bin] + at] = particle;
+    }
+  }
+}
+
+// The run of listed cells that belongs to this work item.
+TRI_FN uint chunk_begin(uint listed, uint chunk, uint chunks) {
+  return (uint)((ulong)listed * chunk / chunks);
+}
+
+// Leaves the particles of the listed cells in camera space, their rectangles, and per chunk the
+// number of its entries in each bin.
+__kernel void count_bins(__global const Particles* restrict parameters,
+                         __global const float* restrict spheres,
+                         __global const Cell* restrict cells, __global const uint* restrict list,
+                         __global float* restrict camera, __global uint* restrict rectangles,
+                         uint bins, __global uint* restrict counts,
+                         __global uint* restrict counters) {
+  uint chunk = (uint)get_global_id(0);
+  uint chunks = (uint)get_global_size(0);
+  Particles u = *parameters;
+  int across = tiles_across(&u);
+  int down = tiles_down(&u);
+  __global uint* cursors = counts + (size_t)bins * chunk;
+  for (uint i = 0; i < bins; ++i) cursors[i] = 0;
+  uint end = chunk_begin(list[0], chunk + 1, chunks);
+  uint sprites = 0;
+  for (uint at = chunk_begin(list[0], chunk, chunks); at < end; ++at) {
+    uint begin = cells[list[1 + at]].begin;
+    int n = (int)cells[list[1 + at]].count;
+    __global const float* restrict s = spheres + 4 * (size_t)begin;
+    __global float* restrict c = camera + 4 * (size_t)begin;
+    __global uint* restrict rectangle = rectangles + 2 * (size_t)begin;
+    for (int k = 0; k < n; ++k) {
+      float x = camera_x(&u, s[4 * k], s[4 * k + 1], s[4 * k + 2]);
+      float y = camera_y(&u, s[4 * k], s[4 * k + 1], s[4 * k + 2]);
+      float z = camera_z(&u, s[4 * k], s[4 * k + 1], s[4 * k + 2]);
+      float r = s[4 * k + 3];
+      c[4 * k] = x;
+      c[4 * k + 1] = y;
+      c[4 * k + 2] = z;
+      c[4 * k + 3] = r;
+      float2 wide = covered(x, z, r, u.plane.z, u.eye_rest.w);
+      float2 high = covered(0.0f - y, z, r, u.plane.w, u.eye_rest.w);
+      int x0 = first_pixel(wide.x, u.plane.x, u.plane.z, u.viewport.x);
+      int x1 = last_pixel(wide.y, u.plane.x, u.plane.z, u.viewport.x);
+      int y0 = first_pixel(high.x, u.plane.y, u.plane.w, u.viewport.y);
+      int y1 = last_pixel(high.y, u.plane.y, u.plane.w, u.viewport.y);
+      bool empty = x0 > x1 || y0 > y1;
+      rectangle[2 * k] = empty ? TRI_EMPTY_FIRST : packed(x0, y0);
+      rectangle[2 * k + 1] = empty ? TRI_EMPTY_LAST : packed(x1, y1);
+    }
+    for (int k = 0; k < n; ++k) {
+      uint last = rectangle[2 * k + 1];
+      uint first = rectangle[2 * k];
+      if (first == TRI_EMPTY_FIRST && last == TRI_EMPTY_LAST) continue;
+      into_bins(first, last, across, down, false, begin + (uint)k, cursors, 0, 0);
+      ++sprites;
+    }
+  }
+#if TRI_COUNT
+  counters[8 * chunk + TRI_COUNT_SPRITES] = sprites;
+#endif
+}
+
+// One work item per bin: counts become places within the bin, totals[bin] its length.
+__kernel void place_chunks(uint bins, uint chunks, __global uint* restrict counts,
+                           __global uint* restrict totals, __global uint* restrict counters) {
+  uint bin = (uint)get_global_id(0);
+  if (bin >= bins) return;
+  uint sum = 0;
+  for (uint chunk = 0; chunk < chunks; ++chunk) {
+    __global uint* count = counts + (size_t)bins * chunk + bin;
+    uint here = *count;
+    *count = sum;
+    sum += here;
+  }
+  totals[bin] = sum;
+#if TRI_COUNT
+  counters[8 * bin + TRI_COUNT_BIN_ENTRIES] = sum;
+#endif
+}
+
+// One work group: begins[bin] is where a bin's entries begin, begins[bins] how many there are.
+__kernel void place_bins(uint bins, __global const uint* restrict totals,
+                         __global uint* restrict begins) {
+  __local uint sums[TRI_SCAN_ITEMS];
+  uint item = (uint)get_local_id(0);
+  uint stretch = (bins + TRI_SCAN_ITEMS - 1) / TRI_SCAN_ITEMS;
+  uint from = min(item * stretch, bins);
+  uint to = min(from + stretch, bins);
+  uint sum = 0;
+  for (uint bin = from; bin < to; ++bin) sum += totals[bin];
+  sums[item] = sum;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  uint place = 0;
+  for (uint other = 0; other < item; ++other) place += sums[other];
+  for (uint bin = from; bin < to; ++bin) {
+    begins[bin] = place;
+    place += totals[bin];
+  }
+  if (item == TRI_SCAN_ITEMS - 1) begins[bins] = place;
+}
+
+__kernel void fill_bins(__global const Particles* restrict parameters,
+                        __global const Cell* restrict cells, __global const uint* restrict list,
+                        __global const uint* restrict rectangles, uint bins,
+                        __global uint* restrict counts, __global const uint* restrict begins,
+                        __global uint* restrict entries) {
+  uint chunk = (uint)get_global_id(0);
+  uint chunks = (uint)get_global_size(0);
+  Particles u = *parameters;
+  int across = tiles_across(&u);
+  int down = tiles_down(&u);
+  __global uint* cursors = counts + (size_t)bins * chunk;
+  uint end = chunk_begin(list[0], chunk + 1, chunks);
+  for (uint at = chunk_begin(list[0], chunk, chunks); at < end; ++at) {
+    uint begin = cells[list[1 + at]].begin;
+    uint n = cells[list[1 + at]].count;
+    for (uint i = begin; i < begin + n; ++i) {
+      uint first = rectangles[2 * (size_t)i];
+      uint last = rectangles[2 * (size_t)i + 1];
+      if (first == TRI_EMPTY_FIRST && last == TRI_EMPTY_LAST) continue;
+      into_bins(first, last, across, down, true, i, cursors, begins, entries);
+    }
+  }
+}

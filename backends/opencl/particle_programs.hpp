@@ -1,0 +1,40 @@
+#pragma once
+// Device code of the particle techniques.
+
+#include <string>
+
+#include "measure/backend.hpp"
+
+namespace triptych::opencl_backend {
+
+// How a particle's pixels are found (TRI_SPRITE of particle_sprite.cl).
+enum class Sprite : std::uint8_t { rectangle, screen_quad, ray_quad, polygon, adaptive_polygon };
+
+// The compile-time constants of particles.cl and what follows it. A build that does not count or
+// plant a fault holds no trace of it.
+struct ParticleConstants {
+  Sprite sprite = Sprite::rectangle;
+  scene::ColourKind colour = scene::ColourKind::rgba8;
+  bool transfer_at_pixel = true;
+  bool ray_at_vertex = false;
+  bool conservative_depth = false;
+  technique::Culling culling = technique::Culling::frustum;
+  technique::ParticleFault fault = technique::ParticleFault::none;
+  bool count = false;
+
+  [[nodiscard]] std::string options() const;  // as the compiler takes them
+};
+
+// Edge of a tile in pixels, of a coarse one in tiles; a particle that reaches more tiles than
+// `most_tiles` is put into coarse ones.
+inline constexpr int tile_edge = 16;
+inline constexpr int coarse_edge = 8;
+inline constexpr int most_tiles = 16;
+inline constexpr int scan_items = 64;  // work group of place_bins
+
+[[nodiscard]] std::string particle_source();
+
+// Constants of the timed build.
+[[nodiscard]] ParticleConstants constants_of(const measure::ParticleWork& work, Sprite sprite);
+
+}  // namespace triptych::opencl_backend

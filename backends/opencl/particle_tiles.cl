@@ -1,0 +1,161 @@
+// One work item per tile draws its entries into pixels of its own: the nearest surface, of equal
+// depths the particle first in the arrangement.
+
+// Pixels that are tested together. Those beyond a row's range are masked; beyond the tile they land
+// in the margin that every row ends with.
+#define TRI_LANES 8
+#define TRI_STRIDE (TRI_TILE + TRI_LANES)
+// Entries between two looks for the tile's farthest depth.
+#define TRI_LOOK_EVERY 8
+
+typedef struct {
+  float depth[TRI_TILE * TRI_STRIDE];   // reversed; 0 where there is nothing
+  uint winner[TRI_TILE * TRI_STRIDE];
+  float column[TRI_STRIDE];  // rays of the pixels of a row
+  float row[TRI_TILE];
+  int x, y;        // first pixel
+  int last_x, last_y;  // last pixel within the image, from the first
+  float farthest;  // no pixel keeps a surface farther than this along the view axis
+  int drawn;       // entries since the last look
+} Tile;
+
+#if TRI_REVERSED_DEPTH
+#define TRI_CLEAR_DEPTH 2.0f
+#define TRI_BEFORE(a, b) ((a) < (b))
+#else
+#define TRI_CLEAR_DEPTH 0.0f
+#define TRI_BEFORE(a, b) ((a) > (b))
+#endif
+#if TRI_UNRESOLVED_TIES
+#define TRI_FIRST_OF_EQUALS(a, b) ((b) == TRI_NONE || (a) > (b))
+#else
+#define TRI_FIRST_OF_EQUALS(a, b) ((a) < (b))
+#endif
+
+TRI_FN void open_tile(const Particles* u, int x, int y, Tile* tile) {
+  tile->x = x;
+  tile->y = y;
+  tile->last_x = min(TRI_TILE, u->viewport.x - x) - 1;
+  tile->last_y = min(TRI_TILE, u->viewport.y - y) - 1;
+  tile->farthest = INFINITY;
+  tile->drawn = 0;
+  for (int k = 0; k < TRI_STRIDE; ++k) tile->column[k] = pixel_ray_x(u, x + k);
+  for (int k = 0; k < TRI_TILE; ++k) tile->row[k] = pixel_ray_y(u, y + k);
+  for (int k = 0; k < TRI_TILE * TRI_STRIDE; ++k) tile->depth[k] = TRI_CLEAR_DEPTH;
+  for (int k = 0; k < TRI_TILE * TRI_STRIDE; ++k) tile->winner[k] = TRI_NONE;
+}
+
+TRI_FN void look_for_farthest(float near, Tile* tile) {
+  float lowest[TRI_LANES];
+  for (int k = 0; k < TRI_LANES; ++k) lowest[k] = 1.0f;
+  for (int y = 0; y <= tile->last_y; ++y) {
+    for (int x = 0; x <= tile->last_x; x += TRI_LANES) {
+      for (int k = 0; k < TRI_LANES; ++k) {
+        float depth = tile->depth[y * TRI_STRIDE + x + k];
+        bool counts = x + k <= tile->last_x;
+        lowest[k] = counts && depth < lowest[k] ? depth : lowest[k];
+      }
+    }
+  }
+  for (int k = 1; k < TRI_LANES; ++k) lowest[0] = lowest[k] < lowest[0] ? lowest[k] : lowest[0];
+  tile->farthest = near / lowest[0];
+  tile->drawn = 0;
+}
+
+// Whether no surface of the sphere can show in the tile: its front lies farther than all that is
+// kept, by more than distances are rounded.
+TRI_FN bool hidden(const Tile* tile, float cz, float r) {
+#if TRI_COUNT || TRI_REVERSED_DEPTH
+  return false;
+#elif TRI_WRONG_SENSE
+  return cz + r > tile->farthest;
+#else
+  return (cz - r) - 4e-6f * (cz + r) > tile->farthest * 1.000001f;
+#endif
+}
+
+// Pixels x0…x1 of row y, from the tile's first, against a sphere in camera space.
+TRI_FN void draw_row(float near, int x0, int x1, int y, float cx, float cy, float cz, float r,
+                     uint particle, Tile* tile, uint* kept) {
+  float sy = tile->row[y];
+  for (int x = x0; x <= x1; x += TRI_LANES) {
+    float* depths = tile->depth + y * TRI_STRIDE + x;
+    uint* winners = tile->winner + y * TRI_STRIDE + x;
+    const float* column = tile->column + x;
+    for (int k = 0; k < TRI_LANES; ++k) {
+      float sx = column[k];
+      float discriminant = tri_sphere_discriminant(cx, cy, cz, r, sx, sy);
+      float distance = tri_sphere_distance(cx, cy, cz, sx, sy, discriminant);
+      float depth = tri_depth(near, distance);
+      int hit = (discriminant >= 0.0f) & (distance > 0.0f) & (x + k <= x1);
+      int wins = hit & (TRI_BEFORE(depth, depths[k]) |
+                        ((depth == depths[k]) & TRI_FIRST_OF_EQUALS(particle, winners[k])));
+      depths[k] = wins ? depth : depths[k];
+      winners[k] = wins ? particle : winners[k];
+#if TRI_COUNT
+      *kept += (uint)hit;
+#endif
+    }
+  }
+}
+
+TRI_FN void draw_entry(const Particles* u, __global const float* restrict camera,
+                       __global const uint* restrict rectangles, uint particle, Tile* tile,
+                       uint* fragments, uint* kept) {
+  __global const float* c = camera + 4 * (size_t)particle;
+  float cz = c[2];
+  float r = c[3];
+  if (hidden(tile, cz, r)) return;
+  uint first = rectangles[2 * (size_t)particle];
+  uint last = rectangles[2 * (size_t)particle + 1];
+  int x0 = max(unpacked_x(first) - tile->x, 0);
+  int x1 = min(unpacked_x(last) - tile->x, tile->last_x);
+  int y0 = max(unpacked_y(first) - tile->y, 0);
+  int y1 = min(unpacked_y(last) - tile->y, tile->last_y);
+  if (x0 > x1 || y0 > y1) return;
+  for (int y = y0; y <= y1; ++y) {
+    draw_row(u->eye.w, x0, x1, y, c[0], c[1], cz, r, particle, tile, kept);
+  }
+#if TRI_COUNT
+  *fragments += (uint)((x1 - x0 + 1) * (y1 - y0 + 1));
+#endif
+  if (++tile->drawn >= TRI_LOOK_EVERY) look_for_farthest(u->eye.w, tile);
+}
+
+__kernel void draw_tiles(__global const Particles* restrict parameters,
+                         __global const float* restrict camera,
+                         __global const uint* restrict rectangles,
+                         __global const uint* restrict begins,
+                         __global const uint* restrict entries, __global float* restrict depths,
+                         __global uint* restrict winners, __global uint* restrict counters) {
+  int tile_x = (int)get_global_id(0);
+  int tile_y = (int)get_global_id(1);
+  Particles u = *parameters;
+  int across = tiles_across(&u);
+  int down = tiles_down(&u);
+  Tile tile;
+  open_tile(&u, tile_x << TRI_TILE_SHIFT, tile_y << TRI_TILE_SHIFT, &tile);
+  uint fragments = 0;
+  uint kept = 0;
+  uint drawn_in[2] = {(uint)(across * down + (tile_y >> 3) * ((across + 7) >> 3) + (tile_x >> 3)),
+                      (uint)(tile_y * across + tile_x)};
+  for (int k = 0; k < 2; ++k) {
+    uint end = begins[drawn_in[k] + 1];
+    for (uint at = begins[drawn_in[k]]; at < end; ++at) {
+      draw_entry(&u, camera, rectangles, entries[at], &tile, &fragments, &kept);
+    }
+  }
+  for (int y = 0; y <= tile.last_y; ++y) {
+    size_t to = (size_t)(tile.y + y) * (size_t)u.viewport.x + (size_t)tile.x;
+    for (int x = 0; x <= tile.last_x; ++x) {
+      int from = y * TRI_STRIDE + x;
+      depths[to + x] = tile.winner[from] == TRI_NONE ? 0.0f : tile.depth[from];
+      winners[to + x] = tile.winner[from];
+    }
+  }
+#if TRI_COUNT
+  uint number = drawn_in[1];
+  counters[8 * number + TRI_COUNT_FRAGMENTS] = fragments;
+  counters[8 * number + TRI_COUNT_DISCARDED] = fragments - kept;
+#endif
+}
