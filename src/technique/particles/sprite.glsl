@@ -38,6 +38,12 @@ void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   high = min(high, u.plane.xy);
 }
 
+// Size in pixels of the square point around these bounds.
+float point_size(vec2 low, vec2 high) {
+  vec2 pixels = (high - low) / u.plane.zw;
+  return max(pixels.x, pixels.y);
+}
+
 // Where the paper's screen-aligned quad lies: the rectangle around the silhouette where there is one, the
 // whole viewport for a sphere that reaches the plane of the eye. low > high: nowhere.
 void screen_bounds(vec4 sphere, out vec2 low, out vec2 high) {
