@@ -65,8 +65,7 @@ std::optional<double> median_nearest_distance(std::vector<Place> places) {
     return !std::ranges::all_of(place, [](double x) { return std::isfinite(x); });
   });
   std::ranges::sort(places);
-  const auto repeated = std::ranges::unique(places);
-  places.erase(repeated.begin(), repeated.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
   if (places.size() < 2) return std::nullopt;
   const std::size_t stride = (places.size() + most_asked - 1) / most_asked;
   std::vector<Place> asked;

@@ -262,6 +262,7 @@ constexpr std::array<Generator, 5> generators{{
 
 std::vector<GeneratorInfo> particle_generators() {
   std::vector<GeneratorInfo> infos;
+  infos.reserve(generators.size());
   for (const Generator& generator : generators) infos.push_back(generator.info);
   return infos;
 }
