@@ -51,6 +51,57 @@ TRI_FN uint chunk_begin(uint listed, uint chunk, uint chunks) {
   return (uint)((ulong)listed * chunk / chunks);
 }
 
+// Particles that are transformed together: loops over arrays of this length are what a compiler
+// vectorises.
+#define TRI_BATCH 16
+
+typedef struct {
+  float x[TRI_BATCH];
+  float y[TRI_BATCH];
+  float z[TRI_BATCH];
+  float r[TRI_BATCH];
+  uint first[TRI_BATCH];  // pixel rectangle
+  uint last[TRI_BATCH];
+} Batch;
+
+// n spheres in world space. Those that lack to a whole batch repeat the last one.
+TRI_FN void load_batch(__global const float* restrict spheres, uint n, Batch* batch) {
+  for (uint k = 0; k < TRI_BATCH; ++k) {
+    float4 sphere = vload4(min(k, n - 1), spheres);
+    batch->x[k] = sphere.x;
+    batch->y[k] = sphere.y;
+    batch->z[k] = sphere.z;
+    batch->r[k] = sphere.w;
+  }
+}
+
+TRI_FN void to_camera_space(const Particles* u, Batch* batch) {
+  for (int k = 0; k < TRI_BATCH; ++k) {
+    float x = camera_x(u, batch->x[k], batch->y[k], batch->z[k]);
+    float y = camera_y(u, batch->x[k], batch->y[k], batch->z[k]);
+    float z = camera_z(u, batch->x[k], batch->y[k], batch->z[k]);
+    batch->x[k] = x;
+    batch->y[k] = y;
+    batch->z[k] = z;
+  }
+}
+
+TRI_FN void find_rectangles(const Particles* u, Batch* batch) {
+  for (int k = 0; k < TRI_BATCH; ++k) {
+    float z = batch->z[k];
+    float r = batch->r[k];
+    float2 wide = covered(batch->x[k], z, r, u->plane.z, u->eye_rest.w);
+    float2 high = covered(0.0f - batch->y[k], z, r, u->plane.w, u->eye_rest.w);
+    int x0 = first_pixel(wide.x, u->plane.x, u->plane.z, u->viewport.x);
+    int x1 = last_pixel(wide.y, u->plane.x, u->plane.z, u->viewport.x);
+    int y0 = first_pixel(high.x, u->plane.y, u->plane.w, u->viewport.y);
+    int y1 = last_pixel(high.y, u->plane.y, u->plane.w, u->viewport.y);
+    bool empty = (x0 > x1) | (y0 > y1);
+    batch->first[k] = empty ? TRI_EMPTY_FIRST : packed(x0, y0);
+    batch->last[k] = empty ? TRI_EMPTY_LAST : packed(x1, y1);
+  }
+}
+
 // Leaves the particles of the listed cells in camera space, their rectangles, and per chunk the
 // number of its entries in each bin.
 __kernel void count_bins(__global const Particles* restrict parameters,
@@ -68,37 +119,26 @@ __kernel void count_bins(__global const Particles* restrict parameters,
   for (uint i = 0; i < bins; ++i) cursors[i] = 0;
   uint end = chunk_begin(list[0], chunk + 1, chunks);
   uint sprites = 0;
+  Batch batch;
   for (uint at = chunk_begin(list[0], chunk, chunks); at < end; ++at) {
-    uint begin = cells[list[1 + at]].begin;
-    int n = (int)cells[list[1 + at]].count;
-    __global const float* restrict s = spheres + 4 * (size_t)begin;
-    __global float* restrict c = camera + 4 * (size_t)begin;
-    __global uint* restrict rectangle = rectangles + 2 * (size_t)begin;
-    for (int k = 0; k < n; ++k) {
-      float x = camera_x(&u, s[4 * k], s[4 * k + 1], s[4 * k + 2]);
-      float y = camera_y(&u, s[4 * k], s[4 * k + 1], s[4 * k + 2]);
-      float z = camera_z(&u, s[4 * k], s[4 * k + 1], s[4 * k + 2]);
-      float r = s[4 * k + 3];
-      c[4 * k] = x;
-      c[4 * k + 1] = y;
-      c[4 * k + 2] = z;
-      c[4 * k + 3] = r;
-      float2 wide = covered(x, z, r, u.plane.z, u.eye_rest.w);
-      float2 high = covered(0.0f - y, z, r, u.plane.w, u.eye_rest.w);
-      int x0 = first_pixel(wide.x, u.plane.x, u.plane.z, u.viewport.x);
-      int x1 = last_pixel(wide.y, u.plane.x, u.plane.z, u.viewport.x);
-      int y0 = first_pixel(high.x, u.plane.y, u.plane.w, u.viewport.y);
-      int y1 = last_pixel(high.y, u.plane.y, u.plane.w, u.viewport.y);
-      bool empty = x0 > x1 || y0 > y1;
-      rectangle[2 * k] = empty ? TRI_EMPTY_FIRST : packed(x0, y0);
-      rectangle[2 * k + 1] = empty ? TRI_EMPTY_LAST : packed(x1, y1);
-    }
-    for (int k = 0; k < n; ++k) {
-      uint last = rectangle[2 * k + 1];
-      uint first = rectangle[2 * k];
-      if (first == TRI_EMPTY_FIRST && last == TRI_EMPTY_LAST) continue;
-      into_bins(first, last, across, down, false, begin + (uint)k, cursors, 0, 0);
-      ++sprites;
+    uint i = cells[list[1 + at]].begin;
+    uint stop = i + cells[list[1 + at]].count;
+    for (; i < stop; i += TRI_BATCH) {
+      uint n = min(stop - i, (uint)TRI_BATCH);
+      load_batch(spheres + 4 * (size_t)i, n, &batch);
+      to_camera_space(&u, &batch);
+      find_rectangles(&u, &batch);
+      for (uint k = 0; k < n; ++k) {
+        size_t particle = i + k;
+        uint first = batch.first[k];
+        uint last = batch.last[k];
+        rectangles[2 * particle] = first;
+        rectangles[2 * particle + 1] = last;
+        if (first == TRI_EMPTY_FIRST && last == TRI_EMPTY_LAST) continue;
+        vstore4((float4)(batch.x[k], batch.y[k], batch.z[k], batch.r[k]), particle, camera);
+        into_bins(first, last, across, down, false, i + k, cursors, 0, 0);
+        ++sprites;
+      }
     }
   }
 #if TRI_COUNT

@@ -79,15 +79,20 @@ TRI_FN void draw_row(float near, int x0, int x1, int y, float cx, float cy, floa
                      uint particle, Tile* tile, uint* kept) {
   float sy = tile->row[y];
   for (int x = x0; x <= x1; x += TRI_LANES) {
-    float* depths = tile->depth + y * TRI_STRIDE + x;
-    uint* winners = tile->winner + y * TRI_STRIDE + x;
-    const float* column = tile->column + x;
+    int at = y * TRI_STRIDE + x;
+    // Copies, which cannot overlap as far as a compiler can see.
+    float sx[TRI_LANES];
+    float depths[TRI_LANES];
+    uint winners[TRI_LANES];
+    for (int k = 0; k < TRI_LANES; ++k) sx[k] = tile->column[x + k];
+    for (int k = 0; k < TRI_LANES; ++k) depths[k] = tile->depth[at + k];
+    for (int k = 0; k < TRI_LANES; ++k) winners[k] = tile->winner[at + k];
+    int last = x1 - x;
     for (int k = 0; k < TRI_LANES; ++k) {
-      float sx = column[k];
-      float discriminant = tri_sphere_discriminant(cx, cy, cz, r, sx, sy);
-      float distance = tri_sphere_distance(cx, cy, cz, sx, sy, discriminant);
+      float discriminant = tri_sphere_discriminant(cx, cy, cz, r, sx[k], sy);
+      float distance = tri_sphere_distance(cx, cy, cz, sx[k], sy, discriminant);
       float depth = tri_depth(near, distance);
-      int hit = (discriminant >= 0.0f) & (distance > 0.0f) & (x + k <= x1);
+      int hit = (discriminant >= 0.0f) & (distance > 0.0f) & (k <= last);
       int wins = hit & (TRI_BEFORE(depth, depths[k]) |
                         ((depth == depths[k]) & TRI_FIRST_OF_EQUALS(particle, winners[k])));
       depths[k] = wins ? depth : depths[k];
@@ -96,6 +101,8 @@ TRI_FN void draw_row(float near, int x0, int x1, int y, float cx, float cy, floa
       *kept += (uint)hit;
 #endif
     }
+    for (int k = 0; k < TRI_LANES; ++k) tile->depth[at + k] = depths[k];
+    for (int k = 0; k < TRI_LANES; ++k) tile->winner[at + k] = winners[k];
   }
 }
 

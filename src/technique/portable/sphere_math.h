@@ -119,7 +119,10 @@ TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
     high = high_z > 0.0f ? (side * k + z * r) / high_z : huge;
     if (low_z <= 0.0f) high = 0.0f - huge;
   }
-  return a < 0.0f ? TRI_MAKE_FLOAT2(0.0f - high, 0.0f - low) : TRI_MAKE_FLOAT2(low, high);
+  // By component: a choice between vectors keeps loops from being vectorised.
+  float first = a < 0.0f ? 0.0f - high : low;
+  float second = a < 0.0f ? 0.0f - low : high;
+  return TRI_MAKE_FLOAT2(first, second);
 }
 
 // Whether a sphere reaches the plane through the eye that is parallel to the image, or comes so near that
