@@ -94,18 +94,30 @@ TEST(SphereBounds, CoverEveryRayThatTheModelAllows) {
   }
 }
 
+// From inside, beside the centre: the depth changes because the centre slides along the ray.
+TEST(SphereBounds, CoverTheInsideOfASphere) {
+  auto scene = scene_of(set_of({{0.3, 0, -0.3, 1}}), 15, 15, 40);
+  SphereErrorModel model;
+  for (const double lateral : {1e-3, 0.05}) {
+    model.lateral_px = lateral;
+    expect_bounded(scene, model, std::to_string(lateral));
+  }
+  const SphereTruth truth = render_spheres(scene, model);
+  EXPECT_EQ(std::ranges::count(truth.certain, 1), 15 * 15);
+}
+
 // A wobbling eye moves all centres across the ray as the model allows them to be.
 TEST(SphereBounds, CoverCentresThatAreOff) {
   auto scene = scene_of(set_of({{0, 0, 0, 1}}), 64, 64, 0.1);
   SphereErrorModel model;
-  model.lateral_relative = 1e-5;
+  model.lateral_relative = 0.01;  // of the radius, which is 1
   const glm::dvec3 eye{0, 0, 1e3};
   scene.camera = look_at(eye, {0, 0, 0}, {0, 1, 0}, 0.15);
   const SphereTruth truth = render_spheres(scene, model);
   EXPECT_GT(truth.coverage, 0.3);
   for (int k = 0; k < 16; ++k) {
     const double angle = 2 * std::numbers::pi * k / 16;
-    const double off = 0.9999 * model.lateral_relative * 1e3;
+    const double off = 0.9999 * model.lateral_relative;
     scene.camera.eye = eye + off * glm::dvec3{std::cos(angle), std::sin(angle), 0};
     const SphereTruth other = render_spheres(scene, model);
     for (std::size_t i = 0; i < truth.ids.size(); ++i) {
