@@ -13,11 +13,12 @@ Layout make_layout(const Gpu& gpu, vk::ArrayProxy<const vk::DescriptorSetLayoutB
   return {std::move(set), std::move(pipeline)};
 }
 
-vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets) {
+vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,
+                                   std::uint32_t storage_buffers) {
   const std::array<vk::DescriptorPoolSize, 3> sizes{{
-      {.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = sets},
+      {.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = 2 * sets},
       {.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 2 * sets},
-      {.type = vk::DescriptorType::eStorageBuffer, .descriptorCount = 3 * sets},
+      {.type = vk::DescriptorType::eStorageBuffer, .descriptorCount = storage_buffers * sets},
   }};
   return {gpu.device,
           vk::DescriptorPoolCreateInfo{.maxSets = sets,

@@ -14,8 +14,9 @@ struct Layout {
 [[nodiscard]] Layout make_layout(const Gpu& gpu,
                                  vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings);
 
-// Room for this many sets of any layout here.
-[[nodiscard]] vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets);
+// Room for this many sets, each with up to two uniform buffers, two textures and `storage_buffers`.
+[[nodiscard]] vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,
+                                                 std::uint32_t storage_buffers = 3);
 // The sets are freed with the pool.
 [[nodiscard]] std::vector<vk::DescriptorSet> allocate_sets(const Gpu& gpu,
                                                            const vk::raii::DescriptorPool& pool,

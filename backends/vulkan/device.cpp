@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <variant>
 
 #include "backends/vulkan/errors.hpp"
 #include "backends/vulkan/filter_probe.hpp"
+#include "backends/vulkan/support.hpp"
 #include "backends/vulkan/techniques.hpp"
 #include "backends/vulkan/volume_resources.hpp"
 #include "core/error.hpp"
@@ -15,18 +17,26 @@
 namespace triptych::vulkan_backend {
 namespace {
 
+template <class SuiteWork>
 using Prepare = std::unique_ptr<measure::Prepared> (*)(const Gpu&, const Instance&,
-                                                       const measure::VolumeWork&);
+                                                       const SuiteWork&);
 
 struct Entry {
   std::string_view technique;
-  Prepare prepare;
-  bool draws;
+  std::variant<Prepare<measure::VolumeWork>, Prepare<measure::ParticleWork>> prepare;
+  Needs needs;
 };
-constexpr std::array<Entry, 3> entries{{
-    {"raycast", &prepare_raycast, false},
-    {"raycast_fragment", &prepare_raycast_fragment, true},
-    {"speed_of_light", &prepare_speed_of_light, false},
+constexpr std::array<Entry, 10> entries{{
+    {"raycast", &prepare_raycast, Needs::nothing},
+    {"raycast_fragment", &prepare_raycast_fragment, Needs::drawing},
+    {"speed_of_light", &prepare_speed_of_light, Needs::nothing},
+    {"quad_screen", &prepare_quad_screen, Needs::geometry},
+    {"quad_ray", &prepare_quad_ray, Needs::geometry},
+    {"quad_instanced", &prepare_quad_instanced, Needs::drawing},
+    {"quad_tess", &prepare_quad_tess, Needs::tessellation},
+    {"polygon_tess", &prepare_polygon_tess, Needs::tessellation},
+    {"polygon_adaptive", &prepare_polygon_adaptive, Needs::tessellation},
+    {"point", &prepare_point, Needs::drawing},
 }};
 
 const Entry* find_entry(std::string_view technique) {
@@ -36,69 +46,6 @@ const Entry* find_entry(std::string_view technique) {
 
 // Below this a device's filter is as good as interpolation in single precision.
 constexpr double exact_filter = 1e-5;
-
-std::optional<std::string> format_reason(const Gpu& gpu, const measure::VolumeWork& work) {
-  const scene::VoxelFormat format = work.scene.grid->format;
-  const std::string name = vk::to_string(texture_format(format));
-  if (!can_sample(gpu, format)) return fmt::format("cannot sample images of format {}", name);
-  if (work.options.sampler == technique::Sampler::hardware && !can_filter(gpu, format)) {
-    return fmt::format("cannot filter images of format {} linearly", name);
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> volume_size_reason(const Gpu& gpu, const scene::VoxelGrid& grid) {
-  const std::uint32_t limit = gpu.properties.limits.maxImageDimension3D;
-  const int longest = std::ranges::max(grid.size);
-  if (static_cast<std::uint32_t>(longest) > limit) {
-    return fmt::format("a volume of {}x{}x{} voxels exceeds maxImageDimension3D = {}", grid.size[0],
-                       grid.size[1], grid.size[2], limit);
-  }
-  const auto format = gpu.physical.getImageFormatProperties(
-      texture_format(grid.format), vk::ImageType::e3D, vk::ImageTiling::eOptimal,
-      vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
-  const std::uint64_t bytes = grid.voxel_count() * scene::bytes_of(grid.format);
-  if (bytes > format.maxResourceSize) {
-    return fmt::format("a volume of {} bytes exceeds maxResourceSize = {}", bytes,
-                       format.maxResourceSize);
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> picture_reason(const Gpu& gpu, const scene::VolumeScene& scene,
-                                          bool draws) {
-  const vk::PhysicalDeviceLimits& limits = gpu.properties.limits;
-  if (draws) {
-    const std::uint32_t limit =
-        std::min({limits.maxFramebufferWidth, limits.maxFramebufferHeight,
-                  limits.maxImageDimension2D, std::ranges::min(limits.maxViewportDimensions)});
-    if (static_cast<std::uint32_t>(std::max(scene.width, scene.height)) <= limit) {
-      return std::nullopt;
-    }
-    return fmt::format("a viewport of {}x{} exceeds the largest frame buffer of {}", scene.width,
-                       scene.height, limit);
-  }
-  const std::uint64_t bytes = 4 * sizeof(float) * static_cast<std::uint64_t>(scene.width) *
-                              static_cast<std::uint64_t>(scene.height);
-  if (bytes > limits.maxStorageBufferRange) {
-    return fmt::format("a viewport of {}x{} needs {} bytes; maxStorageBufferRange = {}",
-                       scene.width, scene.height, bytes, limits.maxStorageBufferRange);
-  }
-  return std::nullopt;
-}
-
-std::optional<std::string> memory_reason(const Gpu& gpu, const scene::VolumeScene& scene) {
-  std::uint64_t largest = 0;
-  for (std::uint32_t heap = 0; heap < gpu.memory.memoryHeapCount; ++heap) {
-    const vk::MemoryHeap& each = gpu.memory.memoryHeaps[heap];
-    if (each.flags & vk::MemoryHeapFlagBits::eDeviceLocal) largest = std::max(largest, each.size);
-  }
-  const std::uint64_t needed = scene.grid->voxel_count() * scene::bytes_of(scene.grid->format) +
-                               4 * sizeof(float) * static_cast<std::uint64_t>(scene.width) *
-                                   static_cast<std::uint64_t>(scene.height);
-  if (needed <= largest) return std::nullopt;
-  return fmt::format("needs {} bytes of device memory; the largest heap has {}", needed, largest);
-}
 
 }  // namespace
 
@@ -116,15 +63,15 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
   return translated([&]() -> std::optional<std::string> {
     const Entry* entry = find_entry(work.technique);
     if (entry == nullptr) return fmt::format("Vulkan has no technique {}", work.technique);
-    if (entry->draws && !gpu_.draws) return "the device has no queue that draws";
-    if (entry->draws && gpu_.features.fragmentStoresAndAtomics == VK_FALSE) {
-      return "the device lacks fragmentStoresAndAtomics, which counting needs";
+    if (entry->prepare.index() != work.scene.index()) {
+      return fmt::format("the technique {} draws scenes of the other suite", work.technique);
     }
-    const auto& volume = std::get<measure::VolumeWork>(work.scene);
-    if (auto reason = format_reason(gpu_, volume)) return reason;
-    if (auto reason = volume_size_reason(gpu_, *volume.scene.grid)) return reason;
-    if (auto reason = picture_reason(gpu_, volume.scene, entry->draws)) return reason;
-    return memory_reason(gpu_, volume.scene);
+    if (auto reason = feature_reason(gpu_, entry->needs)) return reason;
+    if (const auto* volume = std::get_if<measure::VolumeWork>(&work.scene)) {
+      return volume_reason(gpu_, *volume, entry->needs);
+    }
+    return particle_reason(gpu_, std::get<measure::ParticleWork>(work.scene), work.technique,
+                           entry->needs);
   });
 }
 
@@ -155,8 +102,13 @@ std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   const auto reason = unsupported(work);
   const Entry* entry = find_entry(work.technique);
   if (reason || entry == nullptr) throw core::NotSupported(reason.value_or(work.technique));
-  return translated(
-      [&] { return entry->prepare(gpu_, *instance_, std::get<measure::VolumeWork>(work.scene)); });
+  return translated([&] {
+    if (const auto* volume = std::get_if<measure::VolumeWork>(&work.scene)) {
+      return std::get<Prepare<measure::VolumeWork>>(entry->prepare)(gpu_, *instance_, *volume);
+    }
+    return std::get<Prepare<measure::ParticleWork>>(entry->prepare)(
+        gpu_, *instance_, std::get<measure::ParticleWork>(work.scene));
+  });
 }
 
 }  // namespace triptych::vulkan_backend

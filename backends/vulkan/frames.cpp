@@ -14,13 +14,19 @@ struct Statistic {
 };
 
 // In the order of their bits, which is the order in which a query returns them.
-constexpr std::array<Statistic, 7> statistics_in_order{{
+constexpr std::array<Statistic, 11> statistics_in_order{{
     {vk::QueryPipelineStatisticFlagBits::eInputAssemblyVertices, "input_assembly_vertices"},
     {vk::QueryPipelineStatisticFlagBits::eInputAssemblyPrimitives, "input_assembly_primitives"},
     {vk::QueryPipelineStatisticFlagBits::eVertexShaderInvocations, "vertex_invocations"},
+    {vk::QueryPipelineStatisticFlagBits::eGeometryShaderInvocations, "geometry_invocations"},
+    {vk::QueryPipelineStatisticFlagBits::eGeometryShaderPrimitives, "geometry_primitives"},
     {vk::QueryPipelineStatisticFlagBits::eClippingInvocations, "clipping_invocations"},
     {vk::QueryPipelineStatisticFlagBits::eClippingPrimitives, "clipping_primitives"},
     {vk::QueryPipelineStatisticFlagBits::eFragmentShaderInvocations, "fragment_invocations"},
+    {vk::QueryPipelineStatisticFlagBits::eTessellationControlShaderPatches,
+     "tessellation_control_patches"},
+    {vk::QueryPipelineStatisticFlagBits::eTessellationEvaluationShaderInvocations,
+     "tessellation_evaluation_invocations"},
     {vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations, "compute_invocations"},
 }};
 

@@ -32,7 +32,13 @@ Gpu open_gpu(const vk::raii::PhysicalDevice& physical) {
   const std::uint32_t family = choose_family(families, properties.deviceName.data());
   const vk::PhysicalDeviceFeatures offered = physical.getFeatures();
   const vk::PhysicalDeviceFeatures features{
+      .geometryShader = offered.geometryShader,
+      .tessellationShader = offered.tessellationShader,
+      .multiDrawIndirect = offered.multiDrawIndirect,
+      .drawIndirectFirstInstance = offered.drawIndirectFirstInstance,
+      .largePoints = offered.largePoints,
       .pipelineStatisticsQuery = offered.pipelineStatisticsQuery,
+      .vertexPipelineStoresAndAtomics = offered.vertexPipelineStoresAndAtomics,
       .fragmentStoresAndAtomics = offered.fragmentStoresAndAtomics};
   constexpr float priority = 1.0F;
   const vk::DeviceQueueCreateInfo queue{

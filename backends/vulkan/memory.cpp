@@ -9,6 +9,9 @@
 namespace triptych::vulkan_backend {
 namespace {
 
+constexpr std::size_t staging_goal = std::size_t{16} << 20;
+constexpr std::size_t smallest_buffer = 16;
+
 std::uint32_t memory_type(const Gpu& gpu, std::uint32_t allowed, Place place) {
   using enum vk::MemoryPropertyFlagBits;
   const vk::MemoryPropertyFlags host = eHostVisible | eHostCoherent;
@@ -42,7 +45,7 @@ void change_layout(const vk::raii::CommandBuffer& commands, const Image& image,
       .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
       .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
       .image = image.get(),
-      .subresourceRange = whole_colour};
+      .subresourceRange = image.whole()};
   commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands,
                            vk::PipelineStageFlagBits::eAllCommands, {}, {}, {}, barrier);
 }
@@ -68,8 +71,9 @@ Buffer::Buffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, 
 }
 
 Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D extent,
-             vk::ImageUsageFlags usage)
+             vk::ImageUsageFlags usage, vk::ImageAspectFlagBits aspect)
     : extent_(extent),
+      aspect_(aspect),
       memory_(nullptr),
       image_(gpu.device, vk::ImageCreateInfo{.imageType = type,
                                              .format = format,
@@ -84,21 +88,27 @@ Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D
   view_ = {gpu.device, vk::ImageViewCreateInfo{.image = *image_,
                                                .viewType = static_cast<vk::ImageViewType>(type),
                                                .format = format,
-                                               .subresourceRange = whole_colour}};
+                                               .subresourceRange = whole()}};
 }
 
 Buffer make_buffer(const Gpu& gpu, std::span<const std::byte> bytes, vk::BufferUsageFlags usage) {
-  const Buffer staging(gpu, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc, Place::upload);
-  std::ranges::copy(bytes, staging.mapped().begin());
-  Buffer buffer(gpu, bytes.size(), usage | vk::BufferUsageFlagBits::eTransferDst, Place::device);
-  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
-    commands.copyBuffer(staging.get(), buffer.get(), vk::BufferCopy{.size = bytes.size()});
-  });
+  Buffer buffer(gpu, std::max(bytes.size(), smallest_buffer),
+                usage | vk::BufferUsageFlagBits::eTransferDst, Place::device);
+  if (bytes.empty()) return buffer;
+  const std::size_t part = std::min(bytes.size(), staging_goal);
+  const Buffer staging(gpu, part, vk::BufferUsageFlagBits::eTransferSrc, Place::upload);
+  for (std::size_t begin = 0; begin < bytes.size(); begin += part) {
+    const std::size_t size = std::min(part, bytes.size() - begin);
+    std::ranges::copy(bytes.subspan(begin, size), staging.mapped().begin());
+    run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
+      commands.copyBuffer(staging.get(), buffer.get(),
+                          vk::BufferCopy{.dstOffset = begin, .size = size});
+    });
+  }
   return buffer;
 }
 
 void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texels) {
-  constexpr std::size_t staging_goal = std::size_t{16} << 20;
   const vk::Extent3D extent = image.extent();
   const std::size_t slice = texels.size() / extent.depth;
   const std::size_t slices = std::clamp<std::size_t>(staging_goal / slice, 1, extent.depth);
@@ -112,7 +122,7 @@ void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texel
       commands.copyBufferToImage(
           staging.get(), image.get(), eTransferDstOptimal,
           vk::BufferImageCopy{
-              .imageSubresource = colour_layer,
+              .imageSubresource = image.layer(),
               .imageOffset = {.z = static_cast<std::int32_t>(z)},
               .imageExtent = {extent.width, extent.height, static_cast<std::uint32_t>(count)}});
       if (z + count == extent.depth) {
@@ -136,7 +146,7 @@ void download(const Gpu& gpu, const Image& from, std::span<std::byte> to) {
   run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
     commands.copyImageToBuffer(
         from.get(), vk::ImageLayout::eTransferSrcOptimal, staging.get(),
-        vk::BufferImageCopy{.imageSubresource = colour_layer, .imageExtent = from.extent()});
+        vk::BufferImageCopy{.imageSubresource = from.layer(), .imageExtent = from.extent()});
     release_to_host(commands);
   });
   std::memcpy(to.data(), staging.mapped().data(), to.size());

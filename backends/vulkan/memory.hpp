@@ -36,25 +36,29 @@ class Buffer {
 class Image {
  public:
   Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D extent,
-        vk::ImageUsageFlags usage);
+        vk::ImageUsageFlags usage,
+        vk::ImageAspectFlagBits aspect = vk::ImageAspectFlagBits::eColor);
 
   [[nodiscard]] vk::Image get() const noexcept { return *image_; }
   [[nodiscard]] vk::ImageView view() const noexcept { return *view_; }
   [[nodiscard]] vk::Extent3D extent() const noexcept { return extent_; }
+  [[nodiscard]] vk::ImageSubresourceRange whole() const noexcept {
+    return {.aspectMask = aspect_, .levelCount = 1, .layerCount = 1};
+  }
+  [[nodiscard]] vk::ImageSubresourceLayers layer() const noexcept {
+    return {.aspectMask = aspect_, .layerCount = 1};
+  }
 
  private:
   vk::Extent3D extent_;
+  vk::ImageAspectFlagBits aspect_;
   vk::raii::DeviceMemory memory_;
   vk::raii::Image image_;
   vk::raii::ImageView view_;
 };
 
-inline constexpr vk::ImageSubresourceRange whole_colour{
-    .aspectMask = vk::ImageAspectFlagBits::eColor, .levelCount = 1, .layerCount = 1};
-inline constexpr vk::ImageSubresourceLayers colour_layer{
-    .aspectMask = vk::ImageAspectFlagBits::eColor, .layerCount = 1};
-
-// A device-local buffer holding `bytes`.
+// A device-local buffer holding `bytes`; of some bytes where there are none, as a buffer must have.
+// Goes through a small staging buffer part by part, so that the data are held but once.
 [[nodiscard]] Buffer make_buffer(const Gpu& gpu, std::span<const std::byte> bytes,
                                  vk::BufferUsageFlags usage);
 

@@ -1,8 +1,8 @@
 #include "backends/vulkan/pipeline.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <cstddef>
 #include <cstring>
 #include <stdexcept>
 #include <vector>
@@ -24,25 +24,16 @@ vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view code) {
   return {gpu.device, vk::ShaderModuleCreateInfo{.codeSize = code.size(), .pCode = words.data()}};
 }
 
-const std::array<vk::SpecializationMapEntry, 5>& constant_entries() {
-  static constexpr std::array<vk::SpecializationMapEntry, 5> entries{{
-      {.constantID = 0, .offset = offsetof(Constants, manual_sampler), .size = 4},
-      {.constantID = 1, .offset = offsetof(Constants, shading), .size = 4},
-      {.constantID = 2, .offset = offsetof(Constants, speed_of_light), .size = 4},
-      {.constantID = 3, .offset = offsetof(Constants, fault), .size = 4},
-      {.constantID = 4, .offset = offsetof(Constants, opacity_form), .size = 4},
-  }};
-  return entries;
+vk::SpecializationInfo Specialization::info() const {
+  return {.mapEntryCount = static_cast<std::uint32_t>(entries_.size()),
+          .pMapEntries = entries_.data(),
+          .dataSize = words_.size() * sizeof(std::int32_t),
+          .pData = words_.data()};
 }
 
 vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
-                                         std::string_view code, const Constants& constants) {
-  const auto& entries = constant_entries();
-  const vk::SpecializationInfo specialization{
-      .mapEntryCount = static_cast<std::uint32_t>(entries.size()),
-      .pMapEntries = entries.data(),
-      .dataSize = sizeof constants,
-      .pData = &constants};
+                                         std::string_view code, const Specialization& constants) {
+  const vk::SpecializationInfo specialization = constants.info();
   const vk::raii::ShaderModule module = make_shader(gpu, code);
   return {gpu.device, nullptr,
           vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
@@ -57,6 +48,13 @@ std::string code_hash(std::string_view code, const Constants& constants) {
   text += fmt::format("manual_sampler={} shading={} speed_of_light={} fault={} opacity_form={}",
                       constants.manual_sampler, constants.shading, constants.speed_of_light,
                       constants.fault, constants.opacity_form);
+  return core::content_hash(text);
+}
+
+std::string code_hash(std::span<const std::string_view> codes, const Specialization& constants) {
+  std::string text;
+  for (const std::string_view code : codes) text += code;
+  text += fmt::format("{}", fmt::join(constants.words(), " "));
   return core::content_hash(text);
 }
 

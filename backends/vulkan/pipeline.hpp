@@ -2,16 +2,42 @@
 // Device code: SPIR-V built with the program, specialised when a technique is prepared.
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "backends/vulkan/descriptors.hpp"
 #include "backends/vulkan/gpu.hpp"
 
 namespace triptych::vulkan_backend {
 
-// Specialization constants in the order of their numbers in shaders/prelude.glsl.
+// Specialization constants: word n has the constant_id n.
+class Specialization {
+ public:
+  // From a struct of four-byte scalars.
+  template <class Constants>
+  explicit Specialization(const Constants& constants) {
+    const auto words =
+        std::bit_cast<std::array<std::int32_t, sizeof(Constants) / sizeof(std::int32_t)>>(
+            constants);
+    words_.assign(words.begin(), words.end());
+    for (std::uint32_t i = 0; i < words_.size(); ++i) {
+      entries_.push_back({.constantID = i, .offset = 4 * i, .size = 4});
+    }
+  }
+  // Valid as long as this object.
+  [[nodiscard]] vk::SpecializationInfo info() const;
+  [[nodiscard]] std::span<const std::int32_t> words() const noexcept { return words_; }
+
+ private:
+  std::vector<std::int32_t> words_;
+  std::vector<vk::SpecializationMapEntry> entries_;
+};
+
+// The constants of the volume techniques, in the order of their numbers in shaders/prelude.glsl.
 struct Constants {
   std::int32_t manual_sampler = 1;
   std::int32_t shading = 0;
@@ -28,12 +54,16 @@ static_assert(sizeof(Constants) == 5 * 4);
 
 [[nodiscard]] vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
                                                        std::string_view code,
-                                                       const Constants& constants);
+                                                       const Specialization& constants);
+[[nodiscard]] inline vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
+                                                              std::string_view code,
+                                                              const Constants& constants) {
+  return make_compute_pipeline(gpu, layout, code, Specialization(constants));
+}
 
 // Content hash of the SPIR-V and the constants.
 [[nodiscard]] std::string code_hash(std::string_view code, const Constants& constants);
-
-// Map entries for vk::SpecializationInfo over Constants.
-[[nodiscard]] const std::array<vk::SpecializationMapEntry, 5>& constant_entries();
+[[nodiscard]] std::string code_hash(std::span<const std::string_view> codes,
+                                    const Specialization& constants);
 
 }  // namespace triptych::vulkan_backend

@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "backends/vulkan/draw_pipeline.hpp"
 #include "backends/vulkan/errors.hpp"
 #include "backends/vulkan/frames.hpp"
 #include "backends/vulkan/techniques.hpp"
@@ -53,57 +54,16 @@ vk::raii::Framebuffer make_framebuffer(const Gpu& gpu, const vk::raii::RenderPas
                                                 .layers = 1}};
 }
 
-// A full-screen triangle without vertex buffers, depth or blending; the scissor is set at draw
-// time.
-vk::raii::Pipeline make_draw_pipeline(const Gpu& gpu, const Layout& layout,
-                                      const vk::raii::RenderPass& pass, vk::Extent3D extent,
-                                      std::string_view fragment_shader,
-                                      const Constants& constants) {
-  const auto& entries = constant_entries();
-  const vk::SpecializationInfo specialization{
-      .mapEntryCount = static_cast<std::uint32_t>(entries.size()),
-      .pMapEntries = entries.data(),
-      .dataSize = sizeof constants,
-      .pData = &constants};
-  const vk::raii::ShaderModule vertex = make_shader(gpu, spirv(vertex_shader));
-  const vk::raii::ShaderModule fragment = make_shader(gpu, spirv(fragment_shader));
-  const std::array<vk::PipelineShaderStageCreateInfo, 2> stages{{
-      {.stage = vk::ShaderStageFlagBits::eVertex, .module = *vertex, .pName = "main"},
-      {.stage = vk::ShaderStageFlagBits::eFragment,
-       .module = *fragment,
-       .pName = "main",
-       .pSpecializationInfo = &specialization},
-  }};
-  const vk::PipelineVertexInputStateCreateInfo no_vertices;
-  const vk::PipelineInputAssemblyStateCreateInfo triangles{
-      .topology = vk::PrimitiveTopology::eTriangleList};
-  const vk::Viewport viewport{.width = static_cast<float>(extent.width),
-                              .height = static_cast<float>(extent.height),
-                              .maxDepth = 1};
-  const vk::PipelineViewportStateCreateInfo viewports{
-      .viewportCount = 1, .pViewports = &viewport, .scissorCount = 1};
-  const vk::PipelineRasterizationStateCreateInfo fill{.lineWidth = 1};
-  const vk::PipelineMultisampleStateCreateInfo one_sample{.rasterizationSamples =
-                                                              vk::SampleCountFlagBits::e1};
-  using enum vk::ColorComponentFlagBits;
-  const vk::PipelineColorBlendAttachmentState overwrite{.colorWriteMask = eR | eG | eB | eA};
-  const vk::PipelineColorBlendStateCreateInfo blend{.attachmentCount = 1,
-                                                    .pAttachments = &overwrite};
-  const vk::DynamicState scissor = vk::DynamicState::eScissor;
-  const vk::PipelineDynamicStateCreateInfo dynamic{.dynamicStateCount = 1,
-                                                   .pDynamicStates = &scissor};
-  return {gpu.device, nullptr,
-          vk::GraphicsPipelineCreateInfo{.stageCount = static_cast<std::uint32_t>(stages.size()),
-                                         .pStages = stages.data(),
-                                         .pVertexInputState = &no_vertices,
-                                         .pInputAssemblyState = &triangles,
-                                         .pViewportState = &viewports,
-                                         .pRasterizationState = &fill,
-                                         .pMultisampleState = &one_sample,
-                                         .pColorBlendState = &blend,
-                                         .pDynamicState = &dynamic,
-                                         .layout = *layout.pipeline,
-                                         .renderPass = *pass}};
+// A full-screen triangle without vertex buffers.
+vk::raii::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout,
+                                 const vk::raii::RenderPass& pass, vk::Extent3D extent,
+                                 std::string_view fragment_shader, const Constants& constants) {
+  return make_draw_pipeline(
+      gpu, layout, pass,
+      {.stages = {{vk::ShaderStageFlagBits::eVertex, spirv(vertex_shader)},
+                  {vk::ShaderStageFlagBits::eFragment, spirv(fragment_shader)}},
+       .extent = extent},
+      Specialization(constants));
 }
 
 class FragmentFrames final : public measure::Prepared {
@@ -148,8 +108,8 @@ FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
       resources_(gpu, work, nullptr),
       render_pass_(make_render_pass(gpu)),
       framebuffer_(make_framebuffer(gpu, render_pass_, target_)),
-      pipeline_(make_draw_pipeline(gpu, resources_.layout(), render_pass_, target_.extent(),
-                                   timed_shader, constants_)),
+      pipeline_(make_pipeline(gpu, resources_.layout(), render_pass_, target_.extent(),
+                              timed_shader, constants_)),
       counting_pipeline_(nullptr),
       frames_(gpu, draw_statistics(), [this](const vk::raii::CommandBuffer& commands) {
         draw(commands, pipeline_, Pass::whole);
@@ -191,8 +151,8 @@ void FragmentFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
 
 void FragmentFrames::prepare_counters() {
   resources_.bind_counters();
-  counting_pipeline_ = make_draw_pipeline(gpu_, resources_.layout(), render_pass_, target_.extent(),
-                                          counting_shader, constants_);
+  counting_pipeline_ = make_pipeline(gpu_, resources_.layout(), render_pass_, target_.extent(),
+                                     counting_shader, constants_);
   frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
     draw(commands, counting_pipeline_, Pass::counting);
   });

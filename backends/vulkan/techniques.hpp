@@ -1,5 +1,5 @@
 #pragma once
-// One file per technique: raycast.cpp, raycast_fragment.cpp, speed_of_light.cpp.
+// One file per technique, of its name.
 
 #include <memory>
 
@@ -16,5 +16,24 @@ namespace triptych::vulkan_backend {
     const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work);
 [[nodiscard]] std::unique_ptr<measure::Prepared> prepare_speed_of_light(
     const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work);
+
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_screen(
+    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work);
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_ray(
+    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work);
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_instanced(
+    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work);
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_tess(
+    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work);
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_polygon_tess(
+    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work);
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_polygon_adaptive(
+    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work);
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_point(const Gpu& gpu,
+                                                               const Instance& instance,
+                                                               const measure::ParticleWork& work);
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_tiles(const Gpu& gpu,
+                                                               const Instance& instance,
+                                                               const measure::ParticleWork& work);
 
 }  // namespace triptych::vulkan_backend

@@ -1,0 +1,36 @@
+#pragma once
+#include <optional>
+
+#include "backends/vulkan/particle_data.hpp"
+
+namespace triptych::vulkan_backend {
+
+inline constexpr std::uint32_t commands_binding = first_free_binding;
+
+// The device pass that leaves out cells outside the view, and the draws of what it leaves.
+class CellCulling {
+ public:
+  // `instanced`: a cell's particles are instances of four vertices, otherwise vertices. `layout`
+  // holds particle_bindings() and commands_binding.
+  CellCulling(const Gpu& gpu, const Layout& layout, std::uint32_t cells, bool instanced,
+              const Specialization& constants);
+
+  void bind(vk::DescriptorSet set) const;
+
+  // The set must be bound for compute.
+  void record(const vk::raii::CommandBuffer& commands, bool counting) const;
+  // Draws every stride-th cell of those left, in order.
+  void draw(const vk::raii::CommandBuffer& commands, std::uint32_t stride) const;
+
+ private:
+  const Gpu& gpu_;
+  std::uint32_t cells_;
+  Buffer draws_;
+  vk::raii::Pipeline pipeline_;
+  vk::raii::Pipeline counting_pipeline_;
+};
+
+// Whether the device can draw what CellCulling leaves; the reason where it cannot.
+[[nodiscard]] std::optional<std::string> cannot_cull(const Gpu& gpu, bool instanced);
+
+}  // namespace triptych::vulkan_backend

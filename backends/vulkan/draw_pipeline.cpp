@@ -1,0 +1,92 @@
+#include "backends/vulkan/draw_pipeline.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+// Keeps the modules and the constants alive that the stages point to.
+class Stages {
+ public:
+  Stages(const Gpu& gpu, const std::vector<DrawStage>& stages, const Specialization& constants)
+      : constants_(constants.info()) {
+    modules_.reserve(stages.size());
+    for (const DrawStage& each : stages) {
+      modules_.push_back(make_shader(gpu, each.code));
+      infos_.push_back({.stage = each.stage,
+                        .module = *modules_.back(),
+                        .pName = "main",
+                        .pSpecializationInfo = &constants_});
+    }
+  }
+  Stages(const Stages&) = delete;
+  Stages& operator=(const Stages&) = delete;
+
+  [[nodiscard]] const std::vector<vk::PipelineShaderStageCreateInfo>& infos() const {
+    return infos_;
+  }
+
+ private:
+  vk::SpecializationInfo constants_;
+  std::vector<vk::raii::ShaderModule> modules_;
+  std::vector<vk::PipelineShaderStageCreateInfo> infos_;
+};
+
+std::vector<vk::PipelineColorBlendAttachmentState> overwriting(std::uint32_t targets) {
+  using enum vk::ColorComponentFlagBits;
+  return {targets, {.colorWriteMask = eR | eG | eB | eA}};
+}
+
+vk::PipelineDepthStencilStateCreateInfo depth_state(std::optional<vk::CompareOp> compare) {
+  const vk::Bool32 on = compare ? VK_TRUE : VK_FALSE;
+  return {.depthTestEnable = on,
+          .depthWriteEnable = on,
+          .depthCompareOp = compare.value_or(vk::CompareOp::eAlways)};
+}
+
+}  // namespace
+
+vk::raii::Pipeline make_draw_pipeline(const Gpu& gpu, const Layout& layout,
+                                      const vk::raii::RenderPass& pass, const DrawState& state,
+                                      const Specialization& constants) {
+  const Stages stages(gpu, state.stages, constants);
+  const vk::PipelineVertexInputStateCreateInfo vertices{
+      .vertexBindingDescriptionCount = static_cast<std::uint32_t>(state.vertex_bindings.size()),
+      .pVertexBindingDescriptions = state.vertex_bindings.data(),
+      .vertexAttributeDescriptionCount = static_cast<std::uint32_t>(state.vertex_attributes.size()),
+      .pVertexAttributeDescriptions = state.vertex_attributes.data()};
+  const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = state.topology};
+  const vk::PipelineTessellationStateCreateInfo patches{.patchControlPoints = state.patch_points};
+  const bool tessellates = state.topology == vk::PrimitiveTopology::ePatchList;
+  const vk::Viewport viewport{.width = static_cast<float>(state.extent.width),
+                              .height = static_cast<float>(state.extent.height),
+                              .maxDepth = 1};
+  const vk::PipelineViewportStateCreateInfo viewports{
+      .viewportCount = 1, .pViewports = &viewport, .scissorCount = 1};
+  const vk::PipelineRasterizationStateCreateInfo fill{.lineWidth = 1};
+  const vk::PipelineMultisampleStateCreateInfo one_sample{.rasterizationSamples =
+                                                              vk::SampleCountFlagBits::e1};
+  const vk::PipelineDepthStencilStateCreateInfo depth = depth_state(state.depth);
+  const auto targets = overwriting(state.colour_targets);
+  const vk::PipelineColorBlendStateCreateInfo blend{
+      .attachmentCount = static_cast<std::uint32_t>(targets.size()),
+      .pAttachments = targets.data()};
+  const vk::DynamicState scissor = vk::DynamicState::eScissor;
+  const vk::PipelineDynamicStateCreateInfo dynamic{.dynamicStateCount = 1,
+                                                   .pDynamicStates = &scissor};
+  return {gpu.device, nullptr,
+          vk::GraphicsPipelineCreateInfo{
+              .stageCount = static_cast<std::uint32_t>(stages.infos().size()),
+              .pStages = stages.infos().data(),
+              .pVertexInputState = &vertices,
+              .pInputAssemblyState = &assembly,
+              .pTessellationState = tessellates ? &patches : nullptr,
+              .pViewportState = &viewports,
+              .pRasterizationState = &fill,
+              .pMultisampleState = &one_sample,
+              .pDepthStencilState = state.depth ? &depth : nullptr,
+              .pColorBlendState = &blend,
+              .pDynamicState = &dynamic,
+              .layout = *layout.pipeline,
+              .renderPass = *pass}};
+}
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,154 @@
+#include "backends/vulkan/particle_data.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "technique/particles/particle_parameters.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+using enum vk::BufferUsageFlagBits;
+
+// parameters.glsl: rows of counters, and counters in a row.
+constexpr std::size_t counter_rows = 1024;
+constexpr std::size_t counter_columns = 8;
+
+Buffer upload_parameters(const Gpu& gpu, const measure::ParticleWork& work,
+                         const technique::Arrangement& arrangement) {
+  const technique::ParticleParameters parameters =
+      technique::particle_parameters(work.scene, work.options, arrangement);
+  return make_buffer(gpu, std::as_bytes(std::span(&parameters, 1)), eUniformBuffer);
+}
+
+std::span<const std::byte> colour_data(const technique::Arrangement& arrangement) {
+  switch (arrangement.colour) {
+    case scene::ColourKind::rgba8:
+      return std::as_bytes(std::span(arrangement.rgba8));
+    case scene::ColourKind::rgba32:
+      return std::as_bytes(std::span(arrangement.rgba32));
+    case scene::ColourKind::intensity:
+      return std::as_bytes(std::span(arrangement.intensity));
+  }
+  return {};
+}
+
+template <class Element>
+Buffer upload_property(const Gpu& gpu, const std::vector<Element>& elements) {
+  return make_buffer(gpu, std::as_bytes(std::span(elements)), eVertexBuffer | eStorageBuffer);
+}
+
+}  // namespace
+
+int largest_point(const Gpu& gpu) {
+  if (gpu.features.largePoints == VK_FALSE) return 1;
+  return static_cast<int>(gpu.properties.limits.pointSizeRange[1]);
+}
+
+ParticleConstants particle_constants(const Gpu& gpu, const measure::ParticleWork& work) {
+  using technique::ComputedAt;
+  return {.colour = static_cast<std::int32_t>(work.scene.particles->colour),
+          .transfer_at_pixel = work.options.transfer == ComputedAt::pixel ? 1 : 0,
+          .ray_at_vertex = work.options.ray == ComputedAt::vertex ? 1 : 0,
+          .fault = static_cast<std::int32_t>(work.options.fault),
+          .largest_point = largest_point(gpu)};
+}
+
+vk::Format colour_format(scene::ColourKind kind) {
+  switch (kind) {
+    case scene::ColourKind::rgba8:
+      return vk::Format::eR8G8B8A8Unorm;
+    case scene::ColourKind::rgba32:
+      return vk::Format::eR32G32B32A32Sfloat;
+    case scene::ColourKind::intensity:
+      return vk::Format::eR32Sfloat;
+  }
+  return vk::Format::eUndefined;
+}
+
+std::uint32_t colour_bytes(scene::ColourKind kind) {
+  return kind == scene::ColourKind::rgba32 ? 16 : 4;
+}
+
+vk::DescriptorSetLayoutBinding storage_binding(std::uint32_t number, vk::ShaderStageFlags stages) {
+  return {.binding = number,
+          .descriptorType = vk::DescriptorType::eStorageBuffer,
+          .descriptorCount = 1,
+          .stageFlags = stages};
+}
+
+std::vector<vk::DescriptorSetLayoutBinding> particle_bindings() {
+  using Stage = vk::ShaderStageFlagBits;
+  constexpr vk::ShaderStageFlags drawing = vk::ShaderStageFlagBits::eAllGraphics;
+  constexpr vk::ShaderStageFlags every = drawing | Stage::eCompute;
+  const auto uniform = [](std::uint32_t number) {
+    return vk::DescriptorSetLayoutBinding{.binding = number,
+                                          .descriptorType = vk::DescriptorType::eUniformBuffer,
+                                          .descriptorCount = 1,
+                                          .stageFlags = every};
+  };
+  return {uniform(particle_parameters_binding),
+          uniform(particle_transfer_binding),
+          storage_binding(particle_counters_binding, every),
+          storage_binding(spheres_binding, Stage::eVertex | Stage::eCompute),
+          storage_binding(colours_binding, Stage::eVertex | Stage::eCompute),
+          storage_binding(ids_binding, Stage::eVertex | Stage::eCompute),
+          storage_binding(cells_binding, Stage::eCompute)};
+}
+
+ParticleData::ParticleData(const Gpu& gpu, const measure::ParticleWork& work,
+                           const technique::Arrangement& arrangement)
+    : gpu_(gpu),
+      particles_(static_cast<std::uint32_t>(arrangement.count())),
+      cells_(static_cast<std::uint32_t>(arrangement.cells.size())),
+      parameters_(upload_parameters(gpu, work, arrangement)),
+      transfer_(make_buffer(gpu, std::as_bytes(std::span(work.scene.intensity_colours.entries)),
+                            eUniformBuffer)),
+      counters_(gpu, counter_rows * counter_columns * sizeof(std::uint32_t),
+                eStorageBuffer | eTransferSrc | eTransferDst, Place::device),
+      spheres_(upload_property(gpu, arrangement.spheres)),
+      colours_(make_buffer(gpu, colour_data(arrangement), eVertexBuffer | eStorageBuffer)),
+      ids_(upload_property(gpu, arrangement.ids)),
+      cell_boxes_(make_buffer(gpu, std::as_bytes(std::span(arrangement.cells)), eStorageBuffer)) {}
+
+void ParticleData::bind(vk::DescriptorSet set) const {
+  bind_buffer(gpu_, set, particle_parameters_binding, vk::DescriptorType::eUniformBuffer,
+              parameters_);
+  bind_buffer(gpu_, set, particle_transfer_binding, vk::DescriptorType::eUniformBuffer, transfer_);
+  const auto storage = [&](std::uint32_t binding, const Buffer& buffer) {
+    bind_buffer(gpu_, set, binding, vk::DescriptorType::eStorageBuffer, buffer);
+  };
+  storage(particle_counters_binding, counters_);
+  storage(spheres_binding, spheres_);
+  storage(colours_binding, colours_);
+  storage(ids_binding, ids_);
+  storage(cells_binding, cell_boxes_);
+}
+
+void ParticleData::clear_counters(const vk::raii::CommandBuffer& commands) const {
+  commands.fillBuffer(counters_.get(), 0, VK_WHOLE_SIZE, 0);
+  barrier(commands);
+}
+
+std::uint64_t ParticleData::counter(ParticleCounter which) const {
+  std::vector<std::uint32_t> values(counter_rows * counter_columns);
+  download(gpu_, counters_, std::as_writable_bytes(std::span(values)));
+  std::uint64_t sum = 0;
+  for (std::size_t row = 0; row < counter_rows; ++row) {
+    sum += values[row * counter_columns + static_cast<std::size_t>(which)];
+  }
+  return sum;
+}
+
+record::Counts ParticleData::common_counts(technique::Culling culling) const {
+  const bool culls = culling != technique::Culling::none;
+  const std::uint64_t submitted = culls ? counter(ParticleCounter::submitted) : particles_;
+  return {{"cells", cells_},
+          {"cells_culled", culls ? counter(ParticleCounter::cells_culled) : 0},
+          {"particles_submitted", submitted},
+          {"particles_culled", particles_ - submitted},
+          {"sprites", counter(ParticleCounter::sprites)}};
+}
+
+}  // namespace triptych::vulkan_backend

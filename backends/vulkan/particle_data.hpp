@@ -1,0 +1,94 @@
+#pragma once
+// What every particle technique needs on the device: the arrangement, its parameters, counters.
+
+#include <cstdint>
+#include <vector>
+
+#include "backends/vulkan/descriptors.hpp"
+#include "backends/vulkan/memory.hpp"
+#include "backends/vulkan/pipeline.hpp"
+#include "measure/backend.hpp"
+#include "technique/particles/arrangement.hpp"
+
+namespace triptych::vulkan_backend {
+
+// Bindings of technique/particles/*.glsl.
+enum ParticleBinding : std::uint32_t {
+  particle_parameters_binding = 0,
+  particle_transfer_binding = 1,
+  particle_counters_binding = 2,
+  spheres_binding = 3,
+  colours_binding = 4,
+  ids_binding = 5,
+  cells_binding = 6,
+  first_free_binding = 7  // a technique's own from here
+};
+
+// Specialization constants in the order of their numbers in shaders/particle_prelude.glsl.
+struct ParticleConstants {
+  std::int32_t colour = 0;
+  std::int32_t transfer_at_pixel = 0;
+  std::int32_t ray_at_vertex = 0;
+  std::int32_t fault = 0;
+  std::int32_t largest_point = 1;  // pixels
+};
+[[nodiscard]] ParticleConstants particle_constants(const Gpu& gpu,
+                                                   const measure::ParticleWork& work);
+
+// The largest square point that the device draws, in whole pixels.
+[[nodiscard]] int largest_point(const Gpu& gpu);
+
+// How a particle's colour is stored, for the vertex fetch.
+[[nodiscard]] vk::Format colour_format(scene::ColourKind kind);
+[[nodiscard]] std::uint32_t colour_bytes(scene::ColourKind kind);
+
+// Numbers of the counters, as in parameters.glsl.
+enum class ParticleCounter : std::uint8_t {
+  sprites,
+  vertices,
+  fragments,
+  discarded,
+  bin_entries,
+  submitted,
+  cells_culled
+};
+
+// Buffers in device memory; nothing of the host's is kept.
+class ParticleData {
+ public:
+  ParticleData(const Gpu& gpu, const measure::ParticleWork& work,
+               const technique::Arrangement& arrangement);
+
+  [[nodiscard]] std::uint32_t particles() const noexcept { return particles_; }
+  [[nodiscard]] std::uint32_t cells() const noexcept { return cells_; }
+  [[nodiscard]] const Buffer& spheres() const noexcept { return spheres_; }
+  [[nodiscard]] const Buffer& colours() const noexcept { return colours_; }
+  [[nodiscard]] const Buffer& ids() const noexcept { return ids_; }
+
+  // Binds everything above first_free_binding.
+  void bind(vk::DescriptorSet set) const;
+
+  void clear_counters(const vk::raii::CommandBuffer& commands) const;
+  [[nodiscard]] std::uint64_t counter(ParticleCounter which) const;
+  // What every technique tells: cells, particles, sprites. Without culling all are submitted.
+  [[nodiscard]] record::Counts common_counts(technique::Culling culling) const;
+
+ private:
+  const Gpu& gpu_;
+  std::uint32_t particles_;
+  std::uint32_t cells_;
+  Buffer parameters_;
+  Buffer transfer_;
+  Buffer counters_;
+  Buffer spheres_;
+  Buffer colours_;
+  Buffer ids_;
+  Buffer cell_boxes_;
+};
+
+// The bindings that ParticleData::bind writes.
+[[nodiscard]] std::vector<vk::DescriptorSetLayoutBinding> particle_bindings();
+[[nodiscard]] vk::DescriptorSetLayoutBinding storage_binding(std::uint32_t number,
+                                                             vk::ShaderStageFlags stages);
+
+}  // namespace triptych::vulkan_backend

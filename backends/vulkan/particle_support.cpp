@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "backends/vulkan/cell_culling.hpp"
+#include "backends/vulkan/particle_data.hpp"
+#include "backends/vulkan/support.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+using technique::ParticleFault;
+
+constexpr std::uint64_t sphere_bytes = 4 * sizeof(float);
+
+std::uint64_t particle_bytes(const scene::ParticleSet& set) {
+  return sphere_bytes + colour_bytes(set.colour) + sizeof(std::uint32_t);
+}
+
+std::optional<std::string> fault_reason(ParticleFault fault, const std::string& technique) {
+  const bool tiled = technique == "tiles";
+  switch (fault) {
+    case ParticleFault::lost_at_border:
+    case ParticleFault::missing_barrier:
+      if (!tiled) return fmt::format("{} has no tiles and no work groups to lose in", technique);
+      return std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleSet& set,
+                                          const std::string& technique) {
+  constexpr std::uint32_t buffers = 12;  // the most that a technique binds
+  const vk::PhysicalDeviceLimits& limits = gpu.properties.limits;
+  if (limits.maxPerStageDescriptorStorageBuffers < buffers) {
+    return fmt::format("needs {} storage buffers; maxPerStageDescriptorStorageBuffers = {}",
+                       buffers, limits.maxPerStageDescriptorStorageBuffers);
+  }
+  const bool fetches_by_index =
+      technique == "quad_instanced" || technique == "tiles" || technique == "point";
+  const std::uint64_t bytes = sphere_bytes * set.count();
+  if (fetches_by_index && bytes > limits.maxStorageBufferRange) {
+    return fmt::format("{} particles need {} bytes in one buffer; maxStorageBufferRange = {}",
+                       set.count(), bytes, limits.maxStorageBufferRange);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs) {
+  if (needs == Needs::nothing) return std::nullopt;
+  if (!gpu.draws) return "the device has no queue that draws";
+  if (gpu.features.fragmentStoresAndAtomics == VK_FALSE) {
+    return "the device lacks fragmentStoresAndAtomics, which counting needs";
+  }
+  if (needs == Needs::geometry && gpu.features.geometryShader == VK_FALSE) {
+    return "the device lacks geometryShader";
+  }
+  if (needs == Needs::tessellation && gpu.features.tessellationShader == VK_FALSE) {
+    return "the device lacks tessellationShader";
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> picture_reason(const Gpu& gpu, int width, int height, Needs needs,
+                                          std::uint64_t pixel_bytes) {
+  const vk::PhysicalDeviceLimits& limits = gpu.properties.limits;
+  if (needs != Needs::nothing) {
+    const std::uint32_t limit =
+        std::min({limits.maxFramebufferWidth, limits.maxFramebufferHeight,
+                  limits.maxImageDimension2D, std::ranges::min(limits.maxViewportDimensions)});
+    if (static_cast<std::uint32_t>(std::max(width, height)) <= limit) return std::nullopt;
+    return fmt::format("a viewport of {}x{} exceeds the largest frame buffer of {}", width, height,
+                       limit);
+  }
+  const std::uint64_t bytes =
+      pixel_bytes * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  if (bytes <= limits.maxStorageBufferRange) return std::nullopt;
+  return fmt::format("a viewport of {}x{} needs {} bytes; maxStorageBufferRange = {}", width,
+                     height, bytes, limits.maxStorageBufferRange);
+}
+
+std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed) {
+  std::uint64_t largest = 0;
+  for (std::uint32_t heap = 0; heap < gpu.memory.memoryHeapCount; ++heap) {
+    const vk::MemoryHeap& each = gpu.memory.memoryHeaps[heap];
+    if (each.flags & vk::MemoryHeapFlagBits::eDeviceLocal) largest = std::max(largest, each.size);
+  }
+  if (needed <= largest) return std::nullopt;
+  return fmt::format("needs {} bytes of device memory; the largest heap has {}", needed, largest);
+}
+
+std::optional<std::string> particle_reason(const Gpu& gpu, const measure::ParticleWork& work,
+                                           const std::string& technique, Needs needs) {
+  const scene::ParticleScene& scene = work.scene;
+  const scene::ParticleSet& set = *scene.particles;
+  if (auto reason = fault_reason(work.options.fault, technique)) return reason;
+  const bool before_pixels = needs != Needs::nothing;
+  if (before_pixels && gpu.features.vertexPipelineStoresAndAtomics == VK_FALSE) {
+    return "the device lacks vertexPipelineStoresAndAtomics, which counting needs";
+  }
+  if (work.options.culling != technique::Culling::none) {
+    if (auto reason = cannot_cull(gpu, technique == "quad_instanced")) return reason;
+  }
+  if (auto reason = storage_reason(gpu, set, technique)) return reason;
+  constexpr std::uint64_t pixel_bytes = 4 * sizeof(float);
+  if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
+    return reason;
+  }
+  constexpr std::uint64_t picture_bytes = pixel_bytes + 4 * sizeof(std::uint32_t);
+  return memory_reason(gpu, particle_bytes(set) * set.count() +
+                                picture_bytes * static_cast<std::uint64_t>(scene.width) *
+                                    static_cast<std::uint64_t>(scene.height));
+}
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,70 @@
+// Point sprites. Those larger than the device's points are screen-aligned quads in a second draw.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <utility>
+
+#include "backends/vulkan/sprite_frames.hpp"
+#include "backends/vulkan/techniques.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+// Whether a sphere may need a larger point than `largest` pixels. Its silhouette reaches α =
+// asin(r/d) around its centre, of which a pixel sees at least the pixel's size on the image plane
+// times the squared cosine of the angle to the view axis: an interval from φ − α to φ + α on that
+// plane is tan(φ+α) − tan(φ−α) = sin 2α/(cos(φ+α)·cos(φ−α)) wide.
+bool may_be_large(const scene::ParticleScene& scene, const std::array<float, 4>& sphere,
+                  double largest) {
+  const scene::Camera& camera = scene.camera;
+  const glm::dvec3 centre = glm::dvec3(sphere[0], sphere[1], sphere[2]) - camera.eye;
+  const double d = glm::length(centre);
+  const double r = static_cast<double>(sphere[3]);
+  const double pixel = 2 * std::tan(glm::radians(camera.fov_y_deg) / 2) / scene.height;
+  if (d <= 1.01 * r) return true;
+  const double alpha = std::asin(r / d);
+  const double phi = std::acos(std::clamp(glm::dot(centre, camera.forward) / d, -1.0, 1.0));
+  const double corner = std::atan(pixel * std::hypot(scene.width, scene.height) / 2);
+  if (phi - alpha > corner + 0.01) return false;  // outside the view
+  const double far = std::cos(phi + alpha);
+  const double wide = std::sin(2 * alpha) / (far * std::cos(phi - alpha));
+  constexpr double safety = 0.98;  // margins, and the rounding of floats
+  return phi + alpha > 1.5 || wide / pixel > safety * largest - 1;
+}
+
+// Runs of particles that hold all large ones. Close ones are joined: a draw costs more than
+// vertices.
+std::vector<ParticleRun> large_runs(const scene::ParticleScene& scene,
+                                    const technique::Arrangement& arrangement, double largest) {
+  std::vector<ParticleRun> runs;
+  for (std::uint32_t i = 0; i < arrangement.count(); ++i) {
+    if (!may_be_large(scene, arrangement.spheres[i], largest)) continue;
+    constexpr std::uint32_t longest_gap = 128;
+    if (!runs.empty() && i - runs.back().begin < runs.back().count + longest_gap) {
+      runs.back().count = i - runs.back().begin + 1;
+    } else {
+      runs.push_back({i, 1});
+    }
+  }
+  return runs;
+}
+
+}  // namespace
+
+std::unique_ptr<measure::Prepared> prepare_point(const Gpu& gpu, const Instance& instance,
+                                                 const measure::ParticleWork& work) {
+  using enum vk::ShaderStageFlagBits;
+  const technique::Arrangement arrangement = technique::arrange(work.scene);
+  SpriteTechnique technique;
+  technique.draw.stages = {{eVertex, "point.vert.spv", "point_counting.vert.spv"}};
+  technique.rest.emplace();
+  technique.rest->stages = {{eVertex, "point_large.vert.spv", "point_large_counting.vert.spv"}};
+  technique.rest->instanced = true;
+  technique.rest->topology = vk::PrimitiveTopology::eTriangleStrip;
+  technique.rest_runs = large_runs(work.scene, arrangement, largest_point(gpu));
+  return std::make_unique<SpriteFrames>(gpu, instance, work, arrangement, std::move(technique));
+}
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,21 @@
+// Ray-aligned polygons of a given number of corners, tessellated.
+#include "backends/vulkan/sprite_frames.hpp"
+#include "backends/vulkan/techniques.hpp"
+
+namespace triptych::vulkan_backend {
+
+std::unique_ptr<measure::Prepared> prepare_polygon_tess(const Gpu& gpu, const Instance& instance,
+                                                        const measure::ParticleWork& work) {
+  using enum vk::QueryPipelineStatisticFlagBits;
+  return prepare_sprites(
+      gpu, instance, work,
+      {.draw = {.stages = {attribute_stage,
+                           {vk::ShaderStageFlagBits::eTessellationControl, "polygon_tess.tesc.spv",
+                            "polygon_tess_counting.tesc.spv"},
+                           {vk::ShaderStageFlagBits::eTessellationEvaluation, "polygon.tese.spv",
+                            "polygon.tese.spv"}},
+                .topology = vk::PrimitiveTopology::ePatchList},
+       .statistics = eTessellationControlShaderPatches | eTessellationEvaluationShaderInvocations});
+}
+
+}  // namespace triptych::vulkan_backend

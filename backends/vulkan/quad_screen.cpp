@@ -1,0 +1,18 @@
+// Screen-aligned quads around the silhouettes, made by a geometry shader.
+#include "backends/vulkan/sprite_frames.hpp"
+#include "backends/vulkan/techniques.hpp"
+
+namespace triptych::vulkan_backend {
+
+std::unique_ptr<measure::Prepared> prepare_quad_screen(const Gpu& gpu, const Instance& instance,
+                                                       const measure::ParticleWork& work) {
+  using enum vk::QueryPipelineStatisticFlagBits;
+  return prepare_sprites(
+      gpu, instance, work,
+      {.draw = {.stages = {attribute_stage,
+                           {vk::ShaderStageFlagBits::eGeometry, "quad_screen.geom.spv",
+                            "quad_screen_counting.geom.spv"}}},
+       .statistics = eGeometryShaderInvocations | eGeometryShaderPrimitives});
+}
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,6 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "particle_prelude.glsl"
+#include "particles/camera_space.glsl"
+#include "particles/colour.glsl"
+#include "particles/attributes.vert.glsl"

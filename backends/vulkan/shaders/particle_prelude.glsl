@@ -1,0 +1,15 @@
+// What the shared particle GLSL needs to be Vulkan: one descriptor set, compile-time constants as
+// specialization constants (particle_data.hpp: ParticleConstants). TRI_COUNT, TRI_CONSERVATIVE_DEPTH and the
+// macros that choose between shapes are set when the SPIR-V is built.
+#define TRI_BINDING(n) layout(set = 0, binding = n)
+#define TRI_LINK(n) layout(location = n)
+layout(constant_id = 0) const int TRI_COLOUR = 0;
+layout(constant_id = 1) const int TRI_TRANSFER_AT_PIXEL = 0;
+layout(constant_id = 2) const int TRI_RAY_AT_VERTEX = 0;
+layout(constant_id = 3) const int TRI_FAULT = 0;
+layout(constant_id = 4) const int largest_point = 1;
+#define TRI_LARGEST_POINT float(largest_point)
+#include "portable/prelude.glsl"
+#include "portable/volume_math.h"
+#include "portable/sphere_math.h"
+#include "particles/parameters.glsl"

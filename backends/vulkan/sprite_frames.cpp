@@ -1,0 +1,211 @@
+#include "backends/vulkan/sprite_frames.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "backends/vulkan/errors.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+using technique::Culling;
+using technique::ParticleFault;
+
+vk::QueryPipelineStatisticFlags common_statistics() {
+  using enum vk::QueryPipelineStatisticFlagBits;
+  return eInputAssemblyVertices | eInputAssemblyPrimitives | eVertexShaderInvocations |
+         eClippingInvocations | eClippingPrimitives | eFragmentShaderInvocations;
+}
+
+// Reversed depth: the nearest is the greatest, and the first drawn stays on a tie.
+vk::CompareOp depth_compare(ParticleFault fault) {
+  if (fault == ParticleFault::reversed_depth) return vk::CompareOp::eLess;
+  if (fault == ParticleFault::unresolved_ties) return vk::CompareOp::eGreaterOrEqual;
+  return vk::CompareOp::eGreater;
+}
+
+std::vector<vk::DescriptorSetLayoutBinding> bindings() {
+  auto all = particle_bindings();
+  all.push_back(storage_binding(commands_binding, vk::ShaderStageFlagBits::eCompute));
+  return all;
+}
+
+void read_vertices(DrawState& state, scene::ColourKind colour) {
+  state.vertex_bindings = {{.binding = 0, .stride = 16},
+                           {.binding = 1, .stride = colour_bytes(colour)},
+                           {.binding = 2, .stride = 4}};
+  state.vertex_attributes = {
+      {.location = 0, .binding = 0, .format = vk::Format::eR32G32B32A32Sfloat},
+      {.location = 1, .binding = 1, .format = colour_format(colour)},
+      {.location = 2, .binding = 2, .format = vk::Format::eR32Uint}};
+}
+
+}  // namespace
+
+SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
+                           const measure::ParticleWork& work,
+                           const technique::Arrangement& arrangement, SpriteTechnique technique)
+    : gpu_(gpu),
+      instance_(instance),
+      options_(work.options),
+      colour_(arrangement.colour),
+      technique_(std::move(technique)),
+      constants_(particle_constants(gpu, work)),
+      data_(gpu, work, arrangement),
+      target_(gpu, work.scene, options_.fault == ParticleFault::reversed_depth ? 1.0F : 0.0F),
+      layout_(make_layout(gpu, bindings())),
+      pool_(make_pool(gpu, 1, static_cast<std::uint32_t>(bindings().size()))),
+      set_(allocate_sets(gpu, pool_, layout_, 1).front()),
+      culling_(gpu, layout_, data_.cells(), technique_.draw.instanced, constants_),
+      pipelines_(make_pipelines(false)),
+      counting_pipelines_{nullptr, nullptr},
+      frames_((data_.bind(set_), culling_.bind(set_), gpu),
+              common_statistics() | technique_.statistics,
+              [this](const vk::raii::CommandBuffer& commands) {
+                record(commands, pipelines_, false);
+              }) {
+  instance_.check_validation();
+}
+
+std::string_view SpriteFrames::pixel_stage(bool counting) const {
+  if (counting) return spirv("sphere_counting.frag.spv");
+  if (options_.fault == ParticleFault::wrong_sense) return spirv("sphere_wrong_sense.frag.spv");
+  return spirv(options_.conservative_depth ? "sphere_conservative.frag.spv" : "sphere.frag.spv");
+}
+
+DrawState SpriteFrames::draw_state(const SpriteDraw& draw, bool counting) const {
+  DrawState state{.topology = draw.topology,
+                  .colour_targets = ParticleTarget::colour_targets,
+                  .depth = depth_compare(options_.fault),
+                  .extent = target_.extent()};
+  for (const SpriteStage& each : draw.stages) {
+    state.stages.push_back({each.stage, spirv(counting ? each.counting : each.timed)});
+  }
+  state.stages.push_back({vk::ShaderStageFlagBits::eFragment, pixel_stage(counting)});
+  if (!draw.instanced) read_vertices(state, colour_);
+  return state;
+}
+
+SpriteFrames::Pipelines SpriteFrames::make_pipelines(bool counting) const {
+  const auto make = [&](const SpriteDraw& draw) {
+    return make_draw_pipeline(gpu_, layout_, target_.pass(), draw_state(draw, counting),
+                              constants_);
+  };
+  Pipelines made{make(technique_.draw), nullptr};
+  if (technique_.rest && !technique_.rest_runs.empty()) made.rest = make(*technique_.rest);
+  return made;
+}
+
+void SpriteFrames::record(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
+                          bool counting) const {
+  for (const auto point : {vk::PipelineBindPoint::eCompute, vk::PipelineBindPoint::eGraphics}) {
+    commands.bindDescriptorSets(point, *layout_.pipeline, 0, set_, {});
+  }
+  if (counting) data_.clear_counters(commands);
+  if (options_.culling != Culling::none) culling_.record(commands, counting);
+  target_.begin(commands, false);
+  if (data_.particles() > 0) draw(commands, pipelines, counting);
+  commands.endRenderPass();
+}
+
+void SpriteFrames::draw(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
+                        bool counting) const {
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines.draw);
+  const std::array<vk::DeviceSize, 3> offsets{};
+  const std::array buffers{data_.spheres().get(), data_.colours().get(), data_.ids().get()};
+  commands.bindVertexBuffers(0, buffers, offsets);
+  if (options_.culling == Culling::none) {
+    draw_run(commands, technique_.draw.instanced, {0, data_.particles()});
+  } else {
+    culling_.draw(commands, 1);
+  }
+  if (options_.extra_work_stride > 0 && !counting) draw_again(commands);
+  if (*pipelines.rest) {
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines.rest);
+    for (const ParticleRun& run : technique_.rest_runs) {
+      draw_run(commands, technique_.rest->instanced, run);
+    }
+  }
+}
+
+void SpriteFrames::draw_run(const vk::raii::CommandBuffer& commands, bool instanced,
+                            ParticleRun run) const {
+  if (instanced) {
+    commands.draw(4, run.count, 0, run.begin);
+  } else {
+    commands.draw(run.count, 1, run.begin, 0);
+  }
+}
+
+// Draws 1/stride of the particles once more: whole cells where there are enough of them, so that
+// what is culled stays so. No fragment passes a depth test that keeps the first.
+void SpriteFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
+  const auto stride = static_cast<std::uint32_t>(options_.extra_work_stride);
+  if (options_.culling != Culling::none && data_.cells() >= 8 * stride) {
+    culling_.draw(commands, stride);
+    return;
+  }
+  constexpr std::uint32_t most_runs = 64;
+  const std::uint32_t particles = data_.particles();
+  const std::uint32_t length = std::max(particles / stride / most_runs, 1U);
+  for (std::uint32_t begin = 0; begin < particles;) {
+    draw_run(commands, technique_.draw.instanced, {begin, std::min(length, particles - begin)});
+    if (particles - begin <= length * stride) break;
+    begin += length * stride;
+  }
+}
+
+record::Counts SpriteFrames::read_counts() const {
+  record::Counts counts = data_.common_counts(options_.culling);
+  const std::uint64_t fragments = data_.counter(ParticleCounter::fragments);
+  const std::uint64_t discarded = data_.counter(ParticleCounter::discarded);
+  counts.emplace("vertices", data_.counter(ParticleCounter::vertices));
+  counts.emplace("fragments", fragments);
+  counts.emplace("fragments_discarded", discarded);
+  counts.emplace("fragments_kept", fragments - discarded);
+  return counts;
+}
+
+measure::Frame SpriteFrames::frame(measure::Purpose purpose) {
+  return translated([&] {
+    const bool counting = purpose == measure::Purpose::counters;
+    if (counting && !frames_.can_count()) {
+      counting_pipelines_ = make_pipelines(true);
+      frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
+        record(commands, counting_pipelines_, true);
+      });
+    }
+    measure::Frame frame = frames_.submit(purpose);
+    if (counting) {
+      frame.counts = read_counts();
+      frame.counts.emplace("visible_ids", visible_ids(target_.read(gpu_)));
+    }
+    instance_.check_validation();
+    return frame;
+  });
+}
+
+core::Image SpriteFrames::image() {
+  return translated([&] {
+    core::Image image = target_.read(gpu_);
+    instance_.check_validation();
+    return image;
+  });
+}
+
+std::string SpriteFrames::kernel_hash() const {
+  std::vector<std::string_view> codes;
+  for (const SpriteStage& each : technique_.draw.stages) codes.push_back(spirv(each.timed));
+  codes.push_back(pixel_stage(false));
+  return code_hash(codes, constants_);
+}
+
+std::unique_ptr<measure::Prepared> prepare_sprites(const Gpu& gpu, const Instance& instance,
+                                                   const measure::ParticleWork& work,
+                                                   SpriteTechnique technique) {
+  return std::make_unique<SpriteFrames>(gpu, instance, work, technique::arrange(work.scene),
+                                        std::move(technique));
+}
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,101 @@
+#pragma once
+// The techniques that draw sprites through the rasterizer: they differ in the stages that make
+// them.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "backends/vulkan/cell_culling.hpp"
+#include "backends/vulkan/draw_pipeline.hpp"
+#include "backends/vulkan/frames.hpp"
+#include "backends/vulkan/instance.hpp"
+#include "backends/vulkan/particle_data.hpp"
+#include "backends/vulkan/particle_target.hpp"
+
+namespace triptych::vulkan_backend {
+
+// A stage before the pixel's, by the names of its two builds.
+struct SpriteStage {
+  vk::ShaderStageFlagBits stage;
+  std::string_view timed;
+  std::string_view counting;
+};
+
+// One way to turn particles into sprites.
+struct SpriteDraw {
+  std::vector<SpriteStage> stages;
+  // Four vertices per particle and no vertex buffer; otherwise one vertex per particle.
+  bool instanced = false;
+  vk::PrimitiveTopology topology = vk::PrimitiveTopology::ePointList;
+};
+
+// Particles one after another in the arrangement.
+struct ParticleRun {
+  std::uint32_t begin = 0;
+  std::uint32_t count = 0;
+};
+
+struct SpriteTechnique {
+  SpriteDraw draw;
+  vk::QueryPipelineStatisticFlags statistics;  // of its own stages, beside the common ones
+  // A second draw, for these particles only.
+  std::optional<SpriteDraw> rest;
+  std::vector<ParticleRun> rest_runs;
+};
+
+class SpriteFrames final : public measure::Prepared {
+ public:
+  SpriteFrames(const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work,
+               const technique::Arrangement& arrangement, SpriteTechnique technique);
+
+  [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
+  [[nodiscard]] core::Image image() override;
+  [[nodiscard]] std::string kernel_hash() const override;
+
+ private:
+  struct Pipelines {
+    vk::raii::Pipeline draw;
+    vk::raii::Pipeline rest;  // null where there is nothing of the kind
+  };
+  [[nodiscard]] Pipelines make_pipelines(bool counting) const;
+  [[nodiscard]] DrawState draw_state(const SpriteDraw& draw, bool counting) const;
+  [[nodiscard]] std::string_view pixel_stage(bool counting) const;
+  void record(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
+              bool counting) const;
+  void draw(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
+            bool counting) const;
+  void draw_run(const vk::raii::CommandBuffer& commands, bool instanced, ParticleRun run) const;
+  void draw_again(const vk::raii::CommandBuffer& commands) const;
+  [[nodiscard]] record::Counts read_counts() const;
+
+  const Gpu& gpu_;
+  const Instance& instance_;
+  technique::ParticleOptions options_;
+  scene::ColourKind colour_;
+  SpriteTechnique technique_;
+  Specialization constants_;
+  ParticleData data_;
+  ParticleTarget target_;
+  Layout layout_;
+  vk::raii::DescriptorPool pool_;
+  vk::DescriptorSet set_;  // freed with the pool
+  CellCulling culling_;
+  Pipelines pipelines_;
+  Pipelines counting_pipelines_;  // null until a counting frame is asked for
+  Frames frames_;
+};
+
+// Arranges the scene for a technique without a second draw.
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_sprites(const Gpu& gpu,
+                                                                 const Instance& instance,
+                                                                 const measure::ParticleWork& work,
+                                                                 SpriteTechnique technique);
+
+// The vertex stage of techniques that read a vertex buffer.
+inline constexpr SpriteStage attribute_stage{vk::ShaderStageFlagBits::eVertex,
+                                             "attributes.vert.spv", "attributes.vert.spv"};
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,31 @@
+#pragma once
+// Why a device cannot draw a volume, or particles, by a technique.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "backends/vulkan/gpu.hpp"
+#include "measure/backend.hpp"
+
+namespace triptych::vulkan_backend {
+
+// Optional features that techniques need.
+enum class Needs : std::uint8_t { nothing, drawing, geometry, tessellation };
+
+// The feature that is lacking, if one is.
+[[nodiscard]] std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs);
+// The limit that a picture of this size exceeds. One that is drawn is a frame buffer; otherwise it
+// is a storage buffer of `pixel_bytes` per pixel.
+[[nodiscard]] std::optional<std::string> picture_reason(const Gpu& gpu, int width, int height,
+                                                        Needs needs, std::uint64_t pixel_bytes);
+[[nodiscard]] std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed);
+
+[[nodiscard]] std::optional<std::string> volume_reason(const Gpu& gpu,
+                                                       const measure::VolumeWork& work,
+                                                       Needs needs);
+[[nodiscard]] std::optional<std::string> particle_reason(const Gpu& gpu,
+                                                         const measure::ParticleWork& work,
+                                                         const std::string& technique, Needs needs);
+
+}  // namespace triptych::vulkan_backend

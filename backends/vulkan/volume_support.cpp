@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "backends/vulkan/filter_probe.hpp"
+#include "backends/vulkan/support.hpp"
+#include "backends/vulkan/volume_resources.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+std::optional<std::string> format_reason(const Gpu& gpu, const measure::VolumeWork& work) {
+  const scene::VoxelFormat format = work.scene.grid->format;
+  const std::string name = vk::to_string(texture_format(format));
+  if (!can_sample(gpu, format)) return fmt::format("cannot sample images of format {}", name);
+  if (work.options.sampler == technique::Sampler::hardware && !can_filter(gpu, format)) {
+    return fmt::format("cannot filter images of format {} linearly", name);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> volume_size_reason(const Gpu& gpu, const scene::VoxelGrid& grid) {
+  const std::uint32_t limit = gpu.properties.limits.maxImageDimension3D;
+  const int longest = std::ranges::max(grid.size);
+  if (static_cast<std::uint32_t>(longest) > limit) {
+    return fmt::format("a volume of {}x{}x{} voxels exceeds maxImageDimension3D = {}", grid.size[0],
+                       grid.size[1], grid.size[2], limit);
+  }
+  const auto format = gpu.physical.getImageFormatProperties(
+      texture_format(grid.format), vk::ImageType::e3D, vk::ImageTiling::eOptimal,
+      vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
+  const std::uint64_t bytes = grid.voxel_count() * scene::bytes_of(grid.format);
+  if (bytes > format.maxResourceSize) {
+    return fmt::format("a volume of {} bytes exceeds maxResourceSize = {}", bytes,
+                       format.maxResourceSize);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWork& work,
+                                         Needs needs) {
+  constexpr std::uint64_t pixel_bytes = 4 * sizeof(float);
+  const scene::VolumeScene& scene = work.scene;
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
+  if (auto reason = format_reason(gpu, work)) return reason;
+  if (auto reason = volume_size_reason(gpu, *scene.grid)) return reason;
+  if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
+    return reason;
+  }
+  return memory_reason(
+      gpu, scene.grid->voxel_count() * scene::bytes_of(scene.grid->format) + pixel_bytes * pixels);
+}
+
+}  // namespace triptych::vulkan_backend
