@@ -1,8 +1,9 @@
 # triptych_embed(TARGET NAMESPACE file...)
 # Compiles files into TARGET, so that nothing depends on the working directory. Each is found by its
-# file name through `std::string_view NAMESPACE::embedded(std::string_view name)` (empty when unknown)
-# and listed by `std::span<const std::string_view> NAMESPACE::embedded_names()`; the declaration is in
-# the generated header "<TARGET>_embedded.hpp".
+# file name, or where two share one by its path as given here, through
+# `std::string_view NAMESPACE::embedded(std::string_view name)` (empty when unknown), and listed by
+# `std::span<const std::string_view> NAMESPACE::embedded_names()`; the declaration is in the generated
+# header "<TARGET>_embedded.hpp".
 function(triptych_embed target namespace)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/embedded)
   file(MAKE_DIRECTORY ${folder})
@@ -12,6 +13,7 @@ function(triptych_embed target namespace)
   set(names "")
   set(index 0)
   foreach(file IN LISTS ARGN)
+    set(path ${file})
     cmake_path(ABSOLUTE_PATH file BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
     cmake_path(GET file FILENAME name)
     set(symbol ${target}_embedded_${index})
@@ -19,7 +21,7 @@ function(triptych_embed target namespace)
       "    .global ${symbol}_begin\n    .global ${symbol}_end\n"
       "${symbol}_begin:\n    .incbin \"${file}\"\n${symbol}_end:\n    .byte 0\n")
     string(APPEND externs "extern \"C\" const char ${symbol}_begin[];\nextern \"C\" const char ${symbol}_end[];\n")
-    string(APPEND entries "  if (name == \"${name}\") return {${symbol}_begin, static_cast<std::size_t>(${symbol}_end - ${symbol}_begin)};\n")
+    string(APPEND entries "  if (name == \"${name}\" || name == \"${path}\") return {${symbol}_begin, static_cast<std::size_t>(${symbol}_end - ${symbol}_begin)};\n")
     string(APPEND names "\"${name}\", ")
     list(APPEND files ${file})
     math(EXPR index "${index} + 1")

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdlib>
 #include <utility>
+#include <variant>
 
 #include "backends/gl/compute_pass.hpp"
 #include "backends/gl/device_info.hpp"
@@ -21,13 +22,20 @@ constexpr double exact_filter = 1e-5;
 
 struct Entry {
   std::string_view id;
-  VolumeTechnique technique;
+  std::variant<VolumeTechnique, ParticleTechnique> technique;
 };
 
 const Entry* find(std::string_view id) {
-  static const std::array<Entry, 3> entries{{{"raycast", raycast()},
-                                             {"raycast_fragment", raycast_fragment()},
-                                             {"speed_of_light", speed_of_light()}}};
+  static const std::array<Entry, 10> entries{{{"raycast", raycast()},
+                                              {"raycast_fragment", raycast_fragment()},
+                                              {"speed_of_light", speed_of_light()},
+                                              {"quad_screen", quad_screen()},
+                                              {"quad_ray", quad_ray()},
+                                              {"quad_instanced", quad_instanced()},
+                                              {"quad_tess", quad_tess()},
+                                              {"polygon_tess", polygon_tess()},
+                                              {"polygon_adaptive", polygon_adaptive()},
+                                              {"point", point()}}};
   for (const Entry& entry : entries) {
     if (entry.id == id) return &entry;
   }
@@ -55,12 +63,18 @@ class GlDevice final : public measure::Device {
     if (is_software(info_) && std::getenv("LP_PERF") != nullptr) {
       return "LP_PERF is set: the driver leaves work out";
     }
-    const auto& volume = std::get<measure::VolumeWork>(work.scene);
     const Current current(*context_);
     const Api& gl = context_->gl();
-    auto reason = volume_unsupported(gl, volume);
-    if (!reason) reason = entry->technique.unsupported(gl, volume);
-    return reason;
+    const auto* volume = std::get_if<measure::VolumeWork>(&work.scene);
+    const auto* particles = std::get_if<measure::ParticleWork>(&work.scene);
+    if (const auto* raycaster = std::get_if<VolumeTechnique>(&entry->technique)) {
+      if (volume == nullptr) return fmt::format("{} draws volumes, not particles", work.technique);
+      auto reason = volume_unsupported(gl, *volume);
+      if (!reason) reason = raycaster->unsupported(gl, *volume);
+      return reason;
+    }
+    if (particles == nullptr) return fmt::format("{} draws particles, not volumes", work.technique);
+    return std::get<ParticleTechnique>(entry->technique).unsupported(gl, *particles);
   }
 
   [[nodiscard]] measure::VolumePath default_path(scene::VoxelFormat native) const override {
@@ -77,8 +91,13 @@ class GlDevice final : public measure::Device {
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override {
     if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
     const Current current(*context_);
-    return find(work.technique)
-        ->technique.prepare(*context_, stamps_, std::get<measure::VolumeWork>(work.scene));
+    const Entry& entry = *find(work.technique);
+    if (const auto* raycaster = std::get_if<VolumeTechnique>(&entry.technique)) {
+      return raycaster->prepare(*context_, stamps_, std::get<measure::VolumeWork>(work.scene));
+    }
+    return make_prepared(*context_, stamps_,
+                         std::get<ParticleTechnique>(entry.technique)
+                             .make(context_->gl(), std::get<measure::ParticleWork>(work.scene)));
   }
 
  private:

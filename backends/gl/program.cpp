@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <vector>
 
 #include "core/error.hpp"
@@ -39,6 +40,12 @@ std::string_view stage_name(GLenum type) {
   switch (type) {
     case GL_VERTEX_SHADER:
       return "vertex shader";
+    case GL_TESS_CONTROL_SHADER:
+      return "tessellation control shader";
+    case GL_TESS_EVALUATION_SHADER:
+      return "tessellation evaluation shader";
+    case GL_GEOMETRY_SHADER:
+      return "geometry shader";
     case GL_FRAGMENT_SHADER:
       return "fragment shader";
     default:
@@ -80,13 +87,18 @@ std::string plain_source(const Api& gl, std::string_view main_file) {
   return version_lines(gl).append(embedded(main_file));
 }
 
+std::string shared_source(const Api& gl, std::string_view constant_lines,
+                          std::span<const std::string_view> files) {
+  std::string source = version_lines(gl).append(constant_lines).append(embedded("prelude.glsl"));
+  source.append(technique::source("prelude.glsl"));
+  for (const std::string_view file : files) source.append(technique::source(file));
+  return source;
+}
+
 std::string volume_source(const Api& gl, const Constants& constants, std::string_view main_file) {
-  std::string source = version_lines(gl) + constant_lines(constants);
-  source.append(embedded("prelude.glsl"));
-  for (const char* shared : {"prelude.glsl", "volume_math.h", "parameters.glsl", "raycast.glsl"}) {
-    source.append(technique::source(shared));
-  }
-  return source.append(embedded(main_file));
+  static constexpr std::array<std::string_view, 3> files{
+      "volume_math.h", "volume/raycast/parameters.glsl", "raycast.glsl"};
+  return shared_source(gl, constant_lines(constants), files).append(embedded(main_file));
 }
 
 Program link(const Api& gl, std::span<const Stage> stages) {

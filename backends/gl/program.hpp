@@ -25,8 +25,13 @@ struct Stage {
   std::string source;  // whole, from #version on
 };
 
+// The named files of src/technique/, in that order, behind the #version line, `constant_lines` and
+// both preludes, in the newest GLSL the context has.
+[[nodiscard]] std::string shared_source(const Api& gl, std::string_view constant_lines,
+                                        std::span<const std::string_view> files);
+
 // The shared raycasting source with the constants and GL's prelude before it and the named file of
-// backends/gl/shaders/ behind it, in the newest GLSL the context has.
+// backends/gl/shaders/ behind it.
 [[nodiscard]] std::string volume_source(const Api& gl, const Constants& constants,
                                         std::string_view main_file);
 // The named file alone behind the #version line, for stages that share nothing.

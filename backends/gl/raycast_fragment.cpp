@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 
+#include "backends/gl/framebuffer.hpp"
 #include "backends/gl/pass.hpp"
 #include "backends/gl/techniques.hpp"
 #include "backends/gl/volume_prepared.hpp"
-#include "core/error.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -16,18 +16,12 @@ namespace {
 class Target {
  public:
   Target() = default;
-  Target(const Api& gl, int width, int height) : pixels_(gl), framebuffer_(gl) {
-    gl.BindRenderbuffer(GL_RENDERBUFFER, pixels_.get());
-    gl.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA32F, width, height);
-    gl.check("glRenderbufferStorage");
+  Target(const Api& gl, int width, int height)
+      : pixels_(pixels(gl, GL_RGBA32F, width, height)), framebuffer_(gl) {
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
                                pixels_.get());
-    const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
-    if (status != GL_FRAMEBUFFER_COMPLETE) {
-      throw core::ApiError("glCheckFramebufferStatus", fmt::format("{:#06x}", status));
-    }
-    gl.check("glFramebufferRenderbuffer");
+    check_framebuffer(gl);
   }
   void bind(const Api& gl) const { gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get()); }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The volume techniques of this API; each is implemented in the file of its name. Both functions
+// The techniques of this API; each is implemented in the file of its name. All functions
 // are called with the context current.
 
 #include <memory>
@@ -7,6 +7,7 @@
 #include <string>
 
 #include "backends/gl/context.hpp"
+#include "backends/gl/prepared.hpp"
 #include "backends/gl/timing.hpp"
 #include "measure/backend.hpp"
 
@@ -22,5 +23,18 @@ struct VolumeTechnique {
 [[nodiscard]] VolumeTechnique raycast();
 [[nodiscard]] VolumeTechnique raycast_fragment();
 [[nodiscard]] VolumeTechnique speed_of_light();
+
+struct ParticleTechnique {
+  std::optional<std::string> (*unsupported)(const Api& gl, const measure::ParticleWork& work);
+  std::unique_ptr<Drawing> (*make)(const Api& gl, const measure::ParticleWork& work);
+};
+
+[[nodiscard]] ParticleTechnique quad_screen();
+[[nodiscard]] ParticleTechnique quad_ray();
+[[nodiscard]] ParticleTechnique quad_instanced();
+[[nodiscard]] ParticleTechnique quad_tess();
+[[nodiscard]] ParticleTechnique polygon_tess();
+[[nodiscard]] ParticleTechnique polygon_adaptive();
+[[nodiscard]] ParticleTechnique point();
 
 }  // namespace triptych::gl_backend

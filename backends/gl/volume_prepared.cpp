@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/hash.hpp"
+#include "backends/gl/prepared.hpp"
 #include "technique/volume/opacity_form.hpp"
 
 namespace triptych::gl_backend {
@@ -47,114 +46,67 @@ record::Counts sum_counters(const Api& gl, const Buffer& counters, std::size_t p
   return counts;
 }
 
-class VolumePrepared final : public measure::Prepared {
+class VolumeDrawing final : public Drawing {
  public:
-  VolumePrepared(Context& context, Stamps stamps, const measure::VolumeWork& work,
-                 const Constants& constants, std::unique_ptr<Pass> pass)
-      : context_(context),
-        constants_(constants),
+  VolumeDrawing(const Api& gl, const measure::VolumeWork& work, const Constants& constants,
+                std::unique_ptr<Pass> pass)
+      : constants_(constants),
         pixels_(pixel_count(work)),
         extra_(work.options.extra_work_stride != 0),
-        owned_(std::make_unique<Owned>(context.gl(), stamps, work, constants, std::move(pass))) {}
-
-  VolumePrepared(const VolumePrepared&) = delete;
-  VolumePrepared& operator=(const VolumePrepared&) = delete;
-  ~VolumePrepared() override {
-    try {
-      const Current current(context_);
-      owned_.reset();
-    } catch (const core::Error&) {
-      // The context is gone and its objects with it: there is nothing left to delete them with.
-      static_cast<void>(owned_.release());
-    }
+        pass_(std::move(pass)),
+        data_(gl, work) {
+    const std::vector<Stage> stages = pass_->stages(gl, constants);
+    program_ = link(gl, stages);
+    std::vector<std::string> sources;
+    for (const Stage& stage : stages) sources.push_back(stage.source);
+    kernel_hash_ = hash_of(gl, sources);
   }
 
-  [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override {
-    const Current current(context_);
-    const Api& gl = context_.gl();
+  [[nodiscard]] std::span<const Statistic> statistics() const override {
+    return pass_->statistics();
+  }
+
+  void bind(const Api& gl, measure::Purpose purpose) override {
     const bool counting = purpose == measure::Purpose::counters;
-    if (counting && !owned_->counting) owned_->counting = make_counting(gl);
-    bind(gl, counting);
-
-    measure::Frame frame;
-    const auto draw = [&] {
-      const Elapsed elapsed = owned_->stopwatch.time([&] { submit(gl); });
-      frame.wall_ns = elapsed.wall_ns;
-      if (purpose == measure::Purpose::timing) frame.device_ns = elapsed.device_ns;
-    };
-    if (purpose == measure::Purpose::statistics) {
-      frame.counts = owned_->statistics.count(draw);
-    } else {
-      draw();
+    if (counting && !counting_) counting_ = make_counting(gl);
+    data_.bind(gl);
+    pass_->bind(gl);
+    gl.UseProgram(counting ? counting_->program.get() : program_.get());
+    if (counting) {
+      gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_counters, counting_->counters.get());
     }
-    gl.check("frame");
-    if (counting) frame.counts = sum_counters(gl, owned_->counting->counters, pixels_);
-    return frame;
   }
 
-  [[nodiscard]] core::Image image() override {
-    const Current current(context_);
-    return owned_->pass->read(context_.gl());
+  void submit(const Api& gl, measure::Purpose /*purpose*/) override {
+    if (extra_) {
+      data_.choose(gl, Rows::extra);
+      pass_->submit(gl, Rows::extra);
+      data_.choose(gl, Rows::all);
+    }
+    pass_->submit(gl, Rows::all);
   }
 
-  [[nodiscard]] std::string kernel_hash() const override { return owned_->kernel_hash; }
+  [[nodiscard]] record::Counts counters(const Api& gl) const override {
+    return sum_counters(gl, counting_->counters, pixels_);
+  }
+  [[nodiscard]] core::Image read(const Api& gl) const override { return pass_->read(gl); }
+  [[nodiscard]] std::string kernel_hash() const override { return kernel_hash_; }
 
  private:
-  // Everything that lives on the device.
-  struct Owned {
-    Owned(const Api& gl, Stamps stamps, const measure::VolumeWork& work, const Constants& constants,
-          std::unique_ptr<Pass> its_pass)
-        : pass(std::move(its_pass)),
-          data(gl, work),
-          stopwatch(gl, stamps),
-          statistics(gl, pass->statistics()) {
-      const std::vector<Stage> stages = pass->stages(gl, constants);
-      program = link(gl, stages);
-      std::string hashed = gl.text(GL_VERSION);
-      for (const Stage& stage : stages) hashed += '\n' + stage.source;
-      kernel_hash = core::content_hash(hashed);
-    }
-    std::unique_ptr<Pass> pass;
-    VolumeData data;
-    Stopwatch stopwatch;
-    Statistics statistics;
-    Program program;
-    std::string kernel_hash;
-    std::optional<Counting> counting;
-  };
-
   [[nodiscard]] Counting make_counting(const Api& gl) const {
     Constants constants = constants_;
     constants.count = true;
-    return {link(gl, owned_->pass->stages(gl, constants)),
-            device_buffer(gl, counters_size(pixels_))};
+    return {link(gl, pass_->stages(gl, constants)), device_buffer(gl, counters_size(pixels_))};
   }
 
-  void bind(const Api& gl, bool counting) {
-    owned_->data.bind(gl);
-    owned_->pass->bind(gl);
-    gl.UseProgram(counting ? owned_->counting->program.get() : owned_->program.get());
-    if (counting) {
-      gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_counters,
-                        owned_->counting->counters.get());
-    }
-    gl.check("glUseProgram");
-  }
-
-  void submit(const Api& gl) {
-    if (extra_) {
-      owned_->data.choose(gl, Rows::extra);
-      owned_->pass->submit(gl, Rows::extra);
-      owned_->data.choose(gl, Rows::all);
-    }
-    owned_->pass->submit(gl, Rows::all);
-  }
-
-  Context& context_;
   Constants constants_;
   std::size_t pixels_;
   bool extra_;
-  std::unique_ptr<Owned> owned_;
+  std::unique_ptr<Pass> pass_;
+  VolumeData data_;
+  Program program_;
+  std::string kernel_hash_;
+  std::optional<Counting> counting_;
 };
 
 }  // namespace
@@ -208,7 +160,9 @@ std::unique_ptr<measure::Prepared> prepare_volume(Context& context, Stamps stamp
                                                   const measure::VolumeWork& work,
                                                   const Constants& constants,
                                                   std::unique_ptr<Pass> pass) {
-  return std::make_unique<VolumePrepared>(context, stamps, work, constants, std::move(pass));
+  return make_prepared(
+      context, stamps,
+      std::make_unique<VolumeDrawing>(context.gl(), work, constants, std::move(pass)));
 }
 
 }  // namespace triptych::gl_backend

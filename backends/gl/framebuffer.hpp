@@ -1,0 +1,12 @@
+#pragma once
+#include "backends/gl/objects.hpp"
+
+namespace triptych::gl_backend {
+
+// Storage of that format to draw into.
+[[nodiscard]] Renderbuffer pixels(const Api& gl, GLenum format, int width, int height);
+
+// Throws core::ApiError where the framebuffer that is bound is not complete.
+void check_framebuffer(const Api& gl);
+
+}  // namespace triptych::gl_backend

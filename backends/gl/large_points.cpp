@@ -1,0 +1,45 @@
+#include "backends/gl/large_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace triptych::gl_backend {
+
+double largest_point(const Api& gl) {
+  std::array<GLfloat, 2> range{};
+  gl.GetFloatv(GL_POINT_SIZE_RANGE, range.data());
+  return static_cast<double>(range[1]);
+}
+
+std::vector<technique::Cell> cells_with_large_points(const Api& gl,
+                                                     const scene::ParticleScene& scene,
+                                                     const technique::Arrangement& arrangement) {
+  std::vector<technique::Cell> cells = arrangement.cells;
+  // No silhouette is larger than the picture it is cut to.
+  const double largest = largest_point(gl);
+  const bool all_small = std::max(scene.width, scene.height) + 1 <= largest;
+  const double pixel = 2 * std::tan(glm::radians(scene.camera.fov_y_deg) / 2) / scene.height;
+  // Between its two tangents a sphere at (a, z) covers 2r√(a² + z² − r²)/(z² − r²) of an axis. A
+  // little more stands for the sprites' margin and rounding.
+  const auto may_be_large = [&](const std::array<float, 4>& sphere) {
+    const glm::dvec3 to = glm::dvec3(sphere[0], sphere[1], sphere[2]) - scene.camera.eye;
+    const double r = static_cast<double>(sphere[3]);
+    const double z = glm::dot(to, scene.camera.forward);
+    if (z <= r) return z > -r;
+    const double a = std::max(std::abs(glm::dot(to, scene.camera.right())),
+                              std::abs(glm::dot(to, scene.camera.up)));
+    const double width = 2 * r * std::sqrt(a * a + (z - r) * (z + r)) / ((z - r) * (z + r));
+    return 1.01 * width / pixel + 1 > largest;
+  };
+  for (technique::Cell& cell : cells) {
+    const auto* begin = arrangement.spheres.data() + cell.begin;
+    if (all_small || std::none_of(begin, begin + cell.count, may_be_large)) cell.count = 0;
+  }
+  return cells;
+}
+
+}  // namespace triptych::gl_backend

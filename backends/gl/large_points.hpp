@@ -1,0 +1,18 @@
+#pragma once
+#include <vector>
+
+#include "backends/gl/api.hpp"
+#include "scene/particle_scene.hpp"
+#include "technique/particles/arrangement.hpp"
+
+namespace triptych::gl_backend {
+
+// The largest point that the device draws, in pixels.
+[[nodiscard]] double largest_point(const Api& gl);
+
+// The arrangement's cells, empty but for those with a sphere that may need a larger point: what the
+// camera, which is fixed, leaves to the second draw of `point`.
+[[nodiscard]] std::vector<technique::Cell> cells_with_large_points(
+    const Api& gl, const scene::ParticleScene& scene, const technique::Arrangement& arrangement);
+
+}  // namespace triptych::gl_backend

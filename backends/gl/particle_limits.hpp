@@ -1,0 +1,16 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "backends/gl/api.hpp"
+#include "measure/backend.hpp"
+
+namespace triptych::gl_backend {
+
+// Why these particles and this picture are beyond what every particle technique needs; empty when
+// they are not. `storage`: the particles are read as storage blocks.
+[[nodiscard]] std::optional<std::string> particles_unsupported(const Api& gl,
+                                                               const measure::ParticleWork& work,
+                                                               bool storage);
+
+}  // namespace triptych::gl_backend

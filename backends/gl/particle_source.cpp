@@ -1,0 +1,52 @@
+#include "backends/gl/particle_source.hpp"
+
+#include <fmt/format.h>
+
+namespace triptych::gl_backend {
+namespace {
+
+int depth_promise(const ParticleConstants& constants) {
+  if (!constants.conservative_depth) return 0;
+  return constants.fault == technique::ParticleFault::wrong_sense ? 2 : 1;
+}
+
+// Before GLSL 4.10 the variables between stages are matched by name.
+std::string constant_lines(const Api& gl, const ParticleConstants& constants) {
+  return fmt::format(
+      "#extension GL_ARB_conservative_depth : enable\n"
+      "#extension GL_ARB_shader_draw_parameters : enable\n"
+      "#define TRI_LINK(n) {}\n#define TRI_COLOUR {}\n#define TRI_TRANSFER_AT_PIXEL {:d}\n"
+      "#define TRI_RAY_AT_VERTEX {:d}\n#define TRI_CONSERVATIVE_DEPTH {}\n#define TRI_FAULT {}\n"
+      "#define TRI_COUNT {:d}\n",
+      gl.at_least(4, 3) ? "layout(location = n)" : "", static_cast<int>(constants.colour),
+      int{constants.transfer_at_pixel}, int{constants.ray_at_vertex}, depth_promise(constants),
+      static_cast<int>(constants.fault), int{constants.count});
+}
+
+}  // namespace
+
+ParticleConstants particle_constants(const measure::ParticleWork& work) {
+  using technique::ComputedAt;
+  return {.colour = work.scene.particles->colour,
+          .transfer_at_pixel = work.options.transfer == ComputedAt::pixel,
+          .ray_at_vertex = work.options.ray == ComputedAt::vertex,
+          .conservative_depth = work.options.conservative_depth,
+          .fault = work.options.fault,
+          .count = false};
+}
+
+std::vector<Stage> particle_stages(const Api& gl, const ParticleConstants& constants,
+                                   const std::vector<ParticleStage>& stages) {
+  std::vector<Stage> made;
+  for (const ParticleStage& stage : stages) {
+    std::vector<std::string_view> files{"volume_math.h", "sphere_math.h",
+                                        "particles/parameters.glsl", "camera_space.glsl",
+                                        "colour.glsl"};
+    files.insert(files.end(), stage.files.begin(), stage.files.end());
+    made.push_back(
+        {stage.type, shared_source(gl, constant_lines(gl, constants) + stage.defines, files)});
+  }
+  return made;
+}
+
+}  // namespace triptych::gl_backend

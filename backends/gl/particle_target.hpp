@@ -1,0 +1,36 @@
+#pragma once
+#include <array>
+
+#include "backends/gl/objects.hpp"
+#include "core/image.hpp"
+#include "technique/particles/particle_options.hpp"
+
+namespace triptych::gl_backend {
+
+// Colour, ids and reversed depth to draw particles into.
+class ParticleTarget {
+ public:
+  ParticleTarget(const Api& gl, int width, int height, technique::ParticleFault fault);
+
+  // Makes it the current one, with the depth test that goes with it.
+  void bind(const Api& gl) const;
+  // Background, no particle, and a depth that everything passes.
+  void clear(const Api& gl, const std::array<float, 4>& background) const;
+  // `near`: the scale of the depth buffer, Z = near/z.
+  [[nodiscard]] core::Image read(const Api& gl, double near) const;
+  [[nodiscard]] GLuint depth_texture() const { return depth_.get(); }
+
+ private:
+  int width_;
+  int height_;
+  technique::ParticleFault fault_;
+  Renderbuffer colour_;
+  Renderbuffer ids_;
+  Texture depth_;
+  Framebuffer framebuffer_;
+};
+
+// Z where there is a particle, +infinity where there is none.
+void to_distances(core::Image& image, double near);
+
+}  // namespace triptych::gl_backend

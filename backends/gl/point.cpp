@@ -1,0 +1,32 @@
+// Point sprites; spheres larger than the device's points on screen-aligned quads, in a second draw.
+#include <fmt/format.h>
+
+#include "backends/gl/large_points.hpp"
+#include "backends/gl/sprites.hpp"
+#include "backends/gl/techniques.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+Sprites sprites(const Api& gl) {
+  const std::string largest = fmt::format("#define TRI_LARGEST_POINT {:.1f}\n", largest_point(gl));
+  ParticleStage points{GL_VERTEX_SHADER, {"sprite.glsl", "point.vert.glsl"}, largest};
+  ParticleStage quads = instance_stage(gl, "point_large.vert.glsl");
+  quads.defines += largest;
+  return {{GL_POINTS, false, false, {points}}, {GL_TRIANGLE_STRIP, true, true, {quads}}};
+}
+
+std::optional<std::string> unsupported(const Api& gl, const measure::ParticleWork& work) {
+  if (work.options.ray == technique::ComputedAt::vertex) {
+    return "a point has one vertex: its rays are made per pixel";
+  }
+  return sprites_unsupported(gl, work, sprites(gl));
+}
+
+}  // namespace
+
+ParticleTechnique point() {
+  return {&unsupported, sprite_technique<&sprites>().make};
+}
+
+}  // namespace triptych::gl_backend

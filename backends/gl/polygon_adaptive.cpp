@@ -1,0 +1,18 @@
+// Polygons with corners by the projected radius, made by a tessellation shader.
+#include "backends/gl/sprites.hpp"
+#include "backends/gl/techniques.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+Sprites sprites(const Api& /*gl*/) {
+  return tessellated("adaptive");
+}
+
+}  // namespace
+
+ParticleTechnique polygon_adaptive() {
+  return sprite_technique<&sprites>();
+}
+
+}  // namespace triptych::gl_backend

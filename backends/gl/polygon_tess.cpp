@@ -1,0 +1,32 @@
+// Polygons with a given number of corners, made by a tessellation shader.
+#include <fmt/format.h>
+
+#include "backends/gl/sprites.hpp"
+#include "backends/gl/techniques.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+Sprites sprites(const Api& /*gl*/) {
+  return tessellated("polygon");
+}
+
+std::optional<std::string> unsupported(const Api& gl, const measure::ParticleWork& work) {
+  const int corners = work.options.corners;
+  // Of the outline's four edges the longest has a quarter of the corners, rounded up.
+  const std::int64_t most =
+      gl.VERSION_4_0 != 0 ? 4 * gl.limit(GL_MAX_TESS_GEN_LEVEL) : std::int64_t{corners};
+  if (corners < 4) return fmt::format("polygons of {} corners; 4 is the least", corners);
+  if (corners > most) {
+    return fmt::format("polygons of {} corners, GL_MAX_TESS_GEN_LEVEL allows {}", corners, most);
+  }
+  return sprites_unsupported(gl, work, sprites(gl));
+}
+
+}  // namespace
+
+ParticleTechnique polygon_tess() {
+  return {&unsupported, sprite_technique<&sprites>().make};
+}
+
+}  // namespace triptych::gl_backend

@@ -1,0 +1,88 @@
+#include "backends/gl/prepared.hpp"
+
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/hash.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+class DrawingPrepared final : public measure::Prepared {
+ public:
+  DrawingPrepared(Context& context, Stamps stamps, std::unique_ptr<Drawing> drawing)
+      : context_(context),
+        owned_(std::make_unique<Owned>(context.gl(), stamps, std::move(drawing))) {}
+
+  DrawingPrepared(const DrawingPrepared&) = delete;
+  DrawingPrepared& operator=(const DrawingPrepared&) = delete;
+  ~DrawingPrepared() override {
+    try {
+      const Current current(context_);
+      owned_.reset();
+    } catch (const core::Error&) {
+      // The context is gone and its objects with it: there is nothing left to delete them with.
+      static_cast<void>(owned_.release());
+    }
+  }
+
+  [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override {
+    const Current current(context_);
+    const Api& gl = context_.gl();
+    Drawing& drawing = *owned_->drawing;
+    drawing.bind(gl, purpose);
+    gl.check("bind");
+
+    measure::Frame frame;
+    const auto draw = [&] {
+      const Elapsed elapsed = owned_->stopwatch.time([&] { drawing.submit(gl, purpose); });
+      frame.wall_ns = elapsed.wall_ns;
+      if (purpose == measure::Purpose::timing) frame.device_ns = elapsed.device_ns;
+    };
+    if (purpose == measure::Purpose::statistics) {
+      frame.counts = owned_->statistics.count(draw);
+    } else {
+      draw();
+    }
+    gl.check("frame");
+    if (purpose == measure::Purpose::counters) frame.counts = drawing.counters(gl);
+    return frame;
+  }
+
+  [[nodiscard]] core::Image image() override {
+    const Current current(context_);
+    return owned_->drawing->read(context_.gl());
+  }
+
+  [[nodiscard]] std::string kernel_hash() const override { return owned_->drawing->kernel_hash(); }
+
+ private:
+  // Everything that lives on the device.
+  struct Owned {
+    Owned(const Api& gl, Stamps stamps, std::unique_ptr<Drawing> its_drawing)
+        : drawing(std::move(its_drawing)),
+          stopwatch(gl, stamps),
+          statistics(gl, drawing->statistics()) {}
+    std::unique_ptr<Drawing> drawing;
+    Stopwatch stopwatch;
+    Statistics statistics;
+  };
+
+  Context& context_;
+  std::unique_ptr<Owned> owned_;
+};
+
+}  // namespace
+
+std::unique_ptr<measure::Prepared> make_prepared(Context& context, Stamps stamps,
+                                                 std::unique_ptr<Drawing> drawing) {
+  return std::make_unique<DrawingPrepared>(context, stamps, std::move(drawing));
+}
+
+std::string hash_of(const Api& gl, std::span<const std::string> sources) {
+  std::string hashed = gl.text(GL_VERSION);
+  for (const std::string& source : sources) hashed += '\n' + source;
+  return core::content_hash(hashed);
+}
+
+}  // namespace triptych::gl_backend

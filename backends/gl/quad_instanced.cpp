@@ -1,0 +1,19 @@
+// Quads across the ray to the centre, an instance each, made by the vertex shader from storage
+// blocks.
+#include "backends/gl/sprites.hpp"
+#include "backends/gl/techniques.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+Sprites sprites(const Api& gl) {
+  return {{GL_TRIANGLE_STRIP, true, false, {instance_stage(gl, "quad_instanced.vert.glsl")}}};
+}
+
+}  // namespace
+
+ParticleTechnique quad_instanced() {
+  return sprite_technique<&sprites>();
+}
+
+}  // namespace triptych::gl_backend

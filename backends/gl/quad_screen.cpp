@@ -1,0 +1,18 @@
+// Screen-aligned quads around the silhouettes, made by a geometry shader.
+#include "backends/gl/sprites.hpp"
+#include "backends/gl/techniques.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+Sprites sprites(const Api& /*gl*/) {
+  return from_geometry_stage(true);
+}
+
+}  // namespace
+
+ParticleTechnique quad_screen() {
+  return sprite_technique<&sprites>();
+}
+
+}  // namespace triptych::gl_backend

@@ -1,0 +1,18 @@
+// Quads across the ray to the centre, made by a tessellation shader.
+#include "backends/gl/sprites.hpp"
+#include "backends/gl/techniques.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+Sprites sprites(const Api& /*gl*/) {
+  return tessellated("quad");
+}
+
+}  // namespace
+
+ParticleTechnique quad_tess() {
+  return sprite_technique<&sprites>();
+}
+
+}  // namespace triptych::gl_backend

@@ -1,0 +1,221 @@
+#include "backends/gl/sprites.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "backends/gl/cell_draws.hpp"
+#include "backends/gl/large_points.hpp"
+#include "backends/gl/particle_data.hpp"
+#include "backends/gl/particle_target.hpp"
+#include "technique/particles/arrangement.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+using measure::Purpose;
+using technique::Culling;
+
+std::vector<Statistic> statistics_of(const Sprites& sprites, Culling culling) {
+  std::vector<Statistic> told{
+      {GL_VERTICES_SUBMITTED_ARB, "input_assembly_vertices"},
+      {GL_PRIMITIVES_SUBMITTED_ARB, "input_assembly_primitives"},
+      {GL_VERTEX_SHADER_INVOCATIONS_ARB, "vertex_invocations"},
+      {GL_CLIPPING_INPUT_PRIMITIVES_ARB, "clipping_invocations"},
+      {GL_CLIPPING_OUTPUT_PRIMITIVES_ARB, "clipping_primitives"},
+      {GL_FRAGMENT_SHADER_INVOCATIONS_ARB, "fragment_invocations"},
+  };
+  for (const ParticleStage& stage : sprites.front().stages) {
+    if (stage.type == GL_GEOMETRY_SHADER) {
+      told.push_back({GL_GEOMETRY_SHADER_INVOCATIONS, "geometry_invocations"});
+      told.push_back({GL_GEOMETRY_SHADER_PRIMITIVES_EMITTED_ARB, "geometry_primitives"});
+    } else if (stage.type == GL_TESS_CONTROL_SHADER) {
+      told.push_back({GL_TESS_CONTROL_SHADER_PATCHES_ARB, "tessellation_control_patches"});
+      told.push_back(
+          {GL_TESS_EVALUATION_SHADER_INVOCATIONS_ARB, "tessellation_evaluation_invocations"});
+    }
+  }
+  if (culling != Culling::none) {
+    told.push_back({GL_COMPUTE_SHADER_INVOCATIONS_ARB, "compute_invocations"});
+  }
+  return told;
+}
+
+// The programs of all draws, for timing or for counting.
+struct Programs {
+  struct Draw {
+    Program cull;
+    Program sprites;
+  };
+  std::vector<Draw> draws;
+  std::vector<std::string> sources;
+};
+
+class SpriteDrawing final : public Drawing {
+ public:
+  SpriteDrawing(const Api& gl, const measure::ParticleWork& work, const Sprites& sprites,
+                const technique::Arrangement& arrangement)
+      : options_(work.options),
+        background_(work.scene.background),
+        near_(work.scene.camera.near),
+        particles_(arrangement.count()),
+        cells_(arrangement.cells.size()),
+        sprites_(sprites),
+        statistics_(statistics_of(sprites, work.options.culling)),
+        constants_(particle_constants(work)),
+        data_(gl, work, arrangement),
+        target_(gl, work.scene.width, work.scene.height, work.options.fault),
+        programs_(make_programs(gl, constants_)) {
+    for (const SpriteDraw& draw : sprites) {
+      const std::vector<technique::Cell> cells =
+          draw.large_only ? cells_with_large_points(gl, work.scene, arrangement)
+                          : arrangement.cells;
+      draws_.emplace_back(gl, cells, draw.instanced);
+      if (options_.extra_work_stride == 0) continue;
+      extra_.emplace_back(gl, thinned(cells, options_.extra_work_stride), draw.instanced);
+    }
+  }
+
+  [[nodiscard]] std::span<const Statistic> statistics() const override { return statistics_; }
+
+  void bind(const Api& gl, Purpose purpose) override {
+    if (purpose == Purpose::counters) {
+      if (!counting_) {
+        ParticleConstants constants = constants_;
+        constants.count = true;
+        counting_.emplace(Counting{make_programs(gl, constants), ParticleCounters(gl)});
+      }
+      counting_->counters.start(gl);
+    }
+    data_.bind(gl);
+    target_.bind(gl);
+    gl.Enable(GL_PROGRAM_POINT_SIZE);
+    if (gl.PatchParameteri != nullptr) gl.PatchParameteri(GL_PATCH_VERTICES, 1);
+  }
+
+  void submit(const Api& gl, Purpose purpose) override {
+    const bool counting = purpose == Purpose::counters;
+    const Programs& programs = counting ? counting_->programs : programs_;
+    target_.clear(gl, background_);
+    draw(gl, programs, draws_);
+    // Behind the picture, where nothing passes the depth test any more; never counted.
+    if (!counting && !extra_.empty()) draw(gl, programs, extra_);
+  }
+
+  [[nodiscard]] record::Counts counters(const Api& gl) const override {
+    return common_counts(options_, cells_, particles_, counting_->counters.sums(gl),
+                         target_.read(gl, near_).ids);
+  }
+  [[nodiscard]] core::Image read(const Api& gl) const override { return target_.read(gl, near_); }
+  [[nodiscard]] std::string kernel_hash() const override { return kernel_hash_; }
+
+ private:
+  struct Counting {
+    Programs programs;
+    ParticleCounters counters;
+  };
+
+  [[nodiscard]] Programs make_programs(const Api& gl, const ParticleConstants& constants) {
+    std::vector<std::string> sources;
+    const auto program = [&](const std::vector<ParticleStage>& described,
+                             const ParticleConstants& with) {
+      const std::vector<Stage> stages = particle_stages(gl, with, described);
+      for (const Stage& stage : stages) sources.push_back(stage.source);
+      return link(gl, stages);
+    };
+    Programs programs;
+    for (const SpriteDraw& draw : sprites_) {
+      Programs::Draw made;
+      if (options_.culling != Culling::none) {
+        // Only the first draw's culling counts: the others are about the same cells.
+        ParticleConstants culling = constants;
+        culling.count = constants.count && programs.draws.empty();
+        made.cull = program({{GL_COMPUTE_SHADER,
+                              {"cull.comp.glsl"},
+                              fmt::format("#define TRI_INSTANCED {:d}\n", int{draw.instanced})}},
+                            culling);
+      }
+      std::vector<ParticleStage> stages = draw.stages;
+      stages.push_back({GL_FRAGMENT_SHADER, {"sphere.frag.glsl"}, {}});
+      made.sprites = program(stages, constants);
+      programs.draws.push_back(std::move(made));
+    }
+    if (kernel_hash_.empty()) kernel_hash_ = hash_of(gl, sources);
+    return programs;
+  }
+
+  void draw(const Api& gl, const Programs& programs, const std::vector<CellDraws>& draws) const {
+    if (options_.culling != Culling::none) {
+      for (std::size_t i = 0; i < draws.size(); ++i) {
+        gl.UseProgram(programs.draws[i].cull.get());
+        draws[i].cull(gl);
+      }
+      gl.MemoryBarrier(GL_COMMAND_BARRIER_BIT);
+    }
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+      gl.UseProgram(programs.draws[i].sprites.get());
+      draws[i].draw(gl, sprites_[i].mode);
+    }
+  }
+
+  technique::ParticleOptions options_;
+  std::array<float, 4> background_;
+  double near_;
+  std::uint64_t particles_;
+  std::uint64_t cells_;
+  Sprites sprites_;
+  std::vector<Statistic> statistics_;
+  ParticleConstants constants_;
+  ParticleData data_;
+  ParticleTarget target_;
+  std::string kernel_hash_;
+  Programs programs_;
+  std::optional<Counting> counting_;
+  std::vector<CellDraws> draws_;
+  std::vector<CellDraws> extra_;
+};
+
+}  // namespace
+
+ParticleStage attribute_stage() {
+  return {GL_VERTEX_SHADER, {"sprite.glsl", "attributes.vert.glsl"}, {}};
+}
+
+ParticleStage instance_stage(const Api& gl, std::string_view file) {
+  return {GL_VERTEX_SHADER,
+          {"storage.glsl", "sprite.glsl", file},
+          gl.ARB_shader_draw_parameters != 0
+              ? "#define TRI_PARTICLE (gl_BaseInstanceARB + gl_InstanceID)\n"
+                "#define TRI_CORNER gl_VertexID\n"
+              : "layout(location = 3) in uint particle_number;\n"
+                "#define TRI_PARTICLE particle_number\n#define TRI_CORNER gl_VertexID\n"};
+}
+
+Sprites tessellated(std::string_view define) {
+  const std::string defines = fmt::format("#define TRI_QUAD {:d}\n#define TRI_ADAPTIVE {:d}\n",
+                                          int{define == "quad"}, int{define == "adaptive"});
+  return {{GL_PATCHES,
+           false,
+           false,
+           {attribute_stage(),
+            {GL_TESS_CONTROL_SHADER, {"sprite.glsl", "polygon.tesc.glsl"}, defines},
+            {GL_TESS_EVALUATION_SHADER, {"sprite.glsl", "polygon.tese.glsl"}, defines}}}};
+}
+
+Sprites from_geometry_stage(bool screen_aligned) {
+  return {{GL_POINTS,
+           false,
+           false,
+           {attribute_stage(),
+            {GL_GEOMETRY_SHADER,
+             {"sprite.glsl", "quad.geom.glsl"},
+             fmt::format("#define TRI_SCREEN_ALIGNED {:d}\n", int{screen_aligned})}}}};
+}
+
+std::unique_ptr<Drawing> draw_sprites(const Api& gl, const measure::ParticleWork& work,
+                                      const Sprites& sprites) {
+  return std::make_unique<SpriteDrawing>(gl, work, sprites, technique::arrange(work.scene));
+}
+
+}  // namespace triptych::gl_backend

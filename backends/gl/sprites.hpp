@@ -1,0 +1,52 @@
+#pragma once
+// Techniques that draw spheres on sprites: what the stages before the pixel are differs, the rest
+// is common.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "backends/gl/particle_source.hpp"
+#include "backends/gl/prepared.hpp"
+#include "backends/gl/techniques.hpp"
+
+namespace triptych::gl_backend {
+
+// One way in which particles become sprites.
+struct SpriteDraw {
+  GLenum mode = GL_POINTS;
+  bool instanced = false;             // a particle is an instance of four vertices, else a vertex
+  bool large_only = false;            // for cells that may hold spheres beyond the largest point
+  std::vector<ParticleStage> stages;  // those before the pixel stage
+};
+using Sprites = std::vector<SpriteDraw>;
+
+// Stages that several techniques have.
+[[nodiscard]] ParticleStage attribute_stage();
+// A vertex stage that finds its particle by the instance.
+[[nodiscard]] ParticleStage instance_stage(const Api& gl, std::string_view file);
+// One patch per particle, one quad per particle.
+[[nodiscard]] Sprites tessellated(std::string_view define);
+[[nodiscard]] Sprites from_geometry_stage(bool screen_aligned);
+
+// Why this cannot be drawn here by these stages; empty when it can.
+[[nodiscard]] std::optional<std::string> sprites_unsupported(const Api& gl,
+                                                             const measure::ParticleWork& work,
+                                                             const Sprites& sprites);
+[[nodiscard]] std::unique_ptr<Drawing> draw_sprites(const Api& gl,
+                                                    const measure::ParticleWork& work,
+                                                    const Sprites& sprites);
+
+// A technique whose sprites depend on the context at most.
+template <Sprites (*describe)(const Api& gl)>
+[[nodiscard]] ParticleTechnique sprite_technique() {
+  return {[](const Api& gl, const measure::ParticleWork& work) {
+            return sprites_unsupported(gl, work, describe(gl));
+          },
+          [](const Api& gl, const measure::ParticleWork& work) {
+            return draw_sprites(gl, work, describe(gl));
+          }};
+}
+
+}  // namespace triptych::gl_backend
