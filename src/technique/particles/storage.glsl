@@ -6,7 +6,7 @@ layout(std430) TRI_BINDING(5) readonly buffer Ids { uint ids[]; };
 vec4 stored_colour(uint particle) {
   if (TRI_COLOUR == 0) {
     uint word = colour_words[particle];
-    return vec4(uvec4(word, word >> 8, word >> 16, word >> 24) & 255u) / 255.0;
+    return vec4(uvec4(word, word >> 8, word >> 16, word >> 24) & 255u) * 0.0039215686274509803;
   }
   if (TRI_COLOUR == 1) {
     uint first = 4u * particle;
