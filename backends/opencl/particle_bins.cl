@@ -10,14 +10,6 @@ TRI_FN int tiles_down(const Particles* u) {
   return (u->viewport.y + TRI_TILE - 1) >> TRI_TILE_SHIFT;
 }
 
-// Pixel rectangles are kept in two words: x in the lower half, y in the upper; the first corner and
-// the last, both within.
-#define TRI_EMPTY_FIRST 0x00000001u
-#define TRI_EMPTY_LAST 0u
-TRI_FN uint packed(int x, int y) { return (uint)x | (uint)y << 16; }
-TRI_FN int unpacked_x(uint corner) { return (int)(corner & 0xFFFFu); }
-TRI_FN int unpacked_y(uint corner) { return (int)(corner >> 16); }
-
 // The bins of one particle: counted, or filled in.
 TRI_FN void into_bins(uint first, uint last, int across, int down, bool fill, uint particle,
                       __global uint* restrict cursors, __global const uint* restrict begins,
@@ -62,6 +54,7 @@ typedef struct {
   float r[TRI_BATCH];
   uint first[TRI_BATCH];  // pixel rectangle
   uint last[TRI_BATCH];
+  int corners[TRI_BATCH];  // of the sprite
 } Batch;
 
 // n spheres in world space. Those that lack to a whole batch repeat the last one.
@@ -86,6 +79,7 @@ TRI_FN void to_camera_space(const Particles* u, Batch* batch) {
   }
 }
 
+#if TRI_SPRITE == 0
 TRI_FN void find_rectangles(const Particles* u, Batch* batch) {
   for (int k = 0; k < TRI_BATCH; ++k) {
     float z = batch->z[k];
@@ -99,17 +93,35 @@ TRI_FN void find_rectangles(const Particles* u, Batch* batch) {
     bool empty = (x0 > x1) | (y0 > y1);
     batch->first[k] = empty ? TRI_EMPTY_FIRST : packed(x0, y0);
     batch->last[k] = empty ? TRI_EMPTY_LAST : packed(x1, y1);
+    batch->corners[k] = 0;
   }
 }
+#else
+TRI_FN void find_rectangles(const Particles* u, Batch* batch) {
+  for (int k = 0; k < TRI_BATCH; ++k) {
+    float4 sphere = (float4)(batch->x[k], batch->y[k], batch->z[k], batch->r[k]);
+    Polygon polygon;
+    batch->corners[k] = make_polygon(u, sphere, &polygon);
+    polygon_rectangle(u, &polygon, &batch->first[k], &batch->last[k]);
+  }
+}
+#endif
 
-// Leaves the particles of the listed cells in camera space, their rectangles, and per chunk the
-// number of its entries in each bin.
+// A sprite is one that has corners; without sprites, a rectangle that is not empty.
+TRI_FN bool is_sprite(uint first, uint last, int corners) {
+  return TRI_SPRITE == 0 ? !is_empty(first, last) : corners > 0;
+}
+
+// Leaves the particles of the listed cells in camera space, their rectangles, the colours of their
+// sprites where those are looked up here, and per chunk the number of its entries in each bin.
 __kernel void count_bins(__global const Particles* restrict parameters,
                          __global const float* restrict spheres,
                          __global const Cell* restrict cells, __global const uint* restrict list,
                          __global float* restrict camera, __global uint* restrict rectangles,
-                         uint bins, __global uint* restrict counts,
-                         __global uint* restrict counters) {
+                         __global const uint* restrict colours,
+                         __global const float4* restrict table,
+                         __global float* restrict sprite_colours, uint bins,
+                         __global uint* restrict counts, __global uint* restrict counters) {
   uint chunk = (uint)get_global_id(0);
   uint chunks = (uint)get_global_size(0);
   Particles u = *parameters;
@@ -119,6 +131,7 @@ __kernel void count_bins(__global const Particles* restrict parameters,
   for (uint i = 0; i < bins; ++i) cursors[i] = 0;
   uint end = chunk_begin(list[0], chunk + 1, chunks);
   uint sprites = 0;
+  uint vertices = 0;
   Batch batch;
   for (uint at = chunk_begin(list[0], chunk, chunks); at < end; ++at) {
     uint i = cells[list[1 + at]].begin;
@@ -134,15 +147,23 @@ __kernel void count_bins(__global const Particles* restrict parameters,
         uint last = batch.last[k];
         rectangles[2 * particle] = first;
         rectangles[2 * particle + 1] = last;
-        if (first == TRI_EMPTY_FIRST && last == TRI_EMPTY_LAST) continue;
+#if TRI_COUNT
+        vertices += (uint)batch.corners[k];
+        sprites += is_sprite(first, last, batch.corners[k]) ? 1 : 0;
+#endif
+        if (is_empty(first, last)) continue;
         vstore4((float4)(batch.x[k], batch.y[k], batch.z[k], batch.r[k]), particle, camera);
+#if TRI_COLOUR == 2 && !TRI_TRANSFER_AT_PIXEL
+        float4 colour = transfer_colour(table, as_float(colours[particle]));
+        vstore4(colour, particle, sprite_colours);
+#endif
         into_bins(first, last, across, down, false, i + k, cursors, 0, 0);
-        ++sprites;
       }
     }
   }
 #if TRI_COUNT
   counters[8 * chunk + TRI_COUNT_SPRITES] = sprites;
+  counters[8 * chunk + TRI_COUNT_VERTICES] = vertices;
 #endif
 }
 
@@ -164,18 +185,28 @@ __kernel void place_chunks(uint bins, uint chunks, __global uint* restrict count
 #endif
 }
 
-// One work group: begins[bin] is where a bin's entries begin, begins[bins] how many there are.
+// One work group: begins[bin] is where a bin's entries begin, begins[bins] how many there are. The
+// first item takes the last stretch of bins, so that it needs what all others find: should the
+// barrier be missing, that shows even where items run one after the other.
 __kernel void place_bins(uint bins, __global const uint* restrict totals,
                          __global uint* restrict begins) {
   __local uint sums[TRI_SCAN_ITEMS];
-  uint item = (uint)get_local_id(0);
+  uint item = TRI_SCAN_ITEMS - 1 - (uint)get_local_id(0);
   uint stretch = (bins + TRI_SCAN_ITEMS - 1) / TRI_SCAN_ITEMS;
   uint from = min(item * stretch, bins);
   uint to = min(from + stretch, bins);
+#if TRI_MISSING_BARRIER
+  // What the last frame left must not help.
+  if (item == TRI_SCAN_ITEMS - 1) {
+    for (uint other = 0; other < item; ++other) sums[other] = 0;
+  }
+#endif
   uint sum = 0;
   for (uint bin = from; bin < to; ++bin) sum += totals[bin];
   sums[item] = sum;
+#if !TRI_MISSING_BARRIER
   barrier(CLK_LOCAL_MEM_FENCE);
+#endif
   uint place = 0;
   for (uint other = 0; other < item; ++other) place += sums[other];
   for (uint bin = from; bin < to; ++bin) {
@@ -203,7 +234,7 @@ __kernel void fill_bins(__global const Particles* restrict parameters,
     for (uint i = begin; i < begin + n; ++i) {
       uint first = rectangles[2 * (size_t)i];
       uint last = rectangles[2 * (size_t)i + 1];
-      if (first == TRI_EMPTY_FIRST && last == TRI_EMPTY_LAST) continue;
+      if (is_empty(first, last)) continue;
       into_bins(first, last, across, down, true, i, cursors, begins, entries);
     }
   }

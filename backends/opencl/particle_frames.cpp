@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <unordered_set>
 
 #include "core/error.hpp"
@@ -62,6 +63,8 @@ ParticleFrames::ParticleFrames(const Session& session, Programs& programs,
     const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     camera_ = make_buffer(4 * data_.count);
     rectangles_ = make_buffer(2 * data_.count);
+    sprite_colours_ = make_buffer(constants.transfer_at_pixel ? 0 : 4 * data_.count);
+    cosines_ = make_buffer(constants.ray_at_vertex ? pixels : 0);
     visible_ = make_buffer(data_.cell_count);
     image_ = make_buffer(4 * pixels);
     ids_ = make_buffer(pixels);
@@ -97,10 +100,11 @@ ParticleFrames::Pass ParticleFrames::make_pass(const cl::Program& program, cl_ui
   std::vector<Launch> launches{cull(program)};
   add_binning(program, pass, launches);
   run(session_, launches, events_);
-  cl_uint entries = 0;
-  session_.queue.enqueueReadBuffer(pass.begins, CL_TRUE, bins_ * sizeof entries, sizeof entries,
-                                   &entries);
-  const std::uint64_t bytes = std::uint64_t{entries} * sizeof(cl_uint);
+  std::vector<cl_uint> totals(bins_);
+  session_.queue.enqueueReadBuffer(pass.totals, CL_TRUE, 0, bins_ * sizeof totals[0],
+                                   totals.data());
+  const std::uint64_t entries = std::reduce(totals.begin(), totals.end(), std::uint64_t{0});
+  const std::uint64_t bytes = entries * sizeof(cl_uint);
   const auto most = session_.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   if (bytes > most) {
     throw core::NotSupported(fmt::format(
@@ -123,8 +127,9 @@ void ParticleFrames::add_binning(const cl::Program& program, const Pass& pass,
   to.push_back(make_launch(program, "list_cells", one, one, data_.parameters, visible_, pass.stride,
                            pass.list));
   to.push_back(make_launch(program, "count_bins", cl::NDRange(chunks_), one, data_.parameters,
-                           data_.spheres, data_.cells, pass.list, camera_, rectangles_, bins,
-                           pass.counts, counters_));
+                           data_.spheres, data_.cells, pass.list, camera_, rectangles_,
+                           data_.colours, data_.table, sprite_colours_, bins, pass.counts,
+                           counters_));
   to.push_back(make_launch(program, "place_chunks", cl::NDRange(round_up(bins_, cull_group)),
                            cl::NDRange(cull_group), bins, static_cast<cl_uint>(chunks_),
                            pass.counts, pass.totals, counters_));
@@ -141,13 +146,13 @@ void ParticleFrames::add_drawing(const cl::Program& program, const Pass& pass,
                            pass.counts, pass.begins, pass.entries));
   to.push_back(make_launch(program, "draw_tiles", cl::NDRange(tiles_[0], tiles_[1]),
                            cl::NDRange(1, 1), data_.parameters, camera_, rectangles_, pass.begins,
-                           pass.entries, pass.depths, pass.winners, counters_));
+                           pass.entries, pass.depths, pass.winners, cosines_, counters_));
 }
 
 Launch ParticleFrames::shade(const cl::Program& program, const Pass& pass) const {
   return make_launch(program, "shade", cl::NDRange(static_cast<std::size_t>(height_)),
                      cl::NDRange(1), data_.parameters, camera_, data_.ids, data_.colours,
-                     data_.table, pass.winners, image_, ids_);
+                     data_.table, sprite_colours_, pass.winners, cosines_, image_, ids_);
 }
 
 measure::Frame ParticleFrames::frame(measure::Purpose purpose) {

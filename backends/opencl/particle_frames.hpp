@@ -55,9 +55,11 @@ class ParticleFrames final : public measure::Prepared {
   std::size_t bins_;
   std::size_t chunks_;
   ParticleData data_;
-  cl::Buffer camera_;      // spheres in camera space
-  cl::Buffer rectangles_;  // of pixels
-  cl::Buffer visible_;     // per cell
+  cl::Buffer camera_;          // spheres in camera space
+  cl::Buffer rectangles_;      // of pixels
+  cl::Buffer sprite_colours_;  // where the transfer function is looked up for sprites
+  cl::Buffer cosines_;         // where rays are those of sprites
+  cl::Buffer visible_;         // per cell
   cl::Buffer image_;
   cl::Buffer ids_;
   cl::Buffer counters_;

@@ -21,8 +21,9 @@ std::string ParticleConstants::options() const {
 }
 
 std::string particle_source() {
-  return program_source({"sphere_math.h", "particles.cl", "particle_cull.cl", "particle_sprite.cl",
-                         "particle_bins.cl", "particle_tiles.cl", "particle_shade.cl"});
+  return program_source({"sphere_math.h", "particles.cl", "particle_cull.cl", "particle_colour.cl",
+                         "particle_rectangle.cl", "particle_sprite.cl", "particle_bins.cl",
+                         "particle_tiles.cl", "particle_shade.cl"});
 }
 
 ParticleConstants constants_of(const measure::ParticleWork& work, Sprite sprite) {

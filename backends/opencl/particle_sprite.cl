@@ -1,26 +1,289 @@
-// TRI_SPRITE 0: the pixels of a particle are those in the rectangle around its silhouette.
+// Sprites as sprite.glsl makes them: a centre's frame, from it the corners in clip space, and these
+// clipped and projected to the rasterizer's grid. Depth plays no part here: with an infinite far
+// plane z is `near` at every corner, and w the distance along the view axis.
 
-// Pixels whose centres lie in [low, high] on one axis of the image plane, as first and last place
-// from its lower edge; first > last for none. `half_extent` and `pixel`: of the plane, `n` pixels.
-TRI_FN int first_pixel(float low, float half_extent, float pixel, int n) {
-  float at = (low + half_extent) / pixel - 0.5f;
-  at = at > 0.0f ? at : 0.0f;
-  at = at < (float)n ? at : (float)n;
-  return (int)tri_ceil(at);
-}
-TRI_FN int last_pixel(float high, float half_extent, float pixel, int n) {
-  float at = (high + half_extent) / pixel - 0.5f;
-  at = at > -1.0f ? at : -1.0f;
-  at = at < (float)(n - 1) ? at : (float)(n - 1);
-  return (int)tri_floor(at);
+#define TRI_SCREEN_QUAD 1
+#define TRI_RAY_QUAD 2
+#define TRI_POLYGON 3
+#define TRI_ADAPTIVE_POLYGON 4
+
+#if TRI_SPRITE == TRI_POLYGON
+#define TRI_SPRITE_CORNERS 32
+#elif TRI_SPRITE == TRI_ADAPTIVE_POLYGON
+#define TRI_SPRITE_CORNERS 16
+#else
+#define TRI_SPRITE_CORNERS 4
+#endif
+// Each of five planes may add a corner.
+#define TRI_MOST_CORNERS (TRI_SPRITE_CORNERS + 5)
+// Places on the grid have this many bits below the pixel, as on the other APIs.
+#define TRI_SUBPIXEL_BITS 8
+#define TRI_SUBPIXELS (1 << TRI_SUBPIXEL_BITS)
+
+// Clip space; rows are counted from the top, so that y points down.
+typedef struct {
+  int n;
+  float x[TRI_MOST_CORNERS];
+  float y[TRI_MOST_CORNERS];
+  float w[TRI_MOST_CORNERS];
+} Outline;
+
+typedef struct {
+  int n;
+  int x[TRI_MOST_CORNERS];  // 1/256 pixel
+  int y[TRI_MOST_CORNERS];
+#if TRI_RAY_AT_VERTEX
+  // Place on the image plane per 1/256 pixel right and down, and at the image's first corner.
+  float2 ray_right;
+  float2 ray_down;
+  float2 ray_origin;
+#endif
+} Polygon;
+
+// The frame in which a ray-aligned sprite lies: across the ray to the centre, just before the
+// sphere.
+typedef struct {
+  float3 centre;
+  float3 right;  // of the length of the sprite's radius
+  float3 up;
+  int everywhere;  // 1: the sprite is the whole viewport
+} Frame;
+
+TRI_FN float length_of(float3 v) { return TRI_SQRT(v.x * v.x + v.y * v.y + v.z * v.z); }
+
+TRI_FN float3 crossed(float3 a, float3 b) {
+  return (float3)(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-// The interval that a sphere covers along one axis, with a margin of 1/64 pixel; the planted fault
-// takes 1 % off.
-TRI_FN float2 covered(float a, float z, float r, float pixel, float scale) {
-  float2 bounds = tri_sphere_interval(a, z, r);
-  float low = bounds.x - 0.015625f * pixel;
-  float high = bounds.y + 0.015625f * pixel;
-  float shrink = scale < 1.0f ? 0.5f * (1.0f - scale) * (high - low) : 0.0f;
-  return (float2)(low + shrink, high - shrink);
+TRI_FN Frame sprite_frame(const Particles* u, float4 sphere) {
+  float d2 = sphere.x * sphere.x + sphere.y * sphere.y + sphere.z * sphere.z;
+  float d = TRI_SQRT(d2);
+  float3 v = sphere.xyz / d;
+  float3 reference =
+      fabs(v.y) > 0.9f ? (float3)(1.0f, 0.0f, 0.0f) : (float3)(0.0f, 1.0f, 0.0f);
+  float3 right = crossed(v, reference);
+  right /= length_of(right);
+  float plane = tri_sprite_plane(d, sphere.w);
+  float radius =
+      tri_sprite_radius(d, sphere.w, plane, max(u->plane.z, u->plane.w), u->eye_rest.w);
+  Frame frame;
+  frame.centre = v * plane;
+  frame.right = radius * right;
+  frame.up = radius * crossed(right, v);
+  frame.everywhere = tri_surrounds(d2, sphere.w);
+  return frame;
+}
+
+TRI_FN void add_corner(const Particles* u, float3 place, Outline* outline) {
+  int k = outline->n++;
+  outline->x[k] = place.x / u->plane.x;
+  outline->y[k] = (0.0f - place.y) / u->plane.y;
+  outline->w[k] = place.z;
+}
+
+// The rectangle between two places on the image plane.
+TRI_FN void add_rectangle(const Particles* u, float2 low, float2 high, Outline* outline) {
+  add_corner(u, (float3)(low.x, low.y, 1.0f), outline);
+  add_corner(u, (float3)(high.x, low.y, 1.0f), outline);
+  add_corner(u, (float3)(high.x, high.y, 1.0f), outline);
+  add_corner(u, (float3)(low.x, high.y, 1.0f), outline);
+}
+
+// Screen-aligned: the rectangle around the silhouette, within the viewport; no corner for none.
+TRI_FN void screen_outline(const Particles* u, float4 sphere, Outline* outline) {
+  float2 x = covered(sphere.x, sphere.z, sphere.w, u->plane.z, u->eye_rest.w);
+  float2 y = covered(sphere.y, sphere.z, sphere.w, u->plane.w, u->eye_rest.w);
+  float2 low = (float2)(max(x.x, 0.0f - u->plane.x), max(y.x, 0.0f - u->plane.y));
+  float2 high = (float2)(min(x.y, u->plane.x), min(y.y, u->plane.y));
+  // The whole viewport for a sphere that reaches the plane of the eye, as the paper's is.
+  if (tri_eye_plane(sphere.z, sphere.w) == 1) {
+    high = (float2)(u->plane.x, u->plane.y);
+    low = -high;
+  }
+  if (low.x <= high.x && low.y <= high.y) add_rectangle(u, low, high, outline);
+}
+
+TRI_FN int sprite_corners(const Particles* u, float4 sphere) {
+#if TRI_SPRITE == TRI_ADAPTIVE_POLYGON
+  return tri_adaptive_corners(
+      tri_projected_radius(length_of(sphere.xyz), sphere.w, max(u->plane.z, u->plane.w)));
+#elif TRI_SPRITE == TRI_POLYGON
+  return u->viewport.z;
+#else
+  return 4;
+#endif
+}
+
+TRI_FN void ray_outline(const Particles* u, float4 sphere, Outline* outline) {
+  Frame frame = sprite_frame(u, sphere);
+  if (frame.everywhere == 1) {
+    add_rectangle(u, (float2)(0.0f - u->plane.x, 0.0f - u->plane.y),
+                  (float2)(u->plane.x, u->plane.y), outline);
+    return;
+  }
+#if TRI_SPRITE == TRI_RAY_QUAD
+  add_corner(u, frame.centre - frame.right - frame.up, outline);
+  add_corner(u, frame.centre + frame.right - frame.up, outline);
+  add_corner(u, frame.centre + frame.right + frame.up, outline);
+  add_corner(u, frame.centre - frame.right + frame.up, outline);
+#else
+  int n = sprite_corners(u, sphere);
+  float reach = 1.00001f / tri_cosine_turns(0.5f / (float)n);
+  for (int k = 0; k < n; ++k) {
+    float turns = ((float)k + 0.5f) / (float)n;
+    add_corner(u,
+               frame.centre + reach * (tri_cosine_turns(turns) * frame.right +
+                                       tri_sine_turns(turns) * frame.up),
+               outline);
+  }
+#endif
+}
+
+// How far a corner lies within one of the planes that clip: before the eye by `near`, and within a
+// guard band of so many viewports to each side, where places on the grid have room.
+#define TRI_GUARD_BAND 4.0f
+TRI_FN float within(const Outline* outline, int k, int plane, float near) {
+  float side = TRI_GUARD_BAND * outline->w[k];
+  return plane == 0   ? outline->w[k] - near
+         : plane == 1 ? side - outline->x[k]
+         : plane == 2 ? side + outline->x[k]
+         : plane == 3 ? side - outline->y[k]
+                      : side + outline->y[k];
+}
+
+TRI_FN bool needs_clipping(const Outline* outline, float near) {
+  bool outside = false;
+  for (int k = 0; k < outline->n; ++k) {
+    for (int plane = 0; plane < 5; ++plane) {
+      outside = outside | (within(outline, k, plane, near) < 0.0f);
+    }
+  }
+  return outside;
+}
+
+// Sutherland and Hodgman 1974.
+TRI_FN void clip_outline(Outline* outline, float near) {
+  for (int plane = 0; plane < 5; ++plane) {
+    Outline from = *outline;
+    outline->n = 0;
+    for (int k = 0; k < from.n; ++k) {
+      int next = k + 1 < from.n ? k + 1 : 0;
+      float here = within(&from, k, plane, near);
+      float there = within(&from, next, plane, near);
+      if (here >= 0.0f) {
+        int to = outline->n++;
+        outline->x[to] = from.x[k];
+        outline->y[to] = from.y[k];
+        outline->w[to] = from.w[k];
+      }
+      if ((here >= 0.0f) != (there >= 0.0f) && outline->n < TRI_MOST_CORNERS) {
+        float share = here / (here - there);
+        int to = outline->n++;
+        outline->x[to] = from.x[k] + share * (from.x[next] - from.x[k]);
+        outline->y[to] = from.y[k] + share * (from.y[next] - from.y[k]);
+        outline->w[to] = from.w[k] + share * (from.w[next] - from.w[k]);
+      }
+    }
+  }
+}
+
+// Rays interpolated between corners: with perspective, (x, y, z)/w is linear on the screen, and z is
+// w, so that the place on the image plane is linear too. Its slopes are those of three corners, as
+// snapped to the grid.
+#if TRI_RAY_AT_VERTEX
+TRI_FN void fit_rays(const Particles* u, const Outline* outline, Polygon* polygon) {
+  int a = 0, b = polygon->n / 3, c = 2 * polygon->n / 3;
+  float2 half_size = (float2)(u->plane.x, 0.0f - u->plane.y);
+  float2 at_a = (float2)(outline->x[a], outline->y[a]) / outline->w[a] * half_size;
+  float2 to_b = (float2)(outline->x[b], outline->y[b]) / outline->w[b] * half_size - at_a;
+  float2 to_c = (float2)(outline->x[c], outline->y[c]) / outline->w[c] * half_size - at_a;
+  float bx = (float)(polygon->x[b] - polygon->x[a]), by = (float)(polygon->y[b] - polygon->y[a]);
+  float cx = (float)(polygon->x[c] - polygon->x[a]), cy = (float)(polygon->y[c] - polygon->y[a]);
+  float area = bx * cy - by * cx;
+  float scale = area != 0.0f ? 1.0f / area : 0.0f;
+  polygon->ray_right = (to_b * cy - to_c * by) * scale;
+  polygon->ray_down = (to_c * bx - to_b * cx) * scale;
+  polygon->ray_origin = at_a - (float)polygon->x[a] * polygon->ray_right -
+                        (float)polygon->y[a] * polygon->ray_down;
+}
+#endif
+
+// The sprite on the grid. Returns its corners before clipping: 0 where there is no sprite.
+TRI_FN int make_polygon(const Particles* u, float4 sphere, Polygon* polygon) {
+  Outline outline;
+  outline.n = 0;
+#if TRI_SPRITE == TRI_SCREEN_QUAD
+  screen_outline(u, sphere, &outline);
+#else
+  ray_outline(u, sphere, &outline);
+  // A sprite that is the whole viewport has its corners at w = 1, which `near` may exceed.
+  if (outline.w[0] != 1.0f && needs_clipping(&outline, u->eye.w)) clip_outline(&outline, u->eye.w);
+#endif
+  float across = (float)(u->viewport.x * (TRI_SUBPIXELS / 2));
+  float down = (float)(u->viewport.y * (TRI_SUBPIXELS / 2));
+  for (int k = 0; k < outline.n; ++k) {
+    polygon->x[k] = (int)tri_floor(outline.x[k] / outline.w[k] * across + across + 0.5f);
+    polygon->y[k] = (int)tri_floor(outline.y[k] / outline.w[k] * down + down + 0.5f);
+  }
+  polygon->n = outline.n;
+#if TRI_RAY_AT_VERTEX
+  if (polygon->n > 2) fit_rays(u, &outline, polygon);
+#endif
+#if TRI_SPRITE == TRI_SCREEN_QUAD
+  return outline.n;
+#else
+  return sprite_corners(u, sphere);
+#endif
+}
+
+// The first pixel whose centre does not lie before this place on the grid.
+TRI_FN int pixel_from(int place) {
+  return (place - TRI_SUBPIXELS / 2 + TRI_SUBPIXELS - 1) >> TRI_SUBPIXEL_BITS;
+}
+
+// The pixels of row y that the polygon covers, as the first and the one beyond the last. The
+// left and the upper edge count as inside, the right and the lower do not: the fill rule of the
+// other APIs, whose triangles of one sprite together cover each of its pixels once.
+TRI_FN int2 covered_row(const Polygon* polygon, int y) {
+  int at = y * TRI_SUBPIXELS + TRI_SUBPIXELS / 2;
+  int first = INT_MAX;
+  int last = INT_MIN;
+  for (int k = 0; k < polygon->n; ++k) {
+    int next = k + 1 < polygon->n ? k + 1 : 0;
+    bool down = polygon->y[k] <= polygon->y[next];
+    int upper = down ? k : next;
+    int lower = down ? next : k;
+    if (polygon->y[upper] > at || polygon->y[lower] <= at) continue;
+    // ⌈(x − ½)⌉ of the crossing, in whole numbers.
+    long height = polygon->y[lower] - polygon->y[upper];
+    long crossing = (polygon->x[upper] - TRI_SUBPIXELS / 2) * height +
+                    (long)(at - polygon->y[upper]) * (polygon->x[lower] - polygon->x[upper]);
+    long unit = height * TRI_SUBPIXELS;
+    long whole = crossing / unit;
+    int pixel = (int)(whole + (crossing > whole * unit ? 1 : 0));
+    first = min(first, pixel);
+    last = max(last, pixel);
+  }
+  return (int2)(first, last);
+}
+
+// The rectangle of pixels around the polygon, within the viewport.
+TRI_FN void polygon_rectangle(const Particles* u, const Polygon* polygon, uint* first, uint* last) {
+  int x0 = INT_MAX, y0 = INT_MAX, x1 = INT_MIN, y1 = INT_MIN;
+  for (int k = 0; k < polygon->n; ++k) {
+    x0 = min(x0, polygon->x[k]);
+    x1 = max(x1, polygon->x[k]);
+    y0 = min(y0, polygon->y[k]);
+    y1 = max(y1, polygon->y[k]);
+  }
+  *first = TRI_EMPTY_FIRST;
+  *last = TRI_EMPTY_LAST;
+  if (polygon->n < 3) return;
+  x0 = max(pixel_from(x0), 0);
+  y0 = max(pixel_from(y0), 0);
+  x1 = min(pixel_from(x1), u->viewport.x) - 1;
+  y1 = min(pixel_from(y1), u->viewport.y) - 1;
+  if (x0 > x1 || y0 > y1) return;
+  *first = packed(x0, y0);
+  *last = packed(x1, y1);
 }

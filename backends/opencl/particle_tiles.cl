@@ -11,6 +11,9 @@
 typedef struct {
   float depth[TRI_TILE * TRI_STRIDE];   // reversed; 0 where there is nothing
   uint winner[TRI_TILE * TRI_STRIDE];
+#if TRI_RAY_AT_VERTEX
+  float cosine[TRI_TILE * TRI_STRIDE];  // shading needs the ray that hit
+#endif
   float column[TRI_STRIDE];  // rays of the pixels of a row
   float row[TRI_TILE];
   int x, y;        // first pixel
@@ -65,7 +68,7 @@ TRI_FN void look_for_farthest(float near, Tile* tile) {
 // Whether no surface of the sphere can show in the tile: its front lies farther than all that is
 // kept, by more than distances are rounded.
 TRI_FN bool hidden(const Tile* tile, float cz, float r) {
-#if TRI_COUNT || TRI_REVERSED_DEPTH
+#if TRI_COUNT || TRI_REVERSED_DEPTH || !TRI_CONSERVATIVE_DEPTH
   return false;
 #elif TRI_WRONG_SENSE
   return cz + r > tile->farthest;
@@ -74,29 +77,50 @@ TRI_FN bool hidden(const Tile* tile, float cz, float r) {
 #endif
 }
 
+// Rays of TRI_LANES pixels of row y, from the tile's first; of a sprite that interpolates its own.
+TRI_FN void load_rays(const Tile* tile, const Polygon* polygon, int x, int y, float* sx,
+                      float* sy) {
+#if TRI_RAY_AT_VERTEX
+  float from_x = (float)((tile->x + x) * TRI_SUBPIXELS + TRI_SUBPIXELS / 2);
+  float down = (float)((tile->y + y) * TRI_SUBPIXELS + TRI_SUBPIXELS / 2);
+  for (int k = 0; k < TRI_LANES; ++k) {
+    float right = from_x + (float)(k * TRI_SUBPIXELS);
+    sx[k] = polygon->ray_origin.x + right * polygon->ray_right.x + down * polygon->ray_down.x;
+    sy[k] = polygon->ray_origin.y + right * polygon->ray_right.y + down * polygon->ray_down.y;
+  }
+#else
+  for (int k = 0; k < TRI_LANES; ++k) sx[k] = tile->column[x + k];
+  for (int k = 0; k < TRI_LANES; ++k) sy[k] = tile->row[y];
+#endif
+}
+
 // Pixels x0…x1 of row y, from the tile's first, against a sphere in camera space.
-TRI_FN void draw_row(float near, int x0, int x1, int y, float cx, float cy, float cz, float r,
-                     uint particle, Tile* tile, uint* kept) {
-  float sy = tile->row[y];
+TRI_FN void draw_row(float near, int x0, int x1, int y, float4 c, uint particle,
+                     const Polygon* polygon, Tile* tile, uint* kept) {
   for (int x = x0; x <= x1; x += TRI_LANES) {
     int at = y * TRI_STRIDE + x;
     // Copies, which cannot overlap as far as a compiler can see.
     float sx[TRI_LANES];
+    float sy[TRI_LANES];
     float depths[TRI_LANES];
     uint winners[TRI_LANES];
-    for (int k = 0; k < TRI_LANES; ++k) sx[k] = tile->column[x + k];
+    load_rays(tile, polygon, x, y, sx, sy);
     for (int k = 0; k < TRI_LANES; ++k) depths[k] = tile->depth[at + k];
     for (int k = 0; k < TRI_LANES; ++k) winners[k] = tile->winner[at + k];
     int last = x1 - x;
     for (int k = 0; k < TRI_LANES; ++k) {
-      float discriminant = tri_sphere_discriminant(cx, cy, cz, r, sx[k], sy);
-      float distance = tri_sphere_distance(cx, cy, cz, sx[k], sy, discriminant);
+      float discriminant = tri_sphere_discriminant(c.x, c.y, c.z, c.w, sx[k], sy[k]);
+      float distance = tri_sphere_distance(c.x, c.y, c.z, sx[k], sy[k], discriminant);
       float depth = tri_depth(near, distance);
       int hit = (discriminant >= 0.0f) & (distance > 0.0f) & (k <= last);
       int wins = hit & (TRI_BEFORE(depth, depths[k]) |
                         ((depth == depths[k]) & TRI_FIRST_OF_EQUALS(particle, winners[k])));
       depths[k] = wins ? depth : depths[k];
       winners[k] = wins ? particle : winners[k];
+#if TRI_RAY_AT_VERTEX
+      float cosine = tri_sphere_cosine(c.w, sx[k], sy[k], discriminant);
+      tile->cosine[at + k] = wins ? cosine : tile->cosine[at + k];
+#endif
 #if TRI_COUNT
       *kept += (uint)hit;
 #endif
@@ -109,10 +133,8 @@ TRI_FN void draw_row(float near, int x0, int x1, int y, float cx, float cy, floa
 TRI_FN void draw_entry(const Particles* u, __global const float* restrict camera,
                        __global const uint* restrict rectangles, uint particle, Tile* tile,
                        uint* fragments, uint* kept) {
-  __global const float* c = camera + 4 * (size_t)particle;
-  float cz = c[2];
-  float r = c[3];
-  if (hidden(tile, cz, r)) return;
+  float4 c = vload4(particle, camera);
+  if (hidden(tile, c.z, c.w)) return;
   uint first = rectangles[2 * (size_t)particle];
   uint last = rectangles[2 * (size_t)particle + 1];
   int x0 = max(unpacked_x(first) - tile->x, 0);
@@ -120,12 +142,23 @@ TRI_FN void draw_entry(const Particles* u, __global const float* restrict camera
   int y0 = max(unpacked_y(first) - tile->y, 0);
   int y1 = min(unpacked_y(last) - tile->y, tile->last_y);
   if (x0 > x1 || y0 > y1) return;
-  for (int y = y0; y <= y1; ++y) {
-    draw_row(u->eye.w, x0, x1, y, c[0], c[1], cz, r, particle, tile, kept);
-  }
-#if TRI_COUNT
-  *fragments += (uint)((x1 - x0 + 1) * (y1 - y0 + 1));
+  Polygon polygon;
+#if TRI_SPRITE != 0
+  make_polygon(u, c, &polygon);
 #endif
+  for (int y = y0; y <= y1; ++y) {
+    int from = x0;
+    int to = x1;
+#if TRI_SPRITE != 0
+    int2 row = covered_row(&polygon, tile->y + y);
+    from = max(x0, row.x - tile->x);
+    to = min(x1, row.y - 1 - tile->x);
+#endif
+    draw_row(u->eye.w, from, to, y, c, particle, &polygon, tile, kept);
+#if TRI_COUNT
+    *fragments += (uint)max(to - from + 1, 0);
+#endif
+  }
   if (++tile->drawn >= TRI_LOOK_EVERY) look_for_farthest(u->eye.w, tile);
 }
 
@@ -134,7 +167,8 @@ __kernel void draw_tiles(__global const Particles* restrict parameters,
                          __global const uint* restrict rectangles,
                          __global const uint* restrict begins,
                          __global const uint* restrict entries, __global float* restrict depths,
-                         __global uint* restrict winners, __global uint* restrict counters) {
+                         __global uint* restrict winners, __global float* restrict cosines,
+                         __global uint* restrict counters) {
   int tile_x = (int)get_global_id(0);
   int tile_y = (int)get_global_id(1);
   Particles u = *parameters;
@@ -158,6 +192,9 @@ __kernel void draw_tiles(__global const Particles* restrict parameters,
       int from = y * TRI_STRIDE + x;
       depths[to + x] = tile.winner[from] == TRI_NONE ? 0.0f : tile.depth[from];
       winners[to + x] = tile.winner[from];
+#if TRI_RAY_AT_VERTEX
+      cosines[to + x] = tile.cosine[from];
+#endif
     }
   }
 #if TRI_COUNT

@@ -22,4 +22,17 @@ namespace triptych::opencl_backend {
                                                                Programs& programs,
                                                                const measure::ParticleWork& work);
 
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_screen(
+    const Session& session, Programs& programs, const measure::ParticleWork& work);
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_ray(
+    const Session& session, Programs& programs, const measure::ParticleWork& work);
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_instanced(
+    const Session& session, Programs& programs, const measure::ParticleWork& work);
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_tess(
+    const Session& session, Programs& programs, const measure::ParticleWork& work);
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_polygon_tess(
+    const Session& session, Programs& programs, const measure::ParticleWork& work);
+[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_polygon_adaptive(
+    const Session& session, Programs& programs, const measure::ParticleWork& work);
+
 }  // namespace triptych::opencl_backend

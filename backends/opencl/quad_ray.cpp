@@ -1,0 +1,12 @@
+// Quads across the ray to the centre: what a geometry shader makes elsewhere.
+#include "backends/opencl/particle_frames.hpp"
+#include "backends/opencl/techniques.hpp"
+
+namespace triptych::opencl_backend {
+
+std::unique_ptr<measure::Prepared> prepare_quad_ray(const Session& session, Programs& programs,
+                                                    const measure::ParticleWork& work) {
+  return std::make_unique<ParticleFrames>(session, programs, work, Sprite::ray_quad);
+}
+
+}  // namespace triptych::opencl_backend

@@ -1,0 +1,12 @@
+// Ray-aligned quads by tessellation. Without its stages these are the sprites of quad_ray.
+#include "backends/opencl/particle_frames.hpp"
+#include "backends/opencl/techniques.hpp"
+
+namespace triptych::opencl_backend {
+
+std::unique_ptr<measure::Prepared> prepare_quad_tess(const Session& session, Programs& programs,
+                                                     const measure::ParticleWork& work) {
+  return std::make_unique<ParticleFrames>(session, programs, work, Sprite::ray_quad);
+}
+
+}  // namespace triptych::opencl_backend
