@@ -132,7 +132,7 @@ class SpriteDrawing final : public Drawing {
         ParticleConstants culling = constants;
         culling.count = constants.count && programs.draws.empty();
         made.cull = program({{GL_COMPUTE_SHADER,
-                              {"cull.comp.glsl"},
+                              {"cells.glsl", "cull.comp.glsl"},
                               fmt::format("#define TRI_INSTANCED {:d}\n", int{draw.instanced})}},
                             culling);
       }

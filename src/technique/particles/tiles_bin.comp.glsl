@@ -1,0 +1,71 @@
+// One work group per cell, one invocation per particle: small spheres are drawn, large ones counted.
+layout(local_size_x = 64) in;
+layout(std430) TRI_BINDING(3) readonly buffer Spheres { vec4 spheres[]; };
+layout(std430) TRI_BINDING(12) readonly buffer CellEnds { uint cell_ends[]; };
+
+// Raises the depth of the pixels that the sphere covers; whether any of them now shows it, or might.
+// One loop over all pixels of the rectangle: loops within loops wait for the longest of every row.
+bool draw_small(vec4 sphere, ivec4 rectangle, int count) {
+  bool seen = false;
+  ivec2 pixel = rectangle.xy;
+  int right = rectangle.x + rectangle.z;
+  for (int i = 0; i < count; ++i) {
+    uint key = sphere_key(sphere, pixel);
+    uint place = pixel_index(pixel);
+    if (key > 0u && key >= pixels[place]) {
+      atomicMax(pixels[place], key);
+      seen = true;
+    }
+    ++pixel.x;
+    if (pixel.x == right) pixel = ivec2(rectangle.x, pixel.y + 1);
+  }
+  return seen;
+}
+
+// Counts an entry for each tile in which something may lie behind the sphere; whether there is one.
+bool count_large(uint front, ivec4 rectangle, int count) {
+  ivec2 first = rectangle.xy / TRI_TILE;
+  int columns = (rectangle.x + rectangle.z - 1) / TRI_TILE - first.x + 1;
+  bool entered = false;
+  ivec2 tile = first;
+  for (int i = 0; i < count; ++i) {
+    uint index = tile_index(tile);
+    if (front >= tiles[index].farthest) {
+      atomicAdd(tiles[index].entries, 1u);
+      entered = true;
+#if TRI_COUNT
+      add_count(TRI_COUNT_BIN_ENTRIES, index, 1u);
+#endif
+    }
+    ++tile.x;
+    if (tile.x == first.x + columns) tile = ivec2(first.x, tile.y + 1);
+  }
+  return entered;
+}
+
+void bin(uint particle) {
+  vec4 sphere = camera_space(spheres[particle]);
+  ivec4 rectangle = pixel_rectangle(sphere);
+  uint front = front_key(sphere);
+  bool covers = rectangle.z > 0;
+  bool small = covers && is_small(rectangle);
+  int pixel_count = small && front >= farthest_around(rectangle) ? rectangle.z * rectangle.w : 0;
+  ivec2 tile_span = (rectangle.xy + rectangle.zw - 1) / TRI_TILE - rectangle.xy / TRI_TILE + 1;
+  int tile_count = covers && !small ? tile_span.x * tile_span.y : 0;
+  bool seen = draw_small(sphere, rectangle, pixel_count);
+  bool entered = count_large(front, rectangle, tile_count);
+  if (seen || entered) {
+    uint place = seen ? atomicAdd(small_kept, 1u) : large_place(atomicAdd(large_kept, 1u));
+    kept_spheres[place] = sphere;
+    kept[place] = particle;
+  }
+#if TRI_COUNT
+  if (covers) add_count(TRI_COUNT_SPRITES, particle, 1u);
+#endif
+}
+
+void main() {
+  uint index = TRI_ROUND.x + gl_WorkGroupID.x;
+  uint end = cell_ends[index];
+  for (uint i = cells[index].begin + gl_LocalInvocationIndex; i < end; i += 64u) bin(i);
+}

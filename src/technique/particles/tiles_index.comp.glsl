@@ -1,0 +1,21 @@
+// When all depths are known: the first of the small spheres at each pixel's depth.
+layout(local_size_x = 64) in;
+
+void main() {
+  uint stride = 64u * gl_NumWorkGroups.x;
+  for (uint n = gl_GlobalInvocationID.x; n < small_kept; n += stride) {
+    vec4 sphere = kept_spheres[n];
+    uint particle = particle_key(kept[n]);
+    ivec4 rectangle = pixel_rectangle(sphere);
+    int count = front_key(sphere) >= farthest_around(rectangle) ? rectangle.z * rectangle.w : 0;
+    ivec2 pixel = rectangle.xy;
+    int right = rectangle.x + rectangle.z;
+    for (int i = 0; i < count; ++i) {
+      uint key = sphere_key(sphere, pixel);
+      uint place = pixel_index(pixel);
+      if (key > 0u && key == pixels[place]) atomicMin(pixels[plane_size() + place], particle);
+      ++pixel.x;
+      if (pixel.x == right) pixel = ivec2(rectangle.x, pixel.y + 1);
+    }
+  }
+}
