@@ -1,0 +1,223 @@
+// What frames of particles count, how long they take, and what is refused.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "tests/device/gl/gl_particles.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+using measure::Purpose;
+using technique::ComputedAt;
+using technique::Culling;
+using technique::ParticleFault;
+using technique::ParticleOptions;
+using testing::AllOf;
+using testing::Contains;
+using testing::Ge;
+using testing::HasSubstr;
+using testing::Key;
+using testing::Not;
+using testing::Pair;
+
+std::uint64_t covered(const core::Image& image) {
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(image.ids, [](auto id) { return id != core::Image::no_particle; }));
+}
+
+// Corners of one sphere's sprite.
+std::uint64_t corners_of(std::string_view technique) {
+  if (technique == "point") return 1;
+  if (technique == "polygon_tess") return 8;
+  // At 14 pixels' radius the cube root of 0.323·14² is 3.98.
+  return 4;
+}
+
+TEST(GlParticleFrames, ASingleSphereIsCountedAsItIs) {
+  for_each_device([](measure::Device& device) {
+    // So far away that a ray-aligned sprite is hardly larger than the silhouette.
+    const scene::ParticleScene scene = seen_from({{0, 0, -60, 3}}, {0, 0, 0}, 7.5);
+    for_each_technique(device, [&](std::string_view technique) {
+      const auto prepared = device.prepare(particle_work(technique, scene, {.corners = 8}));
+      const record::Counts counts = prepared->frame(Purpose::counters).counts;
+      const std::uint64_t kept = covered(prepared->image());
+      EXPECT_GT(kept, 500U);
+      EXPECT_THAT(
+          counts,
+          AllOf(Contains(Pair("cells", 1)), Contains(Pair("cells_culled", 0)),
+                Contains(Pair("particles_submitted", 1)), Contains(Pair("particles_culled", 0)),
+                Contains(Pair("visible_ids", 1)), Contains(Pair("fragments_kept", kept))));
+      if (technique == "tiles") return;
+      EXPECT_THAT(counts, AllOf(Contains(Pair("sprites", 1)),
+                                Contains(Pair("vertices", corners_of(technique)))));
+      EXPECT_EQ(counts.at("fragments"),
+                counts.at("fragments_kept") + counts.at("fragments_discarded"));
+      // A square around a disc of k pixels has 4/π·k, an octagon 1.05·k.
+      const double share = static_cast<double>(counts.at("fragments")) / static_cast<double>(kept);
+      EXPECT_NEAR(share, technique == "polygon_tess" ? 1.05 : 1.27, 0.15);
+    });
+  });
+}
+
+TEST(GlParticleFrames, CullingIsCounted) {
+  for_each_device([](measure::Device& device) {
+    const scene::ParticleScene scene =
+        generated("generate:uniform:20000", scene::ColourKind::rgba8, "path_z:7/8");
+    for_each_technique(device, [&](std::string_view technique) {
+      const auto prepared = device.prepare(particle_work(technique, scene));
+      const record::Counts counts = prepared->frame(Purpose::counters).counts;
+      EXPECT_EQ(counts.at("particles_submitted") + counts.at("particles_culled"), 20000U);
+      EXPECT_GT(counts.at("particles_culled"), 1000U);
+      EXPECT_GT(counts.at("cells_culled"), 2U);
+      EXPECT_LT(counts.at("cells_culled"), counts.at("cells"));
+      const auto all = device.prepare(particle_work(technique, scene, {.culling = Culling::none}));
+      const record::Counts uncut = all->frame(Purpose::counters).counts;
+      EXPECT_EQ(uncut.at("particles_submitted"), 20000U);
+      EXPECT_EQ(uncut.at("cells_culled"), 0U);
+      EXPECT_EQ(uncut.at("visible_ids"), counts.at("visible_ids"));
+      EXPECT_EQ(uncut.at("fragments_kept"), counts.at("fragments_kept"));
+    });
+  });
+}
+
+TEST(GlParticleFrames, EveryPurposeDrawsTheSamePicture) {
+  for_each_device([](measure::Device& device) {
+    for_each_technique(device, [&](std::string_view technique) {
+      const auto prepared =
+          device.prepare(particle_work(technique, generated("generate:uniform:900")));
+      const measure::Frame timed = prepared->frame(Purpose::timing);
+      EXPECT_GT(timed.wall_ns, 0);
+      EXPECT_TRUE(timed.counts.empty());
+      const core::Image first = prepared->image();
+      const measure::Frame statistics = prepared->frame(Purpose::statistics);
+      EXPECT_FALSE(statistics.device_ns);
+      EXPECT_EQ(prepared->image(), first);
+      static_cast<void>(prepared->frame(Purpose::counters));
+      EXPECT_EQ(prepared->image(), first);
+      static_cast<void>(prepared->frame(Purpose::timing));
+      EXPECT_EQ(prepared->image(), first);
+    });
+  });
+}
+
+TEST(GlParticleFrames, StatisticsTellTheStagesInUseAndNoOthers) {
+  for_each_device([](measure::Device& device) {
+    if (device.info().driver != "llvmpipe") return;
+    const auto statistics = [&](std::string_view technique) {
+      const auto prepared = device.prepare(
+          particle_work(technique, generated("generate:uniform:300"), {.culling = Culling::none}));
+      return prepared->frame(Purpose::statistics).counts;
+    };
+    const record::Counts quads = statistics("quad_ray");
+    EXPECT_THAT(quads, AllOf(Contains(Pair("input_assembly_vertices", 300)),
+                             Contains(Pair("geometry_primitives", 600)),
+                             Contains(Key("fragment_invocations")),
+                             Not(Contains(Key("tessellation_control_patches"))),
+                             Not(Contains(Key("compute_invocations")))));
+    const record::Counts patches = statistics("quad_tess");
+    EXPECT_THAT(patches, AllOf(Contains(Pair("tessellation_control_patches", 300)),
+                               Not(Contains(Key("geometry_primitives")))));
+    const auto culled =
+        device.prepare(particle_work("quad_instanced", generated("generate:uniform:300")));
+    EXPECT_THAT(culled->frame(Purpose::statistics).counts,
+                Contains(Pair("compute_invocations", Ge(1))));
+  });
+}
+
+// Two clusters, a cell each: one in the middle of the picture, one 5 % from its right edge.
+scene::ParticleScene one_cell_at_the_edge() {
+  std::vector<std::array<double, 4>> spheres;
+  for (int i = 0; i < 1200; ++i) {
+    const double offset = 0.0002 * (i / 2);
+    spheres.push_back({i % 2 == 0 ? -5.0 : 5.0, offset, -20 + offset, 0.1});
+  }
+  return seen_from(spheres, {-5, 0, 0}, 47.9);
+}
+
+TEST(GlParticleFrames, PlantedFaultsChangeThePicture) {
+  for_each_device([](measure::Device& device) {
+    for_each_technique(device, [&](std::string_view technique) {
+      const auto draw = [&](const scene::ParticleScene& scene, ParticleFault fault) {
+        return picture(device, particle_work(technique, scene, {.fault = fault})).ids;
+      };
+      const auto changes = [&](const scene::ParticleScene& scene, ParticleFault fault) {
+        return draw(scene, fault) != draw(scene, ParticleFault::none);
+      };
+      EXPECT_TRUE(changes(generated("generate:coincident:80"), ParticleFault::unresolved_ties));
+      EXPECT_TRUE(changes(generated("generate:uniform:300"), ParticleFault::reversed_depth));
+      EXPECT_TRUE(changes(one_cell_at_the_edge(), ParticleFault::culled_visible));
+      scene::ParticleScene large = seen_from({{0, 0, -3, 1}}, {0, 0, 0}, 60);
+      large.width = large.height = 400;
+      if (technique != "tiles" && technique != "polygon_tess") {
+        EXPECT_TRUE(changes(large, ParticleFault::small_sprite));
+      }
+    });
+  });
+}
+
+TEST(GlParticleFrames, ReversedDepthLeavesTheBackground) {
+  for_each_device([](measure::Device& device) {
+    const scene::ParticleScene scene = generated("generate:uniform:300");
+    for_each_technique(device, [&](std::string_view technique) {
+      const core::Image right = picture(device, particle_work(technique, scene));
+      const core::Image wrong = picture(
+          device, particle_work(technique, scene, {.fault = ParticleFault::reversed_depth}));
+      for (std::size_t i = 0; i < right.ids.size(); ++i) {
+        const bool empty = right.ids[i] == core::Image::no_particle;
+        ASSERT_EQ(wrong.ids[i] == core::Image::no_particle, empty);
+        ASSERT_EQ(std::isinf(wrong.depth[i]), empty);
+        ASSERT_GE(wrong.depth[i], right.depth[i]);
+      }
+    });
+  });
+}
+
+TEST(GlParticleFrames, WhatATechniqueDoesNotHaveIsRefusedWithTheReason) {
+  for_each_device([](measure::Device& device) {
+    const scene::ParticleScene scene = seen_from({{0, 0, -3, 1}}, {0, 0, 0}, 60);
+    const auto reason = [&](std::string_view technique, const ParticleOptions& options) {
+      return device.unsupported(particle_work(technique, scene, options)).value_or("");
+    };
+    EXPECT_THAT(reason("quad_ray", {.fault = ParticleFault::lost_at_border}), HasSubstr("tiles"));
+    EXPECT_THAT(reason("quad_ray", {.fault = ParticleFault::missing_barrier}),
+                HasSubstr("work groups"));
+    EXPECT_THAT(reason("quad_ray", {.fault = ParticleFault::wrong_sense}),
+                HasSubstr("conservative depth"));
+    EXPECT_THAT(
+        reason("quad_ray", {.culling = Culling::none, .fault = ParticleFault::culled_visible}),
+        HasSubstr("culling"));
+    EXPECT_THAT(reason("point", {.ray = ComputedAt::vertex}), HasSubstr("per pixel"));
+    EXPECT_THAT(reason("raycast", {}), HasSubstr("volumes"));
+    EXPECT_THAT(device.unsupported(make_work("quad_ray", make_scene({}))).value_or(""),
+                HasSubstr("particles"));
+    EXPECT_THROW(static_cast<void>(device.prepare(
+                     particle_work("quad_ray", scene, {.fault = ParticleFault::wrong_sense}))),
+                 core::NotSupported);
+    scene::ParticleScene wide = scene;
+    wide.width = 100000;
+    EXPECT_THAT(device.unsupported(particle_work("quad_ray", wide)).value_or(""),
+                AllOf(HasSubstr("100000"), HasSubstr("GL_MAX_RENDERBUFFER_SIZE")));
+  });
+}
+
+TEST(GlParticleFrames, ConservativeDepthIsAnotherBuild) {
+  for_each_device([](measure::Device& device) {
+    const scene::ParticleScene scene = seen_from({{0, 0, -3, 1}}, {0, 0, 0}, 60);
+    for_each_technique(device, [&](std::string_view technique) {
+      const auto hash = [&](const ParticleOptions& options) {
+        return device.prepare(particle_work(technique, scene, options))->kernel_hash();
+      };
+      const std::string plain = hash({});
+      EXPECT_EQ(hash({}), plain);
+      const std::string conservative = hash({.conservative_depth = true});
+      EXPECT_NE(conservative, plain);
+      EXPECT_NE(hash({.conservative_depth = true, .fault = ParticleFault::wrong_sense}),
+                conservative);
+    });
+  });
+}
+
+}  // namespace
+}  // namespace triptych::gl_backend
