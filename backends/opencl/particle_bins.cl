@@ -3,13 +3,6 @@
 // 8×8 of them; the coarse bins follow the fine ones. `chunks` work items take a run of the listed
 // cells each and count for themselves, so that nothing is fought over and the order is kept.
 
-TRI_FN int tiles_across(const Particles* u) {
-  return (u->viewport.x + TRI_TILE - 1) >> TRI_TILE_SHIFT;
-}
-TRI_FN int tiles_down(const Particles* u) {
-  return (u->viewport.y + TRI_TILE - 1) >> TRI_TILE_SHIFT;
-}
-
 // The bins of one particle: counted, or filled in.
 TRI_FN void into_bins(uint first, uint last, int across, int down, bool fill, uint particle,
                       __global uint* restrict cursors, __global const uint* restrict begins,
@@ -36,11 +29,6 @@ TRI_FN void into_bins(uint first, uint last, int across, int down, bool fill, ui
       if (fill) entries[begins[bin] + at] = particle;
     }
   }
-}
-
-// The run of listed cells that belongs to this work item.
-TRI_FN uint chunk_begin(uint listed, uint chunk, uint chunks) {
-  return (uint)((ulong)listed * chunk / chunks);
 }
 
 // Particles that are transformed together: loops over arrays of this length are what a compiler
@@ -112,16 +100,13 @@ TRI_FN bool is_sprite(uint first, uint last, int corners) {
   return TRI_SPRITE == 0 ? !is_empty(first, last) : corners > 0;
 }
 
-// Leaves the particles of the listed cells in camera space, their rectangles, the colours of their
-// sprites where those are looked up here, and per chunk the number of its entries in each bin.
+// Leaves the particles of the listed cells in camera space, their rectangles, and per chunk the
+// number of its entries in each bin.
 __kernel void count_bins(__global const Particles* restrict parameters,
                          __global const float* restrict spheres,
                          __global const Cell* restrict cells, __global const uint* restrict list,
                          __global float* restrict camera, __global uint* restrict rectangles,
-                         __global const uint* restrict colours,
-                         __global const float4* restrict table,
-                         __global float* restrict sprite_colours, uint bins,
-                         __global uint* restrict counts, __global uint* restrict counters) {
+                         uint bins, __global uint* restrict counts, __global uint* restrict counters) {
   uint chunk = (uint)get_global_id(0);
   uint chunks = (uint)get_global_size(0);
   Particles u = *parameters;
@@ -153,67 +138,14 @@ __kernel void count_bins(__global const Particles* restrict parameters,
 #endif
         if (is_empty(first, last)) continue;
         vstore4((float4)(batch.x[k], batch.y[k], batch.z[k], batch.r[k]), particle, camera);
-#if TRI_COLOUR == 2 && !TRI_TRANSFER_AT_PIXEL
-        float4 colour = transfer_colour(table, as_float(colours[particle]));
-        vstore4(colour, particle, sprite_colours);
-#endif
         into_bins(first, last, across, down, false, i + k, cursors, 0, 0);
       }
     }
   }
 #if TRI_COUNT
-  counters[8 * chunk + TRI_COUNT_SPRITES] = sprites;
-  counters[8 * chunk + TRI_COUNT_VERTICES] = vertices;
+  counters[8 * chunk + TRI_COUNT_SPRITES] += sprites;
+  counters[8 * chunk + TRI_COUNT_VERTICES] += vertices;
 #endif
-}
-
-// One work item per bin: counts become places within the bin, totals[bin] its length.
-__kernel void place_chunks(uint bins, uint chunks, __global uint* restrict counts,
-                           __global uint* restrict totals, __global uint* restrict counters) {
-  uint bin = (uint)get_global_id(0);
-  if (bin >= bins) return;
-  uint sum = 0;
-  for (uint chunk = 0; chunk < chunks; ++chunk) {
-    __global uint* count = counts + (size_t)bins * chunk + bin;
-    uint here = *count;
-    *count = sum;
-    sum += here;
-  }
-  totals[bin] = sum;
-#if TRI_COUNT
-  counters[8 * bin + TRI_COUNT_BIN_ENTRIES] = sum;
-#endif
-}
-
-// One work group: begins[bin] is where a bin's entries begin, begins[bins] how many there are. The
-// first item takes the last stretch of bins, so that it needs what all others find: should the
-// barrier be missing, that shows even where items run one after the other.
-__kernel void place_bins(uint bins, __global const uint* restrict totals,
-                         __global uint* restrict begins) {
-  __local uint sums[TRI_SCAN_ITEMS];
-  uint item = TRI_SCAN_ITEMS - 1 - (uint)get_local_id(0);
-  uint stretch = (bins + TRI_SCAN_ITEMS - 1) / TRI_SCAN_ITEMS;
-  uint from = min(item * stretch, bins);
-  uint to = min(from + stretch, bins);
-#if TRI_MISSING_BARRIER
-  // What the last frame left must not help.
-  if (item == TRI_SCAN_ITEMS - 1) {
-    for (uint other = 0; other < item; ++other) sums[other] = 0;
-  }
-#endif
-  uint sum = 0;
-  for (uint bin = from; bin < to; ++bin) sum += totals[bin];
-  sums[item] = sum;
-#if !TRI_MISSING_BARRIER
-  barrier(CLK_LOCAL_MEM_FENCE);
-#endif
-  uint place = 0;
-  for (uint other = 0; other < item; ++other) place += sums[other];
-  for (uint bin = from; bin < to; ++bin) {
-    begins[bin] = place;
-    place += totals[bin];
-  }
-  if (item == TRI_SCAN_ITEMS - 1) begins[bins] = place;
 }
 
 __kernel void fill_bins(__global const Particles* restrict parameters,

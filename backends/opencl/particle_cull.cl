@@ -33,28 +33,107 @@ TRI_FN bool outside_view(const Particles* u, const __global Cell* cell) {
          beyond(yf.x - y.x, yf.y - y.y, yf.z - y.z, lo, hi);
 }
 
-// One work item per cell. visible[cell]: 1 where it is to be drawn.
+// What becomes of a cell in this frame.
+#define TRI_NOT_DRAWN 0u
+#define TRI_DRAWN_FIRST 1u
+#define TRI_DRAWN_LATER 2u  // came into sight since the last frame
+#define TRI_TO_BE_TESTED 3u
+
+// One work item per cell. `culling`: 0 where the view leaves nothing out. shown[cell]: 1 where the
+// last frame found it in sight.
 __kernel void cull_cells(__global const Particles* parameters, __global const Cell* cells,
-                         __global uint* visible, __global uint* counters) {
+                         uint culling, __global const uint* shown, __global uint* states,
+                         __global uint* counters) {
   uint cell = (uint)get_global_id(0);
   if (cell >= parameters->counts.y) return;
   Particles u = *parameters;
-  int drawn = TRI_CULLING == 0 || !outside_view(&u, &cells[cell]) ? 1 : 0;
-  visible[cell] = (uint)drawn;
+  uint state = shown[cell] ? TRI_DRAWN_FIRST : TRI_TO_BE_TESTED;
+  if (culling != 0 && outside_view(&u, &cells[cell])) state = TRI_NOT_DRAWN;
+  states[cell] = state;
 #if TRI_COUNT
-  counters[8 * cell + TRI_COUNT_CELLS_CULLED] = (uint)(1 - drawn);
+  bool drawn = state == TRI_DRAWN_FIRST;
+  counters[8 * cell + TRI_COUNT_CELLS_CULLED] = drawn ? 0 : 1;
   counters[8 * cell + TRI_COUNT_SUBMITTED] = drawn ? cells[cell].count : 0;
 #endif
 }
 
-// One work item. list[0]: how many cells follow, in their order; of the cells to be drawn every
+// Where the box lies on the screen: its nearest distance along the view axis, and its pixels, first
+// and last corner, widened by one to each side for rounding. False where a part of it does not lie
+// before the eye.
+TRI_FN bool box_on_screen(const Particles* u, const __global Cell* cell, float* nearest,
+                          int4* pixels) {
+  float size = 0.0f;
+  for (int k = 0; k < 3; ++k) size = max(size, max(fabs(cell->lo[k]), fabs(cell->hi[k])));
+  size += fabs(u->eye.x) + fabs(u->eye.y) + fabs(u->eye.z);
+  float2 low = (float2)(INFINITY, INFINITY);
+  float2 high = -low;
+  *nearest = INFINITY;
+  for (int corner = 0; corner < 8; ++corner) {
+    float x = (corner & 1) != 0 ? cell->hi[0] : cell->lo[0];
+    float y = (corner & 2) != 0 ? cell->hi[1] : cell->lo[1];
+    float z = (corner & 4) != 0 ? cell->hi[2] : cell->lo[2];
+    float distance = camera_z(u, x, y, z);
+    if (distance <= 1e-5f * size) return false;
+    float2 at = (float2)(camera_x(u, x, y, z), 0.0f - camera_y(u, x, y, z)) / distance;
+    *nearest = min(*nearest, distance - 1e-6f * size);
+    low = (float2)(min(low.x, at.x), min(low.y, at.y));
+    high = (float2)(max(high.x, at.x), max(high.y, at.y));
+  }
+  *pixels = (int4)(first_pixel(low.x, u->plane.x, u->plane.z, u->viewport.x) - 1,
+                   first_pixel(low.y, u->plane.y, u->plane.w, u->viewport.y) - 1,
+                   last_pixel(high.x, u->plane.x, u->plane.z, u->viewport.x) + 1,
+                   last_pixel(high.y, u->plane.y, u->plane.w, u->viewport.y) + 1);
+  return true;
+}
+
+// Whether all that the box may show lies strictly behind the farthest depth of every tile it
+// reaches. farthest: reversed depth per tile, 0 where a pixel of it shows nothing.
+TRI_FN bool occluded(const Particles* u, const __global Cell* cell,
+                     __global const float* restrict farthest) {
+  float nearest;
+  int4 pixels;
+  if (!box_on_screen(u, cell, &nearest, &pixels)) return false;
+  float depth = u->eye.w / nearest;
+  int across = tiles_across(u);
+  int x0 = max(pixels.x, 0) >> TRI_TILE_SHIFT;
+  int y0 = max(pixels.y, 0) >> TRI_TILE_SHIFT;
+  int x1 = min(pixels.z, u->viewport.x - 1) >> TRI_TILE_SHIFT;
+  int y1 = min(pixels.w, u->viewport.y - 1) >> TRI_TILE_SHIFT;
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      if (depth >= farthest[y * across + x]) return false;
+    }
+  }
+  return true;
+}
+
+// One work item per cell, after the first pass: which of the cells in view are in sight, and which
+// of these are still to be drawn.
+__kernel void test_cells(__global const Particles* parameters, __global const Cell* cells,
+                         __global const float* restrict farthest, __global uint* shown,
+                         __global uint* states, __global uint* counters) {
+  uint cell = (uint)get_global_id(0);
+  if (cell >= parameters->counts.y) return;
+  Particles u = *parameters;
+  uint state = states[cell];
+  bool in_sight = state != TRI_NOT_DRAWN && !occluded(&u, &cells[cell], farthest);
+  shown[cell] = in_sight ? 1 : 0;
+  if (state != TRI_TO_BE_TESTED) return;
+  states[cell] = in_sight ? TRI_DRAWN_LATER : TRI_NOT_DRAWN;
+#if TRI_COUNT
+  counters[8 * cell + TRI_COUNT_CELLS_CULLED] = in_sight ? 0 : 1;
+  counters[8 * cell + TRI_COUNT_SUBMITTED] = in_sight ? cells[cell].count : 0;
+#endif
+}
+
+// One work item. list[0]: how many cells follow, in their order; of those in this state every
 // stride-th.
-__kernel void list_cells(__global const Particles* parameters, __global const uint* visible,
-                         uint stride, __global uint* list) {
+__kernel void list_cells(__global const Particles* parameters, __global const uint* states,
+                         uint state, uint stride, __global uint* list) {
   uint seen = 0;
   uint listed = 0;
   for (uint cell = 0; cell < parameters->counts.y; ++cell) {
-    if (visible[cell] == 0) continue;
+    if (states[cell] != state) continue;
     if (seen++ % stride == 0) list[++listed] = cell;
   }
   list[0] = listed;

@@ -4,38 +4,78 @@
 
 #include <bit>
 
-#include "backends/opencl/programs.hpp"
+#include "core/hash.hpp"
 
 namespace triptych::opencl_backend {
+namespace {
 
-std::string ParticleConstants::options() const {
-  // Never -cl-fast-relaxed-math or -cl-mad-enable: the same bits on every run and device.
+struct Part {
+  std::string source;
+  std::string options;
+};
+
+// Never -cl-fast-relaxed-math or -cl-mad-enable: the same bits on every run and device.
+std::string common_options(const ParticleConstants& constants) {
   return fmt::format(
-      "-cl-std=CL1.2 -DTRI_SPRITE={} -DTRI_COLOUR={} -DTRI_TRANSFER_AT_PIXEL={:d} "
-      "-DTRI_RAY_AT_VERTEX={:d} -DTRI_CONSERVATIVE_DEPTH={:d} -DTRI_CULLING={} -DTRI_FAULT={} "
-      "-DTRI_COUNT={:d} -DTRI_TILE={} -DTRI_TILE_SHIFT={} -DTRI_MOST_TILES={} "
-      "-DTRI_SCAN_ITEMS={}",
-      static_cast<int>(sprite), static_cast<int>(colour), transfer_at_pixel, ray_at_vertex,
-      conservative_depth, static_cast<int>(culling), static_cast<int>(fault), count, tile_edge,
-      std::countr_zero(static_cast<unsigned>(tile_edge)), most_tiles, scan_items);
+      "-cl-std=CL1.2 -DTRI_TILE={} -DTRI_TILE_SHIFT={} -DTRI_COUNT={:d} -DTRI_FAULT={}", tile_edge,
+      std::countr_zero(static_cast<unsigned>(tile_edge)), constants.count,
+      static_cast<int>(constants.fault));
 }
 
-std::string particle_source() {
-  return program_source({"sphere_math.h", "particles.cl", "particle_cull.cl", "particle_colour.cl",
-                         "particle_rectangle.cl", "particle_sprite.cl", "particle_bins.cl",
-                         "particle_tiles.cl", "particle_shade.cl"});
+Part cells_part(const ParticleConstants& constants) {
+  return {program_source({"sphere_math.h", "particles.cl", "particle_rectangle.cl",
+                          "particle_cull.cl", "particle_scan.cl"}),
+          fmt::format("{} -DTRI_SCAN_ITEMS={}", common_options(constants), scan_items)};
 }
+
+Part sprites_part(const ParticleConstants& constants) {
+  return {program_source({"sphere_math.h", "particles.cl", "particle_rectangle.cl",
+                          "particle_sprite.cl", "particle_bins.cl", "particle_tiles.cl"}),
+          fmt::format("{} -DTRI_SPRITE={} -DTRI_RAY_AT_VERTEX={:d} -DTRI_CONSERVATIVE_DEPTH={:d} "
+                      "-DTRI_MOST_TILES={}",
+                      common_options(constants), static_cast<int>(constants.sprite),
+                      constants.ray_at_vertex, constants.conservative_depth, most_tiles)};
+}
+
+// Neither counts nor breaks anything.
+Part shading_part(ParticleConstants constants) {
+  constants.count = false;
+  constants.fault = technique::ParticleFault::none;
+  return {program_source({"sphere_math.h", "particles.cl", "particle_shade.cl"}),
+          fmt::format("{} -DTRI_COLOUR={} -DTRI_TRANSFER_AT_PIXEL={:d} -DTRI_RAY_AT_VERTEX={:d}",
+                      common_options(constants), static_cast<int>(constants.colour),
+                      constants.transfer_at_pixel, constants.ray_at_vertex)};
+}
+
+}  // namespace
 
 ParticleConstants constants_of(const measure::ParticleWork& work, Sprite sprite) {
   const technique::ParticleOptions& options = work.options;
-  const bool own = sprite == Sprite::rectangle;  // has neither vertices nor a depth unit
+  const bool no_vertices = sprite == Sprite::rectangle;
   return {.sprite = sprite,
           .colour = work.scene.particles->colour,
-          .transfer_at_pixel = own || options.transfer == technique::ComputedAt::pixel,
-          .ray_at_vertex = !own && options.ray == technique::ComputedAt::vertex,
-          .conservative_depth = own || options.conservative_depth,
-          .culling = options.culling,
+          .transfer_at_pixel = no_vertices || options.transfer == technique::ComputedAt::pixel ||
+                               work.scene.particles->colour != scene::ColourKind::intensity,
+          .ray_at_vertex = !no_vertices && options.ray == technique::ComputedAt::vertex,
+          // Without a depth unit, tiles reject early in any case.
+          .conservative_depth = no_vertices || options.conservative_depth,
           .fault = options.fault};
+}
+
+ParticlePrograms particle_programs(Programs& programs, const ParticleConstants& constants) {
+  const auto get = [&](const Part& part) { return programs.get(part.source, part.options); };
+  return {.cells = get(cells_part(constants)),
+          .sprites = get(sprites_part(constants)),
+          .shading = get(shading_part(constants))};
+}
+
+std::string particle_hash(const ParticleConstants& constants) {
+  std::string all;
+  for (const Part& part :
+       {cells_part(constants), sprites_part(constants), shading_part(constants)}) {
+    all += Programs::hash(part.source, part.options);
+  }
+  return core::content_hash(all);
 }
 
 }  // namespace triptych::opencl_backend

@@ -1,14 +1,23 @@
 #pragma once
-// Device code of the particle techniques.
+// Device code of the particle techniques, in three programs, so that none is compiled again for an
+// option that it does not know.
 
+#include <cstdint>
 #include <string>
 
+#include "backends/opencl/programs.hpp"
 #include "measure/backend.hpp"
 
 namespace triptych::opencl_backend {
 
 // How a particle's pixels are found (TRI_SPRITE of particle_sprite.cl).
-enum class Sprite : std::uint8_t { rectangle, screen_quad, ray_quad, polygon, adaptive_polygon };
+enum class Sprite : std::uint8_t {
+  rectangle,  // none: the pixels around the silhouette
+  screen_quad,
+  ray_quad,
+  polygon,
+  adaptive_polygon
+};
 
 // The compile-time constants of particles.cl and what follows it. A build that does not count or
 // plant a fault holds no trace of it.
@@ -18,12 +27,12 @@ struct ParticleConstants {
   bool transfer_at_pixel = true;
   bool ray_at_vertex = false;
   bool conservative_depth = false;
-  technique::Culling culling = technique::Culling::frustum;
   technique::ParticleFault fault = technique::ParticleFault::none;
   bool count = false;
-
-  [[nodiscard]] std::string options() const;  // as the compiler takes them
 };
+
+// Constants of the timed build.
+[[nodiscard]] ParticleConstants constants_of(const measure::ParticleWork& work, Sprite sprite);
 
 // Edge of a tile in pixels, of a coarse one in tiles; a particle that reaches more tiles than
 // `most_tiles` is put into coarse ones.
@@ -32,9 +41,16 @@ inline constexpr int coarse_edge = 8;
 inline constexpr int most_tiles = 16;
 inline constexpr int scan_items = 64;  // work group of place_bins
 
-[[nodiscard]] std::string particle_source();
+struct ParticlePrograms {
+  cl::Program cells;    // cull_cells, test_cells, list_cells, place_chunks, place_bins
+  cl::Program sprites;  // count_bins, fill_bins, draw_tiles
+  cl::Program shading;  // colour_sprites, shade
+};
 
-// Constants of the timed build.
-[[nodiscard]] ParticleConstants constants_of(const measure::ParticleWork& work, Sprite sprite);
+[[nodiscard]] ParticlePrograms particle_programs(Programs& programs,
+                                                 const ParticleConstants& constants);
+
+// Content hash of the three, their options included.
+[[nodiscard]] std::string particle_hash(const ParticleConstants& constants);
 
 }  // namespace triptych::opencl_backend

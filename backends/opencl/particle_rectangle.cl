@@ -35,3 +35,10 @@ TRI_FN float2 covered(float a, float z, float r, float pixel, float scale) {
   float shrink = scale < 1.0f ? 0.5f * (1.0f - scale) * (high - low) : 0.0f;
   return (float2)(low + shrink, high - shrink);
 }
+
+TRI_FN int tiles_across(const Particles* u) {
+  return (u->viewport.x + TRI_TILE - 1) >> TRI_TILE_SHIFT;
+}
+TRI_FN int tiles_down(const Particles* u) {
+  return (u->viewport.y + TRI_TILE - 1) >> TRI_TILE_SHIFT;
+}

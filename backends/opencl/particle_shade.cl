@@ -1,4 +1,14 @@
-// One work item per row of pixels shades what it shows.
+// Colours of the particles, and of the pixels that show them.
+
+// Linear between entry centres, constant outside them.
+TRI_FN float4 transfer_colour(__global const float4* table, float intensity) {
+  float position = tri_table_position(intensity);
+  int lower = min((int)position, 254);
+  float share = position - (float)lower;
+  float4 a = table[lower];
+  float4 b = table[lower + 1];
+  return a + share * (b - a);
+}
 
 #if TRI_COLOUR != 2
 TRI_FN float4 stored_colour(__global const uint* colours, uint particle) {
@@ -12,6 +22,26 @@ TRI_FN float4 stored_colour(__global const uint* colours, uint particle) {
 }
 #endif
 
+#if TRI_COLOUR == 2
+// One work item per chunk: the transfer function looked up once for each sprite.
+__kernel void colour_sprites(__global const Cell* restrict cells, __global const uint* restrict list,
+                             __global const float* restrict intensities,
+                             __global const float4* restrict table,
+                             __global float4* restrict sprite_colours) {
+  uint chunk = (uint)get_global_id(0);
+  uint chunks = (uint)get_global_size(0);
+  uint end = chunk_begin(list[0], chunk + 1, chunks);
+  for (uint at = chunk_begin(list[0], chunk, chunks); at < end; ++at) {
+    uint begin = cells[list[1 + at]].begin;
+    uint stop = begin + cells[list[1 + at]].count;
+    for (uint i = begin; i < stop; ++i) {
+      sprite_colours[i] = transfer_colour(table, intensities[i]);
+    }
+  }
+}
+#endif
+
+// One work item per row of pixels.
 __kernel void shade(__global const Particles* restrict parameters,
                     __global const float* restrict camera, __global const uint* restrict ids,
                     __global const uint* restrict colours, __global const float4* restrict table,

@@ -48,7 +48,8 @@ TRI_FN void open_tile(const Particles* u, int x, int y, Tile* tile) {
   for (int k = 0; k < TRI_TILE * TRI_STRIDE; ++k) tile->winner[k] = TRI_NONE;
 }
 
-TRI_FN void look_for_farthest(float near, Tile* tile) {
+// The lowest reversed depth of the tile's pixels.
+TRI_FN float lowest_depth(const Tile* tile) {
   float lowest[TRI_LANES];
   for (int k = 0; k < TRI_LANES; ++k) lowest[k] = 1.0f;
   for (int y = 0; y <= tile->last_y; ++y) {
@@ -61,7 +62,11 @@ TRI_FN void look_for_farthest(float near, Tile* tile) {
     }
   }
   for (int k = 1; k < TRI_LANES; ++k) lowest[0] = lowest[k] < lowest[0] ? lowest[k] : lowest[0];
-  tile->farthest = near / lowest[0];
+  return lowest[0];
+}
+
+TRI_FN void look_for_farthest(float near, Tile* tile) {
+  tile->farthest = near / lowest_depth(tile);
   tile->drawn = 0;
 }
 
@@ -162,11 +167,48 @@ TRI_FN void draw_entry(const Particles* u, __global const float* restrict camera
   if (++tile->drawn >= TRI_LOOK_EVERY) look_for_farthest(u->eye.w, tile);
 }
 
+// What an earlier pass of the frame has left in the tile.
+TRI_FN void load_tile(const Particles* u, __global const float* restrict depths,
+                      __global const uint* restrict winners,
+                      __global const float* restrict cosines, Tile* tile) {
+  for (int y = 0; y <= tile->last_y; ++y) {
+    size_t from = (size_t)(tile->y + y) * (size_t)u->viewport.x + (size_t)tile->x;
+    for (int x = 0; x <= tile->last_x; ++x) {
+      int to = y * TRI_STRIDE + x;
+      uint winner = winners[from + x];
+      tile->winner[to] = winner;
+      tile->depth[to] = winner == TRI_NONE ? TRI_CLEAR_DEPTH : depths[from + x];
+#if TRI_RAY_AT_VERTEX
+      tile->cosine[to] = cosines[from + x];
+#endif
+    }
+  }
+  look_for_farthest(u->eye.w, tile);
+}
+
+TRI_FN void store_tile(const Particles* u, const Tile* tile, __global float* restrict depths,
+                       __global uint* restrict winners, __global float* restrict cosines) {
+  for (int y = 0; y <= tile->last_y; ++y) {
+    size_t to = (size_t)(tile->y + y) * (size_t)u->viewport.x + (size_t)tile->x;
+    for (int x = 0; x <= tile->last_x; ++x) {
+      int from = y * TRI_STRIDE + x;
+      depths[to + x] = tile->winner[from] == TRI_NONE ? 0.0f : tile->depth[from];
+      winners[to + x] = tile->winner[from];
+#if TRI_RAY_AT_VERTEX
+      cosines[to + x] = tile->cosine[from];
+#endif
+    }
+  }
+}
+
+// `later`: 1 in a pass that adds to what an earlier one has drawn. farthest[tile]: the lowest
+// reversed depth in it.
 __kernel void draw_tiles(__global const Particles* restrict parameters,
                          __global const float* restrict camera,
                          __global const uint* restrict rectangles,
                          __global const uint* restrict begins,
-                         __global const uint* restrict entries, __global float* restrict depths,
+                         __global const uint* restrict entries, uint later,
+                         __global float* restrict farthest, __global float* restrict depths,
                          __global uint* restrict winners, __global float* restrict cosines,
                          __global uint* restrict counters) {
   int tile_x = (int)get_global_id(0);
@@ -174,32 +216,25 @@ __kernel void draw_tiles(__global const Particles* restrict parameters,
   Particles u = *parameters;
   int across = tiles_across(&u);
   int down = tiles_down(&u);
+  uint number = (uint)(tile_y * across + tile_x);
+  uint coarse = (uint)(across * down + (tile_y >> 3) * ((across + 7) >> 3) + (tile_x >> 3));
+  uint drawn_in[2] = {coarse, number};
+  if (later && begins[coarse] == begins[coarse + 1] && begins[number] == begins[number + 1]) return;
   Tile tile;
   open_tile(&u, tile_x << TRI_TILE_SHIFT, tile_y << TRI_TILE_SHIFT, &tile);
+  if (later) load_tile(&u, depths, winners, cosines, &tile);
   uint fragments = 0;
   uint kept = 0;
-  uint drawn_in[2] = {(uint)(across * down + (tile_y >> 3) * ((across + 7) >> 3) + (tile_x >> 3)),
-                      (uint)(tile_y * across + tile_x)};
   for (int k = 0; k < 2; ++k) {
     uint end = begins[drawn_in[k] + 1];
     for (uint at = begins[drawn_in[k]]; at < end; ++at) {
       draw_entry(&u, camera, rectangles, entries[at], &tile, &fragments, &kept);
     }
   }
-  for (int y = 0; y <= tile.last_y; ++y) {
-    size_t to = (size_t)(tile.y + y) * (size_t)u.viewport.x + (size_t)tile.x;
-    for (int x = 0; x <= tile.last_x; ++x) {
-      int from = y * TRI_STRIDE + x;
-      depths[to + x] = tile.winner[from] == TRI_NONE ? 0.0f : tile.depth[from];
-      winners[to + x] = tile.winner[from];
-#if TRI_RAY_AT_VERTEX
-      cosines[to + x] = tile.cosine[from];
-#endif
-    }
-  }
+  store_tile(&u, &tile, depths, winners, cosines);
+  farthest[number] = lowest_depth(&tile);
 #if TRI_COUNT
-  uint number = drawn_in[1];
-  counters[8 * number + TRI_COUNT_FRAGMENTS] = fragments;
-  counters[8 * number + TRI_COUNT_DISCARDED] = fragments - kept;
+  counters[8 * number + TRI_COUNT_FRAGMENTS] += fragments;
+  counters[8 * number + TRI_COUNT_DISCARDED] += fragments - kept;
 #endif
 }

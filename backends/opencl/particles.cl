@@ -22,9 +22,10 @@ typedef struct {
   uint count;
 } Cell;
 
-// Compile-time constants: TRI_SPRITE (how a particle's pixels are found, see particle_sprite.cl),
-// TRI_COLOUR (0 rgba8, 1 rgba32, 2 intensity), TRI_TRANSFER_AT_PIXEL, TRI_RAY_AT_VERTEX,
-// TRI_CONSERVATIVE_DEPTH, TRI_COUNT (0 or 1), TRI_FAULT (technique::ParticleFault).
+// Compile-time constants: TRI_COUNT (0 or 1), TRI_FAULT (technique::ParticleFault), TRI_TILE and
+// TRI_TILE_SHIFT (edge of a tile in pixels). Of bins and tiles: TRI_SPRITE (how a particle's pixels
+// are found, see particle_sprite.cl), TRI_CONSERVATIVE_DEPTH, TRI_RAY_AT_VERTEX (0 or 1). Of
+// shading: TRI_COLOUR (0 rgba8, 1 rgba32, 2 intensity), TRI_TRANSFER_AT_PIXEL, TRI_RAY_AT_VERTEX.
 #define TRI_UNRESOLVED_TIES (TRI_FAULT == 2)
 #define TRI_REVERSED_DEPTH (TRI_FAULT == 3)
 #define TRI_WRONG_SENSE (TRI_FAULT == 4)
@@ -65,4 +66,9 @@ TRI_FN float pixel_ray_x(const Particles* u, int x) {
 }
 TRI_FN float pixel_ray_y(const Particles* u, int y) {
   return u->plane.y - ((float)y + 0.5f) * u->plane.w;
+}
+
+// The run of listed cells that belongs to this work item.
+TRI_FN uint chunk_begin(uint listed, uint chunk, uint chunks) {
+  return (uint)((ulong)listed * chunk / chunks);
 }

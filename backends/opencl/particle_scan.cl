@@ -1,0 +1,50 @@
+// Where the entries of each bin begin, from their numbers.
+
+// One work item per bin: counts become places within the bin, totals[bin] its length.
+__kernel void place_chunks(uint bins, uint chunks, __global uint* restrict counts,
+                           __global uint* restrict totals, __global uint* restrict counters) {
+  uint bin = (uint)get_global_id(0);
+  if (bin >= bins) return;
+  uint sum = 0;
+  for (uint chunk = 0; chunk < chunks; ++chunk) {
+    __global uint* count = counts + (size_t)bins * chunk + bin;
+    uint here = *count;
+    *count = sum;
+    sum += here;
+  }
+  totals[bin] = sum;
+#if TRI_COUNT
+  counters[8 * bin + TRI_COUNT_BIN_ENTRIES] += sum;
+#endif
+}
+
+// One work group: begins[bin] is where a bin's entries begin, begins[bins] how many there are. The
+// first item takes the last stretch of bins, so that it needs what all others find: should the
+// barrier be missing, that shows even where items run one after the other.
+__kernel void place_bins(uint bins, __global const uint* restrict totals,
+                         __global uint* restrict begins) {
+  __local uint sums[TRI_SCAN_ITEMS];
+  uint item = TRI_SCAN_ITEMS - 1 - (uint)get_local_id(0);
+  uint stretch = (bins + TRI_SCAN_ITEMS - 1) / TRI_SCAN_ITEMS;
+  uint from = min(item * stretch, bins);
+  uint to = min(from + stretch, bins);
+#if TRI_MISSING_BARRIER
+  // What the last frame left must not help.
+  if (item == TRI_SCAN_ITEMS - 1) {
+    for (uint other = 0; other < item; ++other) sums[other] = 0;
+  }
+#endif
+  uint sum = 0;
+  for (uint bin = from; bin < to; ++bin) sum += totals[bin];
+  sums[item] = sum;
+#if !TRI_MISSING_BARRIER
+  barrier(CLK_LOCAL_MEM_FENCE);
+#endif
+  uint place = 0;
+  for (uint other = 0; other < item; ++other) place += sums[other];
+  for (uint bin = from; bin < to; ++bin) {
+    begins[bin] = place;
+    place += totals[bin];
+  }
+  if (item == TRI_SCAN_ITEMS - 1) begins[bins] = place;
+}

@@ -1,0 +1,183 @@
+#include "backends/opencl/particle_stages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace triptych::opencl_backend {
+namespace {
+
+constexpr std::size_t group = 64;
+// Of particle_cull.cl.
+constexpr cl_uint drawn_first = 1;
+constexpr cl_uint drawn_later = 2;
+
+std::array<std::size_t, 2> tile_grid(const scene::ParticleScene& scene) {
+  const auto tiles = [](int pixels) {
+    return (static_cast<std::size_t>(pixels) + tile_edge - 1) / tile_edge;
+  };
+  return {tiles(scene.width), tiles(scene.height)};
+}
+
+std::size_t bin_count(const std::array<std::size_t, 2>& tiles) {
+  const auto coarse = [](std::size_t n) { return (n + coarse_edge - 1) / coarse_edge; };
+  return tiles[0] * tiles[1] + coarse(tiles[0]) * coarse(tiles[1]);
+}
+
+// Runs of cells that work items take: some for each compute unit, so that none waits long for the
+// last.
+std::size_t chunk_count(const Session& session) {
+  constexpr std::size_t per_unit = 8;
+  const auto units = checked([&] { return session.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(); });
+  return std::clamp<std::size_t>(per_unit * units, 16, 512);
+}
+
+}  // namespace
+
+ParticleStages::ParticleStages(const Session& session, ParticleData data,
+                               const measure::ParticleWork& work,
+                               const ParticleConstants& constants)
+    : session_(session),
+      culling_(work.options.culling),
+      colours_sprites_(!constants.transfer_at_pixel),
+      height_(static_cast<std::size_t>(work.scene.height)),
+      pixels_(static_cast<std::size_t>(work.scene.width) * height_),
+      tiles_(tile_grid(work.scene)),
+      bins_(bin_count(tiles_)),
+      chunks_(chunk_count(session)),
+      data_(std::move(data)),
+      counter_rows_(std::max({bins_, data_.cell_count, chunks_})),
+      camera_(make_buffer(4 * data_.count)),
+      rectangles_(make_buffer(2 * data_.count)),
+      sprite_colours_(make_buffer(colours_sprites_ ? 4 * data_.count : 0)),
+      cosines_(make_buffer(constants.ray_at_vertex ? pixels_ : 0)),
+      shown_(make_buffer(data_.cell_count)),
+      states_(make_buffer(data_.cell_count)),
+      farthest_(make_buffer(tiles_[0] * tiles_[1])),
+      image_(make_buffer(4 * pixels_)),
+      ids_(make_buffer(pixels_)),
+      counters_(make_buffer(particle_counter_stride * counter_rows_)) {
+  forget_hidden();
+}
+
+cl::Buffer ParticleStages::make_buffer(std::size_t words) const {
+  constexpr std::size_t fewest = 4;  // a buffer of no bytes is an error
+  return checked([&] {
+    return cl::Buffer(session_.context, CL_MEM_READ_WRITE,
+                      std::max(words, fewest) * sizeof(cl_uint));
+  });
+}
+
+cl::NDRange ParticleStages::cell_range() const {
+  return cl::NDRange(round_up(std::max<std::size_t>(data_.cell_count, 1), group));
+}
+
+void ParticleStages::forget_hidden() const {
+  checked([&] {
+    session_.queue.enqueueFillBuffer(shown_, cl_uint{1}, 0,
+                                     std::max<std::size_t>(data_.cell_count, 1) * sizeof(cl_uint));
+    session_.queue.finish();
+  });
+}
+
+Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride) {
+  Pass pass{.stride = stride,
+            .list = make_buffer(data_.cell_count + 1),
+            .counts = make_buffer(chunks_ * bins_),
+            .totals = make_buffer(bins_),
+            .begins = make_buffer(bins_ + 1),
+            .depths = make_buffer(pixels_),
+            .winners = make_buffer(pixels_)};
+  std::vector<Launch> launches{cull(programs)};
+  add_binning(programs, pass, drawn_first, launches);
+  std::vector<cl::Event> events;
+  run(session_, launches, events);
+  std::vector<cl_uint> totals(bins_);
+  session_.queue.enqueueReadBuffer(pass.totals, CL_TRUE, 0, bins_ * sizeof totals[0],
+                                   totals.data());
+  const std::uint64_t entries = std::reduce(totals.begin(), totals.end(), std::uint64_t{0});
+  const std::uint64_t bytes = entries * sizeof(cl_uint);
+  const auto most = session_.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  if (bytes > most) {
+    throw core::NotSupported(fmt::format(
+        "{} bin entries take {} bytes, CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}", entries, bytes, most));
+  }
+  pass.entries = make_buffer(entries);
+  return pass;
+}
+
+Launch ParticleStages::cull(const ParticlePrograms& programs) const {
+  const cl_uint culling = culling_ == technique::Culling::none ? 0 : 1;
+  return make_launch(programs.cells, "cull_cells", cell_range(), cl::NDRange(group),
+                     data_.parameters, data_.cells, culling, shown_, states_, counters_);
+}
+
+Launch ParticleStages::test(const ParticlePrograms& programs) const {
+  return make_launch(programs.cells, "test_cells", cell_range(), cl::NDRange(group),
+                     data_.parameters, data_.cells, farthest_, shown_, states_, counters_);
+}
+
+void ParticleStages::add_binning(const ParticlePrograms& programs, const Pass& pass, cl_uint state,
+                                 std::vector<Launch>& to) const {
+  const cl::NDRange one(1);
+  const auto bins = static_cast<cl_uint>(bins_);
+  to.push_back(make_launch(programs.cells, "list_cells", one, one, data_.parameters, states_, state,
+                           pass.stride, pass.list));
+  to.push_back(make_launch(programs.sprites, "count_bins", cl::NDRange(chunks_), one,
+                           data_.parameters, data_.spheres, data_.cells, pass.list, camera_,
+                           rectangles_, bins, pass.counts, counters_));
+  to.push_back(make_launch(programs.cells, "place_chunks", cl::NDRange(round_up(bins_, group)),
+                           cl::NDRange(group), bins, static_cast<cl_uint>(chunks_), pass.counts,
+                           pass.totals, counters_));
+  to.push_back(make_launch(programs.cells, "place_bins", cl::NDRange(scan_items),
+                           cl::NDRange(scan_items), bins, pass.totals, pass.begins));
+}
+
+void ParticleStages::add_drawing(const ParticlePrograms& programs, const Pass& pass, cl_uint state,
+                                 std::vector<Launch>& to) const {
+  const cl::NDRange one(1);
+  const cl_uint later = state == drawn_later ? 1 : 0;
+  add_binning(programs, pass, state, to);
+  to.push_back(make_launch(programs.sprites, "fill_bins", cl::NDRange(chunks_), one,
+                           data_.parameters, data_.cells, pass.list, rectangles_,
+                           static_cast<cl_uint>(bins_), pass.counts, pass.begins, pass.entries));
+  if (colours_sprites_) {
+    to.push_back(make_launch(programs.shading, "colour_sprites", cl::NDRange(chunks_), one,
+                             data_.cells, pass.list, data_.colours, data_.table, sprite_colours_));
+  }
+  to.push_back(make_launch(programs.sprites, "draw_tiles", cl::NDRange(tiles_[0], tiles_[1]),
+                           cl::NDRange(1, 1), data_.parameters, camera_, rectangles_, pass.begins,
+                           pass.entries, later, farthest_, pass.depths, pass.winners, cosines_,
+                           counters_));
+}
+
+Launch ParticleStages::shade(const ParticlePrograms& programs, const Pass& pass) const {
+  return make_launch(programs.shading, "shade", cl::NDRange(height_), cl::NDRange(1),
+                     data_.parameters, camera_, data_.ids, data_.colours, data_.table,
+                     sprite_colours_, pass.winners, cosines_, image_, ids_);
+}
+
+std::vector<Launch> ParticleStages::picture(const ParticlePrograms& programs,
+                                            const Pass& pass) const {
+  std::vector<Launch> launches{cull(programs)};
+  add_drawing(programs, pass, drawn_first, launches);
+  if (culling_ == technique::Culling::occlusion) {
+    launches.push_back(test(programs));
+    add_drawing(programs, pass, drawn_later, launches);
+  }
+  launches.push_back(shade(programs, pass));
+  return launches;
+}
+
+std::vector<Launch> ParticleStages::again(const ParticlePrograms& programs,
+                                          const Pass& pass) const {
+  std::vector<Launch> launches;
+  add_drawing(programs, pass, drawn_first, launches);
+  return launches;
+}
+
+}  // namespace triptych::opencl_backend

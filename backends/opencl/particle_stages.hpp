@@ -1,0 +1,88 @@
+#pragma once
+// The stages of a particle frame as kernel launches, and what they share on the device.
+//
+//   cull_cells                          which cells are in view
+//   list_cells, count_bins, place_chunks, place_bins, fill_bins, draw_tiles       a pass
+//   test_cells, and a second pass       with occlusion culling: what came into sight
+//   shade                               the picture
+
+#include <array>
+#include <vector>
+
+#include "backends/opencl/launches.hpp"
+#include "backends/opencl/particle_data.hpp"
+#include "backends/opencl/particle_programs.hpp"
+
+namespace triptych::opencl_backend {
+
+// Rows of the counters, one per work item; the names in the order of the kernels' constants.
+inline constexpr std::size_t particle_counter_stride = 8;
+
+// Sorts the listed cells into bins and draws these.
+struct Pass {
+  cl_uint stride = 1;  // of the cells to be drawn every stride-th
+  cl::Buffer list;
+  cl::Buffer counts;
+  cl::Buffer totals;
+  cl::Buffer begins;
+  cl::Buffer entries;
+  cl::Buffer depths;  // reversed, 0 for none
+  cl::Buffer winners;
+};
+
+class ParticleStages {
+ public:
+  ParticleStages(const Session& session, ParticleData data, const measure::ParticleWork& work,
+                 const ParticleConstants& constants);
+
+  // A pass with room for all entries that its bins will ever hold: the camera stands still, so one
+  // round of binning tells. Throws core::NotSupported where they take more than a buffer may.
+  [[nodiscard]] Pass make_pass(const ParticlePrograms& programs, cl_uint stride);
+  // The launches of a frame.
+  [[nodiscard]] std::vector<Launch> picture(const ParticlePrograms& programs,
+                                            const Pass& pass) const;
+  // Those that draw the cells of a pass once more.
+  [[nodiscard]] std::vector<Launch> again(const ParticlePrograms& programs, const Pass& pass) const;
+  // No cell was ever found hidden.
+  void forget_hidden() const;
+
+  [[nodiscard]] const ParticleData& data() const { return data_; }
+  [[nodiscard]] const cl::Buffer& image() const { return image_; }
+  [[nodiscard]] const cl::Buffer& ids() const { return ids_; }
+  [[nodiscard]] const cl::Buffer& counters() const { return counters_; }
+  [[nodiscard]] std::size_t counter_rows() const { return counter_rows_; }
+
+ private:
+  [[nodiscard]] cl::Buffer make_buffer(std::size_t words) const;
+  [[nodiscard]] cl::NDRange cell_range() const;
+  [[nodiscard]] Launch cull(const ParticlePrograms& programs) const;
+  [[nodiscard]] Launch test(const ParticlePrograms& programs) const;
+  [[nodiscard]] Launch shade(const ParticlePrograms& programs, const Pass& pass) const;
+  void add_binning(const ParticlePrograms& programs, const Pass& pass, cl_uint state,
+                   std::vector<Launch>& to) const;
+  void add_drawing(const ParticlePrograms& programs, const Pass& pass, cl_uint state,
+                   std::vector<Launch>& to) const;
+
+  Session session_;
+  technique::Culling culling_;
+  bool colours_sprites_;
+  std::size_t height_;
+  std::size_t pixels_;
+  std::array<std::size_t, 2> tiles_;
+  std::size_t bins_;
+  std::size_t chunks_;
+  ParticleData data_;
+  std::size_t counter_rows_;
+  cl::Buffer camera_;          // spheres in camera space
+  cl::Buffer rectangles_;      // of pixels
+  cl::Buffer sprite_colours_;  // where the transfer function is looked up for sprites
+  cl::Buffer cosines_;         // where rays are those of sprites
+  cl::Buffer shown_;           // per cell: 1 where the last frame found it in sight
+  cl::Buffer states_;          // per cell: what becomes of it
+  cl::Buffer farthest_;        // per tile
+  cl::Buffer image_;
+  cl::Buffer ids_;
+  cl::Buffer counters_;
+};
+
+}  // namespace triptych::opencl_backend
