@@ -4,12 +4,18 @@
 
 namespace triptych::vulkan_backend {
 
-Layout make_layout(const Gpu& gpu, vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings) {
+Layout make_layout(const Gpu& gpu, vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings,
+                   std::uint32_t push_bytes) {
   vk::raii::DescriptorSetLayout set(
       gpu.device, vk::DescriptorSetLayoutCreateInfo{.bindingCount = bindings.size(),
                                                     .pBindings = bindings.data()});
+  const vk::PushConstantRange push{.stageFlags = vk::ShaderStageFlagBits::eCompute,
+                                   .size = push_bytes};
   vk::raii::PipelineLayout pipeline(
-      gpu.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = 1, .pSetLayouts = &*set});
+      gpu.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
+                                               .pSetLayouts = &*set,
+                                               .pushConstantRangeCount = push_bytes > 0 ? 1U : 0U,
+                                               .pPushConstantRanges = &push});
   return {std::move(set), std::move(pipeline)};
 }
 

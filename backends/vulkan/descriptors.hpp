@@ -11,8 +11,10 @@ struct Layout {
   vk::raii::DescriptorSetLayout set;
   vk::raii::PipelineLayout pipeline;
 };
+// `push_bytes`: size of a push constant block of the compute stage.
 [[nodiscard]] Layout make_layout(const Gpu& gpu,
-                                 vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings);
+                                 vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings,
+                                 std::uint32_t push_bytes = 0);
 
 // Room for this many sets, each with up to two uniform buffers, two textures and `storage_buffers`.
 [[nodiscard]] vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,

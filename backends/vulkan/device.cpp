@@ -26,7 +26,7 @@ struct Entry {
   std::variant<Prepare<measure::VolumeWork>, Prepare<measure::ParticleWork>> prepare;
   Needs needs;
 };
-constexpr std::array<Entry, 10> entries{{
+constexpr std::array<Entry, 11> entries{{
     {"raycast", &prepare_raycast, Needs::nothing},
     {"raycast_fragment", &prepare_raycast_fragment, Needs::drawing},
     {"speed_of_light", &prepare_speed_of_light, Needs::nothing},
@@ -37,6 +37,7 @@ constexpr std::array<Entry, 10> entries{{
     {"polygon_tess", &prepare_polygon_tess, Needs::tessellation},
     {"polygon_adaptive", &prepare_polygon_adaptive, Needs::tessellation},
     {"point", &prepare_point, Needs::drawing},
+    {"tiles", &prepare_tiles, Needs::nothing},
 }};
 
 const Entry* find_entry(std::string_view technique) {

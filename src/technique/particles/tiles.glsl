@@ -10,6 +10,7 @@
 // and in the end
 //   tiles_index    finds the lowest particle at each pixel's depth among the small ones,
 //   tiles_shade    colours every pixel once.
+// When a scene is prepared, tiles_measure tells the host what to divide into rounds and how much room to give.
 // Everything a pixel keeps is a maximum of keys (depth) and a minimum of keys (particle), so that the
 // picture does not depend on the order of anything.
 //
@@ -46,7 +47,7 @@ uint plane_size() { return uint(u.viewport.x * u.viewport.y); }
 ivec2 tile_grid() { return (u.viewport.xy + (TRI_TILE - 1)) / TRI_TILE; }
 uint pixel_index(ivec2 pixel) { return uint(pixel.y * u.viewport.x + pixel.x); }
 uint tile_index(ivec2 tile) { return uint(tile.y * tile_grid().x + tile.x); }
-uint large_place(uint n) { return u.counts.x - 1u - n; }
+uint large_place(uint n) { return uint(kept.length()) - 1u - n; }
 
 // Keys: the nearest depth has the largest, 0 is none; the first particle has the smallest. The planted
 // faults turn them round: 2 unresolved ties, 3 reversed depth, 4 the sphere's back for its front, 6 lost at

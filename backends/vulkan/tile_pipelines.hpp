@@ -1,0 +1,36 @@
+#pragma once
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "backends/vulkan/particle_data.hpp"
+#include "backends/vulkan/pipeline.hpp"
+
+namespace triptych::vulkan_backend {
+
+// The passes of technique/particles/tiles.glsl.
+enum class TilePass : std::uint8_t { cells, bin, place, fill, resolve, index, shade };
+
+// Constants of shaders/particle_prelude.glsl and, behind them, of shaders/tiles_prelude.glsl.
+struct TileConstants {
+  ParticleConstants common;
+  std::int32_t culling = 0;
+};
+
+class TilePipelines {
+ public:
+  TilePipelines(const Gpu& gpu, const Layout& layout, const Specialization& constants,
+                bool counting);
+
+  [[nodiscard]] vk::Pipeline operator[](TilePass pass) const {
+    return *pipelines_.at(static_cast<std::size_t>(pass));
+  }
+
+ private:
+  std::vector<vk::raii::Pipeline> pipelines_;
+};
+
+// Of the timed build.
+[[nodiscard]] std::string tiles_hash(const Specialization& constants);
+
+}  // namespace triptych::vulkan_backend
