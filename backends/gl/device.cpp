@@ -26,7 +26,7 @@ struct Entry {
 };
 
 const Entry* find(std::string_view id) {
-  static const std::array<Entry, 10> entries{{{"raycast", raycast()},
+  static const std::array<Entry, 11> entries{{{"raycast", raycast()},
                                               {"raycast_fragment", raycast_fragment()},
                                               {"speed_of_light", speed_of_light()},
                                               {"quad_screen", quad_screen()},
@@ -35,7 +35,8 @@ const Entry* find(std::string_view id) {
                                               {"quad_tess", quad_tess()},
                                               {"polygon_tess", polygon_tess()},
                                               {"polygon_adaptive", polygon_adaptive()},
-                                              {"point", point()}}};
+                                              {"point", point()},
+                                              {"tiles", tiles()}}};
   for (const Entry& entry : entries) {
     if (entry.id == id) return &entry;
   }

@@ -36,5 +36,6 @@ struct ParticleTechnique {
 [[nodiscard]] ParticleTechnique polygon_tess();
 [[nodiscard]] ParticleTechnique polygon_adaptive();
 [[nodiscard]] ParticleTechnique point();
+[[nodiscard]] ParticleTechnique tiles();
 
 }  // namespace triptych::gl_backend

@@ -12,9 +12,9 @@
 
 namespace triptych::gl_backend {
 
-inline constexpr std::array<std::string_view, 7> sprite_techniques{
+inline constexpr std::array<std::string_view, 8> particle_techniques{
     "quad_screen",  "quad_ray",         "quad_instanced", "quad_tess",
-    "polygon_tess", "polygon_adaptive", "point"};
+    "polygon_tess", "polygon_adaptive", "point", "tiles"};
 
 // Spheres x, y, z, r, coloured by their numbers.
 inline std::shared_ptr<const scene::ParticleSet> set_of(
@@ -66,7 +66,7 @@ inline measure::Work particle_work(std::string_view technique, scene::ParticleSc
 template <class Check>
 void for_each_technique(const measure::Device& device, Check&& check) {
   const scene::ParticleScene scene = seen_from({{0, 0, -3, 1}}, {0, 0, 0}, 60);
-  for (const std::string_view technique : sprite_techniques) {
+  for (const std::string_view technique : particle_techniques) {
     if (device.unsupported(particle_work(technique, scene))) continue;
     SCOPED_TRACE(technique);
     check(technique);

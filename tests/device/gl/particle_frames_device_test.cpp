@@ -44,14 +44,14 @@ TEST(GlParticleFrames, ASingleSphereIsCountedAsItIs) {
       const record::Counts counts = prepared->frame(Purpose::counters).counts;
       const std::uint64_t kept = covered(prepared->image());
       EXPECT_GT(kept, 500U);
-      EXPECT_THAT(
-          counts,
-          AllOf(Contains(Pair("cells", 1)), Contains(Pair("cells_culled", 0)),
-                Contains(Pair("particles_submitted", 1)), Contains(Pair("particles_culled", 0)),
-                Contains(Pair("visible_ids", 1)), Contains(Pair("fragments_kept", kept))));
+      EXPECT_THAT(counts,
+                  AllOf(Contains(Pair("cells", 1)), Contains(Pair("cells_culled", 0)),
+                        Contains(Pair("particles_submitted", 1)),
+                        Contains(Pair("particles_culled", 0)), Contains(Pair("visible_ids", 1))));
       if (technique == "tiles") return;
-      EXPECT_THAT(counts, AllOf(Contains(Pair("sprites", 1)),
-                                Contains(Pair("vertices", corners_of(technique)))));
+      EXPECT_THAT(counts,
+                  AllOf(Contains(Pair("sprites", 1)), Contains(Pair("fragments_kept", kept)),
+                        Contains(Pair("vertices", corners_of(technique)))));
       EXPECT_EQ(counts.at("fragments"),
                 counts.at("fragments_kept") + counts.at("fragments_discarded"));
       // A square around a disc of k pixels has 4/π·k, an octagon 1.05·k.
@@ -77,7 +77,9 @@ TEST(GlParticleFrames, CullingIsCounted) {
       EXPECT_EQ(uncut.at("particles_submitted"), 20000U);
       EXPECT_EQ(uncut.at("cells_culled"), 0U);
       EXPECT_EQ(uncut.at("visible_ids"), counts.at("visible_ids"));
-      EXPECT_EQ(uncut.at("fragments_kept"), counts.at("fragments_kept"));
+      if (technique != "tiles") {
+        EXPECT_EQ(uncut.at("fragments_kept"), counts.at("fragments_kept"));
+      }
     });
   });
 }
@@ -126,12 +128,12 @@ TEST(GlParticleFrames, StatisticsTellTheStagesInUseAndNoOthers) {
   });
 }
 
-// Two clusters, a cell each: one in the middle of the picture, one 5 % from its right edge.
+// Two clusters, a cell each: one in the middle of the picture, one at its right edge.
 scene::ParticleScene one_cell_at_the_edge() {
   std::vector<std::array<double, 4>> spheres;
   for (int i = 0; i < 1200; ++i) {
     const double offset = 0.0002 * (i / 2);
-    spheres.push_back({i % 2 == 0 ? -5.0 : 5.0, offset, -20 + offset, 0.1});
+    spheres.push_back({i % 2 == 0 ? -5.0 : 5.45, offset, -20 + offset, 0.3});
   }
   return seen_from(spheres, {-5, 0, 0}, 47.9);
 }
@@ -206,6 +208,7 @@ TEST(GlParticleFrames, ConservativeDepthIsAnotherBuild) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = seen_from({{0, 0, -3, 1}}, {0, 0, 0}, 60);
     for_each_technique(device, [&](std::string_view technique) {
+      if (technique == "tiles") return;  // they reject early by every front, promised or not
       const auto hash = [&](const ParticleOptions& options) {
         return device.prepare(particle_work(technique, scene, options))->kernel_hash();
       };

@@ -1,0 +1,197 @@
+// Spheres binned into tiles and resolved per pixel by depth and id, in compute shaders
+// (technique/particles/tiles.glsl says in which passes).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "backends/gl/particle_data.hpp"
+#include "backends/gl/particle_limits.hpp"
+#include "backends/gl/particle_source.hpp"
+#include "backends/gl/prepared.hpp"
+#include "backends/gl/techniques.hpp"
+#include "backends/gl/tile_buffers.hpp"
+#include "technique/particles/tile_rounds.hpp"
+
+namespace triptych::gl_backend {
+namespace {
+
+using measure::Purpose;
+using technique::Culling;
+
+constexpr GLuint group_size = 64;
+constexpr std::array<std::string_view, 7> passes{"cells",   "bin",   "place", "fill",
+                                                 "resolve", "index", "shade"};
+enum Pass : std::size_t { cells, bin, place, fill, resolve, index, shade };
+
+struct Programs {
+  std::array<Program, passes.size()> of;
+  std::vector<std::string> sources;
+};
+
+Programs make_programs(const Api& gl, const ParticleConstants& constants, Culling culling) {
+  Programs programs;
+  const std::string defines = fmt::format(
+      "#define TRI_CULLING {}\n#define TRI_ROUND round_cells\nuniform uvec2 round_cells;\n",
+      static_cast<int>(culling));
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    std::vector<std::string_view> files{"sprite.glsl"};
+    if (i == cells || i == bin) files.emplace_back("cells.glsl");
+    if (i == shade) files.emplace_back("storage.glsl");
+    const std::string main_file = fmt::format("tiles_{}.comp.glsl", passes[i]);
+    files.insert(files.end(), {"tiles.glsl", main_file});
+    const std::vector<Stage> stages =
+        particle_stages(gl, constants, {{GL_COMPUTE_SHADER, files, defines}});
+    programs.sources.push_back(stages.front().source);
+    programs.of[i] = link(gl, stages);
+  }
+  return programs;
+}
+
+class TilesDrawing final : public Drawing {
+ public:
+  TilesDrawing(const Api& gl, const measure::ParticleWork& work,
+               const technique::Arrangement& arrangement)
+      : options_(work.options),
+        near_(work.scene.camera.near),
+        particles_(arrangement.count()),
+        constants_(particle_constants(work)),
+        rounds_(rounds_of(gl, work.scene, arrangement)),
+        data_(gl, work, arrangement),
+        buffers_(gl, work.scene, arrangement, rounds_.entries),
+        cells_(arrangement.cells.size()),
+        programs_(make_programs(gl, constants_, options_.culling)) {
+    kernel_hash_ = hash_of(gl, programs_.sources);
+    if (options_.extra_work_stride == 0) return;
+    buffers_.add_thinned(gl, arrangement, options_.extra_work_stride);
+  }
+
+  [[nodiscard]] std::span<const Statistic> statistics() const override {
+    static constexpr std::array<Statistic, 1> told{
+        {{GL_COMPUTE_SHADER_INVOCATIONS_ARB, "compute_invocations"}}};
+    return told;
+  }
+
+  void bind(const Api& gl, Purpose purpose) override {
+    if (purpose == Purpose::counters) {
+      if (!counting_) {
+        ParticleConstants constants = constants_;
+        constants.count = true;
+        counting_.emplace(
+            Counting{make_programs(gl, constants, options_.culling), ParticleCounters(gl)});
+      }
+      counting_->counters.start(gl);
+    }
+    data_.bind(gl);
+    buffers_.bind(gl);
+  }
+
+  void submit(const Api& gl, Purpose purpose) override {
+    const bool counting = purpose == Purpose::counters;
+    const Programs& programs = counting ? counting_->programs : programs_;
+    if (!counting && options_.extra_work_stride != 0) {
+      // Before the picture: behind it, the tiles would leave out nearly all of it.
+      buffers_.choose(gl, TileBuffers::Cells::thinned);
+      draw_depths(gl, programs);
+      buffers_.choose(gl, TileBuffers::Cells::all);
+    }
+    draw_depths(gl, programs);
+    run(gl, programs, index, buffers_.spread_groups());
+    run(gl, programs, shade, buffers_.groups_of_pixels());
+  }
+
+  [[nodiscard]] record::Counts counters(const Api& gl) const override {
+    const std::vector<std::uint64_t> sums = counting_->counters.sums(gl);
+    record::Counts counts =
+        common_counts(options_, cells_, particles_, sums, buffers_.read(gl, near_).ids);
+    // Fragments are what a rasterizer makes.
+    for (const char* name : {"fragments", "fragments_discarded", "fragments_kept"}) {
+      counts.erase(name);
+    }
+    counts.emplace("bin_entries", sums[static_cast<std::size_t>(Counted::bin_entries)]);
+    return counts;
+  }
+  [[nodiscard]] core::Image read(const Api& gl) const override { return buffers_.read(gl, near_); }
+  [[nodiscard]] std::string kernel_hash() const override { return kernel_hash_; }
+
+ private:
+  struct Counting {
+    Programs programs;
+    ParticleCounters counters;
+  };
+
+  static technique::TileRounds rounds_of(const Api& gl, const scene::ParticleScene& scene,
+                                         const technique::Arrangement& arrangement) {
+    return technique::tile_rounds(
+        scene, arrangement,
+        static_cast<std::uint32_t>(gl.limit(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0)),
+        TileBuffers::wanted_entries);
+  }
+
+  static void run(const Api& gl, const Programs& programs, Pass pass,
+                  std::array<GLuint, 2> groups) {
+    gl.UseProgram(programs.of[pass].get());
+    gl.DispatchCompute(groups[0], groups[1], 1);
+    gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+
+  void run_on(const Api& gl, const Programs& programs, Pass pass, const technique::TileRound& round,
+              GLuint groups) const {
+    const GLuint program = programs.of[pass].get();
+    gl.UseProgram(program);
+    gl.Uniform2ui(gl.GetUniformLocation(program, "round_cells"), round.first, round.cells);
+    gl.DispatchCompute(groups, 1, 1);
+    gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+
+  // All rounds: every pixel's depth.
+  void draw_depths(const Api& gl, const Programs& programs) const {
+    buffers_.clear(gl);
+    for (const technique::TileRound& round : rounds_.rounds) {
+      buffers_.start_round(gl);
+      run_on(gl, programs, cells, round, (round.cells + group_size - 1) / group_size);
+      run_on(gl, programs, bin, round, round.cells);
+      if (rounds_.entries > 0) {
+        run(gl, programs, place, buffers_.groups_for_tiles());
+        run(gl, programs, fill, buffers_.spread_groups());
+      }
+      run(gl, programs, resolve, buffers_.tiles());
+    }
+  }
+
+  technique::ParticleOptions options_;
+  double near_;
+  std::uint64_t particles_;
+  ParticleConstants constants_;
+  technique::TileRounds rounds_;
+  ParticleData data_;
+  TileBuffers buffers_;
+  std::uint64_t cells_;
+  Programs programs_;
+  std::string kernel_hash_;
+  std::optional<Counting> counting_;
+};
+
+std::optional<std::string> unsupported(const Api& gl, const measure::ParticleWork& work) {
+  if (work.options.ray == technique::ComputedAt::vertex) {
+    return "tiles have no vertices: rays are made per pixel";
+  }
+  if (work.options.fault == technique::ParticleFault::culled_visible &&
+      work.options.culling == Culling::none) {
+    return "culled_visible is a fault of culling";
+  }
+  if (auto reason = particles_unsupported(gl, work, true)) return reason;
+  return TileBuffers::unsupported(gl, work.scene);
+}
+
+std::unique_ptr<Drawing> make(const Api& gl, const measure::ParticleWork& work) {
+  return std::make_unique<TilesDrawing>(gl, work, technique::arrange(work.scene));
+}
+
+}  // namespace
+
+ParticleTechnique tiles() {
+  return {&unsupported, &make};
+}
+
+}  // namespace triptych::gl_backend

@@ -1,0 +1,32 @@
+#pragma once
+// In which steps `tiles` goes through the cells (tiles.glsl). Made when a scene is prepared.
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/particle_scene.hpp"
+#include "technique/particles/arrangement.hpp"
+
+namespace triptych::technique {
+
+inline constexpr int tile_edge = 16;  // TRI_TILE
+
+// Cells that are binned together before the tiles are resolved.
+struct TileRound {
+  std::uint32_t first = 0;
+  std::uint32_t cells = 0;
+};
+
+struct TileRounds {
+  std::vector<TileRound> rounds;  // all cells, front to back
+  std::uint64_t entries = 0;      // (tile, large sphere) pairs that a round may have at most
+};
+
+// Rounds grow with the distance, since what lies far behind is mostly hidden by then: early ones
+// hide later ones, each costs a pass over all tiles. A round has no more than `most_cells` cells
+// and, unless a single cell has more, `most_entries` entries.
+[[nodiscard]] TileRounds tile_rounds(const scene::ParticleScene& scene,
+                                     const Arrangement& arrangement, std::uint32_t most_cells,
+                                     std::uint64_t most_entries);
+
+}  // namespace triptych::technique
