@@ -47,7 +47,7 @@ uint plane_size() { return uint(u.viewport.x * u.viewport.y); }
 ivec2 tile_grid() { return (u.viewport.xy + (TRI_TILE - 1)) / TRI_TILE; }
 uint pixel_index(ivec2 pixel) { return uint(pixel.y * u.viewport.x + pixel.x); }
 uint tile_index(ivec2 tile) { return uint(tile.y * tile_grid().x + tile.x); }
-uint large_place(uint n) { return uint(kept.length()) - 1u - n; }
+uint large_place(uint n) { return uint(kept_spheres.length()) - 1u - n; }
 
 // Keys: the nearest depth has the largest, 0 is none; the first particle has the smallest. The planted
 // faults turn them round: 2 unresolved ties, 3 reversed depth, 4 the sphere's back for its front, 6 lost at

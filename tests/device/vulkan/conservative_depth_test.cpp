@@ -1,0 +1,45 @@
+// The promise of conservative depth is in the SPIR-V that is drawn with, not only in its source.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "backends/vulkan/pipeline.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+// From the SPIR-V specification.
+constexpr std::uint32_t op_execution_mode = 16;
+constexpr std::uint32_t depth_replacing = 12;
+constexpr std::uint32_t depth_greater = 14;
+constexpr std::uint32_t depth_less = 15;
+
+std::set<std::uint32_t> execution_modes(std::string_view code) {
+  std::vector<std::uint32_t> words(code.size() / 4);
+  std::memcpy(words.data(), code.data(), code.size());
+  std::set<std::uint32_t> modes;
+  constexpr std::size_t header = 5;
+  for (std::size_t at = header; at < words.size(); at += words[at] >> 16U) {
+    if ((words[at] & 0xFFFFU) == op_execution_mode) modes.insert(words.at(at + 2));
+  }
+  return modes;
+}
+
+TEST(ConservativeDepth, IsPromisedWhereItIsOnAndOnlyThere) {
+  const auto off = execution_modes(spirv("sphere.frag.spv"));
+  EXPECT_TRUE(off.contains(depth_replacing));
+  EXPECT_FALSE(off.contains(depth_less) || off.contains(depth_greater));
+  const auto on = execution_modes(spirv("sphere_conservative.frag.spv"));
+  EXPECT_TRUE(on.contains(depth_less));
+  EXPECT_FALSE(on.contains(depth_greater));
+  const auto planted = execution_modes(spirv("sphere_wrong_sense.frag.spv"));
+  EXPECT_TRUE(planted.contains(depth_greater));
+  EXPECT_FALSE(planted.contains(depth_less));
+}
+
+}  // namespace
+}  // namespace triptych::vulkan_backend
