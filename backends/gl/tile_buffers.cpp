@@ -92,24 +92,26 @@ std::optional<std::string> TileBuffers::unsupported(const Api& gl,
 }
 
 TileBuffers::TileBuffers(const Api& gl, const scene::ParticleScene& scene,
-                         const technique::Arrangement& arrangement, std::uint64_t entries)
+                         const technique::Arrangement& arrangement, std::uint64_t entries,
+                         int extra_work_stride)
     : width_(scene.width),
       height_(scene.height),
       tiles_{parts(width_, technique::tile_edge), parts(height_, technique::tile_edge)},
       cells_(cell_buffer(gl, arrangement.cells)),
-      kept_spheres_(words(gl, 4 * std::max<std::size_t>(arrangement.count(), 4))),
-      kept_(words(gl, arrangement.count())),
       tile_states_(device_buffer(gl, tile_bytes())),
-      entries_(words(gl, entries)),
       pixels_(device_buffer(gl, planes * pixel_bytes())),
       cell_ends_(words(gl, arrangement.cells.size())),
       picture_(device_buffer(gl, 4 * pixel_bytes())),
       zeros_(filled(gl, std::max(pixel_bytes(), tile_bytes()) / word, 0)),
-      no_particles_(filled(gl, pixel_bytes() / word, core::Image::no_particle)) {}
-
-void TileBuffers::add_thinned(const Api& gl, const technique::Arrangement& arrangement,
-                              int stride) {
-  thinned_ = cell_buffer(gl, thinned(arrangement.cells, stride));
+      no_particles_(filled(gl, pixel_bytes() / word, core::Image::no_particle)) {
+  const std::size_t times = extra_work_stride == 0 ? 1 : 2;
+  const std::size_t most_kept = std::max<std::size_t>(times * arrangement.count(), 4);
+  kept_spheres_ = words(gl, 4 * most_kept);
+  kept_ = words(gl, most_kept);
+  entries_ = words(gl, times * entries);
+  if (extra_work_stride != 0) {
+    thinned_ = cell_buffer(gl, thinned(arrangement.cells, extra_work_stride));
+  }
 }
 
 std::size_t TileBuffers::pixel_bytes() const {

@@ -21,11 +21,11 @@ class TileBuffers {
   [[nodiscard]] static std::optional<std::string> unsupported(const Api& gl,
                                                               const scene::ParticleScene& scene);
 
-  // `entries`: the most that a round may have.
+  // `entries`: the most that a round may have. With an extra_work_stride other than 0 there are
+  // thinned cells too, and room for all particles twice.
   TileBuffers(const Api& gl, const scene::ParticleScene& scene,
-              const technique::Arrangement& arrangement, std::uint64_t entries);
-  // The cells of extra work.
-  void add_thinned(const Api& gl, const technique::Arrangement& arrangement, int stride);
+              const technique::Arrangement& arrangement, std::uint64_t entries,
+              int extra_work_stride);
 
   // Bindings 6…13 of the shared sources.
   void bind(const Api& gl) const;

@@ -58,12 +58,10 @@ class TilesDrawing final : public Drawing {
         constants_(particle_constants(work)),
         rounds_(rounds_of(gl, work.scene, arrangement)),
         data_(gl, work, arrangement),
-        buffers_(gl, work.scene, arrangement, rounds_.entries),
+        buffers_(gl, work.scene, arrangement, rounds_.entries, options_.extra_work_stride),
         cells_(arrangement.cells.size()),
         programs_(make_programs(gl, constants_, options_.culling)) {
     kernel_hash_ = hash_of(gl, programs_.sources);
-    if (options_.extra_work_stride == 0) return;
-    buffers_.add_thinned(gl, arrangement, options_.extra_work_stride);
   }
 
   [[nodiscard]] std::span<const Statistic> statistics() const override {
@@ -89,13 +87,7 @@ class TilesDrawing final : public Drawing {
   void submit(const Api& gl, Purpose purpose) override {
     const bool counting = purpose == Purpose::counters;
     const Programs& programs = counting ? counting_->programs : programs_;
-    if (!counting && options_.extra_work_stride != 0) {
-      // Before the picture: behind it, the tiles would leave out nearly all of it.
-      buffers_.choose(gl, TileBuffers::Cells::thinned);
-      draw_depths(gl, programs);
-      buffers_.choose(gl, TileBuffers::Cells::all);
-    }
-    draw_depths(gl, programs);
+    draw_depths(gl, programs, !counting && options_.extra_work_stride != 0);
     run(gl, programs, index, buffers_.spread_groups());
     run(gl, programs, shade, buffers_.groups_of_pixels());
   }
@@ -144,13 +136,23 @@ class TilesDrawing final : public Drawing {
     gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   }
 
-  // All rounds: every pixel's depth.
-  void draw_depths(const Api& gl, const Programs& programs) const {
+  void bin_cells(const Api& gl, const Programs& programs, const technique::TileRound& round) const {
+    run_on(gl, programs, cells, round, (round.cells + group_size - 1) / group_size);
+    run_on(gl, programs, bin, round, round.cells);
+  }
+
+  // All rounds: every pixel's depth. With extra work a part of each round's particles is binned
+  // twice, before the tiles could leave them out.
+  void draw_depths(const Api& gl, const Programs& programs, bool extra) const {
     buffers_.clear(gl);
     for (const technique::TileRound& round : rounds_.rounds) {
       buffers_.start_round(gl);
-      run_on(gl, programs, cells, round, (round.cells + group_size - 1) / group_size);
-      run_on(gl, programs, bin, round, round.cells);
+      bin_cells(gl, programs, round);
+      if (extra) {
+        buffers_.choose(gl, TileBuffers::Cells::thinned);
+        bin_cells(gl, programs, round);
+        buffers_.choose(gl, TileBuffers::Cells::all);
+      }
       if (rounds_.entries > 0) {
         run(gl, programs, place, buffers_.groups_for_tiles());
         run(gl, programs, fill, buffers_.spread_groups());
