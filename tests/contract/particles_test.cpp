@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/random.hpp"
 #include "data_folder.hpp"
 #include "particle_scenes.hpp"
 

@@ -25,7 +25,7 @@ enum class ParticleFault : std::uint8_t {
   reversed_depth = 3,   // of two depths the farther one is kept
   wrong_sense = 4,      // early rejection takes the sphere's back for its front; the shader
                         // promises the opposite of what conservative depth does
-  culled_visible = 5,   // the frustum is taken to be a tenth narrower than it is
+  culled_visible = 5,   // the view is taken to be half as wide as it is
   lost_at_border = 6,   // a particle is not put into the last tile that it reaches
   missing_barrier = 7   // a work group does not wait for what it shares
 };

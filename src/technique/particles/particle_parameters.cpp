@@ -33,7 +33,7 @@ ParticleParameters particle_parameters(const scene::ParticleScene& scene,
   const double half_y = std::tan(glm::radians(camera.fov_y_deg) / 2);
   const double half_x = half_y * scene.width / scene.height;
   const float sprite_scale = options.fault == ParticleFault::small_sprite ? 0.99F : 1.0F;
-  const float view_scale = options.fault == ParticleFault::culled_visible ? 0.9F : 1.0F;
+  const float view_scale = options.fault == ParticleFault::culled_visible ? 0.5F : 1.0F;
   return {
       .eye = nearest(camera.eye, nearest(camera.near)),
       .eye_rest = rest(camera.eye, sprite_scale),

@@ -6,7 +6,7 @@
 //   tiles_place    gives each tile a place for its entries,
 //   tiles_fill     writes the entries,
 //   tiles_resolve  draws a tile's entries, one work group per tile, and notes the tile's farthest depth, by
-//                  which later rounds leave out what is hidden;
+//                  which later rounds leave out what is hidden (tiles_farthest: the latter alone);
 // and in the end
 //   tiles_index    finds the lowest particle at each pixel's depth among the small ones,
 //   tiles_shade    colours every pixel once.

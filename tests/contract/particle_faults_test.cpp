@@ -1,0 +1,81 @@
+// Planted faults: each is caught by the picture, on every technique that has it.
+
+#include "measure/plant.hpp"
+#include "particle_scenes.hpp"
+
+namespace triptych::contract {
+namespace {
+
+struct Planted {
+  const char* name;
+  ParticleWork work;
+};
+
+// A fault beside a scene in which it shows: ties need coincident spheres, a lost border spheres that
+// reach over several tiles.
+std::vector<Planted> faults() {
+  std::vector<Planted> all;
+  all.push_back({"small_sprite", generated_work("uniform", 200, "orbit_y:1/8", 200)});
+  all.push_back({"unresolved_ties", generated_work("coincident", 4000, "orbit_y:1/8", 96)});
+  all.push_back({"reversed_depth", generated_work("uniform", 2000, "orbit_y:1/8", 96)});
+  all.push_back({"culled_visible", generated_work("uniform", 50000, "orbit_y:1/8", 96)});
+  all.push_back({"lost_at_border", generated_work("uniform", 500, "orbit_y:1/8", 200)});
+  all.push_back({"missing_barrier", generated_work("uniform", 20000, "orbit_y:1/8", 128)});
+  return all;
+}
+
+TEST(ParticleFaults, EveryOneIsCaughtByThePicture) {
+  on_every_device([](measure::Device& device) {
+    for (const Planted& planted : faults()) {
+      SCOPED_TRACE(planted.name);
+      const reference::SphereTruth truth = truth_of(planted.work);
+      const core::Image expected = truth.image();
+      const core::Image bound = truth.bound_image();
+      with_every_technique(device, planted.work, [&](const measure::Work& whole) {
+        measure::Work faulty = whole;
+        measure::apply_plant(planted.name, faulty);
+        if (device.unsupported(faulty)) return;  // there is nothing to break in this technique
+        EXPECT_FALSE(judge::compare(draw(device, faulty), expected, bound).within_bound());
+      });
+    }
+  });
+}
+
+// Early rejection that takes a sphere's back for its front. Where a driver rejects nothing early
+// the picture cannot show it; each backend's own tests look into the shader then.
+TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
+  on_every_device([](measure::Device& device) {
+    // No gaps: a whole tile must be covered before anything can be rejected.
+    ParticleWork work = generated_work("uniform", 20000, "path_z:6/8", 96);
+    work.scene.radius_scale = 2;
+    work.options.conservative_depth = true;
+    const reference::SphereTruth truth = truth_of(work);
+    for (const char* technique : {"tiles", "quad_ray"}) {
+      SCOPED_TRACE(technique);
+      measure::Work faulty{.technique = technique, .scene = work};
+      measure::apply_plant("wrong_sense", faulty);
+      if (device.unsupported(faulty)) continue;
+      const bool ours = std::string_view(technique) == "tiles" || device.info().api == "opencl";
+      const bool right =
+          judge::compare(draw(device, faulty), truth.image(), truth.bound_image()).within_bound();
+      if (ours) {
+        EXPECT_FALSE(right);
+      }
+    }
+  });
+}
+
+// More work, the same picture.
+TEST(ParticleFaults, APlantedSlowdownChangesNoPixel) {
+  on_every_device([](measure::Device& device) {
+    const ParticleWork work = generated_work("uniform", 3000, "orbit_y:1/8", 96);
+    with_every_technique(device, work, [&](const measure::Work& whole) {
+      measure::Work slowed = whole;
+      measure::apply_plant("slowdown:20", slowed);
+      EXPECT_EQ(draw(device, slowed), draw(device, whole));
+    });
+  });
+}
+
+}  // namespace
+}  // namespace triptych::contract
