@@ -7,6 +7,7 @@
 
 #include "backends/gl/cell_draws.hpp"
 #include "backends/gl/large_points.hpp"
+#include "backends/gl/occlusion.hpp"
 #include "backends/gl/particle_data.hpp"
 #include "backends/gl/particle_target.hpp"
 #include "technique/particles/arrangement.hpp"
@@ -45,13 +46,32 @@ std::vector<Statistic> statistics_of(const Sprites& sprites, Culling culling) {
 // The programs of all draws, for timing or for counting.
 struct Programs {
   struct Draw {
-    Program cull;
+    std::array<Program, 2> cull;  // before the first and the second draw
     Program sprites;
   };
   std::vector<Draw> draws;
   std::vector<std::string> sources;
 };
 
+// Values of TRI_OCCLUSION in cull.comp.glsl, one for each time that cells are culled in a frame.
+std::vector<int> passes_of(Culling culling) {
+  if (culling == Culling::none) return {};
+  if (culling == Culling::frustum) return {0};
+  return {1, 2};
+}
+
+ParticleStage cull_stage(bool instanced, int pass) {
+  std::vector<std::string_view> files{"cells.glsl", "cull.comp.glsl"};
+  if (pass > 0) files = {"sprite.glsl", "cells.glsl", "occlusion.glsl", "cull.comp.glsl"};
+  return {
+      GL_COMPUTE_SHADER, files,
+      fmt::format("#define TRI_INSTANCED {:d}\n#define TRI_OCCLUSION {}\n", int{instanced}, pass)};
+}
+
+// The two culling programs of a draw, one draw after the other: what is in sight behind the first
+// draw's cells is drawn behind them, though it may come before them in the arrangement. The camera
+// stands still, so that what was hidden stays hidden and the second draw is empty; where it is not,
+// only the order of exact ties between cells could differ.
 class SpriteDrawing final : public Drawing {
  public:
   SpriteDrawing(const Api& gl, const measure::ParticleWork& work, const Sprites& sprites,
@@ -75,6 +95,14 @@ class SpriteDrawing final : public Drawing {
       if (options_.extra_work_stride == 0) continue;
       extra_.emplace_back(gl, thinned(cells, options_.extra_work_stride), draw.instanced);
     }
+    if (options_.culling == Culling::occlusion && cells_ > 0) {
+      occlusion_.emplace(gl, work, cells_);
+      programs_.sources.push_back(occlusion_->source());
+      // A frame that no one is shown, so that in every other one the last frame is known.
+      prepare_state(gl);
+      submit(gl, Purpose::statistics);
+    }
+    kernel_hash_ = hash_of(gl, programs_.sources);
   }
 
   [[nodiscard]] std::span<const Statistic> statistics() const override { return statistics_; }
@@ -88,19 +116,21 @@ class SpriteDrawing final : public Drawing {
       }
       counting_->counters.start(gl);
     }
-    data_.bind(gl);
-    target_.bind(gl);
-    gl.Enable(GL_PROGRAM_POINT_SIZE);
-    if (gl.PatchParameteri != nullptr) gl.PatchParameteri(GL_PATCH_VERTICES, 1);
+    prepare_state(gl);
   }
 
   void submit(const Api& gl, Purpose purpose) override {
     const bool counting = purpose == Purpose::counters;
     const Programs& programs = counting ? counting_->programs : programs_;
     target_.clear(gl, background_);
-    draw(gl, programs, draws_);
+    if (occlusion_) occlusion_->start_frame(gl);
+    draw(gl, programs, draws_, 0);
+    if (occlusion_) {
+      occlusion_->find_farthest(gl, target_.depth_texture());
+      draw(gl, programs, draws_, 1);
+    }
     // Behind the picture, where nothing passes the depth test any more; never counted.
-    if (!counting && !extra_.empty()) draw(gl, programs, extra_);
+    if (!counting && !extra_.empty()) draw(gl, programs, extra_, 0);
   }
 
   [[nodiscard]] record::Counts counters(const Api& gl) const override {
@@ -116,39 +146,43 @@ class SpriteDrawing final : public Drawing {
     ParticleCounters counters;
   };
 
-  [[nodiscard]] Programs make_programs(const Api& gl, const ParticleConstants& constants) {
-    std::vector<std::string> sources;
+  void prepare_state(const Api& gl) const {
+    data_.bind(gl);
+    target_.bind(gl);
+    gl.Enable(GL_PROGRAM_POINT_SIZE);
+    if (gl.PatchParameteri != nullptr) gl.PatchParameteri(GL_PATCH_VERTICES, 1);
+  }
+
+  [[nodiscard]] Programs make_programs(const Api& gl, const ParticleConstants& constants) const {
+    Programs programs;
     const auto program = [&](const std::vector<ParticleStage>& described,
                              const ParticleConstants& with) {
       const std::vector<Stage> stages = particle_stages(gl, with, described);
-      for (const Stage& stage : stages) sources.push_back(stage.source);
+      for (const Stage& stage : stages) programs.sources.push_back(stage.source);
       return link(gl, stages);
     };
-    Programs programs;
     for (const SpriteDraw& draw : sprites_) {
       Programs::Draw made;
-      if (options_.culling != Culling::none) {
-        // Only the first draw's culling counts: the others are about the same cells.
-        ParticleConstants culling = constants;
-        culling.count = constants.count && programs.draws.empty();
-        made.cull = program({{GL_COMPUTE_SHADER,
-                              {"cells.glsl", "cull.comp.glsl"},
-                              fmt::format("#define TRI_INSTANCED {:d}\n", int{draw.instanced})}},
-                            culling);
+      // Only the first draw's culling counts: the others are about the same cells.
+      ParticleConstants culling = constants;
+      culling.count = constants.count && programs.draws.empty();
+      for (const int pass : passes_of(options_.culling)) {
+        made.cull[pass == 2 ? 1 : 0] = program({cull_stage(draw.instanced, pass)}, culling);
       }
       std::vector<ParticleStage> stages = draw.stages;
       stages.push_back({GL_FRAGMENT_SHADER, {"sphere.frag.glsl"}, {}});
       made.sprites = program(stages, constants);
       programs.draws.push_back(std::move(made));
     }
-    if (kernel_hash_.empty()) kernel_hash_ = hash_of(gl, sources);
     return programs;
   }
 
-  void draw(const Api& gl, const Programs& programs, const std::vector<CellDraws>& draws) const {
+  // `pass`: 0, or 1 for what occlusion culling finds in sight behind the first.
+  void draw(const Api& gl, const Programs& programs, const std::vector<CellDraws>& draws,
+            std::size_t pass) const {
     if (options_.culling != Culling::none) {
       for (std::size_t i = 0; i < draws.size(); ++i) {
-        gl.UseProgram(programs.draws[i].cull.get());
+        gl.UseProgram(programs.draws[i].cull[pass].get());
         draws[i].cull(gl);
       }
       gl.MemoryBarrier(GL_COMMAND_BARRIER_BIT);
@@ -174,6 +208,7 @@ class SpriteDrawing final : public Drawing {
   std::optional<Counting> counting_;
   std::vector<CellDraws> draws_;
   std::vector<CellDraws> extra_;
+  std::optional<Occlusion> occlusion_;
 };
 
 }  // namespace

@@ -140,14 +140,40 @@ TEST(GlParticles, OptionsThatDecideNothingLeaveEveryBit) {
     for_each_technique(device, [&](std::string_view technique) {
       const core::Image plain =
           picture(device, particle_work(technique, scene, {.culling = Culling::none}));
-      for (const ParticleOptions& options : {ParticleOptions{.culling = Culling::frustum},
-                                             {.conservative_depth = true},
-                                             {.corners = 7},
-                                             {.corners = 32},
-                                             {.extra_work_stride = 4},
-                                             {.culling = Culling::none, .extra_work_stride = 3}}) {
+      for (const ParticleOptions& options :
+           {ParticleOptions{.culling = Culling::frustum},
+            {.conservative_depth = true},
+            {.corners = 7},
+            {.corners = 32},
+            {.culling = Culling::occlusion},
+            {.extra_work_stride = 4},
+            {.culling = Culling::occlusion, .extra_work_stride = 5},
+            {.culling = Culling::none, .extra_work_stride = 3}}) {
         EXPECT_EQ(picture(device, particle_work(technique, scene, options)), plain);
       }
+    });
+  });
+}
+
+// A wall before most of the particles: cells are left out, and no bit tells.
+TEST(GlParticles, WhatIsHiddenIsNotMissed) {
+  for_each_device([](measure::Device& device) {
+    scene::ParticleScene scene = generated("generate:uniform:60000");
+    scene.radius_scale = 2;
+    scene.width = scene.height = 128;
+    const core::Image plain =
+        picture(device, particle_work("quad_ray", scene, {.culling = Culling::none}));
+    for_each_technique(device, [&](std::string_view technique) {
+      const auto prepared =
+          device.prepare(particle_work(technique, scene, {.culling = Culling::occlusion}));
+      for (int i = 0; i < 3; ++i) {
+        static_cast<void>(prepared->frame(measure::Purpose::timing));
+        EXPECT_EQ(prepared->image(), plain) << i;
+      }
+      const record::Counts counts = prepared->frame(measure::Purpose::counters).counts;
+      EXPECT_GT(counts.at("cells_culled"), counts.at("cells") / 20);
+      EXPECT_EQ(prepared->frame(measure::Purpose::counters).counts, counts);
+      EXPECT_EQ(prepared->image(), plain);
     });
   });
 }
