@@ -71,14 +71,15 @@ TRI_FN void look_for_farthest(float near, Tile* tile) {
 }
 
 // Whether no surface of the sphere can show in the tile: its front lies farther than all that is
-// kept, by more than distances are rounded.
-TRI_FN bool hidden(const Tile* tile, float cz, float r) {
+// kept, by more than distances are rounded (24·2⁻²⁴ of |c| + r; |c| is at most the sum here).
+TRI_FN bool hidden(const Tile* tile, float4 c) {
 #if TRI_COUNT || TRI_REVERSED_DEPTH || !TRI_CONSERVATIVE_DEPTH
   return false;
 #elif TRI_WRONG_SENSE
-  return cz + r > tile->farthest;
+  return c.z + c.w > tile->farthest;
 #else
-  return (cz - r) - 4e-6f * (cz + r) > tile->farthest * 1.000001f;
+  float size = fabs(c.x) + fabs(c.y) + fabs(c.z) + c.w;
+  return c.z - c.w - 3e-6f * size > tile->farthest;
 #endif
 }
 
@@ -139,7 +140,7 @@ TRI_FN void draw_entry(const Particles* u, __global const float* restrict camera
                        __global const uint* restrict rectangles, uint particle, Tile* tile,
                        uint* fragments, uint* kept) {
   float4 c = vload4(particle, camera);
-  if (hidden(tile, c.z, c.w)) return;
+  if (hidden(tile, c)) return;
   uint first = rectangles[2 * (size_t)particle];
   uint last = rectangles[2 * (size_t)particle + 1];
   int x0 = max(unpacked_x(first) - tile->x, 0);
