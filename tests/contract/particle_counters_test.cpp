@@ -69,5 +69,29 @@ TEST(ParticleCounters, SpritesOfEveryShapeKeepTheSameFragments) {
   });
 }
 
+std::uint64_t fragments_of(measure::Device& device, std::string technique, ParticleWork work) {
+  work.options.culling = Culling::none;  // as in the paper
+  const measure::Work whole{.technique = std::move(technique), .scene = std::move(work)};
+  return device.unsupported(whole) ? 0 : counted(device, whole).at("fragments");
+}
+
+// The paper's finding (section 6.3): from outside, both kinds of quad produce the same fragments;
+// with the camera among the spheres, the screen-aligned one an order of magnitude more, because the
+// spheres that reach the plane of the eye have no bounded projection.
+TEST(ParticleCounters, ScreenAlignedQuadsAreCostlyAmongTheSpheres) {
+  on_every_device([](measure::Device& device) {
+    const auto ratio = [&](const char* camera) {
+      const ParticleWork work = generated_work("uniform", 3000, camera, 96);
+      const double ray = static_cast<double>(fragments_of(device, "quad_ray", work));
+      return static_cast<double>(fragments_of(device, "quad_screen", work)) / ray;
+    };
+    if (fragments_of(device, "quad_ray", generated_work("uniform", 10, "orbit_y:1/8", 8)) == 0) {
+      return;  // no geometry shaders
+    }
+    EXPECT_NEAR(ratio("orbit_y:1/8"), 1, 0.1);
+    EXPECT_GT(ratio("path_z:8/10"), 10);
+  });
+}
+
 }  // namespace
 }  // namespace triptych::contract
