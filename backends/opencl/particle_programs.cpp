@@ -2,48 +2,57 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <initializer_list>
 
 #include "core/hash.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
 
+using technique::ParticleFault;
+
 struct Part {
   std::string source;
   std::string options;
 };
 
-// Never -cl-fast-relaxed-math or -cl-mad-enable: the same bits on every run and device.
-std::string common_options(const ParticleConstants& constants) {
+// Never -cl-fast-relaxed-math or -cl-mad-enable: the same bits on every run and device. `faults`:
+// those that this program has something to break for; others are planted elsewhere.
+std::string common_options(const ParticleConstants& constants,
+                           std::initializer_list<ParticleFault> faults) {
+  const bool planted = std::ranges::find(faults, constants.fault) != faults.end();
   return fmt::format(
       "-cl-std=CL1.2 -DTRI_TILE={} -DTRI_TILE_SHIFT={} -DTRI_COUNT={:d} -DTRI_FAULT={}", tile_edge,
       std::countr_zero(static_cast<unsigned>(tile_edge)), constants.count,
-      static_cast<int>(constants.fault));
+      planted ? static_cast<int>(constants.fault) : 0);
 }
 
 Part cells_part(const ParticleConstants& constants) {
   return {program_source({"sphere_math.h", "particles.cl", "particle_rectangle.cl",
                           "particle_cull.cl", "particle_scan.cl"}),
-          fmt::format("{} -DTRI_SCAN_ITEMS={}", common_options(constants), scan_items)};
+          fmt::format("{} -DTRI_SCAN_ITEMS={}",
+                      common_options(constants, {ParticleFault::missing_barrier}), scan_items)};
 }
 
 Part sprites_part(const ParticleConstants& constants) {
+  const std::string common =
+      common_options(constants, {ParticleFault::unresolved_ties, ParticleFault::reversed_depth,
+                                 ParticleFault::wrong_sense, ParticleFault::lost_at_border});
   return {program_source({"sphere_math.h", "particles.cl", "particle_rectangle.cl",
                           "particle_sprite.cl", "particle_bins.cl", "particle_tiles.cl"}),
           fmt::format("{} -DTRI_SPRITE={} -DTRI_RAY_AT_VERTEX={:d} -DTRI_CONSERVATIVE_DEPTH={:d} "
                       "-DTRI_MOST_TILES={}",
-                      common_options(constants), static_cast<int>(constants.sprite),
-                      constants.ray_at_vertex, constants.conservative_depth, most_tiles)};
+                      common, static_cast<int>(constants.sprite), constants.ray_at_vertex,
+                      constants.conservative_depth, most_tiles)};
 }
 
-// Neither counts nor breaks anything.
 Part shading_part(ParticleConstants constants) {
-  constants.count = false;
-  constants.fault = technique::ParticleFault::none;
+  constants.count = false;  // it has nothing to count
   return {program_source({"sphere_math.h", "particles.cl", "particle_shade.cl"}),
           fmt::format("{} -DTRI_COLOUR={} -DTRI_TRANSFER_AT_PIXEL={:d} -DTRI_RAY_AT_VERTEX={:d}",
-                      common_options(constants), static_cast<int>(constants.colour),
+                      common_options(constants, {}), static_cast<int>(constants.colour),
                       constants.transfer_at_pixel, constants.ray_at_vertex)};
 }
 
