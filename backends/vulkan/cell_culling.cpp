@@ -1,11 +1,28 @@
 #include "backends/vulkan/cell_culling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string_view>
 
 namespace triptych::vulkan_backend {
 namespace {
 
 constexpr std::uint32_t group = 64;  // cull.comp.glsl
+
+std::vector<CullPass> passes_of(technique::Culling culling) {
+  using enum technique::Culling;
+  if (culling == none) return {};
+  if (culling == frustum) return {CullPass::view};
+  return {CullPass::seen_before, CullPass::seen_now};
+}
+
+std::string code_name(CullPass pass, bool instanced, bool counting) {
+  const std::string_view shape = instanced ? "_instanced" : "";
+  const std::string_view build = counting ? "_counting" : "";
+  if (pass == CullPass::view) return fmt::format("cull{}{}.comp.spv", shape, build);
+  return fmt::format("occlusion{}_{}{}.comp.spv", shape, static_cast<int>(pass), build);
+}
 
 }  // namespace
 
@@ -17,26 +34,30 @@ std::optional<std::string> cannot_cull(const Gpu& gpu, bool instanced) {
 }
 
 CellCulling::CellCulling(const Gpu& gpu, const Layout& layout, std::uint32_t cells, bool instanced,
-                         const Specialization& constants)
+                         technique::Culling culling, const Specialization& constants)
     : gpu_(gpu),
       cells_(cells),
       draws_(gpu, std::max(cells, 1U) * sizeof(vk::DrawIndirectCommand),
              vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eIndirectBuffer,
-             Place::device),
-      pipeline_(make_compute_pipeline(
-          gpu, layout, spirv(instanced ? "cull_instanced.comp.spv" : "cull.comp.spv"), constants)),
-      counting_pipeline_(make_compute_pipeline(
-          gpu, layout,
-          spirv(instanced ? "cull_instanced_counting.comp.spv" : "cull_counting.comp.spv"),
-          constants)) {}
+             Place::device) {
+  for (const CullPass pass : passes_of(culling)) {
+    for (const bool counting : {false, true}) {
+      builds_.push_back({pass, counting,
+                         make_compute_pipeline(
+                             gpu, layout, spirv(code_name(pass, instanced, counting)), constants)});
+    }
+  }
+}
 
 void CellCulling::bind(vk::DescriptorSet set) const {
   bind_buffer(gpu_, set, commands_binding, vk::DescriptorType::eStorageBuffer, draws_);
 }
 
-void CellCulling::record(const vk::raii::CommandBuffer& commands, bool counting) const {
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute,
-                        counting ? *counting_pipeline_ : *pipeline_);
+void CellCulling::record(const vk::raii::CommandBuffer& commands, CullPass pass,
+                         bool counting) const {
+  const auto build = std::ranges::find_if(
+      builds_, [&](const Build& each) { return each.pass == pass && each.counting == counting; });
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *build->pipeline);
   commands.dispatch((cells_ + group - 1) / group, 1, 1);
   barrier(commands);
 }

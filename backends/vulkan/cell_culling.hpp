@@ -1,5 +1,7 @@
 #pragma once
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "backends/vulkan/particle_data.hpp"
 
@@ -7,18 +9,23 @@ namespace triptych::vulkan_backend {
 
 inline constexpr std::uint32_t commands_binding = first_free_binding;
 
+// By what cells are left out: the view alone, or, in the two passes of a frame with occlusion
+// culling, also by what the last frame showed and by what the first pass has drawn
+// (technique/particles/cull.comp.glsl: TRI_OCCLUSION).
+enum class CullPass : std::uint8_t { view, seen_before, seen_now };
+
 // The device pass that leaves out cells outside the view, and the draws of what it leaves.
 class CellCulling {
  public:
   // `instanced`: a cell's particles are instances of four vertices, otherwise vertices. `layout`
   // holds particle_bindings() and commands_binding.
   CellCulling(const Gpu& gpu, const Layout& layout, std::uint32_t cells, bool instanced,
-              const Specialization& constants);
+              technique::Culling culling, const Specialization& constants);
 
   void bind(vk::DescriptorSet set) const;
 
   // The set must be bound for compute.
-  void record(const vk::raii::CommandBuffer& commands, bool counting) const;
+  void record(const vk::raii::CommandBuffer& commands, CullPass pass, bool counting) const;
   // Draws every stride-th cell of those left, in order.
   void draw(const vk::raii::CommandBuffer& commands, std::uint32_t stride) const;
 
@@ -26,8 +33,12 @@ class CellCulling {
   const Gpu& gpu_;
   std::uint32_t cells_;
   Buffer draws_;
-  vk::raii::Pipeline pipeline_;
-  vk::raii::Pipeline counting_pipeline_;
+  struct Build {
+    CullPass pass;
+    bool counting;
+    vk::raii::Pipeline pipeline;
+  };
+  std::vector<Build> builds_;
 };
 
 // Whether the device can draw what CellCulling leaves; the reason where it cannot.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "backends/vulkan/errors.hpp"
@@ -28,6 +29,7 @@ vk::CompareOp depth_compare(ParticleFault fault) {
 std::vector<vk::DescriptorSetLayoutBinding> bindings() {
   auto all = particle_bindings();
   all.push_back(storage_binding(commands_binding, vk::ShaderStageFlagBits::eCompute));
+  std::ranges::copy(occlusion_bindings(), std::back_inserter(all));
   return all;
 }
 
@@ -57,15 +59,25 @@ SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
       layout_(make_layout(gpu, bindings())),
       pool_(make_pool(gpu, 1, static_cast<std::uint32_t>(bindings().size()))),
       set_(allocate_sets(gpu, pool_, layout_, 1).front()),
-      culling_(gpu, layout_, data_.cells(), technique_.draw.instanced, constants_),
+      culling_(gpu, layout_, data_.cells(), technique_.draw.instanced, options_.culling,
+               constants_),
       pipelines_(make_pipelines(false)),
       counting_pipelines_{nullptr, nullptr},
-      frames_((data_.bind(set_), culling_.bind(set_), gpu),
-              common_statistics() | technique_.statistics,
+      frames_((bind(), gpu), common_statistics() | technique_.statistics,
               [this](const vk::raii::CommandBuffer& commands) {
                 record(commands, pipelines_, false);
               }) {
+  // A frame that no one is shown, so that for every other one the last frame is known.
+  if (occlusion_) static_cast<void>(frames_.submit(measure::Purpose::timing));
   instance_.check_validation();
+}
+
+void SpriteFrames::bind() {
+  data_.bind(set_);
+  culling_.bind(set_);
+  if (options_.culling != Culling::occlusion) return;
+  occlusion_.emplace(gpu_, layout_, data_.cells(), target_.extent(), constants_);
+  occlusion_->bind(set_);
 }
 
 std::string_view SpriteFrames::pixel_stage(bool counting) const {
@@ -103,18 +115,39 @@ void SpriteFrames::record(const vk::raii::CommandBuffer& commands, const Pipelin
     commands.bindDescriptorSets(point, *layout_.pipeline, 0, set_, {});
   }
   if (counting) data_.clear_counters(commands);
-  if (options_.culling != Culling::none) culling_.record(commands, counting);
+  if (occlusion_) {
+    occlusion_->start_frame(commands);
+    culling_.record(commands, CullPass::seen_before, counting);
+  } else if (options_.culling == Culling::frustum) {
+    culling_.record(commands, CullPass::view, counting);
+  }
   target_.begin(commands, false);
   if (data_.particles() > 0) draw(commands, pipelines, counting);
   commands.endRenderPass();
+  if (occlusion_) draw_newly_seen(commands, pipelines, counting);
 }
 
-void SpriteFrames::draw(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
-                        bool counting) const {
+void SpriteFrames::draw_newly_seen(const vk::raii::CommandBuffer& commands,
+                                   const Pipelines& pipelines, bool counting) const {
+  occlusion_->find_farthest(commands, target_.depth());
+  culling_.record(commands, CullPass::seen_now, counting);
+  target_.begin(commands, true);
+  bind_vertices(commands, pipelines);
+  culling_.draw(commands, 1);
+  commands.endRenderPass();
+}
+
+void SpriteFrames::bind_vertices(const vk::raii::CommandBuffer& commands,
+                                 const Pipelines& pipelines) const {
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines.draw);
   const std::array<vk::DeviceSize, 3> offsets{};
   const std::array buffers{data_.spheres().get(), data_.colours().get(), data_.ids().get()};
   commands.bindVertexBuffers(0, buffers, offsets);
+}
+
+void SpriteFrames::draw(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
+                        bool counting) const {
+  bind_vertices(commands, pipelines);
   if (options_.culling == Culling::none) {
     draw_run(commands, technique_.draw.instanced, {0, data_.particles()});
   } else {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "backends/vulkan/cell_culling.hpp"
+#include "backends/vulkan/cell_occlusion.hpp"
 #include "backends/vulkan/draw_pipeline.hpp"
 #include "backends/vulkan/frames.hpp"
 #include "backends/vulkan/instance.hpp"
@@ -67,6 +68,10 @@ class SpriteFrames final : public measure::Prepared {
               bool counting) const;
   void draw(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
             bool counting) const;
+  void draw_newly_seen(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
+                       bool counting) const;
+  void bind_vertices(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines) const;
+  void bind();
   void draw_run(const vk::raii::CommandBuffer& commands, bool instanced, ParticleRun run) const;
   void draw_again(const vk::raii::CommandBuffer& commands) const;
   [[nodiscard]] record::Counts read_counts() const;
@@ -83,6 +88,7 @@ class SpriteFrames final : public measure::Prepared {
   vk::raii::DescriptorPool pool_;
   vk::DescriptorSet set_;  // freed with the pool
   CellCulling culling_;
+  std::optional<CellOcclusion> occlusion_;
   Pipelines pipelines_;
   Pipelines counting_pipelines_;  // null until a counting frame is asked for
   Frames frames_;

@@ -6,8 +6,8 @@ namespace triptych::vulkan_backend {
 namespace {
 
 // In the order of TilePass.
-constexpr std::array<std::string_view, 7> passes{"cells",   "bin",   "place", "fill",
-                                                 "resolve", "index", "shade"};
+constexpr std::array<std::string_view, 8> passes{"cells",   "bin",      "place", "fill",
+                                                 "resolve", "farthest", "index", "shade"};
 
 std::string_view code_of(std::string_view pass, bool counting) {
   return spirv(fmt::format("tiles_{}{}.comp.spv", pass, counting ? "_counting" : ""));

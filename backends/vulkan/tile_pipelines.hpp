@@ -9,7 +9,7 @@
 namespace triptych::vulkan_backend {
 
 // The passes of technique/particles/tiles.glsl.
-enum class TilePass : std::uint8_t { cells, bin, place, fill, resolve, index, shade };
+enum class TilePass : std::uint8_t { cells, bin, place, fill, resolve, farthest, index, shade };
 
 // Constants of shaders/particle_prelude.glsl and, behind them, of shaders/tiles_prelude.glsl.
 struct TileConstants {

@@ -1,5 +1,7 @@
 #include "backends/vulkan/tile_rounds.hpp"
 
+#include <algorithm>
+
 namespace triptych::vulkan_backend {
 
 std::vector<TileRound> divide_into_rounds(std::span<const CellNeed> needs, std::uint64_t pixels,
@@ -18,7 +20,7 @@ std::vector<TileRound> divide_into_rounds(std::span<const CellNeed> needs, std::
                                           rounds.back().cells == most_cells);
     if (full) {
       covered = coverage;
-      goal = 2 * covered;
+      goal = std::max(pixels, covered / 2);
     }
     if (rounds.empty() || full) rounds.push_back({.first_cell = cell});
     TileRound& round = rounds.back();

@@ -19,9 +19,10 @@ struct TileRound {
   std::uint64_t entries = 0;
 };
 
-// The first round covers the picture about once, each further one twice as often as all before it:
-// enough that little of a round is hidden by itself, few enough that rounds cost nothing. None has
-// more than `most_entries` unless a single cell has.
+// The first rounds cover the picture about once each, further ones half as often as all before
+// them: a tile hides what lies behind it once all its pixels are covered, which takes several
+// layers of spheres, and rounds cost little. None has more than `most_entries` unless a single cell
+// has.
 [[nodiscard]] std::vector<TileRound> divide_into_rounds(std::span<const CellNeed> needs,
                                                         std::uint64_t pixels,
                                                         std::uint64_t most_entries);

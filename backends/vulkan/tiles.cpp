@@ -239,7 +239,11 @@ void TilesFrames::record_round(const vk::raii::CommandBuffer& commands,
     run(commands, pipelines[TilePass::fill], fill_groups);
     barrier(commands);
   }
-  run(commands, pipelines[TilePass::resolve], columns_, rows_);
+  if (round.entries > 0 || options_.fault == technique::ParticleFault::missing_barrier) {
+    run(commands, pipelines[TilePass::resolve], columns_, rows_);
+  } else {
+    run(commands, pipelines[TilePass::farthest], groups_for(columns_ * rows_, group));
+  }
   barrier(commands);
 }
 

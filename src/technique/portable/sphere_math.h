@@ -82,9 +82,10 @@ TRI_FN float tri_sphere_distance(float cx, float cy, float cz, float sx, float s
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
   TRI_PRECISE float b = cx * sx + cy * sy + cz;
   TRI_PRECISE float root = TRI_SQRT(discriminant);
-  TRI_PRECISE float entry = (b - root) / q;
-  TRI_PRECISE float leave = (b + root) / q;
-  return entry > 0.0f ? entry : leave;
+  TRI_PRECISE float entry = b - root;
+  TRI_PRECISE float leave = b + root;
+  TRI_PRECISE float distance = (entry > 0.0f ? entry : leave) / q;
+  return distance;
 }
 
 // Cosine between the surface normal and the ray, |n·d|.

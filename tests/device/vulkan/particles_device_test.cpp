@@ -198,6 +198,7 @@ TEST(VulkanParticles, CountersAddUpAndRepeat) {
     scene.width = 240;
     scene.height = 180;
     for (const std::string_view technique : techniques) {
+      std::uint64_t culled = 0;  // more by each kind of culling than by the one before
       for (const Culling culling : {Culling::none, Culling::frustum, Culling::occlusion}) {
         const auto prepared = device.prepare(particle_work(technique, scene, {.culling = culling}));
         const record::Counts counts = prepared->frame(Purpose::counters).counts;
@@ -205,6 +206,8 @@ TEST(VulkanParticles, CountersAddUpAndRepeat) {
         EXPECT_EQ(counts.at("particles_submitted") + counts.at("particles_culled"), 20000U);
         EXPECT_LE(counts.at("sprites"), counts.at("particles_submitted"));
         EXPECT_EQ(counts.at("particles_culled") == 0, culling == Culling::none) << technique;
+        EXPECT_GE(counts.at("particles_culled"), 2 * culled) << technique;
+        culled = counts.at("particles_culled");
         EXPECT_GT(counts.at("visible_ids"), 100U);
         if (technique == "tiles") {
           EXPECT_GT(counts.at("bin_entries"), 0U);
