@@ -21,10 +21,10 @@ std::vector<technique::Cell> cells_with_large_points(const Api& gl,
   std::vector<technique::Cell> cells = arrangement.cells;
   // No silhouette is larger than the picture it is cut to.
   const double largest = largest_point(gl);
-  const bool all_small = std::max(scene.width, scene.height) + 1 <= largest;
+  const bool all_small = std::max(scene.width, scene.height) + 4 <= largest;
   const double pixel = 2 * std::tan(glm::radians(scene.camera.fov_y_deg) / 2) / scene.height;
   // Between its two tangents a sphere at (a, z) covers 2r√(a² + z² − r²)/(z² − r²) of an axis. A
-  // little more stands for the sprites' margin and rounding.
+  // little more stands for the margins of sprites and points, and rounding.
   const auto may_be_large = [&](const std::array<float, 4>& sphere) {
     const glm::dvec3 to = glm::dvec3(sphere[0], sphere[1], sphere[2]) - scene.camera.eye;
     const double r = static_cast<double>(sphere[3]);
@@ -33,7 +33,7 @@ std::vector<technique::Cell> cells_with_large_points(const Api& gl,
     const double a = std::max(std::abs(glm::dot(to, scene.camera.right())),
                               std::abs(glm::dot(to, scene.camera.up)));
     const double width = 2 * r * std::sqrt(a * a + (z - r) * (z + r)) / ((z - r) * (z + r));
-    return 1.01 * width / pixel + 1 > largest;
+    return 1.01 * width / pixel + 4 > largest;
   };
   for (technique::Cell& cell : cells) {
     const auto* begin = arrangement.spheres.data() + cell.begin;

@@ -46,6 +46,7 @@ void Occlusion::start_frame(const Api& gl) {
 }
 
 void Occlusion::find_farthest(const Api& gl, GLuint depth_texture) const {
+  gl.MemoryBarrier(GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
   gl.ActiveTexture(GL_TEXTURE0 + unit_depth);
   gl.BindTexture(GL_TEXTURE_2D, depth_texture);
   gl.UseProgram(program_.get());

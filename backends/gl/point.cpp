@@ -8,8 +8,17 @@
 namespace triptych::gl_backend {
 namespace {
 
+// softpipe draws a point of size s as ⌊s⌋ pixels from the whole one next to its lower end: in a
+// point of two pixels more, every pixel whose centre lies in the square is drawn.
+double margin_of(const Api& gl) {
+  return gl.text(GL_RENDERER).starts_with("softpipe") ? 2 : 0;
+}
+
 Sprites sprites(const Api& gl) {
-  const std::string largest = fmt::format("#define TRI_LARGEST_POINT {:.1f}\n", largest_point(gl));
+  const double margin = margin_of(gl);
+  const std::string largest =
+      fmt::format("#define TRI_LARGEST_POINT {:.1f}\n#define TRI_POINT_MARGIN {:.1f}\n",
+                  largest_point(gl) - margin, margin);
   ParticleStage points{GL_VERTEX_SHADER, {"sprite.glsl", "point.vert.glsl"}, largest};
   ParticleStage quads = instance_stage(gl, "point_large.vert.glsl");
   quads.defines += largest;

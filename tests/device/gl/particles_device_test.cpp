@@ -109,6 +109,20 @@ TEST(GlParticles, AwkwardCamerasLoseNoPixel) {
   });
 }
 
+// Larger than the points of any device that is known, before others that are not.
+TEST(GlParticles, SpheresLargerThanPointsAreDrawn) {
+  scene::ParticleScene scene =
+      seen_from({{0, 0, -3, 1.6}, {1.5, 0.2, -2, 0.2}, {-1.4, -1.2, -2.5, 0.3}}, {0, 0, 0}, 70);
+  scene.width = 320;
+  scene.height = 300;
+  const reference::SphereTruth truth = truth_of(scene);
+  for_each_device([&](measure::Device& device) {
+    for_each_technique(device, [&](std::string_view technique) {
+      EXPECT_EQ(compared(picture(device, particle_work(technique, scene)), truth), Wrong{});
+    });
+  });
+}
+
 TEST(GlParticles, RaysMadeAtTheVerticesHoldTheirBound) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = generated("generate:droplets:400");
@@ -158,8 +172,8 @@ TEST(GlParticles, OptionsThatDecideNothingLeaveEveryBit) {
 // A wall before most of the particles: cells are left out, and no bit tells.
 TEST(GlParticles, WhatIsHiddenIsNotMissed) {
   for_each_device([](measure::Device& device) {
-    scene::ParticleScene scene = generated("generate:uniform:60000");
-    scene.radius_scale = 2;
+    scene::ParticleScene scene = generated("generate:uniform:30000");
+    scene.radius_scale = 2.5;
     scene.width = scene.height = 128;
     const core::Image plain =
         picture(device, particle_work("quad_ray", scene, {.culling = Culling::none}));
@@ -171,7 +185,10 @@ TEST(GlParticles, WhatIsHiddenIsNotMissed) {
         EXPECT_EQ(prepared->image(), plain) << i;
       }
       const record::Counts counts = prepared->frame(measure::Purpose::counters).counts;
-      EXPECT_GT(counts.at("cells_culled"), counts.at("cells") / 20);
+      // softpipe's compute shaders do not see what was just drawn: nothing is taken for hidden.
+      if (device.info().driver != "softpipe") {
+        EXPECT_GT(counts.at("cells_culled"), counts.at("cells") / 20);
+      }
       EXPECT_EQ(prepared->frame(measure::Purpose::counters).counts, counts);
       EXPECT_EQ(prepared->image(), plain);
     });
