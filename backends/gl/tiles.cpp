@@ -20,9 +20,9 @@ using measure::Purpose;
 using technique::Culling;
 
 constexpr GLuint group_size = 64;
-constexpr std::array<std::string_view, 7> passes{"cells",   "bin",   "place", "fill",
-                                                 "resolve", "index", "shade"};
-enum Pass : std::size_t { cells, bin, place, fill, resolve, index, shade };
+constexpr std::array<std::string_view, 8> passes{"cells",   "bin",      "place", "fill",
+                                                 "resolve", "farthest", "index", "shade"};
+enum Pass : std::size_t { cells, bin, place, fill, resolve, farthest, index, shade };
 
 struct Programs {
   std::array<Program, passes.size()> of;
@@ -153,11 +153,13 @@ class TilesDrawing final : public Drawing {
         bin_cells(gl, programs, round);
         buffers_.choose(gl, TileBuffers::Cells::all);
       }
-      if (rounds_.entries > 0) {
+      if (rounds_.entries > 0 || options_.fault == technique::ParticleFault::missing_barrier) {
         run(gl, programs, place, buffers_.groups_for_tiles());
         run(gl, programs, fill, buffers_.spread_groups());
+        run(gl, programs, resolve, buffers_.tiles());
+      } else {
+        run(gl, programs, farthest, buffers_.groups_for_tiles());
       }
-      run(gl, programs, resolve, buffers_.tiles());
     }
   }
 
