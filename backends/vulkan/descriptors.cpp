@@ -1,5 +1,6 @@
 #include "backends/vulkan/descriptors.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace triptych::vulkan_backend {
@@ -44,7 +45,10 @@ std::vector<vk::DescriptorSet> allocate_sets(const Gpu& gpu, const vk::raii::Des
 
 void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  vk::DescriptorType type, const Buffer& buffer) {
-  const vk::DescriptorBufferInfo info{.buffer = buffer.get(), .range = VK_WHOLE_SIZE};
+  const bool storage = type == vk::DescriptorType::eStorageBuffer;
+  const vk::DeviceSize most = storage ? gpu.properties.limits.maxStorageBufferRange : buffer.size();
+  const vk::DescriptorBufferInfo info{.buffer = buffer.get(),
+                                      .range = std::min(buffer.size(), most)};
   gpu.device.updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
                                                          .dstBinding = binding,
                                                          .descriptorCount = 1,

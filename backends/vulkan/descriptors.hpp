@@ -25,6 +25,8 @@ struct Layout {
                                                            const Layout& layout,
                                                            std::uint32_t count);
 
+// As much of the buffer as the device lets a shader see: those that are fetched by index must fit
+// (particle_reason), those that are vertex buffers as well need not.
 void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  vk::DescriptorType type, const Buffer& buffer);
 // The image must be in eShaderReadOnlyOptimal when it is used.
