@@ -10,47 +10,70 @@
 namespace triptych::technique {
 namespace {
 
-// Bounds how many tiles spheres may enter.
-class EntryBound {
+// What spheres may need at most.
+struct Need {
+  double pixels = 0;   // that are drawn
+  double entries = 0;  // of large spheres: one in each tile
+};
+
+class NeedBound {
  public:
-  explicit EntryBound(const scene::ParticleScene& scene)
+  explicit NeedBound(const scene::ParticleScene& scene)
       : camera_(scene.camera),
         right_(scene.camera.right()),
-        pixel_(2 * std::tan(glm::radians(scene.camera.fov_y_deg) / 2) / scene.height),
+        half_y_(std::tan(glm::radians(scene.camera.fov_y_deg) / 2)),
+        half_x_(half_y_ * scene.width / scene.height),
+        pixel_(2 * half_y_ / scene.height),
         columns_(tiles(scene.width)),
         rows_(tiles(scene.height)) {}
 
-  [[nodiscard]] std::uint64_t of(std::span<const std::array<float, 4>> spheres) const {
-    double entries = 0;
-    for (const auto& sphere : spheres) entries += of(sphere);
-    return static_cast<std::uint64_t>(entries);
+  [[nodiscard]] Need of(std::span<const std::array<float, 4>> spheres) const {
+    Need all;
+    for (const auto& sphere : spheres) {
+      const Need one = of(sphere);
+      all.pixels += one.pixels;
+      all.entries += one.entries;
+    }
+    return all;
   }
 
  private:
   static double tiles(int pixels) { return std::ceil(static_cast<double>(pixels) / tile_edge); }
 
-  [[nodiscard]] double of(const std::array<float, 4>& sphere) const {
+  [[nodiscard]] Need of(const std::array<float, 4>& sphere) const {
+    constexpr double tile_pixels = double{tile_edge} * tile_edge;
     const glm::dvec3 to = glm::dvec3(sphere[0], sphere[1], sphere[2]) - camera_.eye;
     const double r = static_cast<double>(sphere[3]);
     const double z = glm::dot(to, camera_.forward);
-    if (z <= -r) return 0;
-    if (z <= r) return columns_ * rows_;
-    const double width = extent(glm::dot(to, right_), z, r);
-    const double height = extent(glm::dot(to, camera_.up), z, r);
-    if (std::max(width, height) < tile_edge) return 0;
-    return std::min(columns_, std::floor(width / tile_edge) + 2) *
-           std::min(rows_, std::floor(height / tile_edge) + 2);
+    if (z <= -r) return {};
+    double columns = columns_;
+    double rows = rows_;
+    if (z > 1.001 * r) {
+      const double width = extent(glm::dot(to, right_), z, r, half_x_);
+      const double height = extent(glm::dot(to, camera_.up), z, r, half_y_);
+      if (width <= 0 || height <= 0) return {};
+      if (std::max(width, height) < tile_edge) return {.pixels = width * height, .entries = 0};
+      columns = std::min(columns, std::floor(width / tile_edge) + 2);
+      rows = std::min(rows, std::floor(height / tile_edge) + 2);
+    }
+    return {.pixels = tile_pixels * columns * rows, .entries = columns * rows};
   }
 
-  // Pixels along one axis between the sphere's two tangents, 2r√(a² + z² − r²)/(z² − r²) on the
-  // image plane; two more for the margin and for rounding, which a hundredth covers for z near r.
-  [[nodiscard]] double extent(double a, double z, double r) const {
+  // Pixels of one axis between the sphere's two tangents, (a·z ± r·√(a² + z² − r²))/(z² − r²) on
+  // the image plane, as far as they lie within ±half; three more for the margin and rounding. Not
+  // positive where the sphere is not in sight.
+  [[nodiscard]] double extent(double a, double z, double r, double half) const {
     const double k2 = (z - r) * (z + r);
-    return 1.01 * 2 * r * std::sqrt(a * a + k2) / k2 / pixel_ + 2;
+    const double reach = r * std::sqrt(a * a + k2);
+    const double low = std::max((a * z - reach) / k2, -half);
+    const double high = std::min((a * z + reach) / k2, half);
+    return (high - low) / pixel_ + 3;
   }
 
   const scene::Camera& camera_;
   glm::dvec3 right_;
+  double half_y_;
+  double half_x_;
   double pixel_;
   double columns_;
   double rows_;
@@ -60,30 +83,29 @@ class EntryBound {
 
 TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arrangement,
                        std::uint32_t most_cells, std::uint64_t most_entries) {
-  constexpr std::size_t first_particles = 32 * particles_per_cell;
-  const EntryBound bound(scene);
+  const double pixels = static_cast<double>(scene.width) * scene.height;
+  const NeedBound bound(scene);
   TileRounds out;
-  std::size_t wanted = first_particles;
-  std::size_t particles = 0;
-  std::uint64_t entries = 0;
   TileRound round;
+  Need need;           // of this round
+  double covered = 0;  // pixels of all rounds before
   const auto finish = [&] {
     if (round.cells == 0) return;
     out.rounds.push_back(round);
-    out.entries = std::max(out.entries, entries);
+    out.entries = std::max(out.entries, static_cast<std::uint64_t>(need.entries));
+    covered += need.pixels;
     round = {round.first + round.cells, 0};
-    if (particles >= wanted) wanted *= 2;
-    particles = 0;
-    entries = 0;
+    need = {};
   };
   for (const Cell& cell : arrangement.cells) {
-    const std::uint64_t more =
-        bound.of(std::span(arrangement.spheres).subspan(cell.begin, cell.count));
-    if (entries + more > most_entries || round.cells == most_cells) finish();
+    const Need more = bound.of(std::span(arrangement.spheres).subspan(cell.begin, cell.count));
+    if (need.pixels >= std::max(pixels, covered / 2) || round.cells == most_cells ||
+        need.entries + more.entries > static_cast<double>(most_entries)) {
+      finish();
+    }
     ++round.cells;
-    particles += cell.count;
-    entries += more;
-    if (particles >= wanted) finish();
+    need.pixels += more.pixels;
+    need.entries += more.entries;
   }
   finish();
   return out;

@@ -22,9 +22,9 @@ struct TileRounds {
   std::uint64_t entries = 0;      // (tile, large sphere) pairs that a round may have at most
 };
 
-// Rounds grow with the distance, since what lies far behind is mostly hidden by then: early ones
-// hide later ones, each costs a pass over all tiles. A round has no more than `most_cells` cells
-// and, unless a single cell has more, `most_entries` entries.
+// A round draws about as many pixels as the picture has, or half as many as all rounds before it:
+// early ones hide what later ones hold, and each costs a pass over all tiles. A round has no more
+// than `most_cells` cells and, unless a single cell has more, `most_entries` entries.
 [[nodiscard]] TileRounds tile_rounds(const scene::ParticleScene& scene,
                                      const Arrangement& arrangement, std::uint32_t most_cells,
                                      std::uint64_t most_entries);
