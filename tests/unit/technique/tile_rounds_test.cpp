@@ -1,0 +1,62 @@
+#include "technique/particles/tile_rounds.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scene/particle_generators.hpp"
+
+namespace triptych::technique {
+namespace {
+
+scene::ParticleScene uniform(std::uint64_t count, double radius_scale) {
+  scene::ParticleScene scene;
+  scene.particles = std::make_shared<const scene::ParticleSet>(
+      scene::generate_particles("uniform", count, scene::ColourKind::rgba8));
+  scene.camera = scene::particle_camera("orbit_y:1/8", *scene.particles, 60);
+  scene.width = scene.height = 256;
+  scene.radius_scale = radius_scale;
+  return scene;
+}
+
+void expect_all_cells_in_order(const TileRounds& rounds, const Arrangement& arrangement) {
+  std::uint32_t next = 0;
+  for (const TileRound& round : rounds.rounds) {
+    EXPECT_EQ(round.first, next);
+    EXPECT_GT(round.cells, 0U);
+    next += round.cells;
+  }
+  EXPECT_EQ(next, arrangement.cells.size());
+}
+
+TEST(TileRounds, HoldEveryCellOnceAndKeepTheirLimits) {
+  const scene::ParticleScene scene = uniform(60000, 8);
+  const Arrangement arrangement = arrange(scene);
+  for (const std::uint32_t most_cells : {1U, 7U, 65535U}) {
+    const TileRounds rounds = tile_rounds(scene, arrangement, most_cells, 100000);
+    expect_all_cells_in_order(rounds, arrangement);
+    EXPECT_GT(rounds.rounds.size(), 1U);
+    for (const TileRound& round : rounds.rounds) {
+      EXPECT_LE(round.cells, most_cells);
+    }
+    EXPECT_LE(rounds.entries, 100000U);
+  }
+}
+
+TEST(TileRounds, SmallSpheresNeedNoEntries) {
+  const scene::ParticleScene scene = uniform(20000, 0.2);
+  EXPECT_EQ(tile_rounds(scene, arrange(scene), 65535, 1000).entries, 0U);
+}
+
+TEST(TileRounds, ASphereAroundTheEyeMayEnterEveryTile) {
+  scene::ParticleScene scene = uniform(1, 1000);
+  scene.camera.eye = {5, 5, 5};
+  EXPECT_EQ(tile_rounds(scene, arrange(scene), 65535, 1).entries, 256U);
+}
+
+TEST(TileRounds, ThereAreNoneForNothing) {
+  scene::ParticleScene scene = uniform(1, 1);
+  scene.particles = std::make_shared<const scene::ParticleSet>();
+  EXPECT_TRUE(tile_rounds(scene, arrange(scene), 65535, 1).rounds.empty());
+}
+
+}  // namespace
+}  // namespace triptych::technique
