@@ -106,7 +106,8 @@ __kernel void count_bins(__global const Particles* restrict parameters,
                          __global const float* restrict spheres,
                          __global const Cell* restrict cells, __global const uint* restrict list,
                          __global float* restrict camera, __global uint* restrict rectangles,
-                         uint bins, __global uint* restrict counts, __global uint* restrict counters) {
+                         uint bins, __global uint* restrict counts,
+                         __global uint* restrict counters) {
   uint chunk = (uint)get_global_id(0);
   uint chunks = (uint)get_global_size(0);
   Particles u = *parameters;

@@ -24,7 +24,8 @@ TRI_FN float4 stored_colour(__global const uint* colours, uint particle) {
 
 #if TRI_COLOUR == 2
 // One work item per chunk: the transfer function looked up once for each sprite.
-__kernel void colour_sprites(__global const Cell* restrict cells, __global const uint* restrict list,
+__kernel void colour_sprites(__global const Cell* restrict cells,
+                             __global const uint* restrict list,
                              __global const float* restrict intensities,
                              __global const float4* restrict table,
                              __global float4* restrict sprite_colours) {

@@ -187,9 +187,9 @@ TRI_FN void clip_outline(Outline* outline, float near) {
   }
 }
 
-// Rays interpolated between corners: with perspective, (x, y, z)/w is linear on the screen, and z is
-// w, so that the place on the image plane is linear too. Its slopes are those of three corners, as
-// snapped to the grid.
+// Rays interpolated between corners: with perspective, (x, y, z)/w is linear on the screen, and z
+// is w, so that the place on the image plane is linear too. Its slopes are those of three corners,
+// as snapped to the grid.
 #if TRI_RAY_AT_VERTEX
 TRI_FN void fit_rays(const Particles* u, const Outline* outline, Polygon* polygon) {
   int a = 0, b = polygon->n / 3, c = 2 * polygon->n / 3;

@@ -9,15 +9,15 @@
 #define TRI_LOOK_EVERY 8
 
 typedef struct {
-  float depth[TRI_TILE * TRI_STRIDE];   // reversed; 0 where there is nothing
+  float depth[TRI_TILE * TRI_STRIDE];  // reversed; 0 where there is nothing
   uint winner[TRI_TILE * TRI_STRIDE];
 #if TRI_RAY_AT_VERTEX
   float cosine[TRI_TILE * TRI_STRIDE];  // shading needs the ray that hit
 #endif
-  float column[TRI_STRIDE];  // rays of the pixels of a row
-  float row[TRI_TILE];
-  int x, y;        // first pixel
-  int last_x, last_y;  // last pixel within the image, from the first
+  float column[TRI_STRIDE];            // rays: sx of each column of pixels,
+  float row[TRI_TILE];                 // sy of each row
+  int x, y;                            // first pixel
+  int last_x, last_y;                  // last pixel within the image, from the first
   float farthest;  // no pixel keeps a surface farther than this along the view axis
   int drawn;       // entries since the last look
 } Tile;

@@ -1,4 +1,5 @@
-// Mirrors technique::ParticleParameters and technique::Cell, where the meaning of each field stands.
+// Mirrors technique::ParticleParameters and technique::Cell, where the meaning of each field
+// stands.
 typedef struct {
   float4 eye;
   float4 eye_rest;
