@@ -14,7 +14,7 @@ namespace triptych::gl_backend {
 
 inline constexpr std::array<std::string_view, 8> particle_techniques{
     "quad_screen",  "quad_ray",         "quad_instanced", "quad_tess",
-    "polygon_tess", "polygon_adaptive", "point", "tiles"};
+    "polygon_tess", "polygon_adaptive", "point",          "tiles"};
 
 // Spheres x, y, z, r, coloured by their numbers.
 inline std::shared_ptr<const scene::ParticleSet> set_of(
