@@ -13,8 +13,8 @@
 #include "backends/vulkan/particle_target.hpp"
 #include "backends/vulkan/techniques.hpp"
 #include "backends/vulkan/tile_pipelines.hpp"
-#include "backends/vulkan/tile_rounds.hpp"
 #include "core/error.hpp"
+#include "technique/particles/tile_rounds.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -28,11 +28,11 @@ enum TileBinding : std::uint32_t {
   tiles_binding,
   entries_binding,
   pixels_binding,
-  cell_ends_binding,  // of tiles_measure: what cells need
+  cell_ends_binding,
   picture_binding,
   end_of_bindings
 };
-constexpr std::uint32_t tile_edge = 16;
+constexpr auto tile_edge = std::uint32_t{technique::tile_edge};
 constexpr std::uint32_t group = 64;
 constexpr vk::DeviceSize word = sizeof(std::uint32_t);
 constexpr vk::DeviceSize tile_bytes = 4 * word;
@@ -76,12 +76,11 @@ class TilesFrames final : public measure::Prepared {
            std::uint32_t y = 1) const;
   void push(const vk::raii::CommandBuffer& commands, std::uint32_t first_cell,
             std::uint32_t cells) const;
-  [[nodiscard]] std::vector<TileRound> measure_rounds() const;
   void record(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
               bool counting) const;
   void clear(const vk::raii::CommandBuffer& commands) const;
   void record_round(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
-                    const TileRound& round, std::uint32_t again) const;
+                    const technique::TileRound& round, std::uint32_t again) const;
   [[nodiscard]] core::Image read() const;
 
   const Gpu& gpu_;
@@ -104,7 +103,7 @@ class TilesFrames final : public measure::Prepared {
   Layout layout_;
   vk::raii::DescriptorPool pool_;
   vk::DescriptorSet set_;  // freed with the pool
-  std::vector<TileRound> rounds_;
+  technique::TileRounds rounds_;
   Buffer entries_;
   TilePipelines pipelines_;
   std::optional<TilePipelines> counting_pipelines_;
@@ -116,8 +115,27 @@ std::uint64_t kept_places(const measure::ParticleWork& work) {
   return work.scene.particles->count() * (work.options.extra_work_stride > 0 ? 2 : 1);
 }
 
-std::uint64_t most_entries(const std::vector<TileRound>& rounds) {
-  return rounds.empty() ? 0 : std::ranges::max(rounds, {}, &TileRound::entries).entries;
+// With work planted, a sphere may have each of its entries twice.
+std::uint64_t entries_planted(const measure::ParticleWork& work) {
+  return work.options.extra_work_stride > 0 ? 2 : 1;
+}
+
+// Throws core::NotSupported where one cell alone needs more entries than a buffer holds.
+technique::TileRounds rounds_of(const Gpu& gpu, const measure::ParticleWork& work,
+                                const technique::Arrangement& arrangement) {
+  // A work group per cell in one dimension of a dispatch, of which every device takes so many.
+  constexpr std::uint32_t most_cells = 65535;
+  constexpr std::uint64_t enough_entries = std::uint64_t{1} << 24;
+  const std::uint64_t most =
+      gpu.properties.limits.maxStorageBufferRange / word / entries_planted(work);
+  technique::TileRounds rounds =
+      technique::tile_rounds(work.scene, arrangement, most_cells, std::min(most, enough_entries));
+  if (rounds.entries > most) {
+    throw core::NotSupported(
+        fmt::format("one cell of particles needs {} entries in tiles; maxStorageBufferRange = {}",
+                    rounds.entries, gpu.properties.limits.maxStorageBufferRange));
+  }
+  return rounds;
 }
 
 TilesFrames::TilesFrames(const Gpu& gpu, const Instance& instance,
@@ -139,22 +157,18 @@ TilesFrames::TilesFrames(const Gpu& gpu, const Instance& instance,
       kept_(device_buffer(gpu, word * kept_places(work))),
       tiles_(device_buffer(gpu, header_bytes + tile_bytes * columns_ * rows_)),
       pixels_(device_buffer(gpu, 4 * word * pixels_count_)),
-      cell_ends_(device_buffer(gpu, sizeof(CellNeed) * data_.cells())),
+      cell_ends_(device_buffer(gpu, word * data_.cells())),
       picture_(device_buffer(gpu, 4 * word * pixels_count_)),
       layout_(make_layout(gpu, bindings(), sizeof(RoundOf))),
       pool_(make_pool(gpu, 1, end_of_bindings)),
       set_(allocate_sets(gpu, pool_, layout_, 1).front()),
-      rounds_((bind(), measure_rounds())),
-      entries_(device_buffer(
-          gpu, word * most_entries(rounds_) * (options_.extra_work_stride > 0 ? 2 : 1))),
+      rounds_(rounds_of(gpu, work, arrangement)),
+      entries_(device_buffer(gpu, word * rounds_.entries * entries_planted(work))),
       pipelines_(gpu, layout_, constants_, false),
-      frames_(
-          (bind_buffer(gpu, set_, entries_binding, vk::DescriptorType::eStorageBuffer, entries_),
-           gpu),
-          vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations,
-          [this](const vk::raii::CommandBuffer& commands) {
-            record(commands, pipelines_, false);
-          }) {
+      frames_((bind(), gpu), vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations,
+              [this](const vk::raii::CommandBuffer& commands) {
+                record(commands, pipelines_, false);
+              }) {
   instance_.check_validation();
 }
 
@@ -166,6 +180,7 @@ void TilesFrames::bind() const {
   storage(kept_spheres_binding, kept_spheres_);
   storage(kept_binding, kept_);
   storage(tiles_binding, tiles_);
+  storage(entries_binding, entries_);
   storage(pixels_binding, pixels_);
   storage(cell_ends_binding, cell_ends_);
   storage(picture_binding, picture_);
@@ -183,34 +198,6 @@ void TilesFrames::push(const vk::raii::CommandBuffer& commands, std::uint32_t fi
                                   RoundOf{first_cell, cells});
 }
 
-// Throws core::NotSupported where one cell alone needs more entries than a buffer holds.
-std::vector<TileRound> TilesFrames::measure_rounds() const {
-  const vk::raii::Pipeline measuring =
-      make_compute_pipeline(gpu_, layout_, spirv("tiles_measure.comp.spv"), constants_);
-  constexpr std::uint32_t most_groups = 65535;
-  run_once(gpu_, [&](const vk::raii::CommandBuffer& commands) {
-    commands.fillBuffer(cell_ends_.get(), 0, VK_WHOLE_SIZE, 0);
-    barrier(commands);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_.pipeline, 0, set_, {});
-    for (std::uint32_t first = 0; first < data_.cells(); first += most_groups) {
-      const std::uint32_t cells = std::min(most_groups, data_.cells() - first);
-      push(commands, first, cells);
-      run(commands, *measuring, cells);
-    }
-  });
-  std::vector<CellNeed> needs(data_.cells());
-  if (!needs.empty()) download(gpu_, cell_ends_, std::as_writable_bytes(std::span(needs)));
-  const std::uint64_t planted = options_.extra_work_stride > 0 ? 2 : 1;
-  const std::uint64_t most = gpu_.properties.limits.maxStorageBufferRange / word / planted;
-  auto rounds = divide_into_rounds(needs, pixels_count_, std::min(most, std::uint64_t{1} << 24));
-  if (most_entries(rounds) > most) {
-    throw core::NotSupported(
-        fmt::format("one cell of particles needs {} entries in tiles; maxStorageBufferRange = {}",
-                    most_entries(rounds), gpu_.properties.limits.maxStorageBufferRange));
-  }
-  return rounds;
-}
-
 void TilesFrames::clear(const vk::raii::CommandBuffer& commands) const {
   constexpr std::uint32_t none = 0xFFFFFFFF;
   const vk::DeviceSize plane = word * pixels_count_;
@@ -222,11 +209,11 @@ void TilesFrames::clear(const vk::raii::CommandBuffer& commands) const {
 
 // Cells of the round `again` are binned twice: planted work that changes nothing.
 void TilesFrames::record_round(const vk::raii::CommandBuffer& commands,
-                               const TilePipelines& pipelines, const TileRound& round,
+                               const TilePipelines& pipelines, const technique::TileRound& round,
                                std::uint32_t again) const {
   // Entries and large spheres of the round before, behind the count of small ones.
   commands.fillBuffer(tiles_.get(), word, 2 * word, 0);
-  push(commands, round.first_cell, round.cells);
+  push(commands, round.first, round.cells);
   run(commands, pipelines[TilePass::cells], groups_for(round.cells, group));
   barrier(commands);
   run(commands, pipelines[TilePass::bin], round.cells);
@@ -255,8 +242,8 @@ void TilesFrames::record(const vk::raii::CommandBuffer& commands, const TilePipe
   barrier(commands);
   const auto stride = static_cast<std::uint32_t>(options_.extra_work_stride);
   std::uint32_t done = 0;
-  for (const TileRound& round : rounds_) {
-    const std::uint32_t end = round.first_cell + round.cells;
+  for (const technique::TileRound& round : rounds_.rounds) {
+    const std::uint32_t end = round.first + round.cells;
     const std::uint32_t due = stride == 0 || counting ? 0 : groups_for(end, stride) - done;
     const std::uint32_t again = std::min(due, round.cells);
     record_round(commands, pipelines, round, again);

@@ -91,10 +91,11 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
   double covered = 0;  // pixels of all rounds before
   const auto finish = [&] {
     if (round.cells == 0) return;
+    round.entries = static_cast<std::uint64_t>(need.entries);
     out.rounds.push_back(round);
-    out.entries = std::max(out.entries, static_cast<std::uint64_t>(need.entries));
+    out.entries = std::max(out.entries, round.entries);
     covered += need.pixels;
-    round = {round.first + round.cells, 0};
+    round = {.first = round.first + round.cells};
     need = {};
   };
   for (const Cell& cell : arrangement.cells) {

@@ -15,6 +15,7 @@ inline constexpr int tile_edge = 16;  // TRI_TILE
 struct TileRound {
   std::uint32_t first = 0;
   std::uint32_t cells = 0;
+  std::uint64_t entries = 0;  // that it may have at most; 0: it has no large spheres
 };
 
 struct TileRounds {

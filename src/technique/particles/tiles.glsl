@@ -10,7 +10,6 @@
 // and in the end
 //   tiles_index    finds the lowest particle at each pixel's depth among the small ones,
 //   tiles_shade    colours every pixel once.
-// When a scene is prepared, tiles_measure tells the host what to divide into rounds and how much room to give.
 // Everything a pixel keeps is a maximum of keys (depth) and a minimum of keys (particle), so that the
 // picture does not depend on the order of anything.
 //
