@@ -2,6 +2,7 @@
 // below.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,8 @@ namespace {
 using core::Image;
 
 // Error as a share of the bound: black 0, through blue and yellow to white at the bound itself;
-// over it, and where a value is not finite, NaN, which PNGs show as magenta.
+// over it, where a value is not finite and where another particle is shown than must be, NaN, which
+// PNGs show as magenta.
 Image share_of_bound(const Image& image, const Image& truth, const Image& bound) {
   Image shares(image.width, image.height);
   for (std::size_t i = 0; i < shares.rgba.size(); i += 4) {
@@ -28,6 +30,10 @@ Image share_of_bound(const Image& image, const Image& truth, const Image& bound)
       const double error = std::abs(static_cast<double>(image.rgba[i + c]) - truth.rgba[i + c]);
       share = error == 0 ? share : std::max(share, error / static_cast<double>(bound.rgba[i + c]));
       if (!std::isfinite(error)) share = std::numeric_limits<double>::infinity();
+    }
+    const bool certain = !truth.ids.empty() && bound.ids[i / 4] == 0;
+    if (certain && image.ids[i / 4] != truth.ids[i / 4]) {
+      share = std::numeric_limits<double>::infinity();
     }
     const auto ramp = [&](double from, double to) {
       return static_cast<float>(std::clamp((share - from) / (to - from), 0.0, 1.0));
@@ -45,12 +51,39 @@ std::string picture(const Image& image, std::string_view alt) {
                      data_uri(core::encode_png(image)), image.width, image.height, escape(alt));
 }
 
-std::string device_panel(const record::Store& store, const record::Record& record,
+// The records of one device whose pictures are the same bits.
+using SameBits = std::vector<const record::Record*>;
+
+std::vector<SameBits> grouped_by_bits(const std::vector<const record::Record*>& records) {
+  std::vector<SameBits> groups;
+  for (const record::Record* record : records) {
+    const auto same = std::ranges::find_if(groups, [&](const SameBits& group) {
+      return group.front()->device == record->device && group.front()->image == record->image;
+    });
+    if (same != groups.end()) {
+      same->push_back(record);
+    } else {
+      groups.push_back({record});
+    }
+  }
+  return groups;
+}
+
+std::string technique_names(const SameBits& group) {
+  std::vector<std::string> names;
+  for (const record::Record* record : group) {
+    if (names.empty() || names.back() != record->technique) names.push_back(record->technique);
+  }
+  return fmt::format("{}{}", fmt::join(names, ", "), names.size() > 1 ? ": the same bits" : "");
+}
+
+std::string device_panel(const record::Store& store, const SameBits& group,
                          const judge::TruthPair& pair) {
+  const record::Record& record = *group.front();
   const Image image = core::decode_exr(store.image(record.image));
   const judge::ImageComparison result = judge::compare(image, pair.truth, pair.bound);
   const std::string title =
-      fmt::format("{}<br>{}", escape(record.device), escape(record.technique));
+      fmt::format("{}<br>{}", escape(record.device), escape(technique_names(group)));
   if (result.size_mismatch) {
     return fmt::format("<figure>{}<figcaption>{}<br>wrong size</figcaption></figure>",
                        picture(image, record.device), title);
@@ -64,7 +97,9 @@ std::string device_panel(const record::Store& store, const record::Record& recor
       result.within_bound() ? "pass" : "regression",
       result.within_bound()
           ? fmt::format("within the bound, {:.0f} % of it used", 100 * result.worst.ratio)
-          : fmt::format("{} pixels over the bound", result.over_bound + result.non_finite));
+          : fmt::format("{} pixels over the bound, {} of another particle or at another depth",
+                        result.over_bound + result.non_finite,
+                        result.wrong_ids + result.wrong_depths));
 }
 
 }  // namespace
@@ -92,8 +127,9 @@ std::string scenes_section(const record::Store& store, const PlanData& plan,
         "<h4>{}</h4><div class=\"panels\"><figure>{}<figcaption>the truth<br>double "
         "precision</figcaption></figure>",
         escape(scene_title(plan, *records.front())), picture(first.truth, "the truth"));
-    for (const record::Record* record : records)
-      text += device_panel(store, *record, truth(*record));
+    for (const SameBits& group : grouped_by_bits(records)) {
+      text += device_panel(store, group, truth(*group.front()));
+    }
     text += "</div>\n";
   }
   return text;
