@@ -19,6 +19,9 @@ void print_text(const std::vector<Greeting>& greeted, const std::vector<measure:
     for (const record::ClockTrust& clock : each.clocks) {
       fmt::print("  clock for {}: {}\n", clock.work, clock.verdict);
     }
+    for (const auto& [statistic, verdict] : each.device.statistics_dialect) {
+      fmt::print("  statistic {}: {}\n", statistic, verdict);
+    }
     std::string limits;
     for (const auto& [name, value] : each.device.limits)
       limits += fmt::format(" {}={}", name, value);

@@ -6,6 +6,7 @@
 
 #include "app/arguments.hpp"
 #include "app/listing.hpp"
+#include "app/loading.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "core/image_io.hpp"
@@ -84,7 +85,9 @@ core::ExitCode render(const RenderArguments& arguments) {
   record::Store store(file.path(), record::Store::Mode::append);
   const measure::RunResult result = measure::run_plan(
       plan, devices, suite, store, {.worker_command = {own_program(), "worker", "--device"}},
-      [](const measure::Progress&) {});
+      [](const measure::Progress& progress) {
+        if (progress.loading) show_loading(*progress.loading);
+      });
   const record::Record record = store.records(result.run).at(0);
   if (record.outcome == record::Outcome::skipped) throw core::NotSupported(record.reason);
   if (record.outcome != record::Outcome::measured) throw core::InputError(record.reason);

@@ -5,6 +5,7 @@
 
 #include "app/arguments.hpp"
 #include "app/listing.hpp"
+#include "app/loading.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "measure/process.hpp"
@@ -32,6 +33,7 @@ std::string outcome_text(const record::Record& record) {
 
 // A line that rewrites itself on a terminal, a line per configuration elsewhere.
 void show(const measure::Progress& progress) {
+  if (progress.loading) return show_loading(*progress.loading);
   static const bool terminal = ::isatty(STDERR_FILENO) == 1;
   const std::string what = progress.record != nullptr ? outcome_text(*progress.record) : "";
   if (terminal) {

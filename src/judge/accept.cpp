@@ -162,6 +162,9 @@ void write_device_files(const Accepted& accepted, const record::Device& device,
   Json& bits_table = configurations_of(bits, device.key(), accepted);
   Json& statistics_table = configurations_of(statistics, device.statistics_key(), accepted);
   Json& timings_table = configurations_of(timings, device.key(), accepted);
+  // A run that did not look leaves what is known of this driver version.
+  if (!device.statistics_dialect.empty())
+    statistics.object()["dialect"] = device.statistics_dialect;
   bool tells_statistics = !statistics_table.empty();
   for (const record::Record& record : accepted.measured) {
     if (record.device != device.id) continue;

@@ -123,6 +123,7 @@ struct Baselines::Cache {
   std::optional<ByName<StoredCounters>> counters;
   std::map<std::filesystem::path, ByName<StoredBits>> bits;
   std::map<std::filesystem::path, ByName<record::Counts>> statistics;
+  std::map<std::filesystem::path, ByName<std::string>> dialects;
   std::map<std::filesystem::path, ByName<std::vector<StoredTiming>>> timings;
   std::optional<std::vector<Waiver>> waivers;
   std::optional<std::set<std::string>> accepted;
@@ -130,6 +131,17 @@ struct Baselines::Cache {
   const ByName<StoredCounters>& all_counters() {
     if (!counters) counters = read_table<StoredCounters>(layout.counters(), read_counters);
     return *counters;
+  }
+  // The dialect lies in the same file; one that was accepted without has none.
+  const ByName<std::string>& dialect_of(const std::filesystem::path& path) {
+    const auto known = dialects.find(path);
+    if (known != dialects.end()) return known->second;
+    ByName<std::string> dialect;
+    if (const auto file = JsonFile::read(path); file && file->value().contains("dialect")) {
+      dialect = read_members<std::string>(file->root().at("dialect"),
+                                          [](const JsonNode& n) { return n.text(); });
+    }
+    return dialects.emplace(path, std::move(dialect)).first->second;
   }
   const ByName<record::Counts>& statistics_of(const std::filesystem::path& path) {
     const auto known = statistics.find(path);
@@ -200,6 +212,10 @@ std::map<std::string, record::Counts> Baselines::statistics_of_all_drivers(
     if (counts) result.emplace(entry.path().stem().string(), *counts);
   }
   return result;
+}
+
+std::map<std::string, std::string> Baselines::statistics_dialect(const std::string& driver) const {
+  return cache_->dialect_of(cache_->layout.statistics_folder() / (driver + ".json"));
 }
 
 std::vector<StoredTiming> Baselines::timings(const record::Device& device,

@@ -5,8 +5,9 @@
 //   images.json                    {scene: {file, content hash}}
 //   counters.json                  {configuration: {counter: {device id: value}}}; one line per
 //   counter bits/<device key>.json         {device, configurations: {configuration: {image hash,
-//   kernel hash}}} statistics/<driver>.json       {device, configurations: {configuration:
-//   {statistic: value}}} timings/<device key>.json      {device, configurations: {configuration:
+//   kernel hash}}} statistics/<driver>.json       {device, dialect: {statistic: verdict} where it
+//   is known, configurations: {configuration: {statistic: value}}} timings/<device key>.json
+//   {device, configurations: {configuration:
 //   [{run, median, clock, kernel
 //                                  hash}, …]}}, one entry per accepted run, oldest first
 //   history.json                   every accept: date, reason, run, device keys, what changed
@@ -70,6 +71,10 @@ class Baselines {
   // The same configuration's statistics on every stored driver, by Device::statistics_key().
   [[nodiscard]] std::map<std::string, record::Counts> statistics_of_all_drivers(
       const std::string& configuration) const;
+  // Device::statistics_dialect of a stored driver, by Device::statistics_key(); empty where nobody
+  // looked.
+  [[nodiscard]] std::map<std::string, std::string> statistics_dialect(
+      const std::string& driver) const;
   [[nodiscard]] std::vector<StoredTiming> timings(const record::Device& device,
                                                   const std::string& configuration) const;
   // Whether a device with this key was ever accepted: its bits and timings must then be there.

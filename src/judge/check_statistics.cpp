@@ -8,6 +8,8 @@
 namespace triptych::judge {
 namespace {
 
+using Dialect = std::map<std::string, std::string>;  // record::Device::statistics_dialect
+
 // Vulkan and GL leave the rest of the statistics to the implementation.
 constexpr std::array<std::string_view, 5> portable{
     "input_assembly_vertices", "input_assembly_primitives", "geometry_primitives",
@@ -50,27 +52,49 @@ Finding check_exact(const RunView& view, const record::Record& record,
   return about(Verdict::pass, fmt::format("{} statistics as stored", stored.size()));
 }
 
-// "input_assembly_vertices 3, 6 on gl-llvmpipe-egl-…": which portable values no stored driver has.
-std::vector<std::string> portable_differences(const record::Counts& statistics,
-                                              const std::map<std::string, record::Counts>& stored) {
-  std::vector<std::string> differences;
-  for (const std::string_view name : portable) {
-    const auto own = statistics.find(std::string(name));
-    if (own == statistics.end()) continue;
-    std::vector<std::string> others;
-    bool agrees = false;
-    for (const auto& [driver, counts] : stored) {
-      const auto other = counts.find(own->first);
-      if (other == counts.end()) continue;
-      agrees = agrees || other->second == own->second;
-      others.push_back(fmt::format("{} on {}", other->second, driver));
-    }
-    if (!agrees && !others.empty()) {
-      differences.push_back(
-          fmt::format("{} {}, but {}", name, own->second, fmt::join(others, ", ")));
-    }
+// Why a number cannot be held against other drivers'; empty where it can. A dialect that nobody
+// looked at says nothing, and old baselines hold none: their numbers are taken as they are.
+std::string reservation(const Dialect& dialect, const std::string& statistic) {
+  if (dialect.empty()) return {};
+  const auto verdict = dialect.find(statistic);
+  if (verdict == dialect.end()) return "not calibrated";
+  return verdict->second == "exact" ? std::string() : verdict->second;
+}
+
+struct Elsewhere {
+  std::vector<std::string> differences;   // which portable values no stored driver has
+  std::vector<std::string> not_compared;  // with the reason
+  int compared = 0;
+};
+
+// "input_assembly_vertices 3, but 6 on gl-llvmpipe-egl-…"; "geometry_primitives (here differs: …)".
+void compare_elsewhere(const RunView& view, const record::Record& record, const std::string& name,
+                       const std::map<std::string, record::Counts>& stored, Elsewhere& result) {
+  const auto own = record.statistics.find(name);
+  if (own == record.statistics.end()) return;
+  const std::string here = reservation(view.device(record).statistics_dialect, name);
+  if (!here.empty()) {
+    result.not_compared.push_back(fmt::format("{} (here {})", name, here));
+    return;
   }
-  return differences;
+  std::vector<std::string> others;
+  bool agrees = false;
+  for (const auto& [driver, counts] : stored) {
+    const auto other = counts.find(name);
+    if (other == counts.end()) continue;
+    const std::string there = reservation(view.baselines.statistics_dialect(driver), name);
+    if (!there.empty()) {
+      result.not_compared.push_back(fmt::format("{} (on {} {})", name, driver, there));
+      continue;
+    }
+    agrees = agrees || other->second == own->second;
+    others.push_back(fmt::format("{} on {}", other->second, driver));
+  }
+  if (!others.empty()) ++result.compared;
+  if (!agrees && !others.empty()) {
+    result.differences.push_back(
+        fmt::format("{} {}, but {}", name, own->second, fmt::join(others, ", ")));
+  }
 }
 
 Finding check_elsewhere(const RunView& view, const record::Record& record) {
@@ -79,14 +103,27 @@ Finding check_elsewhere(const RunView& view, const record::Record& record) {
                          "the device tells no pipeline statistics");
   }
   const auto stored = view.baselines.statistics_of_all_drivers(record.configuration);
-  const auto differences = portable_differences(record.statistics, stored);
+  Elsewhere result;
+  for (const std::string_view name : portable) {
+    if (stored.empty()) break;
+    compare_elsewhere(view, record, std::string(name), stored, result);
+  }
   std::string message = "nothing stored for this driver version; ";
-  message += stored.empty()        ? "nor for any other"
-             : differences.empty() ? "what drivers must agree on agrees with the stored ones"
-                                   : fmt::format("differs from every stored driver: {}",
-                                                 fmt::join(differences, "; "));
+  if (stored.empty()) {
+    message += "nor for any other";
+  } else if (!result.differences.empty()) {
+    message +=
+        fmt::format("differs from every stored driver: {}", fmt::join(result.differences, "; "));
+  } else if (result.compared == 0 && !result.not_compared.empty()) {
+    message += "no number of it can be held against the stored ones";
+  } else {
+    message += "what drivers must agree on agrees with the stored ones";
+  }
+  if (!result.not_compared.empty()) {
+    message += fmt::format("; not compared: {}", fmt::join(result.not_compared, "; "));
+  }
   Finding finding = finding_about(record, Check::statistics, Verdict::advisory, std::move(message));
-  set_number(finding, "differences", static_cast<double>(differences.size()));
+  set_number(finding, "differences", static_cast<double>(result.differences.size()));
   return finding;
 }
 

@@ -90,12 +90,14 @@ class DeviceRun {
     remember();
   }
 
-  [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key) {
+  [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key,
+                             const OnLoading& on_loading) {
     Job job{.name = device_ + "/" + key,
             .configuration = configuration,
             .protocol = context_.options.protocol,
             .plants = context_.plants_for(key, device_)};
-    Done done = ensure_worker() ? ask(job) : Done{ended(record::Outcome::failed, no_worker_)};
+    Done done =
+        ensure_worker() ? ask(job, on_loading) : Done{ended(record::Outcome::failed, no_worker_)};
     record::Record& record = done.record;
     record.run = context_.run;
     record.suite = context_.plan.suite;
@@ -189,9 +191,9 @@ class DeviceRun {
     context_.store.add_device(context_.run, *known_, clocks_);
   }
 
-  Done ask(const Job& job) {
+  Done ask(const Job& job, const OnLoading& on_loading) {
     const auto start = Clock::now();
-    WorkerLink::Reply reply = worker_->ask(to_message(job), context_.options.limit);
+    WorkerLink::Reply reply = worker_->ask(to_message(job), context_.options.limit, on_loading);
     if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
       worker_.reset();
       return {ended(record::Outcome::crashed, std::move(died->reason))};
@@ -262,7 +264,19 @@ class Report {
            .done = done_,
            .total = total_,
            .left = std::chrono::round<std::chrono::seconds>(left),
-           .record = &record});
+           .record = &record,
+           .loading = {}});
+  }
+
+  void loading(const std::string& device, const std::string& key, const Loading& loading) {
+    if (!tell_) return;
+    tell_({.device = device,
+           .configuration = key,
+           .done = done_,
+           .total = total_,
+           .left = {},
+           .record = nullptr,
+           .loading = loading});
   }
 
  private:
@@ -330,8 +344,10 @@ RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices, co
     DeviceRun device_run(context, device);
     for (const Configuration* configuration : configurations) {
       if (const auto signal = interrupts.take()) throw Interrupted(*signal);
-      const Done done =
-          device_run.perform(*configuration, configuration_key(suite, *configuration));
+      const std::string key = configuration_key(suite, *configuration);
+      const Done done = device_run.perform(
+          *configuration, key,
+          [&, &on = device](const Loading& loading) { report.loading(on, key, loading); });
       // The image first: a record must never name one that is not there.
       if (!done.record.image.empty()) store.add_image(done.record.image, done.exr);
       store.add_record(done.record);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +55,7 @@ struct Progress {
   int total = 0;
   std::chrono::seconds left{0};
   const record::Record* record = nullptr;  // of the configuration just done
+  std::optional<Loading> loading;          // else: of the configuration under way
 };
 
 struct RunResult {

@@ -8,10 +8,12 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/image.hpp"
 #include "measure/backend.hpp"
+#include "measure/loading.hpp"
 
 namespace triptych::measure {
 
@@ -58,10 +60,20 @@ class Suite {
   // `configuration`. The suite keeps the last data set loaded, so that neighbours in a plan share
   // it.
   [[nodiscard]] virtual Work work(Configuration& configuration, const Device& device) = 0;
-  // A work for calibrating clocks: small enough for a very slow device; calibrate_clock lengthens it
-  // where it is too short to tell. Its picture tells
-  // nothing.
+  // A work for calibrating clocks: small enough for a very slow device; calibrate_clock lengthens
+  // it where it is too short to tell. Its picture tells nothing.
   [[nodiscard]] virtual Work calibration(technique::Work kind) = 0;
+
+  // Whom to tell of every step of loading data (`paced` makes few of them); nobody when empty.
+  void tell_of_loading(OnLoading tell) { on_loading_ = std::move(tell); }
+
+ protected:
+  void tell(const Loading& loading) const {
+    if (on_loading_) on_loading_(loading);
+  }
+
+ private:
+  OnLoading on_loading_;
 };
 
 // The right picture of a configuration and, per pixel in all four channels, how far a device's may

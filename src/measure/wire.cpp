@@ -186,6 +186,10 @@ Message to_message(const Job& job) {
           {}};
 }
 
+Message to_message(const Loading& loading) {
+  return {{{"type", "loading"}, {"what", loading.what}, {"share", loading.share}}, {}};
+}
+
 Message to_message(Answer answer) {
   return {{{"type", "answer"}, {"record", answer.record}, {"worker_ns", answer.worker_ns}},
           std::move(answer.exr)};
@@ -220,6 +224,13 @@ std::optional<Job> as_job(const Message& message) {
                .configuration = message.json.at("configuration").get<Configuration>(),
                .protocol = protocol_from(message.json.at("protocol")),
                .plants = message.json.at("plants")};
+  });
+}
+
+std::optional<Loading> as_loading(const Message& message) {
+  if (!is(message, "loading")) return std::nullopt;
+  return reading("loading", [&] {
+    return Loading{.what = message.json.at("what"), .share = message.json.at("share")};
   });
 }
 

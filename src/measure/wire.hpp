@@ -6,6 +6,7 @@
 //   supervisor → worker   start   suite, kinds of work the plan needs, clocks already known
 //   worker → supervisor   hello   device, clocks      | refused   reason
 //   supervisor → worker   job     one configuration with the protocol and what is planted
+//   worker → supervisor   loading how far a large data set is loaded; any number before the answer
 //   worker → supervisor   answer  record, time taken; the image as EXR follows as binary
 
 #include <cstddef>
@@ -77,6 +78,7 @@ struct Answer {
 [[nodiscard]] Message to_message(const Hello& hello);
 [[nodiscard]] Message to_message(const Refused& refused);
 [[nodiscard]] Message to_message(const Job& job);
+[[nodiscard]] Message to_message(const Loading& loading);
 [[nodiscard]] Message to_message(Answer answer);
 
 // Empty when the message is of another type. Throw InputError when it lacks something.
@@ -84,6 +86,7 @@ struct Answer {
 [[nodiscard]] std::optional<Hello> as_hello(const Message& message);
 [[nodiscard]] std::optional<Refused> as_refused(const Message& message);
 [[nodiscard]] std::optional<Job> as_job(const Message& message);
+[[nodiscard]] std::optional<Loading> as_loading(const Message& message);
 [[nodiscard]] std::optional<Answer> as_answer(Message message);
 
 }  // namespace triptych::measure

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "measure/clock.hpp"
+#include "measure/dialect.hpp"
 #include "measure/plant.hpp"
 #include "measure/protocol.hpp"
 #include "measure/runner.hpp"
@@ -61,15 +62,21 @@ void describe_work(const Work& work, const Device& device, record::Record& recor
 class Worker {
  public:
   Worker(std::unique_ptr<Device> device, Suite& suite, std::vector<record::ClockTrust> clocks)
-      : device_(std::move(device)), suite_(suite), clocks_(std::move(clocks)) {}
+      : device_(std::move(device)),
+        suite_(suite),
+        info_(device_->info()),
+        clocks_(std::move(clocks)) {}
 
-  [[nodiscard]] const record::Device& info() const { return device_->info(); }
+  // With the dialects of the kinds of work that were calibrated here.
+  [[nodiscard]] const record::Device& info() const { return info_; }
   [[nodiscard]] const std::vector<record::ClockTrust>& clocks() const { return clocks_; }
 
+  // Of a kind with a known clock the supervisor knows the dialect too.
   void calibrate_for(const std::vector<std::string>& kinds) {
     for (const std::string& kind : kinds) {
       if (std::ranges::find(clocks_, kind, &record::ClockTrust::work) != clocks_.end()) continue;
       clocks_.push_back(calibrate_clock(*device_, suite_, kind_named(kind)));
+      info_.statistics_dialect.merge(calibrate_dialect(*device_, kind_named(kind)));
     }
   }
 
@@ -139,6 +146,7 @@ class Worker {
 
   std::unique_ptr<Device> device_;
   Suite& suite_;
+  record::Device info_;
   std::vector<record::ClockTrust> clocks_;
   double measuring_ns_ = 0;  // of the last job: what measure() accounts for itself
 };
@@ -162,6 +170,8 @@ int serve(const Backend& backend, std::string_view device_id, const FindSuite& f
   const auto start = as_start(*first);
   if (!start) throw core::InputError("a worker's first message must be 'start'");
   Suite& suite = find_suite(start->suite);
+  suite.tell_of_loading(
+      paced([answer_fd](const Loading& loading) { send(answer_fd, to_message(loading)); }));
   Worker worker(backend.open(device_id), suite, start->clocks);
   worker.calibrate_for(start->kinds);
   send(answer_fd, to_message(Hello{.device = worker.info(), .clocks = worker.clocks()}));

@@ -59,7 +59,8 @@ WorkerLink::WorkerLink(const std::vector<std::string>& command,
                        const std::vector<std::string>& environment, InterruptGuard& interrupts)
     : process_(command, environment), interrupts_(interrupts) {}
 
-WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseconds limit) {
+WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseconds limit,
+                                  const OnLoading& on_loading) {
   log_.clear();
   const Deadline deadline = std::chrono::steady_clock::now() + limit;
   try {
@@ -74,7 +75,7 @@ WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseco
     read_answer();
     read_log();
     try {
-      if (auto message = answers_.next()) return std::move(*message);
+      if (auto message = next_answer(on_loading)) return std::move(*message);
     } catch (const core::InputError& error) {
       return bury(error.what());
     }
@@ -101,6 +102,15 @@ void WorkerLink::read_answer() {
   answers_open_ = drain(process_.answer_fd(), [this](std::span<const char> piece) {
     answers_.append(std::as_bytes(piece));
   });
+}
+
+std::optional<Message> WorkerLink::next_answer(const OnLoading& on_loading) {
+  while (auto message = answers_.next()) {
+    const auto loading = as_loading(*message);
+    if (!loading) return message;
+    if (on_loading) on_loading(*loading);
+  }
+  return std::nullopt;
 }
 
 void WorkerLink::read_log() {

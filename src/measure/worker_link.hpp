@@ -43,8 +43,10 @@ class WorkerLink {
              InterruptGuard& interrupts);
 
   // After Died and Late the process is gone and reaped, and the link of no more use. Throws
-  // Interrupted when a signal asks the supervisor to stop.
-  [[nodiscard]] Reply ask(const Message& request, std::chrono::milliseconds limit);
+  // Interrupted when a signal asks the supervisor to stop. What the worker says of loading before
+  // it answers goes to `on_loading`, which may be empty.
+  [[nodiscard]] Reply ask(const Message& request, std::chrono::milliseconds limit,
+                          const OnLoading& on_loading = {});
 
   // Lets an idle worker leave by itself, so that drivers can write their caches; kills it when it
   // does not within a few seconds.
@@ -54,6 +56,8 @@ class WorkerLink {
   using Deadline = std::chrono::steady_clock::time_point;
 
   void read_answer();
+  // The answer, if it is there; what comes before it is handed on.
+  [[nodiscard]] std::optional<Message> next_answer(const OnLoading& on_loading);
   void read_log();
   // Waits until something happened at one of the descriptors; false at the deadline.
   [[nodiscard]] bool wait_for_event(Deadline deadline);

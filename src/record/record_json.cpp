@@ -132,6 +132,7 @@ void visit_fields(auto& device, Visit&& visit) requires
   visit("cpu_features", device.cpu_features);
   visit("environment", device.environment);
   visit("limits", device.limits);
+  visit("statistics_dialect", device.statistics_dialect);
 }
 
 template <typename Visit>

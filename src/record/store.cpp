@@ -73,16 +73,16 @@ void read_row(SQLite::Statement& row, std::int64_t& seq, Record& r) {
   r.outcome = outcome(outcome_name);
 }
 
-// --- the tables under a record
+// --- the tables under a record or a device
 // ---------------------------------------------------------------------------
 
 template <typename Value>
-void insert_map(const SQLite::Database& database, std::string_view table, std::int64_t record,
+void insert_map(const SQLite::Database& database, std::string_view table, std::int64_t owner,
                 const std::map<std::string, Value>& map) {
   if (map.empty()) return;
   SQLite::Statement insert(database, fmt::format("INSERT INTO {} VALUES (?, ?, ?)", table));
   for (const auto& [name, value] : map) {
-    Binder(insert) << record << name << value;
+    Binder(insert) << owner << name << value;
     insert.exec();
     insert.reset();
   }
@@ -158,6 +158,22 @@ std::vector<ClockTrust> read_clocks(const SQLite::Database& database, std::uint6
   return clocks;
 }
 
+// A store that no newer program has added to has no such table.
+std::map<std::string, std::string> read_dialect(const SQLite::Database& database,
+                                                std::uint64_t device) {
+  std::map<std::string, std::string> dialect;
+  if (!database.tableExists("dialect")) return dialect;
+  SQLite::Statement rows =
+      prepared(database, "SELECT statistic, verdict FROM dialect WHERE device = ?", device);
+  while (rows.executeStep()) {
+    std::string statistic;
+    Reader reader(rows);
+    reader >> statistic;
+    reader >> dialect[statistic];
+  }
+  return dialect;
+}
+
 }  // namespace
 
 struct Store::State {
@@ -220,6 +236,7 @@ void Store::add_device(const std::string& run, const Device& d,
               "verdict) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
               device, c.work, c.offered, c.trusted, c.ratio, c.ratio_low, c.ratio_high, c.verdict);
     }
+    insert_map(database, "dialect", device, d.statistics_dialect);
   });
 }
 
@@ -291,6 +308,7 @@ std::vector<Store::DeviceEntry> Store::devices(std::string_view run) const {
           d.api_version >> d.cpu_features >> environment >> limits;
       d.environment = map_of(environment);
       d.limits = map_of(limits);
+      d.statistics_dialect = read_dialect(state_->database, seq);
       entries.push_back({std::move(d), read_clocks(state_->database, seq)});
     }
     return entries;

@@ -134,6 +134,17 @@ CREATE TABLE truth (
 ) STRICT;
 )sql";
 
+// Came after version 1 had been in use. It only adds to it: a store without it is one whose devices
+// have no dialect known, and a program that does not know it reads the rest as before.
+constexpr const char* later_schema = R"sql(
+CREATE TABLE IF NOT EXISTS dialect (
+  device INTEGER NOT NULL REFERENCES device (seq) ON DELETE CASCADE,
+  statistic TEXT NOT NULL,
+  verdict TEXT NOT NULL,
+  PRIMARY KEY (device, statistic)
+) STRICT, WITHOUT ROWID;
+)sql";
+
 int pragma(const SQLite::Database& database, const std::string& name) {
   SQLite::Statement query(database, "PRAGMA " + name);
   query.executeStep();
@@ -238,6 +249,7 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
   // transactions, and even then the file stays whole.
   database.exec("PRAGMA synchronous = NORMAL");
   database.exec("PRAGMA foreign_keys = ON");
+  database.exec(later_schema);
   return database;
 }
 

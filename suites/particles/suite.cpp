@@ -70,8 +70,12 @@ scene::ParticleScene ParticleSuite::scene(const Configuration& configuration) {
   const std::string wanted = configuration.at("colour") + " " + configuration.at("data");
   if (loaded_ != wanted) {
     particles_.reset();  // frees the old set before the new one is loaded
-    particles_ = std::make_shared<const scene::ParticleSet>(scene::load_particles(
-        configuration.at("data"), scene::colour_kind(configuration.at("colour")), folders_));
+    const std::string& data = configuration.at("data");
+    tell({.what = data, .share = 0});
+    particles_ = std::make_shared<const scene::ParticleSet>(
+        scene::load_particles(data, scene::colour_kind(configuration.at("colour")), folders_,
+                              [&](double share) { tell({.what = data, .share = share}); }));
+    tell({.what = data, .share = 1});
     loaded_ = wanted;
   }
   const auto [width, height] = measure::parse_viewport(configuration.at("viewport"));

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace triptych::technique {
 namespace {
@@ -137,6 +138,44 @@ std::vector<Run> sort_into_runs(const scene::ParticleScene& scene,
   return runs;
 }
 
+// The particles of `order`, run after run, and the runs with their places therein.
+std::vector<std::uint32_t> run_by_run(const std::vector<std::uint32_t>& order,
+                                      std::vector<Run>& runs) {
+  std::vector<std::uint32_t> result;
+  result.reserve(order.size());
+  for (Run& run : runs) {
+    const auto begin = order.begin() + run.cell.begin;
+    run.cell.begin = static_cast<std::uint32_t>(result.size());
+    result.insert(result.end(), begin, begin + run.cell.count);
+  }
+  return result;
+}
+
+// One property of the particles in that order; nothing where the set has none of it.
+template <typename Value>
+std::vector<Value> gathered(const std::vector<Value>& values,
+                            const std::vector<std::uint32_t>& order) {
+  std::vector<Value> result;
+  if (values.empty()) return result;
+  result.reserve(order.size());
+  for (const std::uint32_t i : order) result.push_back(values[i]);
+  return result;
+}
+
+std::vector<std::array<float, 4>> spheres_as_drawn(const scene::ParticleScene& scene,
+                                                   const std::vector<std::uint32_t>& order) {
+  std::vector<std::array<float, 4>> result = gathered(scene.particles->spheres, order);
+  for (std::size_t k = 0; k < order.size(); ++k) result[k][3] = scene.radius(order[k]);
+  return result;
+}
+
+// In the memory of the order, which is of no more use then.
+std::vector<std::uint32_t> ids_in_place_of(std::vector<std::uint32_t> order,
+                                           const scene::ParticleSet& set) {
+  for (std::uint32_t& place : order) place = set.ids[place];
+  return order;
+}
+
 }  // namespace
 
 Arrangement arrange(const scene::ParticleScene& scene) {
@@ -148,25 +187,14 @@ Arrangement arrange(const scene::ParticleScene& scene) {
   std::vector<Run> runs = sort_into_runs(scene, order, large);
   std::stable_sort(runs.begin() + static_cast<std::ptrdiff_t>(large), runs.end(),
                    [](const Run& a, const Run& b) { return a.distance < b.distance; });
-  out.spheres.reserve(set.count());
-  out.ids.reserve(set.count());
-  out.rgba8.reserve(set.rgba8.size());
-  out.rgba32.reserve(set.rgba32.size());
-  out.intensity.reserve(set.intensity.size());
-  for (const Run& run : runs) {
-    Cell cell = run.cell;
-    cell.begin = static_cast<std::uint32_t>(out.count());
-    out.cells.push_back(cell);
-    for (std::uint32_t k = 0; k < cell.count; ++k) {
-      const std::uint32_t i = order[run.cell.begin + k];
-      const auto& [x, y, z, unscaled] = set.spheres[i];
-      out.spheres.push_back({x, y, z, scene.radius(i)});
-      out.ids.push_back(set.ids[i]);
-      if (!set.rgba8.empty()) out.rgba8.push_back(set.rgba8[i]);
-      if (!set.rgba32.empty()) out.rgba32.push_back(set.rgba32[i]);
-      if (!set.intensity.empty()) out.intensity.push_back(set.intensity[i]);
-    }
-  }
+  order = run_by_run(order, runs);
+  out.cells.reserve(runs.size());
+  for (const Run& run : runs) out.cells.push_back(run.cell);
+  out.spheres = spheres_as_drawn(scene, order);
+  out.rgba8 = gathered(set.rgba8, order);
+  out.rgba32 = gathered(set.rgba32, order);
+  out.intensity = gathered(set.intensity, order);
+  out.ids = ids_in_place_of(std::move(order), set);
   return out;
 }
 

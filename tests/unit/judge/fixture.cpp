@@ -89,7 +89,8 @@ record::Record JudgeTest::make_record(const std::string& run, const record::Devi
 
 void JudgeTest::add_run(const std::string& run, const Tweak& tweak) {
   store_.add_run({run, plan, "2026-02-01T00:00:00Z", {}});
-  for (const record::Device& device : devices()) {
+  for (record::Device device : devices()) {
+    device.statistics_dialect = dialects_[device.id];
     store_.add_device(run, device, {});
     for (const std::string& scene : {front_, std::string("camera=side,data=ball")}) {
       for (const std::string variant : {"plain", "bricks", "anchor"}) {

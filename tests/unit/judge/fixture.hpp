@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,8 @@ class JudgeTest : public testing::Test {
   record::Store store_;
   GateRequest request_;
   bool with_anchors_ = false;
+  // Of the devices of runs to come, by id.
+  std::map<std::string, std::map<std::string, std::string>> dialects_;
 
  private:
   [[nodiscard]] record::Record make_record(const std::string& run, const record::Device& device,

@@ -3,10 +3,12 @@
 // null backend can play.
 
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "core/error.hpp"
@@ -51,7 +53,14 @@ class FakeSuite final : public Suite {
     return configuration.at("data") == "absent" ? "absent: no such file" : "";
   }
 
+  // Loading "slow" takes longer than what is not worth a word.
   Work work(Configuration& configuration, const Device& device) override {
+    if (configuration.at("data") == "slow") {
+      tell({.what = "slow", .share = 0});
+      std::this_thread::sleep_for(std::chrono::milliseconds(2100));
+      tell({.what = "slow", .share = 0.5});
+      tell({.what = "slow", .share = 1});
+    }
     auto grid = std::make_shared<scene::VoxelGrid>();
     grid->name = configuration.at("data");
     grid->hash = core::content_hash(grid->name);

@@ -36,8 +36,13 @@ class RunTest : public testing::Test {
 
   RunResult run(const Plan& what, std::vector<std::string> devices = {"null:scripted"}) {
     record::Store store = open_store();
-    return run_plan(what, devices, suite, store, options,
-                    [this](const Progress& progress) { told.push_back(progress.configuration); });
+    return run_plan(what, devices, suite, store, options, [this](const Progress& progress) {
+      if (progress.loading) {
+        loads.push_back(*progress.loading);
+      } else {
+        told.push_back(progress.configuration);
+      }
+    });
   }
 
   // Records by configuration and device, of the latest run.
@@ -65,6 +70,7 @@ class RunTest : public testing::Test {
   FakeSuite suite;
   RunOptions options;
   std::vector<std::string> told;
+  std::vector<Loading> loads;
 };
 
 }  // namespace triptych::measure

@@ -64,6 +64,15 @@ TEST(Wire, AJobCarriesProtocolAndPlants) {
   EXPECT_EQ(back->plants, job.plants);
 }
 
+TEST(Wire, LoadingIsNoAnswer) {
+  const Message message = to_message(Loading{.what = "a.xyz", .share = 0.25});
+  EXPECT_FALSE(as_answer(message));
+  const auto loading = as_loading(message);
+  ASSERT_TRUE(loading);
+  EXPECT_EQ(loading->what, "a.xyz");
+  EXPECT_EQ(loading->share, 0.25);
+}
+
 TEST(Wire, TheEndOfAPipeIsNoMessageAndHalfAMessageAnError) {
   TestPipe pipe;
   ASSERT_EQ(::write(pipe.write.get(), "tripty", 6), 6);

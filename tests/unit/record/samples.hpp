@@ -25,7 +25,9 @@ inline Device sample_device(const std::string& id = "null:scripted") {
           .api_version = "1",
           .cpu_features = "avx2,fma",
           .environment = {{"LP_NUM_THREADS", "2"}},
-          .limits = {{"max_image_3d", "2048"}}};
+          .limits = {{"max_image_3d", "2048"}},
+          .statistics_dialect = {{"compute_invocations", "exact"},
+                                 {"fragment_invocations", "inflated: 1.07 to 3.9 times"}}};
 }
 
 inline ClockTrust sample_clock() {

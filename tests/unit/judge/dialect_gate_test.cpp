@@ -1,0 +1,85 @@
+// Statistics of a new driver version, judged by the dialects of this driver and of the stored ones.
+
+#include <gmock/gmock.h>
+
+#include "fixture.hpp"
+#include "judge/baselines.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using Dialect = std::map<std::string, std::string>;
+
+const Dialect exact{{"compute_invocations", "exact"}};
+const Dialect doubled{{"compute_invocations", "proportional: 2 times the true number"}};
+
+class DialectGateTest : public JudgeTest {
+ protected:
+  // What is said of a new version of lavapipe, whose dialect is `own` and which counts 49 instead
+  // of 48, where only GL's numbers are stored.
+  std::string advice(const Dialect& stored, const Dialect& own) {
+    dialects_["gl:llvmpipe-egl"] = stored;
+    add_run("a");
+    (void)accept_run("a");
+    std::filesystem::remove(device_file("statistics", "vulkan"));
+    dialects_["vulkan:lavapipe"] = own;
+    add_run("b", [](record::Record& record, core::Image&) {
+      if (record.device == "vulkan:lavapipe") record.statistics = {{"compute_invocations", 49}};
+    });
+    const GateResult result = gate("b");
+    EXPECT_EQ(result.exit_code(), core::ExitCode::pass) << text(result);
+    const auto advice = with(result, Verdict::advisory, Check::statistics);
+    EXPECT_EQ(advice.size(), 4U);
+    return advice.empty() ? std::string() : advice[0].message;
+  }
+};
+
+TEST_F(DialectGateTest, WhatBothCountExactlyIsCompared) {
+  EXPECT_THAT(advice(exact, exact), AllOf(HasSubstr("compute_invocations 49, but 48 on gl-"),
+                                          Not(HasSubstr("not compared"))));
+}
+
+TEST_F(DialectGateTest, WhatThisDriverCountsOtherwiseIsNotCompared) {
+  EXPECT_THAT(advice(exact, doubled),
+              AllOf(HasSubstr("no number of it can be held against the stored ones"),
+                    HasSubstr("not compared: compute_invocations (here proportional: 2 times"),
+                    Not(HasSubstr("differs from"))));
+}
+
+TEST_F(DialectGateTest, WhatTheStoredDriverCountsOtherwiseIsNotCompared) {
+  EXPECT_THAT(advice(doubled, exact),
+              AllOf(HasSubstr("not compared: compute_invocations (on gl-llvmpipe-egl"),
+                    HasSubstr("proportional: 2 times"), Not(HasSubstr("differs from"))));
+}
+
+TEST_F(DialectGateTest, WhatNoSceneShowedIsNotCompared) {
+  EXPECT_THAT(advice(exact, {{"vertex_invocations", "exact"}}),
+              HasSubstr("compute_invocations (here not calibrated)"));
+}
+
+TEST_F(DialectGateTest, ADriverWithoutADialectIsComparedAsItIs) {
+  EXPECT_THAT(advice({}, exact), HasSubstr("compute_invocations 49, but 48 on gl-"));
+}
+
+TEST_F(DialectGateTest, ARunWithoutADialectStillHeedsTheStoredOne) {
+  EXPECT_THAT(advice(doubled, {}), HasSubstr("not compared: compute_invocations (on gl-"));
+}
+
+TEST_F(DialectGateTest, ARunThatDidNotLookKeepsTheStoredDialect) {
+  dialects_["gl:llvmpipe-egl"] = exact;
+  add_run("a");
+  (void)accept_run("a");
+  dialects_.clear();
+  add_run("b");
+  (void)accept_run("b");
+  const Baselines stored(folder_.path() / "baselines", plan);
+  EXPECT_EQ(stored.statistics_dialect(device_file("statistics", "gl").stem().string()), exact);
+  EXPECT_TRUE(
+      stored.statistics_dialect(device_file("statistics", "vulkan").stem().string()).empty());
+}
+
+}  // namespace
+}  // namespace triptych::judge

@@ -1,0 +1,216 @@
+// Verdicts on pipeline statistics, on a device that tells what it is scripted to.
+
+#include "measure/dialect.hpp"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Key;
+using ::testing::Not;
+using ::testing::Pair;
+using ::testing::StartsWith;
+using Dialect = std::map<std::string, std::string>;
+
+// The fragments of the many small sprites, by our own counter.
+constexpr std::uint64_t true_fragments = 2500;
+
+bool is_one_sprite(const Work& work) {
+  const auto* particles = std::get_if<ParticleWork>(&work.scene);
+  return particles != nullptr && particles->scene.particles->count() == 1;
+}
+
+record::Counts exact_counts(const Work& work) {
+  for (const technique::Work kind : {technique::Work::compute, technique::Work::draw}) {
+    for (const DialectScene& scene : dialect_scenes(kind)) {
+      const bool same_picture = scene.work.technique == work.technique &&
+                                is_one_sprite(scene.work) == is_one_sprite(work);
+      if (!same_picture) continue;
+      if (const auto* volume = std::get_if<VolumeWork>(&work.scene);
+          volume != nullptr &&
+          volume->scene.width != std::get<VolumeWork>(scene.work.scene).scene.width) {
+        continue;
+      }
+      record::Counts counts = scene.expected;
+      if (scene.counts_fragments) counts["fragment_invocations"] = true_fragments;
+      return counts;
+    }
+  }
+  throw std::logic_error("a work that is no calibration scene");
+}
+
+// Changes the exact statistics of the n-th statistics frame (from 0) of a work.
+using Script = std::function<void(const Work&, int n, record::Counts&)>;
+
+class CountingPrepared final : public Prepared {
+ public:
+  CountingPrepared(Work work, Script script) : work_(std::move(work)), script_(std::move(script)) {}
+
+  Frame frame(Purpose purpose) override {
+    Frame frame;
+    if (purpose == Purpose::counters) frame.counts = {{"fragments", true_fragments}};
+    if (purpose == Purpose::statistics) {
+      frame.counts = exact_counts(work_);
+      script_(work_, frames_++, frame.counts);
+    }
+    return frame;
+  }
+  core::Image image() override { return {}; }
+  std::string kernel_hash() const override { return "kernel"; }
+
+ private:
+  Work work_;
+  Script script_;
+  int frames_ = 0;
+};
+
+class CountingDevice final : public Device {
+ public:
+  explicit CountingDevice(Script script, std::string lacks = {})
+      : script_(std::move(script)), lacks_(std::move(lacks)) {}
+
+  const record::Device& info() const override { return info_; }
+  std::optional<std::string> unsupported(const Work& work) const override {
+    if (work.technique == lacks_) return "no such stage";
+    return std::nullopt;
+  }
+  VolumePath default_path(scene::VoxelFormat) const override { return {}; }
+  double filter_weight_error(const VolumePath&) const override { return 0; }
+  std::unique_ptr<Prepared> prepare(const Work& work) override {
+    prepared.push_back(work.technique);
+    return std::make_unique<CountingPrepared>(work, script_);
+  }
+
+  std::vector<std::string> prepared;
+
+ private:
+  record::Device info_;
+  Script script_;
+  std::string lacks_;
+};
+
+Dialect dialect_of(Script script, technique::Work kind = technique::Work::draw) {
+  CountingDevice device(std::move(script));
+  return calibrate_dialect(device, kind);
+}
+
+void tell_the_truth(const Work&, int, record::Counts&) {}
+
+TEST(Dialect, ExactIsWhatCountsAsTheScenesDo) {
+  const Dialect dialect = dialect_of(tell_the_truth);
+  EXPECT_THAT(dialect, Each(Pair(testing::_, "exact")));
+  for (const char* const name :
+       {"input_assembly_vertices", "input_assembly_primitives", "vertex_invocations",
+        "geometry_invocations", "geometry_primitives", "clipping_invocations",
+        "clipping_primitives", "fragment_invocations", "tessellation_control_patches",
+        "tessellation_evaluation_invocations"}) {
+    EXPECT_THAT(dialect, Contains(Key(name)));
+  }
+  EXPECT_EQ(dialect_of(tell_the_truth, technique::Work::compute),
+            (Dialect{{"compute_invocations", "exact"}}));
+}
+
+TEST(Dialect, TheViewIsNoWholeNumberOfStamps) {
+  for (const DialectScene& scene : dialect_scenes(technique::Work::draw)) {
+    const scene::ParticleScene& drawn = std::get<ParticleWork>(scene.work.scene).scene;
+    EXPECT_NE(drawn.width % 4, 0);
+    EXPECT_NE(drawn.height % 4, 0);
+    if (is_one_sprite(scene.work)) {
+      EXPECT_EQ(scene.expected.at("fragment_invocations"), 3300U);
+      EXPECT_EQ(scene.expected.at("clipping_primitives"), 2U);
+    }
+  }
+}
+
+TEST(Dialect, StampsOfPixelsAreInflatedByARange) {
+  const Dialect dialect = dialect_of([](const Work& work, int, record::Counts& counts) {
+    counts["fragment_invocations"] = is_one_sprite(work) ? 3536 : 9856;
+  });
+  EXPECT_THAT(dialect.at("fragment_invocations"),
+              AllOf(StartsWith("inflated: 1.072 ("), HasSubstr("to 3.942 (100 small sprites of ")));
+  EXPECT_EQ(dialect.at("vertex_invocations"), "exact");
+}
+
+TEST(Dialect, OneMultipleEverywhereIsProportional) {
+  const Dialect dialect = dialect_of(
+      [](const Work&, int, record::Counts& counts) { counts["vertex_invocations"] *= 3; });
+  EXPECT_EQ(dialect.at("vertex_invocations"), "proportional: 3 times the true number");
+}
+
+TEST(Dialect, TooLowSomewhereDiffers) {
+  const Dialect dialect = dialect_of([](const Work& work, int, record::Counts& counts) {
+    counts["clipping_primitives"] += is_one_sprite(work) ? 1 : 0;
+    if (work.technique == "quad_tess") counts["input_assembly_primitives"] = 0;
+    if (!is_one_sprite(work)) counts["clipping_invocations"] -= 1;
+  });
+  EXPECT_THAT(dialect.at("clipping_primitives"), StartsWith("inflated: 1 ("));
+  EXPECT_THAT(dialect.at("input_assembly_primitives"),
+              AllOf(StartsWith("differs: 0 for 1 (one sprite of quad_tess"),
+                    HasSubstr("0 for 100 (100 small sprites of quad_tess)"),
+                    Not(HasSubstr("quad_screen"))));
+  EXPECT_THAT(dialect.at("clipping_invocations"), StartsWith("differs: 199 for 200 ("));
+}
+
+TEST(Dialect, AnotherNumberOnTheSecondFrameIsUnsteady) {
+  const Dialect dialect = dialect_of([](const Work&, int n, record::Counts& counts) {
+    counts["input_assembly_vertices"] *= static_cast<std::uint64_t>(n) + 1;
+  });
+  EXPECT_THAT(dialect.at("input_assembly_vertices"),
+              StartsWith("unsteady: 4, and 8 when drawn again (one sprite of quad_instanced"));
+}
+
+TEST(Dialect, WhatIsNeverToldIsAbsentAndWhatIsToldAtTimesDiffers) {
+  const Dialect dialect = dialect_of([](const Work& work, int, record::Counts& counts) {
+    counts.erase("geometry_primitives");
+    if (!is_one_sprite(work)) counts.erase("vertex_invocations");
+  });
+  EXPECT_THAT(dialect.at("geometry_primitives"), StartsWith("absent"));
+  EXPECT_THAT(dialect.at("vertex_invocations"), StartsWith("differs: nothing for 400 ("));
+}
+
+TEST(Dialect, ADeviceWithoutStatisticsHasNoneAndIsAskedOnce) {
+  CountingDevice device([](const Work&, int, record::Counts& counts) { counts.clear(); });
+  EXPECT_THAT(calibrate_dialect(device, technique::Work::draw), IsEmpty());
+  EXPECT_EQ(device.prepared.size(), 1U);
+}
+
+TEST(Dialect, AStageThatIsNotThereIsNotJudged) {
+  CountingDevice device(tell_the_truth, "quad_screen");
+  const Dialect dialect = calibrate_dialect(device, technique::Work::draw);
+  EXPECT_THAT(dialect, Not(Contains(Key("geometry_primitives"))));
+  EXPECT_THAT(dialect, Contains(Pair("tessellation_control_patches", "exact")));
+
+  CountingDevice none(tell_the_truth, "raycast");
+  EXPECT_THAT(calibrate_dialect(none, technique::Work::compute), IsEmpty());
+}
+
+TEST(Dialect, AnErrorVouchesForNothing) {
+  const auto failing = [](const Work& work, int, record::Counts&) {
+    if (work.technique == "quad_tess") throw core::Error("the driver refuses");
+  };
+  const Dialect dialect = dialect_of(failing);
+  EXPECT_THAT(dialect.at("vertex_invocations"),
+              AllOf(StartsWith("unknown: "), HasSubstr("the driver refuses")));
+  EXPECT_EQ(dialect.at("geometry_primitives"), "exact");
+
+  EXPECT_THROW(static_cast<void>(dialect_of([](const Work&, int, record::Counts&) {
+                 throw core::DeviceLost("draw", "LOST");
+               })),
+               core::DeviceLost);
+}
+
+}  // namespace
+}  // namespace triptych::measure

@@ -1,0 +1,73 @@
+#include "measure/loading.hpp"
+
+#include <gmock/gmock.h>
+
+#include <vector>
+
+#include "tests/unit/measure_run/run_fixture.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::AllOf;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::Field;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+// What is told of loads whose steps come at known times.
+class PacedLoading : public testing::Test {
+ protected:
+  // `steps` + 1 words, the first (share 0) now and the last (share 1) after `length`.
+  void load(const std::string& what, milliseconds length, int steps) {
+    for (int i = 0; i <= steps; ++i) {
+      tell_({.what = what, .share = static_cast<double>(i) / steps});
+      if (i < steps) now_ += length / steps;
+    }
+  }
+
+  std::vector<double> told;
+
+ private:
+  std::chrono::steady_clock::time_point now_{};
+  OnLoading tell_ = paced([this](const Loading& loading) { told.push_back(loading.share); },
+                          [this] { return now_; });
+};
+
+TEST_F(PacedLoading, NothingIsSaidOfShortLoads) {
+  for (int i = 0; i < 10; ++i) load("a", milliseconds(1900), 100);
+  EXPECT_THAT(told, IsEmpty());
+}
+
+TEST_F(PacedLoading, OfLongOnesAWordEveryTwoSecondsAndTheEnd) {
+  load("a", milliseconds(10'000), 100);
+  EXPECT_THAT(told, ElementsAre(0.2, 0.4, 0.6, 0.8, 1));
+}
+
+TEST_F(PacedLoading, TimeBetweenLoadsDoesNotCount) {
+  load("a", milliseconds(1000), 2);
+  load("b", milliseconds(1900), 2);
+  load("b", milliseconds(5000), 2);
+  load("b", milliseconds(1900), 2);
+  EXPECT_THAT(told, ElementsAre(0.5, 1));
+}
+
+TEST_F(RunTest, AWorkersSlowLoadingIsToldByTheRun) {
+  const Plan slow = plan(
+      {{"technique", {"raycast"}}, {"data", {"slow"}}, {"step", {"1"}}, {"camera", {"random:7"}}});
+  EXPECT_EQ(run(slow).measured, 1);
+  EXPECT_THAT(loads, AllOf(SizeIs(2), Each(Field(&Loading::what, "slow"))));
+  EXPECT_EQ(loads.at(0).share, 0.5);
+  EXPECT_EQ(loads.at(1).share, 1);
+  EXPECT_THAT(told, SizeIs(1));  // of the configuration itself, once
+}
+
+TEST_F(RunTest, NothingIsToldOfLoadingThatIsSoonDone) {
+  EXPECT_EQ(run(small_plan()).measured, 4);
+  EXPECT_THAT(loads, IsEmpty());
+}
+
+}  // namespace
+}  // namespace triptych::measure

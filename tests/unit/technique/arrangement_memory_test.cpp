@@ -1,0 +1,74 @@
+// What arranging takes in memory, counted by replacing the allocation of this program.
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#include "scene/particle_generators.hpp"
+#include "technique/particles/arrangement.hpp"
+
+namespace {
+
+// Constant-initialised, as allocations come before main.
+constinit std::atomic<std::size_t> held_bytes{0};
+constinit std::atomic<std::size_t> most_bytes{0};
+
+}  // namespace
+
+// Not inlined: where only one of the two is, GCC 12 takes the pair for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  void* memory = std::malloc(std::max<std::size_t>(size, 1));
+  if (memory == nullptr) throw std::bad_alloc();
+  const std::size_t held = held_bytes += ::malloc_usable_size(memory);
+  std::size_t most = most_bytes;
+  while (held > most && !most_bytes.compare_exchange_weak(most, held)) {
+  }
+  return memory;
+}
+
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  held_bytes -= ::malloc_usable_size(memory);
+  std::free(memory);
+}
+
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  operator delete(memory);
+}
+
+namespace triptych::technique {
+namespace {
+
+std::size_t bytes_of(const scene::ParticleSet& set) {
+  return set.spheres.size() * 16 + set.ids.size() * 4 + set.rgba8.size() * 4 +
+         set.rgba32.size() * 16 + set.intensity.size() * 4;
+}
+
+class ArrangementMemory : public testing::TestWithParam<scene::ColourKind> {};
+
+// The set and its arrangement are the two that must be held; a hundredth is for cells.
+TEST_P(ArrangementMemory, ArrangingTakesTheMemoryOfItsResult) {
+  scene::ParticleScene scene;
+  const std::size_t before = held_bytes;
+  scene.particles = std::make_shared<const scene::ParticleSet>(
+      scene::generate_particles("uniform", 400'000, GetParam()));
+  scene.camera = scene::particle_camera("orbit_y:1/8", *scene.particles, 60);
+  const double set_bytes = static_cast<double>(bytes_of(*scene.particles));
+  EXPECT_LT(static_cast<double>(held_bytes - before), 1.001 * set_bytes);
+  most_bytes = held_bytes.load();
+  const Arrangement arrangement = arrange(scene);
+  EXPECT_EQ(arrangement.count(), scene.particles->count());
+  EXPECT_LT(static_cast<double>(most_bytes - before), 2.01 * set_bytes);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryColour, ArrangementMemory,
+                         testing::Values(scene::ColourKind::rgba8, scene::ColourKind::rgba32,
+                                         scene::ColourKind::intensity),
+                         [](const auto& kind) { return std::string(name_of(kind.param)); });
+
+}  // namespace
+}  // namespace triptych::technique

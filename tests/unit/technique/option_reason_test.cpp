@@ -1,0 +1,78 @@
+#include "technique/particles/option_reason.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+
+namespace triptych::technique {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::array<std::string_view, 8> techniques{
+    "quad_screen",  "quad_ray",         "quad_instanced", "quad_tess",
+    "polygon_tess", "polygon_adaptive", "point",          "tiles"};
+constexpr std::array both{SpriteRasterizer::of_the_api, SpriteRasterizer::in_tiles};
+
+std::string reason(std::string_view technique, const ParticleOptions& options,
+                   SpriteRasterizer rasterizer = SpriteRasterizer::of_the_api) {
+  return option_reason(technique, options, rasterizer).value_or("");
+}
+
+TEST(OptionReason, WithoutFaultsOnlyRaysAndCornersAreRefused) {
+  for (const std::string_view technique : techniques) {
+    for (const SpriteRasterizer rasterizer : both) {
+      for (const Culling culling : {Culling::none, Culling::frustum, Culling::occlusion}) {
+        for (const bool conservative : {false, true}) {
+          EXPECT_EQ(reason(technique, {.conservative_depth = conservative, .culling = culling},
+                           rasterizer),
+                    "")
+              << technique;
+        }
+      }
+    }
+  }
+}
+
+TEST(OptionReason, RaysAreMadeAtVerticesWhereThereAreSome) {
+  for (const std::string_view technique : techniques) {
+    for (const SpriteRasterizer rasterizer : both) {
+      const bool refused = technique == "point" || technique == "tiles";
+      EXPECT_EQ(reason(technique, {.ray = ComputedAt::vertex}, rasterizer).empty(), !refused)
+          << technique;
+    }
+  }
+  EXPECT_THAT(reason("point", {.ray = ComputedAt::vertex}), HasSubstr("one vertex"));
+  EXPECT_THAT(reason("tiles", {.ray = ComputedAt::vertex}), HasSubstr("no vertices"));
+}
+
+TEST(OptionReason, APolygonHasFourCornersAtLeast) {
+  EXPECT_THAT(reason("polygon_tess", {.corners = 3}), HasSubstr("3 corners"));
+  EXPECT_EQ(reason("polygon_tess", {.corners = 4}), "");
+  EXPECT_EQ(reason("polygon_adaptive", {.corners = 3}), "");  // it has no use for the number
+}
+
+TEST(OptionReason, AFaultNeedsWhatItBreaks) {
+  for (const std::string_view technique : techniques) {
+    for (const SpriteRasterizer rasterizer : both) {
+      const auto refused = [&](const ParticleOptions& options) {
+        return !reason(technique, options, rasterizer).empty();
+      };
+      const bool tiles = technique == "tiles";
+      for (const ParticleFault everywhere :
+           {ParticleFault::small_sprite, ParticleFault::unresolved_ties,
+            ParticleFault::reversed_depth, ParticleFault::culled_visible}) {
+        EXPECT_FALSE(refused({.fault = everywhere})) << technique;
+      }
+      EXPECT_TRUE(refused({.culling = Culling::none, .fault = ParticleFault::culled_visible}));
+      EXPECT_EQ(refused({.fault = ParticleFault::wrong_sense}), !tiles) << technique;
+      EXPECT_FALSE(refused({.conservative_depth = true, .fault = ParticleFault::wrong_sense}));
+      const bool in_tiles = tiles || rasterizer == SpriteRasterizer::in_tiles;
+      EXPECT_EQ(refused({.fault = ParticleFault::lost_at_border}), !in_tiles) << technique;
+      EXPECT_EQ(refused({.fault = ParticleFault::missing_barrier}), !in_tiles) << technique;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace triptych::technique
