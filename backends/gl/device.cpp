@@ -13,6 +13,7 @@
 #include "backends/gl/techniques.hpp"
 #include "backends/gl/volume_prepared.hpp"
 #include "core/error.hpp"
+#include "technique/particles/option_reason.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -75,7 +76,12 @@ class GlDevice final : public measure::Device {
       return reason;
     }
     if (particles == nullptr) return fmt::format("{} draws particles, not volumes", work.technique);
-    return std::get<ParticleTechnique>(entry->technique).unsupported(gl, *particles);
+    auto reason = technique::option_reason(work.technique, particles->options,
+                                           technique::SpriteRasterizer::of_the_api);
+    if (!reason) {
+      reason = std::get<ParticleTechnique>(entry->technique).unsupported(gl, *particles);
+    }
+    return reason;
   }
 
   [[nodiscard]] measure::VolumePath default_path(scene::VoxelFormat native) const override {

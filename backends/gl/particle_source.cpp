@@ -5,9 +5,11 @@
 namespace triptych::gl_backend {
 namespace {
 
-int depth_promise(const ParticleConstants& constants) {
-  if (!constants.conservative_depth) return 0;
-  return constants.fault == technique::ParticleFault::wrong_sense ? 2 : 1;
+std::string_view depth_promise(const ParticleConstants& constants) {
+  if (!constants.conservative_depth) return {};
+  return constants.fault == technique::ParticleFault::wrong_sense
+             ? "#define TRI_DEPTH_PROMISE depth_greater\n"
+             : "#define TRI_DEPTH_PROMISE depth_less\n";
 }
 
 // Before GLSL 4.10 the variables between stages are matched by name.
@@ -16,11 +18,10 @@ std::string constant_lines(const Api& gl, const ParticleConstants& constants) {
       "#extension GL_ARB_conservative_depth : enable\n"
       "#extension GL_ARB_shader_draw_parameters : enable\n"
       "#define TRI_LINK(n) {}\n#define TRI_COLOUR {}\n#define TRI_TRANSFER_AT_PIXEL {:d}\n"
-      "#define TRI_RAY_AT_VERTEX {:d}\n#define TRI_CONSERVATIVE_DEPTH {}\n#define TRI_FAULT {}\n"
-      "#define TRI_COUNT {:d}\n",
+      "#define TRI_RAY_AT_VERTEX {:d}\n#define TRI_FAULT {}\n#define TRI_COUNT {:d}\n{}",
       gl.at_least(4, 3) ? "layout(location = n)" : "", static_cast<int>(constants.colour),
-      int{constants.transfer_at_pixel}, int{constants.ray_at_vertex}, depth_promise(constants),
-      static_cast<int>(constants.fault), int{constants.count});
+      int{constants.transfer_at_pixel}, int{constants.ray_at_vertex},
+      static_cast<int>(constants.fault), int{constants.count}, depth_promise(constants));
 }
 
 }  // namespace

@@ -25,17 +25,10 @@ Sprites sprites(const Api& gl) {
   return {{GL_POINTS, false, false, {points}}, {GL_TRIANGLE_STRIP, true, true, {quads}}};
 }
 
-std::optional<std::string> unsupported(const Api& gl, const measure::ParticleWork& work) {
-  if (work.options.ray == technique::ComputedAt::vertex) {
-    return "a point has one vertex: its rays are made per pixel";
-  }
-  return sprites_unsupported(gl, work, sprites(gl));
-}
-
 }  // namespace
 
 ParticleTechnique point() {
-  return {&unsupported, sprite_technique<&sprites>().make};
+  return sprite_technique<&sprites>();
 }
 
 }  // namespace triptych::gl_backend

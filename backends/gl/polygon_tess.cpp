@@ -16,7 +16,6 @@ std::optional<std::string> unsupported(const Api& gl, const measure::ParticleWor
   // Of the outline's four edges the longest has a quarter of the corners, rounded up.
   const std::int64_t most =
       gl.VERSION_4_0 != 0 ? 4 * gl.limit(GL_MAX_TESS_GEN_LEVEL) : std::int64_t{corners};
-  if (corners < 4) return fmt::format("polygons of {} corners; 4 is the least", corners);
   if (corners > most) {
     return fmt::format("polygons of {} corners, GL_MAX_TESS_GEN_LEVEL allows {}", corners, most);
   }

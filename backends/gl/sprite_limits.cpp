@@ -49,33 +49,11 @@ bool reads_storage(const Sprites& sprites) {
   return std::ranges::any_of(sprites, [](const SpriteDraw& draw) { return draw.instanced; });
 }
 
-std::optional<std::string> fault_unsupported(const technique::ParticleOptions& options) {
-  using technique::ParticleFault;
-  switch (options.fault) {
-    case ParticleFault::wrong_sense:
-      if (!options.conservative_depth) return "wrong_sense is a fault of conservative depth";
-      break;
-    case ParticleFault::culled_visible:
-      if (options.culling == technique::Culling::none)
-        return "culled_visible is a fault of culling";
-      break;
-    case ParticleFault::lost_at_border:
-      return "lost_at_border is a fault of tiles: here the rasterizer decides what a sprite covers";
-    case ParticleFault::missing_barrier:
-      return "missing_barrier is a fault of work groups: sprites are drawn without any";
-    default:
-      break;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::optional<std::string> sprites_unsupported(const Api& gl, const measure::ParticleWork& work,
                                                const Sprites& sprites) {
-  auto reason = particles_unsupported(gl, work, reads_storage(sprites));
-  if (!reason) reason = fault_unsupported(work.options);
-  if (reason) return reason;
+  if (auto reason = particles_unsupported(gl, work, reads_storage(sprites))) return reason;
   if (gl.VERSION_4_5 == 0 && gl.ARB_clip_control == 0) {
     return "depth from 0 to 1 needs OpenGL 4.5 or GL_ARB_clip_control";
   }

@@ -177,13 +177,6 @@ class TilesDrawing final : public Drawing {
 };
 
 std::optional<std::string> unsupported(const Api& gl, const measure::ParticleWork& work) {
-  if (work.options.ray == technique::ComputedAt::vertex) {
-    return "tiles have no vertices: rays are made per pixel";
-  }
-  if (work.options.fault == technique::ParticleFault::culled_visible &&
-      work.options.culling == Culling::none) {
-    return "culled_visible is a fault of culling";
-  }
   if (auto reason = particles_unsupported(gl, work, true)) return reason;
   return TileBuffers::unsupported(gl, work.scene);
 }

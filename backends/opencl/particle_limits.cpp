@@ -5,24 +5,16 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "technique/particles/option_reason.hpp"
+
 namespace triptych::opencl_backend {
-namespace {
-
-// What a fault needs to be there.
-std::optional<std::string> fault_defect(std::string_view technique,
-                                        const technique::ParticleOptions& options) {
-  if (options.fault == technique::ParticleFault::wrong_sense && technique != "tiles" &&
-      !options.conservative_depth) {
-    return "wrong_sense: without conservative_depth nothing is rejected early";
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 std::optional<std::string> particle_defect(const Session& session, std::string_view technique,
                                            const measure::ParticleWork& work) {
-  if (auto defect = fault_defect(technique, work.options)) return defect;
+  if (auto defect = technique::option_reason(technique, work.options,
+                                             technique::SpriteRasterizer::in_tiles)) {
+    return defect;
+  }
   constexpr int most_pixels = 32768;  // an edge: pixel rectangles have 16 bits for a place
   if (work.scene.width > most_pixels || work.scene.height > most_pixels) {
     return fmt::format("the picture is {}x{}, this rasterizer reaches {}x{}", work.scene.width,

@@ -65,7 +65,7 @@ ParticleConstants constants_of(const measure::ParticleWork& work, Sprite sprite)
           .colour = work.scene.particles->colour,
           .transfer_at_pixel = no_vertices || options.transfer == technique::ComputedAt::pixel ||
                                work.scene.particles->colour != scene::ColourKind::intensity,
-          .ray_at_vertex = !no_vertices && options.ray == technique::ComputedAt::vertex,
+          .ray_at_vertex = options.ray == technique::ComputedAt::vertex,
           // Without a depth unit, tiles reject early in any case.
           .conservative_depth = no_vertices || options.conservative_depth,
           .fault = options.fault};

@@ -5,28 +5,15 @@
 #include "backends/vulkan/cell_culling.hpp"
 #include "backends/vulkan/particle_data.hpp"
 #include "backends/vulkan/support.hpp"
+#include "technique/particles/option_reason.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
-
-using technique::ParticleFault;
 
 constexpr std::uint64_t sphere_bytes = 4 * sizeof(float);
 
 std::uint64_t particle_bytes(const scene::ParticleSet& set) {
   return sphere_bytes + colour_bytes(set.colour) + sizeof(std::uint32_t);
-}
-
-std::optional<std::string> fault_reason(ParticleFault fault, const std::string& technique) {
-  const bool tiled = technique == "tiles";
-  switch (fault) {
-    case ParticleFault::lost_at_border:
-    case ParticleFault::missing_barrier:
-      if (!tiled) return fmt::format("{} has no tiles and no work groups to lose in", technique);
-      return std::nullopt;
-    default:
-      return std::nullopt;
-  }
 }
 
 std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleSet& set,
@@ -45,6 +32,14 @@ std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleS
                        set.count(), bytes, limits.maxStorageBufferRange);
   }
   return std::nullopt;
+}
+
+// Of the outline's four edges the longest has a quarter of the corners, rounded up.
+std::optional<std::string> corners_reason(const Gpu& gpu, int corners) {
+  const std::uint32_t most = 4 * gpu.properties.limits.maxTessellationGenerationLevel;
+  if (static_cast<std::uint32_t>(corners) <= most) return std::nullopt;
+  return fmt::format("polygons of {} corners; maxTessellationGenerationLevel allows {}", corners,
+                     most);
 }
 
 }  // namespace
@@ -96,7 +91,13 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
                                            const std::string& technique, Needs needs) {
   const scene::ParticleScene& scene = work.scene;
   const scene::ParticleSet& set = *scene.particles;
-  if (auto reason = fault_reason(work.options.fault, technique)) return reason;
+  if (auto reason = technique::option_reason(technique, work.options,
+                                             technique::SpriteRasterizer::of_the_api)) {
+    return reason;
+  }
+  if (technique == "polygon_tess") {
+    if (auto reason = corners_reason(gpu, work.options.corners)) return reason;
+  }
   const bool before_pixels = needs != Needs::nothing;
   if (before_pixels && gpu.features.vertexPipelineStoresAndAtomics == VK_FALSE) {
     return "the device lacks vertexPipelineStoresAndAtomics, which counting needs";

@@ -56,8 +56,6 @@ std::vector<ParticleRun> large_runs(const scene::ParticleScene& scene,
 std::unique_ptr<measure::Prepared> prepare_point(const Gpu& gpu, const Instance& instance,
                                                  const measure::ParticleWork& work) {
   using enum vk::ShaderStageFlagBits;
-  measure::ParticleWork drawn = work;
-  drawn.options.ray = technique::ComputedAt::pixel;  // a point has one vertex
   const technique::Arrangement arrangement = technique::arrange(work.scene);
   SpriteTechnique technique;
   technique.draw.stages = {{eVertex, "point.vert.spv", "point_counting.vert.spv"}};
@@ -66,7 +64,7 @@ std::unique_ptr<measure::Prepared> prepare_point(const Gpu& gpu, const Instance&
   technique.rest->instanced = true;
   technique.rest->topology = vk::PrimitiveTopology::eTriangleStrip;
   technique.rest_runs = large_runs(work.scene, arrangement, largest_point(gpu));
-  return std::make_unique<SpriteFrames>(gpu, instance, drawn, arrangement, std::move(technique));
+  return std::make_unique<SpriteFrames>(gpu, instance, work, arrangement, std::move(technique));
 }
 
 }  // namespace triptych::vulkan_backend

@@ -1,5 +1,5 @@
 // What the shared particle GLSL needs to be Vulkan: one descriptor set, compile-time constants as
-// specialization constants (particle_data.hpp: ParticleConstants). TRI_COUNT, TRI_CONSERVATIVE_DEPTH and the
+// specialization constants (particle_data.hpp: ParticleConstants). TRI_COUNT, TRI_DEPTH_PROMISE and the
 // macros that choose between shapes are set when the SPIR-V is built.
 #define TRI_BINDING(n) layout(set = 0, binding = n)
 #define TRI_LINK(n) layout(location = n)

@@ -4,7 +4,7 @@
 //   TRI_LINK(n)                    the location of a variable between stages, where the language has them
 //   TRI_COLOUR                     0 rgba8, 1 rgba32, 2 intensity
 //   TRI_TRANSFER_AT_PIXEL, TRI_RAY_AT_VERTEX (0 or 1), TRI_FAULT (technique::ParticleFault)
-// which may be specialization constants, and the macros TRI_COUNT (0 or 1) and TRI_CONSERVATIVE_DEPTH (0, 1 or 2).
+// which may be specialization constants, and the macro TRI_COUNT (0 or 1).
 layout(std140) TRI_BINDING(0) uniform Parameters {
   vec4 eye;
   vec4 eye_rest;

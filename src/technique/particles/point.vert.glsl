@@ -25,8 +25,7 @@ void main() {
   float size = point_size(low, high);
   Corner corner = nowhere();
   if (low.x <= high.x && low.y <= high.y && size <= TRI_LARGEST_POINT) {
-    float front = (sprite_sphere.z - sprite_sphere.w) * 0.9990234375;
-    corner = corner_on_image(low, high, vec2(0.0), max(front, u.eye.w));
+    corner = front_corner(sprite_sphere, low, high, vec2(0.0));
 #if TRI_COUNT
     add_count(TRI_COUNT_SPRITES, id, 1u);
     add_count(TRI_COUNT_VERTICES, id, 1u);

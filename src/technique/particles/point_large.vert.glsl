@@ -1,6 +1,6 @@
-// Vertex stage of the second draw of point sprites: screen-aligned quads for the spheres that need a larger
-// square than the device's largest point, and nothing for the others. TRI_PARTICLE, TRI_CORNER: as in
-// quad_instanced.vert.glsl.
+// Vertex stage of the second draw of point sprites: the rectangle around the part of the silhouette that lies
+// in the viewport for the spheres that need a larger square than the device's largest point, and nothing for
+// the others. TRI_PARTICLE, TRI_CORNER: as in quad_instanced.vert.glsl.
 TRI_LINK(0) flat out vec4 sprite_sphere;
 TRI_LINK(1) flat out vec4 sprite_colour;
 TRI_LINK(2) flat out uint sprite_id;
@@ -17,7 +17,7 @@ void main() {
   image_bounds(sprite_sphere, low, high);
   bool large = low.x <= high.x && low.y <= high.y && point_size(low, high) > TRI_LARGEST_POINT;
   Corner corner = nowhere();
-  if (large) corner = screen_corner(sprite_sphere, vec2(k & 1, k >> 1) * 2.0 - 1.0);
+  if (large) corner = front_corner(sprite_sphere, low, high, vec2(k & 1, k >> 1) * 2.0 - 1.0);
 #if TRI_COUNT
   if (large && k == 0) {
     add_count(TRI_COUNT_SPRITES, particle, 1u);

@@ -36,7 +36,7 @@ void main() {
   for (int k = 0; k < 4; ++k) {
     vec2 side = vec2(k & 1, k >> 1) * 2.0 - 1.0;
 #if TRI_SCREEN_ALIGNED
-    emit(screen_corner(particle_sphere[0], side));
+    emit(front_corner(particle_sphere[0], low, high, side));
 #else
     emit(quad_corner(frame, side));
 #endif

@@ -1,4 +1,7 @@
 // The pixel stage of every sprite technique: the ray through this pixel against the sphere.
+// TRI_DEPTH_PROMISE, where it is defined: what conservative depth may rely on. Depth is reversed and the
+// surface lies behind the sprite, so the layout is that of depths less than the sprite's; the opposite one is a
+// planted fault.
 TRI_LINK(0) flat in vec4 sprite_sphere;  // camera space
 TRI_LINK(1) flat in vec4 sprite_colour;
 TRI_LINK(2) flat in uint sprite_id;
@@ -6,12 +9,8 @@ TRI_LINK(3) in vec3 sprite_ray;
 
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out uint out_id;
-// TRI_CONSERVATIVE_DEPTH, 0: nothing is promised. 1: depth is reversed and the surface lies behind the
-// sprite, so it is written with less than the sprite's depth. 2: the opposite promise, a planted fault.
-#if TRI_CONSERVATIVE_DEPTH == 1
-layout(depth_less) out float gl_FragDepth;
-#elif TRI_CONSERVATIVE_DEPTH == 2
-layout(depth_greater) out float gl_FragDepth;
+#ifdef TRI_DEPTH_PROMISE
+layout(TRI_DEPTH_PROMISE) out float gl_FragDepth;
 #endif
 
 void main() {

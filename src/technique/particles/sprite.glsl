@@ -54,12 +54,8 @@ void screen_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   }
 }
 
-// Screen-aligned, at the depth of the sphere's front.
-Corner screen_corner(vec4 sphere, vec2 side) {
-  vec2 low;
-  vec2 high;
-  screen_bounds(sphere, low, high);
-  if (low.x > high.x || low.y > high.y) return nowhere();
+// Of a rectangle at the depth of the sphere's front.
+Corner front_corner(vec4 sphere, vec2 low, vec2 high, vec2 side) {
   float front = (sphere.z - sphere.w) * 0.9990234375;
   return corner_on_image(low, high, side, max(front, u.eye.w));
 }

@@ -123,6 +123,22 @@ TEST(GlParticles, SpheresLargerThanPointsAreDrawn) {
   });
 }
 
+// A sphere that the eye's plane cuts, in view on the right only: the sprite of `point` is what it
+// covers, whether the device's points are large enough or not.
+TEST(GlParticles, APointThatReachesTheEyesPlaneIsNotTheWholeViewport) {
+  for_each_device([](measure::Device& device) {
+    scene::ParticleScene scene = seen_from({{1.5, 0, -0.9, 1}}, {0, 0, 0}, 60);
+    scene.width = 600;
+    scene.height = 400;
+    const measure::Work work = particle_work("point", scene);
+    if (device.unsupported(work)) return;
+    const record::Counts counts = device.prepare(work)->frame(measure::Purpose::counters).counts;
+    EXPECT_EQ(counts.at("sprites"), 1U);
+    EXPECT_GT(counts.at("fragments_kept"), 1000U);
+    EXPECT_LE(counts.at("fragments"), 400U * 402U);
+  });
+}
+
 TEST(GlParticles, RaysMadeAtTheVerticesHoldTheirBound) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = generated("generate:droplets:400");

@@ -181,6 +181,11 @@ TEST(OpenClParticles, WhatCannotBeDrawnIsRefused) {
     EXPECT_TRUE(device.unsupported(make_work("tiles", make_scene({}))));
     EXPECT_TRUE(
         device.unsupported(make_work("quad_ray", scene, {.fault = ParticleFault::wrong_sense})));
+    EXPECT_TRUE(
+        device.unsupported(make_work("tiles", scene, {.ray = technique::ComputedAt::vertex})));
+    EXPECT_EQ(
+        device.unsupported(make_work("quad_ray", scene, {.fault = ParticleFault::lost_at_border})),
+        std::nullopt);
     scene::ParticleScene wide = scene;
     wide.width = 40000;
     const measure::Work work = make_work("tiles", wide);
