@@ -51,6 +51,21 @@ std::string verdict_matrix(const judge::GateResult& result) {
   return table(rows);
 }
 
+// The exact ones by number only: what deserves a word is the others.
+std::string dialect_text(const record::Device& device) {
+  std::string text;
+  int exact = 0;
+  for (const auto& [statistic, verdict] : device.statistics_dialect) {
+    if (verdict == "exact") {
+      ++exact;
+    } else {
+      text += fmt::format("<div>{}: {}</div>", escape(statistic), escape(verdict));
+    }
+  }
+  if (device.statistics_dialect.empty()) return "none told";
+  return fmt::format("<div>{} counted exactly</div>", exact) + text;
+}
+
 std::string clock_text(const std::vector<record::ClockTrust>& clocks) {
   std::string text;
   for (const record::ClockTrust& clock : clocks) {
@@ -88,7 +103,8 @@ std::string verdict_section(const PlanData& plan) {
 }
 
 std::string devices_section(const PlanData& plan) {
-  Rows rows{{"device", "name", "driver", "API", "clock", "processor features, environment"}};
+  Rows rows{{"device", "name", "driver", "API", "clock", "driver's statistics",
+             "processor features, environment"}};
   for (const auto& [device, clocks] : plan.devices) {
     std::string environment = escape(device.cpu_features);
     for (const auto& [name, value] : device.environment) {
@@ -96,7 +112,7 @@ std::string devices_section(const PlanData& plan) {
     }
     rows.push_back({escape(device.id), escape(device.name + " (" + device.vendor + ")"),
                     escape(device.driver_version), escape(device.api_version), clock_text(clocks),
-                    environment});
+                    dialect_text(device), environment});
   }
   return "<h3>Devices</h3>" + table(rows, "devices");
 }
