@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
+#include <ranges>
 
 namespace triptych::gl_backend {
 
@@ -35,9 +36,13 @@ std::vector<technique::Cell> cells_with_large_points(const Api& gl,
     const double width = 2 * r * std::sqrt(a * a + (z - r) * (z + r)) / ((z - r) * (z + r));
     return 1.01 * width / pixel + 4 > largest;
   };
+  const auto any_large = [&](const technique::Cell& cell) {
+    const auto places = std::views::iota(cell.begin, cell.begin + cell.count);
+    return std::ranges::any_of(
+        places, [&](std::uint32_t k) { return may_be_large(arrangement.sphere(k)); });
+  };
   for (technique::Cell& cell : cells) {
-    const auto* begin = arrangement.spheres.data() + cell.begin;
-    if (all_small || std::none_of(begin, begin + cell.count, may_be_large)) cell.count = 0;
+    if (all_small || !any_large(cell)) cell.count = 0;
   }
   return cells;
 }

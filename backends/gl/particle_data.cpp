@@ -1,6 +1,7 @@
 #include "backends/gl/particle_data.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "backends/gl/volume_data.hpp"
@@ -21,24 +22,42 @@ constexpr GLuint binding_ids = 5;
 constexpr std::size_t counter_rows = 1024;
 constexpr std::size_t counters_per_row = 8;
 
-// Never empty: a block needs a buffer even where nothing will be read.
-template <class T>
-Buffer array_buffer(const Api& gl, const std::vector<T>& values) {
-  static constexpr std::array<std::byte, 16> nothing{};
-  if (values.empty()) return constant_buffer(gl, nothing);
-  return constant_buffer(gl, std::as_bytes(std::span(values)));
+// Writes the bytes of a buffer that begin at `begin`.
+using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
+
+// Goes through a small piece of memory, in multiples of 16 bytes, so that the host holds no copy of
+// the whole. Never empty: a block needs a buffer even where nothing will be read.
+Buffer filled_buffer(const Api& gl, std::size_t size, const Fill& fill) {
+  constexpr std::size_t most_at_once = std::size_t{4} << 20U;
+  Buffer buffer(gl);
+  gl.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.get());
+  gl.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(std::max<std::size_t>(size, 16)),
+                nullptr, GL_STATIC_DRAW);
+  std::vector<std::byte> memory(std::min(size, most_at_once));
+  for (std::size_t begin = 0; begin < size; begin += memory.size()) {
+    const std::span piece = std::span(memory).first(std::min(memory.size(), size - begin));
+    fill(begin, piece);
+    gl.BufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(begin),
+                     static_cast<GLsizeiptr>(piece.size()), piece.data());
+  }
+  gl.check("glBufferSubData");
+  return buffer;
 }
 
-Buffer colour_buffer(const Api& gl, const technique::Arrangement& arrangement) {
-  switch (arrangement.colour) {
-    case scene::ColourKind::rgba8:
-      return array_buffer(gl, arrangement.rgba8);
-    case scene::ColourKind::rgba32:
-      return array_buffer(gl, arrangement.rgba32);
-    case scene::ColourKind::intensity:
-      break;
-  }
-  return array_buffer(gl, arrangement.intensity);
+Buffer property_buffer(const Api& gl, const technique::Arrangement& arrangement,
+                       technique::Property property) {
+  return filled_buffer(
+      gl, arrangement.bytes(property),
+      [&](std::size_t begin, std::span<std::byte> out) { arrangement.copy(property, begin, out); });
+}
+
+// 0, 1, 2…
+Buffer number_buffer(const Api& gl, std::size_t count) {
+  return filled_buffer(gl, count * sizeof(GLuint), [](std::size_t begin, std::span<std::byte> out) {
+    std::vector<GLuint> numbers(out.size() / sizeof(GLuint));
+    std::iota(numbers.begin(), numbers.end(), static_cast<GLuint>(begin / sizeof(GLuint)));
+    std::ranges::copy(std::as_bytes(std::span(numbers)), out.begin());
+  });
 }
 
 Buffer parameter_buffer(const Api& gl, const measure::ParticleWork& work,
@@ -55,16 +74,12 @@ ParticleData::ParticleData(const Api& gl, const measure::ParticleWork& work,
     : parameters_(parameter_buffer(gl, work, arrangement)),
       transfer_(
           constant_buffer(gl, std::as_bytes(std::span(work.scene.intensity_colours.entries)))),
-      spheres_(array_buffer(gl, arrangement.spheres)),
-      colours_(colour_buffer(gl, arrangement)),
-      ids_(array_buffer(gl, arrangement.ids)),
+      spheres_(property_buffer(gl, arrangement, technique::Property::sphere)),
+      colours_(property_buffer(gl, arrangement, technique::Property::colour)),
+      ids_(property_buffer(gl, arrangement, technique::Property::id)),
       vertices_(gl) {
-  if (gl.ARB_shader_draw_parameters == 0) {
-    std::vector<std::uint32_t> numbers(arrangement.count());
-    std::iota(numbers.begin(), numbers.end(), 0U);
-    numbers_ = array_buffer(gl, numbers);
-  }
-  describe_vertices(gl, arrangement.colour);
+  if (gl.ARB_shader_draw_parameters == 0) numbers_ = number_buffer(gl, arrangement.count());
+  describe_vertices(gl, work.scene.particles->colour);
 }
 
 void ParticleData::describe_vertices(const Api& gl, scene::ColourKind colour) {

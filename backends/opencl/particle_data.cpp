@@ -1,7 +1,7 @@
 #include "backends/opencl/particle_data.hpp"
 
+#include <algorithm>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "backends/opencl/launches.hpp"
@@ -11,38 +11,35 @@
 namespace triptych::opencl_backend {
 namespace {
 
-// Leaves nothing in `values`: of 10 million particles every array counts.
-template <typename Value>
-cl::Buffer move_to_device(const Session& session, std::vector<Value>& values) {
-  const std::vector<Value> moved = std::exchange(values, {});
-  return upload_bytes(session, std::as_bytes(std::span(moved)));
-}
-
-cl::Buffer move_colours(const Session& session, technique::Arrangement& arrangement) {
-  switch (arrangement.colour) {
-    case scene::ColourKind::rgba8:
-      return move_to_device(session, arrangement.rgba8);
-    case scene::ColourKind::rgba32:
-      return move_to_device(session, arrangement.rgba32);
-    case scene::ColourKind::intensity:
-      return move_to_device(session, arrangement.intensity);
+// Goes through a small piece of memory: mapped, the whole may be a copy of the driver's.
+cl::Buffer upload_property(const Session& session, const technique::Arrangement& arrangement,
+                           technique::Property property) {
+  constexpr std::size_t smallest = 16;                         // a buffer of no bytes is an error
+  constexpr std::size_t most_at_once = std::size_t{4} << 20U;  // whole elements of any property
+  const std::size_t size = arrangement.bytes(property);
+  const cl::Buffer buffer(session.context, CL_MEM_READ_ONLY, std::max(size, smallest));
+  std::vector<std::byte> memory(std::min(size, most_at_once));
+  for (std::size_t begin = 0; begin < size; begin += memory.size()) {
+    const std::span piece = std::span(memory).first(std::min(memory.size(), size - begin));
+    arrangement.copy(property, begin, piece);
+    session.queue.enqueueWriteBuffer(buffer, CL_TRUE, begin, piece.size(), piece.data());
   }
-  return {};
+  return buffer;
 }
 
 }  // namespace
 
 ParticleData upload(const Session& session, const measure::ParticleWork& work) {
-  technique::Arrangement arrangement = technique::arrange(work.scene);
+  const technique::Arrangement arrangement = technique::arrange(work.scene);
   const technique::ParticleParameters parameters =
       technique::particle_parameters(work.scene, work.options, arrangement);
   return checked([&] {
     ParticleData data{.count = arrangement.count(), .cell_count = arrangement.cells.size()};
     data.parameters = upload_bytes(session, std::as_bytes(std::span(&parameters, 1)));
-    data.spheres = move_to_device(session, arrangement.spheres);
-    data.colours = move_colours(session, arrangement);
-    data.ids = move_to_device(session, arrangement.ids);
-    data.cells = move_to_device(session, arrangement.cells);
+    data.spheres = upload_property(session, arrangement, technique::Property::sphere);
+    data.colours = upload_property(session, arrangement, technique::Property::colour);
+    data.ids = upload_property(session, arrangement, technique::Property::id);
+    data.cells = upload_bytes(session, std::as_bytes(std::span(arrangement.cells)));
     data.table =
         upload_bytes(session, std::as_bytes(std::span(work.scene.intensity_colours.entries)));
     return data;

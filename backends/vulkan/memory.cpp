@@ -91,21 +91,29 @@ Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D
                                                .subresourceRange = whole()}};
 }
 
-Buffer make_buffer(const Gpu& gpu, std::span<const std::byte> bytes, vk::BufferUsageFlags usage) {
-  Buffer buffer(gpu, std::max(bytes.size(), smallest_buffer),
-                usage | vk::BufferUsageFlagBits::eTransferDst, Place::device);
-  if (bytes.empty()) return buffer;
-  const std::size_t part = std::min(bytes.size(), staging_goal);
-  const Buffer staging(gpu, part, vk::BufferUsageFlagBits::eTransferSrc, Place::upload);
-  for (std::size_t begin = 0; begin < bytes.size(); begin += part) {
-    const std::size_t size = std::min(part, bytes.size() - begin);
-    std::ranges::copy(bytes.subspan(begin, size), staging.mapped().begin());
+Buffer make_buffer(const Gpu& gpu, std::size_t size, const Fill& fill, vk::BufferUsageFlags usage) {
+  Buffer buffer(gpu, std::max(size, smallest_buffer), usage | vk::BufferUsageFlagBits::eTransferDst,
+                Place::device);
+  if (size == 0) return buffer;
+  const Buffer staging(gpu, std::min(size, staging_goal), vk::BufferUsageFlagBits::eTransferSrc,
+                       Place::upload);
+  const std::span<std::byte> memory = staging.mapped();
+  for (std::size_t begin = 0; begin < size; begin += memory.size()) {
+    const std::span<std::byte> part = memory.first(std::min(memory.size(), size - begin));
+    fill(begin, part);
     run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
       commands.copyBuffer(staging.get(), buffer.get(),
-                          vk::BufferCopy{.dstOffset = begin, .size = size});
+                          vk::BufferCopy{.dstOffset = begin, .size = part.size()});
     });
   }
   return buffer;
+}
+
+Buffer make_buffer(const Gpu& gpu, std::span<const std::byte> bytes, vk::BufferUsageFlags usage) {
+  const Fill copy = [&](std::size_t begin, std::span<std::byte> out) {
+    std::ranges::copy(bytes.subspan(begin, out.size()), out.begin());
+  };
+  return make_buffer(gpu, bytes.size(), copy, usage);
 }
 
 void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texels) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "backends/vulkan/gpu.hpp"
@@ -57,8 +58,16 @@ class Image {
   vk::raii::ImageView view_;
 };
 
-// A device-local buffer holding `bytes`; of some bytes where there are none, as a buffer must have.
-// Goes through a small staging buffer part by part, so that the data are held but once.
+// Writes the bytes of a buffer that begin at `begin`.
+using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
+
+// A device-local buffer of `size` bytes; of some bytes for none, as a buffer must have. Goes
+// through a small staging buffer part by part, in multiples of 16 bytes, which `fill` writes to
+// directly, so that the data are held but once.
+[[nodiscard]] Buffer make_buffer(const Gpu& gpu, std::size_t size, const Fill& fill,
+                                 vk::BufferUsageFlags usage);
+
+// The same of bytes that are there.
 [[nodiscard]] Buffer make_buffer(const Gpu& gpu, std::span<const std::byte> bytes,
                                  vk::BufferUsageFlags usage);
 

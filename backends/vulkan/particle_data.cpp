@@ -22,21 +22,12 @@ Buffer upload_parameters(const Gpu& gpu, const measure::ParticleWork& work,
   return make_buffer(gpu, std::as_bytes(std::span(&parameters, 1)), eUniformBuffer);
 }
 
-std::span<const std::byte> colour_data(const technique::Arrangement& arrangement) {
-  switch (arrangement.colour) {
-    case scene::ColourKind::rgba8:
-      return std::as_bytes(std::span(arrangement.rgba8));
-    case scene::ColourKind::rgba32:
-      return std::as_bytes(std::span(arrangement.rgba32));
-    case scene::ColourKind::intensity:
-      return std::as_bytes(std::span(arrangement.intensity));
-  }
-  return {};
-}
-
-template <class Element>
-Buffer upload_property(const Gpu& gpu, const std::vector<Element>& elements) {
-  return make_buffer(gpu, std::as_bytes(std::span(elements)), eVertexBuffer | eStorageBuffer);
+Buffer upload_property(const Gpu& gpu, const technique::Arrangement& arrangement,
+                       technique::Property property) {
+  const Fill fill = [&](std::size_t begin, std::span<std::byte> out) {
+    arrangement.copy(property, begin, out);
+  };
+  return make_buffer(gpu, arrangement.bytes(property), fill, eVertexBuffer | eStorageBuffer);
 }
 
 }  // namespace
@@ -107,9 +98,9 @@ ParticleData::ParticleData(const Gpu& gpu, const measure::ParticleWork& work,
                             eUniformBuffer)),
       counters_(gpu, counter_rows * counter_columns * sizeof(std::uint32_t),
                 eStorageBuffer | eTransferSrc | eTransferDst, Place::device),
-      spheres_(upload_property(gpu, arrangement.spheres)),
-      colours_(make_buffer(gpu, colour_data(arrangement), eVertexBuffer | eStorageBuffer)),
-      ids_(upload_property(gpu, arrangement.ids)),
+      spheres_(upload_property(gpu, arrangement, technique::Property::sphere)),
+      colours_(upload_property(gpu, arrangement, technique::Property::colour)),
+      ids_(upload_property(gpu, arrangement, technique::Property::id)),
       cell_boxes_(make_buffer(gpu, std::as_bytes(std::span(arrangement.cells)), eStorageBuffer)) {}
 
 void ParticleData::bind(vk::DescriptorSet set) const {

@@ -40,7 +40,7 @@ std::vector<ParticleRun> large_runs(const scene::ParticleScene& scene,
                                     const technique::Arrangement& arrangement, double largest) {
   std::vector<ParticleRun> runs;
   for (std::uint32_t i = 0; i < arrangement.count(); ++i) {
-    if (!may_be_large(scene, arrangement.spheres[i], largest)) continue;
+    if (!may_be_large(scene, arrangement.sphere(i), largest)) continue;
     constexpr std::uint32_t longest_gap = 128;
     if (!runs.empty() && i - runs.back().begin < runs.back().count + longest_gap) {
       runs.back().count = i - runs.back().begin + 1;

@@ -16,6 +16,11 @@ struct SphereShading {
   double diffuse = 0.7;
 };
 
+// The float nearest to radius·scale.
+[[nodiscard]] inline float scaled_radius(float radius, double scale) {
+  return static_cast<float>(static_cast<double>(radius) * scale);
+}
+
 // Everything that decides the picture, and nothing about how it is computed.
 //
 // A pixel shows the nearest surface point in front of the eye along the ray through its centre
@@ -30,13 +35,13 @@ struct ParticleScene {
   Camera camera;
   int width = 0;
   int height = 0;
-  double radius_scale = 1;  // every radius is the float nearest to radius·radius_scale
+  double radius_scale = 1;  // every radius is scaled_radius(radius, radius_scale)
   SphereShading shading;
   std::array<float, 4> background{0, 0, 0, 0};  // premultiplied
 
   // The radius that is drawn.
   [[nodiscard]] float radius(std::size_t index) const {
-    return static_cast<float>(static_cast<double>(particles->spheres[index][3]) * radius_scale);
+    return scaled_radius(particles->spheres[index][3], radius_scale);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -66,135 +67,190 @@ class Grid {
   std::array<std::uint32_t, 3> counts_{1, 1, 1};
 };
 
-// Indices into the set, ascending by id.
+// Places in the set, ascending by id; empty where they already are as they stand.
 std::vector<std::uint32_t> by_id(const scene::ParticleSet& set) {
-  std::vector<std::uint32_t> order(set.count());
-  std::iota(order.begin(), order.end(), 0U);
-  if (!std::ranges::is_sorted(set.ids)) {
-    std::ranges::sort(order, {}, [&](std::uint32_t i) { return set.ids[i]; });
-  }
-  return order;
-}
-
-// The particles of one cell of the grid, or a part of them, in the order `sorted`.
-struct Run {
-  Cell cell;  // begin is the place in `sorted`
-  double distance = 0;
-};
-
-Run run_of(const scene::ParticleScene& scene, const std::vector<std::uint32_t>& sorted,
-           std::size_t begin, std::size_t end) {
-  glm::vec3 lo(std::numeric_limits<float>::infinity());
-  glm::vec3 hi(-std::numeric_limits<float>::infinity());
-  for (std::size_t i = begin; i < end; ++i) {
-    const auto& sphere = scene.particles->spheres[sorted[i]];
-    const glm::vec3 centre{sphere[0], sphere[1], sphere[2]};
-    const float r = scene.radius(sorted[i]);
-    lo = glm::min(lo, centre - r);
-    hi = glm::max(hi, centre + r);
-  }
-  // centre ± r is rounded to nearest: one float further out is outside for certain.
-  for (int axis = 0; axis < 3; ++axis) {
-    lo[axis] = std::nextafter(lo[axis], -std::numeric_limits<float>::infinity());
-    hi[axis] = std::nextafter(hi[axis], std::numeric_limits<float>::infinity());
-  }
-  const glm::dvec3& eye = scene.camera.eye;
-  return {.cell = {.lo = {lo.x, lo.y, lo.z},
-                   .begin = static_cast<std::uint32_t>(begin),
-                   .hi = {hi.x, hi.y, hi.z},
-                   .count = static_cast<std::uint32_t>(end - begin)},
-          .distance = glm::distance(eye, glm::clamp(eye, glm::dvec3(lo), glm::dvec3(hi)))};
+  std::vector<std::uint32_t> places;
+  if (std::ranges::is_sorted(set.ids)) return places;
+  places.resize(set.count());
+  std::iota(places.begin(), places.end(), 0U);
+  std::ranges::sort(places, {}, [&](std::uint32_t i) { return set.ids[i]; });
+  return places;
 }
 
 // A cell with more particles than this becomes several, so that one crowded place stays divisible.
-constexpr std::size_t longest_run = 4 * particles_per_cell;
+constexpr std::uint32_t longest_run = 4 * particles_per_cell;
 
-// Sorts `order` by cell, keeping the order within each (a counting sort), and names the runs; the
-// first `large` ones hold the particles that are too large for a cell.
-std::vector<Run> sort_into_runs(const scene::ParticleScene& scene,
-                                std::vector<std::uint32_t>& order, std::size_t& large) {
-  const scene::ParticleSet& set = *scene.particles;
-  const Grid grid(set);
-  std::vector<std::uint32_t> keys(set.count());
-  std::vector<std::uint32_t> ends(grid.cells() + 2);
-  for (std::uint32_t i = 0; i < set.count(); ++i) {
-    const bool too_large = 2 * static_cast<double>(scene.radius(i)) > grid.edge();
-    keys[i] = too_large ? 0 : grid.cell_of(set.spheres[i]) + 1;
-    ++ends[keys[i] + 1];
+// Particles of one cell of the grid, consecutive by id.
+struct Run {
+  glm::vec3 lo{std::numeric_limits<float>::infinity()};
+  glm::vec3 hi{-std::numeric_limits<float>::infinity()};
+  std::uint32_t count = 0;
+  std::uint32_t begin = 0;  // its place in the arrangement
+};
+
+// Divides the particles into runs. It goes over them again and again, each time by ascending id,
+// and finds a particle's run anew rather than note it: a note would be as large as the order.
+class Runs {
+ public:
+  explicit Runs(const scene::ParticleScene& scene)
+      : scene_(scene), set_(*scene.particles), grid_(set_), by_id_(by_id(set_)) {
+    make_runs();
+    measure();
+    sort_front_to_back();
   }
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<std::uint32_t> sorted(set.count());
-  for (const std::uint32_t i : order) sorted[ends[keys[i]]++] = i;
-  order = std::move(sorted);
-  std::vector<Run> runs;
-  for (std::size_t begin = 0, key = 0; key <= grid.cells(); ++key) {
-    for (const std::size_t end = ends[key]; begin < end;) {
-      const std::size_t next = std::min(end, begin + longest_run);
-      runs.push_back(run_of(scene, order, begin, next));
-      begin = next;
+
+  [[nodiscard]] std::vector<Cell> cells() const {
+    std::vector<Cell> cells;
+    cells.reserve(runs_.size());
+    for (const std::uint32_t i : front_to_back_) {
+      const Run& run = runs_[i];
+      cells.push_back({.lo = {run.lo.x, run.lo.y, run.lo.z},
+                       .begin = run.begin,
+                       .hi = {run.hi.x, run.hi.y, run.hi.z},
+                       .count = run.count});
     }
-    if (key == 0) large = runs.size();
+    return cells;
   }
-  return runs;
-}
 
-// The particles of `order`, run after run, and the runs with their places therein.
-std::vector<std::uint32_t> run_by_run(const std::vector<std::uint32_t>& order,
-                                      std::vector<Run>& runs) {
-  std::vector<std::uint32_t> result;
-  result.reserve(order.size());
-  for (Run& run : runs) {
-    const auto begin = order.begin() + run.cell.begin;
-    run.cell.begin = static_cast<std::uint32_t>(result.size());
-    result.insert(result.end(), begin, begin + run.cell.count);
+  // Places in the set, run after run.
+  [[nodiscard]] std::vector<std::uint32_t> order() {
+    std::vector<std::uint32_t> order(set_.count());
+    for_each([&](std::uint32_t place, Run& run) { order[run.begin + run.count++] = place; });
+    return order;
   }
-  return result;
-}
 
-// One property of the particles in that order; nothing where the set has none of it.
+ private:
+  // 0 for what is too large for a cell of the grid, else the cell's number + 1.
+  [[nodiscard]] std::uint32_t key_of(std::uint32_t place) const {
+    const bool too_large = 2 * static_cast<double>(scene_.radius(place)) > grid_.edge();
+    return too_large ? 0 : grid_.cell_of(set_.spheres[place]) + 1;
+  }
+
+  // Calls visit(place in the set, its run) by ascending id. A run's count is that of its particles
+  // visited before, and the visitor's to raise.
+  template <typename Visit>
+  void for_each(const Visit& visit) {
+    for (Run& run : runs_) run.count = 0;
+    std::vector<std::uint32_t> filling = first_run_;
+    for (std::uint32_t i = 0; i < set_.count(); ++i) {
+      const std::uint32_t place = by_id_.empty() ? i : by_id_[i];
+      std::uint32_t& run = filling[key_of(place)];
+      if (runs_[run].count == longest_run) ++run;
+      visit(place, runs_[run]);
+    }
+  }
+
+  // As many for each key as it needs.
+  void make_runs() {
+    first_run_.resize(grid_.cells() + 1);
+    for (std::uint32_t place = 0; place < set_.count(); ++place) ++first_run_[key_of(place)];
+    std::uint32_t runs = 0;
+    for (std::uint32_t& entry : first_run_) {
+      const std::uint32_t needed = (entry + longest_run - 1) / longest_run;
+      entry = std::exchange(runs, runs + needed);
+      if (&entry == &first_run_.front()) large_ = needed;
+    }
+    runs_.resize(runs);
+  }
+
+  // Counts and boxes.
+  void measure() {
+    for_each([&](std::uint32_t place, Run& run) {
+      const auto& sphere = set_.spheres[place];
+      const glm::vec3 centre{sphere[0], sphere[1], sphere[2]};
+      const float r = scene_.radius(place);
+      run.lo = glm::min(run.lo, centre - r);
+      run.hi = glm::max(run.hi, centre + r);
+      ++run.count;
+    });
+    // centre ± r is rounded to nearest: one float further out is outside for certain.
+    for (Run& run : runs_) {
+      for (int axis = 0; axis < 3; ++axis) {
+        run.lo[axis] = std::nextafter(run.lo[axis], -std::numeric_limits<float>::infinity());
+        run.hi[axis] = std::nextafter(run.hi[axis], std::numeric_limits<float>::infinity());
+      }
+    }
+  }
+
+  // Those of large spheres stay in front, the others follow by the distance of their boxes.
+  void sort_front_to_back() {
+    front_to_back_.resize(runs_.size());
+    std::iota(front_to_back_.begin(), front_to_back_.end(), 0U);
+    const glm::dvec3& eye = scene_.camera.eye;
+    const auto distance = [&](std::uint32_t i) {
+      const Run& run = runs_[i];
+      return glm::distance(eye, glm::clamp(eye, glm::dvec3(run.lo), glm::dvec3(run.hi)));
+    };
+    std::ranges::stable_sort(front_to_back_.begin() + large_, front_to_back_.end(), {}, distance);
+    std::uint32_t begin = 0;
+    for (const std::uint32_t i : front_to_back_) {
+      runs_[i].begin = std::exchange(begin, begin + runs_[i].count);
+    }
+  }
+
+  const scene::ParticleScene& scene_;
+  const scene::ParticleSet& set_;
+  Grid grid_;
+  std::vector<std::uint32_t> by_id_;
+  std::vector<std::uint32_t> first_run_;  // by key
+  std::vector<Run> runs_;                 // by key, then id
+  std::ptrdiff_t large_ = 0;              // of the first runs
+  std::vector<std::uint32_t> front_to_back_;
+};
+
+// Fills `out` with value(k) for k from `first` on. By memcpy, as bytes are not aligned for values.
 template <typename Value>
-std::vector<Value> gathered(const std::vector<Value>& values,
-                            const std::vector<std::uint32_t>& order) {
-  std::vector<Value> result;
-  if (values.empty()) return result;
-  result.reserve(order.size());
-  for (const std::uint32_t i : order) result.push_back(values[i]);
-  return result;
+void write(std::size_t first, std::span<std::byte> out, const Value& value) {
+  using Element = decltype(value(std::size_t{}));
+  const std::size_t count = out.size() / sizeof(Element);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Element element = value(first + i);
+    std::memcpy(out.data() + i * sizeof(Element), &element, sizeof(Element));
+  }
 }
 
-std::vector<std::array<float, 4>> spheres_as_drawn(const scene::ParticleScene& scene,
-                                                   const std::vector<std::uint32_t>& order) {
-  std::vector<std::array<float, 4>> result = gathered(scene.particles->spheres, order);
-  for (std::size_t k = 0; k < order.size(); ++k) result[k][3] = scene.radius(order[k]);
-  return result;
-}
-
-// In the memory of the order, which is of no more use then.
-std::vector<std::uint32_t> ids_in_place_of(std::vector<std::uint32_t> order,
-                                           const scene::ParticleSet& set) {
-  for (std::uint32_t& place : order) place = set.ids[place];
-  return order;
+void copy_colours(const Arrangement& from, std::size_t first, std::span<std::byte> out) {
+  const scene::ParticleSet& set = *from.particles;
+  const auto gather = [&](const auto& values) {
+    write(first, out, [&](std::size_t k) { return values[from.order[k]]; });
+  };
+  switch (set.colour) {
+    case scene::ColourKind::rgba8:
+      return gather(set.rgba8);
+    case scene::ColourKind::rgba32:
+      return gather(set.rgba32);
+    case scene::ColourKind::intensity:
+      return gather(set.intensity);
+  }
 }
 
 }  // namespace
 
+std::size_t Arrangement::element_bytes(Property property) const {
+  const bool four =
+      property == Property::sphere ||
+      (property == Property::colour && particles->colour == scene::ColourKind::rgba32);
+  return (four ? 4 : 1) * sizeof(float);
+}
+
+void Arrangement::copy(Property property, std::size_t begin, std::span<std::byte> out) const {
+  const std::size_t first = begin / element_bytes(property);
+  switch (property) {
+    case Property::sphere:
+      return write(first, out, [&](std::size_t k) { return sphere(k); });
+    case Property::colour:
+      return copy_colours(*this, first, out);
+    case Property::id:
+      return write(first, out, [&](std::size_t k) { return id(k); });
+  }
+}
+
 Arrangement arrange(const scene::ParticleScene& scene) {
-  const scene::ParticleSet& set = *scene.particles;
-  Arrangement out{.colour = set.colour};
-  if (set.count() == 0) return out;
-  std::vector<std::uint32_t> order = by_id(set);
-  std::size_t large = 0;
-  std::vector<Run> runs = sort_into_runs(scene, order, large);
-  std::stable_sort(runs.begin() + static_cast<std::ptrdiff_t>(large), runs.end(),
-                   [](const Run& a, const Run& b) { return a.distance < b.distance; });
-  order = run_by_run(order, runs);
-  out.cells.reserve(runs.size());
-  for (const Run& run : runs) out.cells.push_back(run.cell);
-  out.spheres = spheres_as_drawn(scene, order);
-  out.rgba8 = gathered(set.rgba8, order);
-  out.rgba32 = gathered(set.rgba32, order);
-  out.intensity = gathered(set.intensity, order);
-  out.ids = ids_in_place_of(std::move(order), set);
+  Arrangement out{.particles = scene.particles, .radius_scale = scene.radius_scale};
+  if (scene.particles->count() == 0) return out;
+  Runs runs(scene);
+  out.cells = runs.cells();
+  out.order = runs.order();
   return out;
 }
 

@@ -48,7 +48,7 @@ ParticleParameters particle_parameters(const scene::ParticleScene& scene,
       .shading = {nearest(scene.shading.ambient), nearest(scene.shading.diffuse), 0, 0},
       .background = scene.background,
       .viewport = {scene.width, scene.height, options.corners,
-                   static_cast<std::int32_t>(arrangement.colour)},
+                   static_cast<std::int32_t>(scene.particles->colour)},
       .counts = {static_cast<std::uint32_t>(arrangement.count()),
                  static_cast<std::uint32_t>(arrangement.cells.size()), 0, 0},
   };

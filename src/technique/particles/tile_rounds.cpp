@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
-#include <span>
 
 namespace triptych::technique {
 namespace {
@@ -27,10 +26,10 @@ class NeedBound {
         columns_(tiles(scene.width)),
         rows_(tiles(scene.height)) {}
 
-  [[nodiscard]] Need of(std::span<const std::array<float, 4>> spheres) const {
+  [[nodiscard]] Need of(const Arrangement& arrangement, const Cell& cell) const {
     Need all;
-    for (const auto& sphere : spheres) {
-      const Need one = of(sphere);
+    for (std::size_t k = cell.begin; k < cell.begin + cell.count; ++k) {
+      const Need one = of(arrangement.sphere(k));
       all.pixels += one.pixels;
       all.entries += one.entries;
     }
@@ -99,7 +98,7 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
     need = {};
   };
   for (const Cell& cell : arrangement.cells) {
-    const Need more = bound.of(std::span(arrangement.spheres).subspan(cell.begin, cell.count));
+    const Need more = bound.of(arrangement, cell);
     if (need.pixels >= std::max(pixels, covered / 2) || round.cells == most_cells ||
         need.entries + more.entries > static_cast<double>(most_entries)) {
       finish();

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <map>
-#include <numeric>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "core/random.hpp"
 #include "scene/particle_generators.hpp"
@@ -25,18 +26,91 @@ scene::ParticleScene generated(std::string_view name, std::uint64_t count) {
   return scene_of(scene::generate_particles(name, count, scene::ColourKind::rgba8));
 }
 
+std::vector<std::uint32_t> ids_of(const Arrangement& arranged) {
+  std::vector<std::uint32_t> ids;
+  for (std::size_t k = 0; k < arranged.count(); ++k) ids.push_back(arranged.id(k));
+  return ids;
+}
+
+// A property as a device gets it, piece by piece.
+std::vector<std::byte> gathered(const Arrangement& arranged, Property property,
+                                std::size_t piece_bytes) {
+  std::vector<std::byte> all(arranged.bytes(property));
+  for (std::size_t begin = 0; begin < all.size(); begin += piece_bytes) {
+    const std::size_t size = std::min(piece_bytes, all.size() - begin);
+    arranged.copy(property, begin, std::span(all).subspan(begin, size));
+  }
+  return all;
+}
+
+std::vector<std::byte> gathered(const Arrangement& arranged, Property property) {
+  return gathered(arranged, property, arranged.bytes(property));
+}
+
+// The bytes of value(place in the set) for all particles in the arrangement's order.
+template <typename Value>
+std::vector<std::byte> expected(const Arrangement& arranged, const Value& value) {
+  std::vector<decltype(value(0U))> values;
+  for (const std::uint32_t place : arranged.order) values.push_back(value(place));
+  const auto bytes = std::as_bytes(std::span(values));
+  return {bytes.begin(), bytes.end()};
+}
+
 TEST(Arrangement, HoldsEveryParticleOnce) {
   const scene::ParticleScene scene = generated("uniform", 20000);
   const Arrangement arranged = arrange(scene);
   ASSERT_EQ(arranged.count(), 20000U);
-  std::vector<std::uint32_t> ids = arranged.ids;
+  for (std::size_t k = 0; k < arranged.count(); ++k) {
+    ASSERT_EQ(arranged.sphere(k), scene.particles->spheres[arranged.id(k)]);
+  }
+  std::vector<std::uint32_t> ids = ids_of(arranged);
   std::ranges::sort(ids);
   for (std::uint32_t i = 0; i < ids.size(); ++i) ASSERT_EQ(ids[i], i);
-  for (std::size_t k = 0; k < arranged.count(); ++k) {
-    ASSERT_EQ(arranged.spheres[k], scene.particles->spheres[arranged.ids[k]]);
-    ASSERT_EQ(arranged.rgba8[k], scene.particles->rgba8[arranged.ids[k]]);
+}
+
+class ArrangementColour : public testing::TestWithParam<scene::ColourKind> {};
+
+TEST_P(ArrangementColour, PropertiesAreThoseOfTheSetInOrder) {
+  scene::ParticleScene scene = scene_of(scene::generate_particles("uniform", 3001, GetParam()));
+  scene.radius_scale = 1.5;
+  const scene::ParticleSet& set = *scene.particles;
+  const Arrangement arranged = arrange(scene);
+  EXPECT_EQ(gathered(arranged, Property::id),
+            expected(arranged, [&](std::uint32_t i) { return set.ids[i]; }));
+  EXPECT_EQ(gathered(arranged, Property::sphere), expected(arranged, [&](std::uint32_t i) {
+              const auto& [x, y, z, r] = set.spheres[i];
+              return std::array{x, y, z, scene.radius(i)};
+            }));
+  const std::vector<std::byte> colours = gathered(arranged, Property::colour);
+  switch (GetParam()) {
+    case scene::ColourKind::rgba8:
+      EXPECT_EQ(colours, expected(arranged, [&](std::uint32_t i) { return set.rgba8[i]; }));
+      break;
+    case scene::ColourKind::rgba32:
+      EXPECT_EQ(colours, expected(arranged, [&](std::uint32_t i) { return set.rgba32[i]; }));
+      break;
+    case scene::ColourKind::intensity:
+      EXPECT_EQ(colours, expected(arranged, [&](std::uint32_t i) { return set.intensity[i]; }));
+      break;
   }
 }
+
+TEST_P(ArrangementColour, PropertiesInPiecesAreThoseInOneGo) {
+  const Arrangement arranged =
+      arrange(scene_of(scene::generate_particles("uniform", 3001, GetParam())));
+  for (const Property property : {Property::sphere, Property::colour, Property::id}) {
+    const std::vector<std::byte> whole = gathered(arranged, property);
+    EXPECT_EQ(whole.size(), 3001 * arranged.element_bytes(property));
+    for (const std::size_t piece_bytes : {16U, 4096U}) {
+      EXPECT_EQ(gathered(arranged, property, piece_bytes), whole);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryColour, ArrangementColour,
+                         testing::Values(scene::ColourKind::rgba8, scene::ColourKind::rgba32,
+                                         scene::ColourKind::intensity),
+                         [](const auto& kind) { return std::string(name_of(kind.param)); });
 
 TEST(Arrangement, CellsFollowOneAnotherAndEncloseTheirSpheres) {
   const Arrangement arranged = arrange(generated("droplets", 30000));
@@ -48,8 +122,8 @@ TEST(Arrangement, CellsFollowOneAnotherAndEncloseTheirSpheres) {
     next += cell.count;
     for (std::uint32_t k = cell.begin; k < next; ++k) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double centre = arranged.spheres[k][axis];
-        const double radius = arranged.spheres[k][3];
+        const double centre = arranged.sphere(k)[axis];
+        const double radius = arranged.sphere(k)[3];
         ASSERT_LE(cell.lo[axis], centre - radius);
         ASSERT_GE(cell.hi[axis], centre + radius);
       }
@@ -61,6 +135,7 @@ TEST(Arrangement, CellsFollowOneAnotherAndEncloseTheirSpheres) {
 TEST(Arrangement, CellsComeFrontToBackAndIdsAscend) {
   const scene::ParticleScene scene = generated("uniform", 20000);
   const Arrangement arranged = arrange(scene);
+  const std::vector<std::uint32_t> ids = ids_of(arranged);
   double farthest = 0;
   for (const Cell& cell : arranged.cells) {
     const glm::dvec3 lo{cell.lo[0], cell.lo[1], cell.lo[2]};
@@ -69,7 +144,7 @@ TEST(Arrangement, CellsComeFrontToBackAndIdsAscend) {
     const double distance = glm::distance(eye, glm::clamp(eye, lo, hi));
     EXPECT_GE(distance, farthest);
     farthest = distance;
-    const auto begin = arranged.ids.begin() + cell.begin;
+    const auto begin = ids.begin() + cell.begin;
     EXPECT_TRUE(std::is_sorted(begin, begin + cell.count));
   }
 }
@@ -87,9 +162,9 @@ TEST(Arrangement, DoesNotDependOnTheOrderOfTheSet) {
   }
   scene.particles = std::make_shared<const scene::ParticleSet>(std::move(shuffled));
   const Arrangement after = arrange(scene);
-  EXPECT_EQ(after.ids, before.ids);
-  EXPECT_EQ(after.spheres, before.spheres);
-  EXPECT_EQ(after.rgba8, before.rgba8);
+  for (const Property property : {Property::sphere, Property::colour, Property::id}) {
+    EXPECT_EQ(gathered(after, property), gathered(before, property));
+  }
 }
 
 // A sphere that would make its cell's box too large to be culled is put apart.
@@ -98,7 +173,7 @@ TEST(Arrangement, ALargeSphereGrowsNoCell) {
   set.spheres[777][3] = 20;
   const Arrangement arranged = arrange(scene_of(std::move(set)));
   EXPECT_EQ(arranged.cells.front().count, 1U);
-  EXPECT_EQ(arranged.ids.front(), 777U);
+  EXPECT_EQ(arranged.id(0), 777U);
   for (std::size_t i = 1; i < arranged.cells.size(); ++i) {
     EXPECT_LT(arranged.cells[i].hi[0] - arranged.cells[i].lo[0], 8);
   }
@@ -112,7 +187,7 @@ TEST(Arrangement, ACrowdedPlaceIsDivided) {
   }
   const Arrangement arranged = arrange(scene_of(std::move(set)));
   EXPECT_EQ(arranged.count(), 10000U);
-  EXPECT_TRUE(std::ranges::is_sorted(arranged.ids));
+  EXPECT_TRUE(std::ranges::is_sorted(ids_of(arranged)));
   for (const Cell& cell : arranged.cells) EXPECT_LE(cell.count, 4 * particles_per_cell);
 }
 
@@ -121,7 +196,7 @@ TEST(Arrangement, RadiiAreScaledAsTheSceneSays) {
   scene.radius_scale = 1.5;
   const Arrangement arranged = arrange(scene);
   for (std::size_t k = 0; k < arranged.count(); ++k) {
-    EXPECT_EQ(arranged.spheres[k][3], scene.radius(arranged.ids[k]));
+    EXPECT_EQ(arranged.sphere(k)[3], scene.radius(arranged.id(k)));
   }
 }
 
