@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -246,13 +247,15 @@ double pearson_r(Points x, Points y) {
     yy += (y[i] - y_mean) * (y[i] - y_mean);
     xy += (x[i] - x_mean) * (y[i] - y_mean);
   }
-  return xy / std::sqrt(xx * yy);
+  if (!(xx > 0) || !(yy > 0)) return std::numeric_limits<double>::quiet_NaN();
+  return std::clamp(xy / std::sqrt(xx) / std::sqrt(yy), -1.0, 1.0);
 }
 
 LeastSquares least_squares(Points x, Points y) {
-  require_points(x, y);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> ones(x.size(), 1);
   const Design design = design_of(x, ones);
+  if (!(design.spread > 0)) return {{none, none}, none, none, none, none, none};
   LeastSquares fit;
   fit.line = weighted_line(x, y, ones);
   fit.r = pearson_r(x, y);
@@ -260,7 +263,9 @@ LeastSquares least_squares(Points x, Points y) {
   const auto residuals = residuals_of(x, y, fit.line);
   const double squares =
       std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
-  fit.residual_scale = std::sqrt(squares / static_cast<double>(x.size() - parameters));
+  fit.residual_scale = x.size() > parameters
+                           ? std::sqrt(squares / static_cast<double>(x.size() - parameters))
+                           : none;
   fit.slope_error = fit.residual_scale / std::sqrt(design.spread);
   fit.intercept_error =
       fit.residual_scale *

@@ -1,7 +1,6 @@
 #pragma once
-// Lines through points: ordinary least squares, and the robust fit on which the correlation of two
-// devices rests. Plain functions of numbers. x and y have the same length; fewer than four points,
-// values that are not finite and x all alike are refused with InputError.
+// Straight lines through pairs of numbers: least squares, and the robust fit on which the
+// correlation of two devices rests.
 
 #include <cstddef>
 #include <span>
@@ -9,7 +8,8 @@
 
 namespace triptych::judge {
 
-// Pearson's product-moment correlation; NaN where x or y are all alike.
+// Pearson's product-moment correlation of pairs; NaN for fewer than two, or where x or y is
+// constant.
 [[nodiscard]] double pearson_r(std::span<const double> x, std::span<const double> y);
 
 struct Line {
@@ -26,7 +26,12 @@ struct LeastSquares {
   double intercept_error = 0;
   double slope_error = 0;
 };
+// Of y on x; every number is NaN where x is constant, the scale and the errors also for fewer than
+// three pairs.
 [[nodiscard]] LeastSquares least_squares(std::span<const double> x, std::span<const double> y);
+
+// The robust lines below refuse with InputError fewer than four points, values that are not finite
+// and x all alike.
 
 // Median of the slopes of all pairs of points with different x (Theil 1950, Sen 1968), through the
 // median of y − slope·x. Withstands 29 % of wild points.
