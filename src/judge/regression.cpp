@@ -21,10 +21,9 @@ constexpr double half = 0.5;  // breakdown point, and the mean of ρ that define
 constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 constexpr int most_steps = 200;
 constexpr double step_tolerance = 1e-10;
-// Lines through two points each that the S-estimate tries: all of them up to 90 points, else as
-// many at random. Of 4000 random pairs none is free of wild points with probability 0.75⁴⁰⁰⁰ even
-// where half are wild.
-constexpr std::size_t most_pairs = 4005;
+// Lines through two points each that the S-estimate tries: all of them up to 45 points, else as
+// many at random. Where half are wild, none of 990 pairs is free of them with probability 0.75⁹⁹⁰.
+constexpr std::size_t most_pairs = 990;
 
 void require_points(Points x, Points y) {
   const auto finite = [](double value) { return std::isfinite(value); };

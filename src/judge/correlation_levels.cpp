@@ -1,0 +1,195 @@
+#include "judge/correlation_levels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "judge/statistics.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using Model = CorrelationModel;
+constexpr std::size_t parameters = 3;  // α, β and the level
+
+// A level and who is in it.
+struct Group {
+  LevelEffect named;
+  std::vector<bool> inside;
+};
+
+std::vector<const CorrelationCase*> configurations_of(std::span<const CorrelationCase> cases) {
+  std::vector<const CorrelationCase*> result;
+  for (const CorrelationCase& each : cases) {
+    if (!each.anchor) result.push_back(&each);
+  }
+  return result;
+}
+
+// Levels with the same configurations are one group under several names.
+std::vector<Group> groups_of(const std::vector<const CorrelationCase*>& cases) {
+  std::map<std::pair<std::string, std::string>, std::vector<bool>> levels;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const auto& level : cases[i]->factors) {
+      auto [known, added] = levels.try_emplace(level, std::vector<bool>(cases.size(), false));
+      known->second[i] = true;
+    }
+  }
+  std::vector<Group> groups;
+  for (const auto& [level, inside] : levels) {
+    const auto size = static_cast<std::size_t>(std::ranges::count(inside, true));
+    if (size < Model::least_level || cases.size() - size < Model::least_level) continue;
+    const auto same =
+        std::ranges::find_if(groups, [&](const Group& group) { return group.inside == inside; });
+    if (same != groups.end()) {
+      same->named.aliases.push_back(level.first + "=" + level.second);
+      continue;
+    }
+    Group group;
+    group.named.factor = level.first;
+    group.named.level = level.second;
+    group.named.size = size;
+    group.inside = inside;
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+double median_where(const std::vector<double>& values, const std::vector<bool>& inside, bool side) {
+  std::vector<double> chosen;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (inside[i] == side) chosen.push_back(values[i]);
+  }
+  return median(chosen);
+}
+
+// Sums of a regression of r on 1, x and the indicator d, by d with its regression on 1 and x taken
+// out (Frisch & Waugh 1933): the effect is Σw·d̃·r/Σw·d̃².
+struct Contrast {
+  double effect = 0;
+  double information = 0;  // Σw·d̃²/mean w
+};
+
+Contrast contrast(const std::vector<double>& x, const std::vector<double>& r,
+                  const std::vector<bool>& inside, const std::vector<double>& weights) {
+  double w = 0;
+  double wx = 0;
+  double wd = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    w += weights[i];
+    wx += weights[i] * x[i];
+    wd += inside[i] ? weights[i] : 0;
+  }
+  const double x_mean = wx / w;
+  const double d_mean = wd / w;
+  double xx = 0;
+  double xd = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xx += weights[i] * (x[i] - x_mean) * (x[i] - x_mean);
+    xd += weights[i] * (x[i] - x_mean) * (inside[i] ? 1 - d_mean : -d_mean);
+  }
+  const double slope = xx > 0 ? xd / xx : 0;
+  double product = 0;
+  double square = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double rest = (inside[i] ? 1 - d_mean : -d_mean) - slope * (x[i] - x_mean);
+    product += weights[i] * rest * r[i];
+    square += weights[i] * rest * rest;
+  }
+  return {product / square, square / (w / static_cast<double>(x.size()))};
+}
+
+// Share of the residuals' sum of squares, wild ones and all, that the indicator explains.
+double explained_share(const std::vector<double>& r, const Group& group) {
+  const double centre = mean(r);
+  double total = 0;
+  double within = 0;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    total += (r[i] - centre) * (r[i] - centre);
+    within += group.inside[i] ? r[i] - centre : 0;
+  }
+  const auto size = static_cast<double>(group.named.size);
+  const auto rest = static_cast<double>(r.size()) - size;
+  return total > 0 ? within * within * (1 / size + 1 / rest) / total : 0;
+}
+
+void estimate(const std::vector<double>& x, const RobustLine& fit, Group& group) {
+  const std::vector<double>& r = fit.residuals;
+  const double centre[] = {median_where(r, group.inside, false),
+                           median_where(r, group.inside, true)};
+  std::vector<double> weights(r.size(), 1);
+  std::vector<double> own(r.size());
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    own[i] = r[i] - centre[group.inside[i] ? 1 : 0];
+    if (fit.scale > 0) weights[i] = bisquare_weight(own[i], fit.scale);
+  }
+  const Contrast found = contrast(x, r, group.inside, weights);
+  const auto degrees = static_cast<double>(r.size() - parameters);
+  LevelEffect& level = group.named;
+  level.effect = found.effect;
+  level.standard_error =
+      fit.scale > 0
+          ? fit.scale * std::sqrt(robust_variance(own, fit.scale, parameters) / found.information)
+          : 0;
+  // On an exact line any effect is beyond chance.
+  level.p = level.standard_error > 0
+                ? student_t_upper_tail(level.effect / level.standard_error, degrees)
+                : (level.effect > 0 ? 0 : 1);
+  level.share = explained_share(r, group);
+}
+
+// Whether the level was as much slower than the rest when B was accepted.
+bool stood_before(const std::vector<const CorrelationCase*>& cases, const Group& group) {
+  std::vector<double> inside;
+  std::vector<double> outside;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (!cases[i]->known_log_time_b) continue;
+    (group.inside[i] ? inside : outside)
+        .push_back(cases[i]->log_time_b - *cases[i]->known_log_time_b);
+  }
+  if (inside.empty() || outside.empty()) return false;
+  return median(inside) - median(outside) < group.named.effect / 2;
+}
+
+}  // namespace
+
+double detectable_in_errors(std::size_t tests, double degrees) {
+  const double first_step = Model::share_of_false_alarms / static_cast<double>(tests);
+  return student_t_upper_quantile(first_step, degrees) +
+         student_t_upper_quantile(1 - Model::power, degrees);
+}
+
+std::vector<LevelEffect> level_effects(std::span<const CorrelationCase> all,
+                                       const RobustLine& fit) {
+  const auto cases = configurations_of(all);
+  std::vector<double> x;
+  for (const CorrelationCase* each : cases) x.push_back(each->log_time_a);
+  std::vector<Group> groups = groups_of(cases);
+  std::vector<double> p;
+  for (Group& group : groups) {
+    estimate(x, fit, group);
+    p.push_back(group.named.p);
+  }
+  const auto q = benjamini_hochberg_adjusted(p);
+  std::vector<LevelEffect> result;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    LevelEffect& level = groups[i].named;
+    level.q = q[i];
+    level.slower = q[i] <= Model::share_of_false_alarms;
+    level.standing = level.slower && stood_before(cases, groups[i]);
+    level.smallest_effect =
+        level.standard_error *
+        detectable_in_errors(groups.size(), static_cast<double>(cases.size() - parameters));
+    result.push_back(std::move(level));
+  }
+  // The two levels of a factor that has no more explain the same share: the slower one is named.
+  std::ranges::stable_sort(result, std::greater{}, [](const LevelEffect& level) {
+    return std::pair(level.effect > 0, level.share);
+  });
+  return result;
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,228 @@
+#include "judge/correlation_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "judge/correlation_levels.hpp"
+#include "judge/statistics.hpp"
+
+namespace triptych::judge {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+using Model = CorrelationModel;
+
+struct Times {
+  std::vector<double> a;
+  std::vector<double> b;
+};
+
+Times log_times(std::span<const CorrelationCase> cases, bool anchors) {
+  Times times;
+  for (const CorrelationCase& each : cases) {
+    if (each.anchor != anchors) continue;
+    times.a.push_back(each.log_time_a);
+    times.b.push_back(each.log_time_b);
+  }
+  return times;
+}
+
+double raw_r(const Times& times) {
+  // Relative to the first, so that no exponential overflows; r knows no units.
+  std::vector<double> a;
+  std::vector<double> b;
+  for (std::size_t i = 0; i < times.a.size(); ++i) {
+    a.push_back(std::exp(times.a[i] - times.a[0]));
+    b.push_back(std::exp(times.b[i] - times.b[0]));
+  }
+  return pearson_r(a, b);
+}
+
+bool has_line(const Times& times) {
+  return times.a.size() >= 4 &&
+         std::ranges::any_of(times.a, [&](double value) { return value != times.a.front(); });
+}
+
+void refuse_counts(Correlation& result) {
+  const auto too_few = [&](std::size_t there, std::size_t needed, const char* what) {
+    if (there < needed) {
+      result.refusals.push_back(fmt::format("{} {}, {} are needed", there, what, needed));
+    }
+  };
+  too_few(result.configurations, Model::least_configurations, "configurations with like clocks");
+  too_few(result.anchors, Model::least_anchors, "anchors");
+}
+
+// Written so that a number that is none is refused.
+void refuse_fit(Correlation& result) {
+  if (!(result.rho >= Model::least_rho)) {
+    result.refusals.push_back(fmt::format("the correlation of ln t is {:.3f}, {} is needed",
+                                          result.rho, Model::least_rho));
+  }
+  if (!(result.line.slope >= Model::least_slope && result.line.slope <= Model::largest_slope)) {
+    result.refusals.push_back(fmt::format("the slope is {:.3f}, outside {} to {}",
+                                          result.line.slope, Model::least_slope,
+                                          Model::largest_slope));
+  }
+  if (!(result.scale <= Model::largest_scale)) {
+    result.refusals.push_back(
+        fmt::format("the residuals scatter by {:.3f} in ln t, at most {:.2f} "
+                    "is allowed",
+                    result.scale, Model::largest_scale));
+  }
+}
+
+double square(double value) {
+  return value * value;
+}
+
+// By how much more than when B was accepted; the residual itself where that is not known.
+double excess(const CorrelationCase& each, double residual) {
+  return each.known_log_time_b ? each.log_time_b - *each.known_log_time_b : residual;
+}
+
+bool is_worth_telling(double effect) {
+  return effect >= std::log(Model::least_effect);
+}
+
+void judge_configurations(std::span<const CorrelationCase> cases, const RobustLine& fit,
+                          Correlation& result) {
+  const auto degrees = static_cast<double>(result.configurations - 2);
+  std::vector<double> slower;
+  std::vector<double> faster;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (cases[i].anchor) continue;
+    ConfigurationJudgement& judgement = result.judgements[i];
+    const double variance =
+        square(fit.scale) * (1 + judgement.leverage) + cases[i].variance_a + cases[i].variance_b;
+    errors.push_back(std::sqrt(variance));
+    judgement.z = variance > 0
+                      ? judgement.residual / errors.back()
+                      : std::copysign(judgement.residual == 0 ? 0 : infinite, judgement.residual);
+    judgement.p = student_t_upper_tail(judgement.z, degrees);
+    slower.push_back(judgement.p);
+    faster.push_back(student_t_upper_tail(-judgement.z, degrees));
+  }
+  const auto slower_q = benjamini_hochberg_adjusted(slower);
+  const auto faster_q = benjamini_hochberg_adjusted(faster);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (cases[i].anchor) continue;
+    ConfigurationJudgement& judgement = result.judgements[i];
+    judgement.q = slower_q[next];
+    judgement.slower =
+        judgement.q <= Model::share_of_false_alarms && is_worth_telling(judgement.residual);
+    judgement.faster =
+        faster_q[next] <= Model::share_of_false_alarms && is_worth_telling(-judgement.residual);
+    judgement.standing =
+        judgement.slower && !is_worth_telling(excess(cases[i], judgement.residual));
+    ++next;
+  }
+  result.smallest_effect = median(errors) * detectable_in_errors(result.configurations, degrees);
+}
+
+// The mean of y − βx by technique, or of each anchor where all have one technique.
+std::vector<double> anchor_groups(std::span<const CorrelationCase> cases, double slope) {
+  std::map<std::string, std::vector<double>> by_technique;
+  std::vector<double> single;
+  for (const CorrelationCase& each : cases) {
+    if (!each.anchor) continue;
+    const auto technique = each.factors.find("technique");
+    single.push_back(each.log_time_b - slope * each.log_time_a);
+    by_technique[technique == each.factors.end() ? each.configuration : technique->second]
+        .push_back(single.back());
+  }
+  if (by_technique.size() < 2) return single;
+  std::vector<double> means;
+  for (const auto& [technique, values] : by_technique) means.push_back(mean(values));
+  return means;
+}
+
+// Mean excess of the program over that of the anchors; nullopt where B was never accepted.
+std::optional<double> global_excess(std::span<const CorrelationCase> cases) {
+  std::vector<double> program;
+  std::vector<double> anchors;
+  for (const CorrelationCase& each : cases) {
+    if (!each.known_log_time_b) continue;
+    (each.anchor ? anchors : program).push_back(each.log_time_b - *each.known_log_time_b);
+  }
+  if (program.empty() || anchors.empty()) return std::nullopt;
+  return median(program) - median(anchors);
+}
+
+void judge_all(std::span<const CorrelationCase> cases, const RobustLine& fit, Correlation& result) {
+  GlobalShift& global = result.global;
+  const std::vector<double> groups = anchor_groups(cases, fit.line.slope);
+  global.groups = groups.size();
+  if (groups.size() < 2) return;
+  const auto count = static_cast<double>(groups.size());
+  result.anchor_intercept = mean(groups);
+  // α − α′ = (ȳ − βx̄) − (ȳ′ − βx̄′): the slope's error moves both, all but for the distance of
+  // their centres: var α + 2x̄′ cov(α, β) + x̄′² var β.
+  const double centre = mean(log_times(cases, true).a);
+  const double of_line = square(fit.intercept_error) + 2 * centre * fit.slope_intercept_covariance +
+                         square(centre * fit.slope_error);
+  global.delta = fit.line.intercept - result.anchor_intercept;
+  global.degrees = count - 1;
+  global.standard_error =
+      std::sqrt(sample_variance(groups) * (1 + 1 / count) + std::max(of_line, 0.0));
+  global.p = student_t_upper_tail(global.delta / global.standard_error, global.degrees);
+  global.smallest_effect =
+      std::max(std::log(Model::least_effect),
+               global.standard_error *
+                   (student_t_upper_quantile(Model::false_global_alarms, global.degrees) +
+                    student_t_upper_quantile(1 - Model::power, global.degrees)));
+  global.slower = global.p <= Model::false_global_alarms && is_worth_telling(global.delta);
+  const auto more = global_excess(cases);
+  global.standing = global.slower && more && !is_worth_telling(*more);
+}
+
+// Residuals and leverages of all cases; anchors have none of the latter.
+void place(std::span<const CorrelationCase> cases, const RobustLine& fit, Correlation& result) {
+  double squares = 0;
+  for (const double residual : fit.residuals) squares += square(residual);
+  std::size_t next = 0;
+  for (const CorrelationCase& each : cases) {
+    ConfigurationJudgement judgement;
+    judgement.residual = each.log_time_b - fit.line.at(each.log_time_a);
+    if (!each.anchor) {
+      judgement.leverage = fit.leverages[next++];
+      judgement.share = squares > 0 ? square(judgement.residual) / squares : 0;
+    }
+    result.judgements.push_back(judgement);
+  }
+}
+
+}  // namespace
+
+Correlation correlate(std::span<const CorrelationCase> cases) {
+  Correlation result;
+  const Times times = log_times(cases, false);
+  result.configurations = times.a.size();
+  result.anchors = cases.size() - times.a.size();
+  refuse_counts(result);
+  if (!has_line(times)) {
+    result.judgements.resize(cases.size());
+    if (result.admitted()) result.refusals.emplace_back("all times of one device are alike");
+    return result;
+  }
+  const RobustLine fit = robust_line(times.a, times.b);
+  result.r = raw_r(times);
+  result.rho = pearson_r(times.a, times.b);
+  result.line = fit.line;
+  result.intercept_error = fit.intercept_error;
+  result.slope_error = fit.slope_error;
+  result.scale = fit.scale;
+  place(cases, fit, result);
+  refuse_fit(result);
+  if (!result.admitted()) return result;
+  judge_configurations(cases, fit, result);
+  result.levels = level_effects(cases, fit);
+  judge_all(cases, fit, result);
+  return result;
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,130 @@
+#pragma once
+// Is a program slower on device B than its times on device A let expect? The linear cross-device
+// correlation, free of records and files. docs/correlation.md has the derivations.
+//
+// The line. With x = ln t_A and y = ln t_B of the configurations, y = α + βx + ε: a robust fit
+// (judge/regression.hpp), from the configurations alone. Anchors measure the devices and not the
+// program; they get an intercept of their own, α′ = the mean of their y − βx, and give nothing to
+// the slope: with a free second intercept an anchor's share of what is known about β is its spread
+// in x over its own scatter squared, and anchors scatter more (each loads one resource, whose ratio
+// between two devices is its own). So no slowdown of the program moves α′ and no odd anchor tilts
+// the line.
+//
+// One configuration. z = residual/√(ŝ²(1 + h) + s_A² + s_B²), h its leverage, s_A and s_B the
+// scatter of its own times; p from Student's t with n − 2 degrees. ŝ holds the typical scatter of
+// times already, so that z is slightly too small rather than too large.
+//
+// A factor level. Its effect is the coefficient of the level's indicator beside α and β, estimated
+// with each side's wild points weighted down about that side's own median: a level that is slower
+// as a whole is no outlier to itself, and one that holds the long times does not hide in the slope.
+//
+// All configurations at once. The line follows them, so that no residual tells. Δ = α − α′ does: by
+// how much the program lies above the anchors' own line. Anchors of one technique share a resource;
+// the k techniques' mean residuals (the configurations', where there is one technique only) scatter
+// with s_g around α′, and the program, being one more mix of resources, would by chance scatter as
+// they do: se² = s_g²(1 + 1/k) + var(α + βx̄′), x̄′ the anchors' mean x; Student's t with k − 1
+// degrees.
+
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "judge/regression.hpp"
+
+namespace triptych::judge {
+
+struct CorrelationModel {
+  // What a stored device must show before it may judge another.
+  static constexpr std::size_t least_configurations = 30;
+  static constexpr std::size_t least_anchors = 6;
+  static constexpr double least_rho = 0.95;
+  static constexpr double least_slope = 0.7;
+  static constexpr double largest_slope = 1.3;
+  static constexpr double largest_scale = 0.10;  // ŝ, in ln t
+
+  static constexpr double share_of_false_alarms = 0.02;  // q of Benjamini–Hochberg
+  static constexpr double least_effect = 1.10;           // of a configuration, a level or all
+  static constexpr double false_global_alarms = 0.01;    // one test, so no q
+  static constexpr std::size_t least_level = 3;  // configurations inside a level, and outside
+  static constexpr double power = 0.80;          // of the smallest effects that are told
+};
+
+struct CorrelationCase {
+  std::string configuration;
+  std::map<std::string, std::string> factors;  // all of them; "technique" groups anchors
+  bool anchor = false;
+  double log_time_a = 0;  // mean ln t of the stored runs
+  double variance_a = 0;  // of that mean
+  double log_time_b = 0;
+  double variance_b = 0;
+  // ln t that B itself had when it was accepted: what differed then is the device's character.
+  std::optional<double> known_log_time_b = {};
+  std::optional<double> log_work = {};  // ln(work on B/work on A), in units of `work_unit`
+  std::string work_unit = {};
+};
+
+struct ConfigurationJudgement {
+  double residual = 0;  // ln t_B − α − β ln t_A; an anchor's, from the configurations' line
+  double leverage = 0;
+  double z = 0;
+  double p = 1;  // slower
+  double q = 1;  // p after Benjamini–Hochberg over the configurations
+  bool slower = false;
+  bool faster = false;
+  bool standing = false;  // slower, but hardly more than when B was accepted
+  double share = 0;       // of the residuals' sum of squares that this configuration explains
+};
+
+struct LevelEffect {
+  std::string factor;
+  std::string level;
+  std::vector<std::string> aliases;  // "factor=level" of exactly the same configurations
+  std::size_t size = 0;
+  double effect = 0;  // in ln t, against all other configurations
+  double standard_error = 0;
+  double p = 1;  // slower
+  double q = 1;
+  double smallest_effect = 0;  // that would have been found with probability `power`
+  double share = 0;            // as of a configuration
+  bool slower = false;         // significantly
+  bool standing = false;
+};
+
+struct GlobalShift {
+  std::size_t groups = 0;  // techniques of anchors, or anchors where they have one technique
+  double delta = 0;        // Δ
+  double standard_error = 0;
+  double degrees = 0;
+  double p = 1;  // slower
+  double smallest_effect = std::numeric_limits<double>::infinity();
+  bool slower = false;
+  bool standing = false;
+};
+
+struct Correlation {
+  std::size_t configurations = 0;  // without anchors
+  std::size_t anchors = 0;
+  double r = 0;    // Pearson's, of raw times
+  double rho = 0;  // Pearson's, of their logarithms
+  Line line;       // α, β
+  double anchor_intercept = std::numeric_limits<double>::quiet_NaN();  // α′
+  double intercept_error = 0;
+  double slope_error = 0;
+  double scale = 0;            // ŝ
+  double smallest_effect = 0;  // on one typical configuration, with probability `power`
+  // "12 configurations, 30 are needed": why this baseline cannot judge; empty: it can. Nothing is
+  // tested where it cannot.
+  std::vector<std::string> refusals;
+  std::vector<ConfigurationJudgement> judgements;  // one per case, in order
+  std::vector<LevelEffect> levels;                 // slower ones first, by share
+  GlobalShift global;
+  [[nodiscard]] bool admitted() const { return refusals.empty(); }
+};
+
+[[nodiscard]] Correlation correlate(std::span<const CorrelationCase> cases);
+
+}  // namespace triptych::judge

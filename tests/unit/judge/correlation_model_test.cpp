@@ -1,0 +1,293 @@
+// Two synthetic devices: what the correlation finds of planted slowdowns, and how often it cries
+// wolf. Every rate is counted over seeded trials; a bound leaves what a binomial count exceeds with
+// a probability below 10⁻⁴, so that the seed decides nothing.
+
+#include "judge/correlation_model.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "core/random.hpp"
+#include "judge/statistics.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using testing::HasSubstr;
+
+double normal(core::Random& random) {
+  const double radius = std::sqrt(-2 * std::log(1 - random.uniform()));
+  return radius * std::cos(2 * std::numbers::pi * random.uniform());
+}
+
+struct Bench {
+  double slope = 0.95;
+  double noise = 0.05;           // ε, standard deviation in ln t
+  double anchor_scatter = 0.02;  // of anchor techniques' ratios
+  double wild = 0;               // share of configurations that differ by a factor e^±0.5
+  int anchor_techniques = 5;
+  int repeats = 1;  // 48 configurations each
+  // What is planted on a configuration, in ln t_B.
+  std::function<double(const CorrelationCase&)> planted = [](const CorrelationCase&) {
+    return 0.0;
+  };
+
+  // 4 data × 3 cameras × 2 techniques × 2 skips, times over a factor of e^3.
+  [[nodiscard]] std::vector<CorrelationCase> draw(std::uint64_t seed) const {
+    core::Random random(seed);
+    std::vector<CorrelationCase> cases;
+    for (int i = 0; i < 48 * repeats; ++i) {
+      CorrelationCase each;
+      each.factors = {{"data", fmt::format("d{}", i % 4)},
+                      {"camera", fmt::format("c{}", i / 4 % 3)},
+                      {"technique", i / 12 % 2 == 0 ? "raycast" : "fragment"},
+                      {"skip", i / 24 % 2 == 0 ? "none" : "bricks"},
+                      {"viewport", "192"}};
+      each.configuration = fmt::format("n={}", i);
+      each.log_time_a = 14 + 3 * random.uniform();
+      each.variance_a = 1e-5;
+      each.variance_b = 1e-5;
+      const double odd = random.uniform() < wild ? (random.uniform() < 0.5 ? -0.5 : 0.5) : 0;
+      each.log_time_b = 1 + slope * each.log_time_a + noise * normal(random) + odd + planted(each);
+      cases.push_back(each);
+    }
+    for (int technique = 0; technique < anchor_techniques; ++technique) {
+      const double own = anchor_scatter * normal(random);
+      for (int size = 1; size <= 2; ++size) {
+        CorrelationCase each;
+        each.anchor = true;
+        each.factors = {{"technique", fmt::format("anchor_{}", technique)}};
+        each.configuration = fmt::format("anchor={},{}", technique, size);
+        each.log_time_a = 14.5 + technique * 0.3 + std::log(size);
+        each.log_time_b = 1 + slope * each.log_time_a + own + 0.005 * normal(random);
+        cases.push_back(each);
+      }
+    }
+    return cases;
+  }
+};
+
+int count(const Bench& bench, int trials, const std::function<bool(const Correlation&)>& what) {
+  int found = 0;
+  for (int seed = 1; seed <= trials; ++seed) {
+    const Correlation result = correlate(bench.draw(static_cast<std::uint64_t>(seed)));
+    found += what(result) ? 1 : 0;
+  }
+  return found;
+}
+
+// The most of `trials` that a true rate of `share` explains; at least, for `least`.
+int most(int trials, double share) {
+  return static_cast<int>(
+      boost::math::quantile(boost::math::complement(boost::math::binomial(trials, share), 1e-4)));
+}
+int least(int trials, double share) {
+  return static_cast<int>(boost::math::quantile(boost::math::binomial(trials, share), 1e-4));
+}
+
+bool any_configuration(const Correlation& result) {
+  return std::ranges::any_of(result.judgements, &ConfigurationJudgement::slower);
+}
+bool any_level(const Correlation& result) {
+  return std::ranges::any_of(result.levels, &LevelEffect::slower);
+}
+
+TEST(Correlation, GivesTheLineBack) {
+  const Bench bench{.wild = 0.1};
+  std::vector<double> slopes;
+  std::vector<double> scales;
+  std::vector<double> errors;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Correlation result = correlate(bench.draw(seed));
+    slopes.push_back(result.line.slope);
+    errors.push_back(result.slope_error);
+    scales.push_back(result.scale);
+  }
+  // Means of 200: three standard errors.
+  EXPECT_NEAR(mean(slopes), 0.95, 3 * std::sqrt(sample_variance(slopes) / 200));
+  EXPECT_NEAR(mean(errors) / std::sqrt(sample_variance(slopes)), 1, 0.2);
+  // A tenth wild makes an S-scale larger by less than a fifth (Maronna et al. 2019, 3.2.3).
+  EXPECT_GT(mean(scales), 0.05);
+  EXPECT_LT(mean(scales), 0.06);
+}
+
+TEST(Correlation, ExpectedFalseAlarmsAreRare) {
+  const Bench bench;
+  constexpr int trials = 400;
+  EXPECT_LE(count(bench, trials, any_configuration),
+            most(trials, CorrelationModel::share_of_false_alarms));
+  EXPECT_LE(count(bench, trials, any_level), most(trials, CorrelationModel::share_of_false_alarms));
+  EXPECT_LE(count(bench, trials, [](const Correlation& result) { return result.global.slower; }),
+            most(trials, CorrelationModel::false_global_alarms));
+}
+
+TEST(Correlation, SeesAQuarterOnOneConfiguration) {
+  Bench bench;
+  bench.planted = [](const CorrelationCase& each) {
+    return each.configuration == "n=17" ? std::log(1.25) : 0;
+  };
+  // At ŝ = 5 % ln 1.25 is 4.46 ŝ, the smallest effect for a probability of 0.8 about 4.3 ŝ.
+  constexpr int trials = 200;
+  const int found =
+      count(bench, trials, [](const Correlation& result) { return result.judgements[17].slower; });
+  EXPECT_GE(found, least(trials, 0.8));
+  bench.noise = 0.03;
+  const int finer = count(bench, trials, [](const Correlation& result) {
+    return result.judgements[17].slower &&
+           std::ranges::count_if(result.judgements, &ConfigurationJudgement::slower) == 1;
+  });
+  EXPECT_GE(finer, least(trials, 0.95));
+}
+
+TEST(Correlation, SeesATwentiethOnAFactorLevelAndNamesItFirst) {
+  Bench bench{.repeats = 2};
+  bench.planted = [](const CorrelationCase& each) {
+    return each.factors.at("skip") == "bricks" ? std::log(1.05) : 0;
+  };
+  // 48 against 48 at ŝ = 5 %: the effect is 4.9 standard errors.
+  constexpr int trials = 200;
+  const int found = count(bench, trials, [](const Correlation& result) {
+    return result.levels.front().slower && result.levels.front().factor == "skip" &&
+           result.levels.front().level == "bricks";
+  });
+  EXPECT_GE(found, least(trials, 0.8));
+  EXPECT_LE(count(bench, trials,
+                  [](const Correlation& result) {
+                    return std::ranges::any_of(result.levels, [](const LevelEffect& level) {
+                      return level.slower && level.factor != "skip";
+                    });
+                  }),
+            most(trials, 0.05));
+}
+
+TEST(Correlation, ALevelOfLongTimesDoesNotHideInTheSlope) {
+  Bench bench{.noise = 0.03, .repeats = 2};
+  const auto cases = [&](std::uint64_t seed) {
+    auto drawn = bench.draw(seed);
+    for (CorrelationCase& each : drawn) {
+      if (each.anchor) continue;
+      const bool large = each.factors.at("data") == "d3";
+      each.log_time_a += large ? 2 : 0;
+      each.log_time_b += large ? 2 * bench.slope + std::log(1.05) : 0;
+    }
+    return drawn;
+  };
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Correlation result = correlate(cases(seed));
+    found += std::ranges::any_of(result.levels, [](const LevelEffect& level) {
+      return level.slower && level.level == "d3";
+    });
+  }
+  EXPECT_GE(found, least(200, 0.6));
+}
+
+TEST(Correlation, OnlyAnchorsSeeThatAllIsSlower) {
+  Bench bench;
+  bench.planted = [](const CorrelationCase&) { return std::log(1.15); };
+  constexpr int trials = 200;
+  EXPECT_GE(count(bench, trials, [](const Correlation& result) { return result.global.slower; }),
+            least(trials, 0.7));
+  EXPECT_LE(count(bench, trials, any_configuration),
+            most(trials, CorrelationModel::share_of_false_alarms));
+  bench.planted = [](const CorrelationCase&) { return std::log(1.10); };
+  bench.anchor_scatter = 0.01;
+  const auto told = [](const Correlation& result) {
+    return result.global.p <= CorrelationModel::false_global_alarms;
+  };
+  EXPECT_GE(count(bench, trials, told), least(trials, 0.9));
+}
+
+TEST(Correlation, ASlowerDeviceIsNoSlowerProgram) {
+  const Bench bench;
+  int alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    auto cases = bench.draw(seed);
+    for (CorrelationCase& each : cases) each.log_time_b += std::log(3);
+    alarms += correlate(cases).global.slower;
+  }
+  EXPECT_LE(alarms, most(200, CorrelationModel::false_global_alarms));
+}
+
+TEST(Correlation, WhatStoodWhenTheDeviceWasAcceptedIsNoNews) {
+  Bench bench{.noise = 0.03};
+  bench.planted = [](const CorrelationCase& each) {
+    return each.configuration == "n=17" ? std::log(1.5) : 0;
+  };
+  auto cases = bench.draw(1);
+  for (CorrelationCase& each : cases) each.known_log_time_b = each.log_time_b - 0.01;
+  EXPECT_TRUE(correlate(cases).judgements[17].slower);
+  EXPECT_TRUE(correlate(cases).judgements[17].standing);
+  cases[17].known_log_time_b = cases[17].log_time_b - std::log(1.5);
+  EXPECT_FALSE(correlate(cases).judgements[17].standing);
+}
+
+TEST(Correlation, RefusesWithEveryReasonAndItsNumber) {
+  auto cases = Bench{.slope = 1.5, .noise = 0.5, .anchor_techniques = 2}.draw(3);
+  cases.erase(cases.begin(), cases.begin() + 20);
+  const Correlation result = correlate(cases);
+  EXPECT_FALSE(result.admitted());
+  const std::string reasons = fmt::format("{}", fmt::join(result.refusals, "; "));
+  EXPECT_THAT(reasons, HasSubstr("28 configurations with like clocks, 30 are needed"));
+  EXPECT_THAT(reasons, HasSubstr("4 anchors, 6 are needed"));
+  EXPECT_THAT(reasons, HasSubstr("the correlation of ln t is 0."));
+  EXPECT_THAT(reasons, HasSubstr("the slope is 1."));
+  EXPECT_THAT(reasons, HasSubstr("the residuals scatter by 0."));
+  EXPECT_TRUE(result.levels.empty());
+  EXPECT_FALSE(any_configuration(result));
+}
+
+TEST(Correlation, RefusesNothingAtAll) {
+  const Correlation result = correlate({});
+  EXPECT_EQ(result.refusals.size(), 2U);
+}
+
+TEST(Correlation, OneConfigurationInManyStandsOutByItsShare) {
+  Bench bench{.noise = 0.01};
+  bench.planted = [](const CorrelationCase& each) {
+    return each.configuration == "n=5" ? std::log(1.3) : 0;
+  };
+  const Correlation result = correlate(bench.draw(9));
+  EXPECT_GT(result.judgements[5].share, 0.8);
+  EXPECT_LT(result.levels.front().share, result.judgements[5].share);
+}
+
+TEST(Correlation, LevelsOfTheSameConfigurationsAreOne) {
+  auto cases = Bench{}.draw(1);
+  for (CorrelationCase& each : cases) each.factors["sampler"] = each.factors["technique"];
+  const Correlation result = correlate(cases);
+  const auto named = std::ranges::count_if(result.levels, [](const LevelEffect& level) {
+    return level.factor == "technique" || level.factor == "sampler";
+  });
+  EXPECT_EQ(named, 2);
+  EXPECT_TRUE(std::ranges::any_of(result.levels,
+                                  [](const LevelEffect& level) { return !level.aliases.empty(); }));
+}
+
+TEST(Correlation, SmallestEffectsAreThoseOfTheFormula) {
+  const Correlation result = correlate(Bench{.repeats = 8}.draw(2));
+  EXPECT_NEAR(result.smallest_effect / result.scale, 4.9, 0.2);  // t for 0.02/384, and 0.84
+  for (const LevelEffect& level : result.levels) {
+    EXPECT_GT(level.smallest_effect, 3 * level.standard_error);
+    EXPECT_LT(level.smallest_effect, 5 * level.standard_error);
+  }
+}
+
+TEST(AdjustedPValues, DecideAsTheProcedureDoes) {
+  const std::vector<double> p{0.001, 0.8, 0.012, 0.02, 0.04, 0.5};
+  const auto adjusted = benjamini_hochberg_adjusted(p);
+  for (const double q : {0.005, 0.01, 0.03, 0.05, 0.07, 0.9}) {
+    const auto rejected = benjamini_hochberg(p, q);
+    for (std::size_t i = 0; i < p.size(); ++i) EXPECT_EQ(adjusted[i] <= q, rejected[i]) << q;
+  }
+}
+
+}  // namespace
+}  // namespace triptych::judge
