@@ -1,7 +1,5 @@
 #include "backends/null/device.hpp"
 
-#include "backends/null/invented.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "backends/null/invented.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
@@ -73,8 +72,8 @@ class NullPrepared final : public measure::Prepared {
     if (purpose == measure::Purpose::timing) {
       if (script_->device_over_wall) frame.device_ns = frame.wall_ns * *script_->device_over_wall;
     } else if (script_->counts) {
-      frame.counts = purpose == measure::Purpose::counters ? counters_of(work_)
-                                                           : statistics_of(work_);
+      frame.counts =
+          purpose == measure::Purpose::counters ? counters_of(work_) : statistics_of(work_);
     }
     return frame;
   }

@@ -7,10 +7,12 @@
 
 #include "core/hash.hpp"
 #include "core/random.hpp"
+#include "technique/anchors/anchor_work.hpp"
 
 namespace triptych::null_backend {
 namespace {
 
+using measure::AnchorWork;
 using measure::ParticleWork;
 using measure::VolumeWork;
 
@@ -31,6 +33,11 @@ double samples_of(const VolumeWork& work) {
 
 double samples_of(const ParticleWork& work) {
   return pixels_of(work.scene) + static_cast<double>(particles_of(work));
+}
+
+double samples_of(const AnchorWork& work) {
+  constexpr double samples_of_size_1 = 1 << 19;
+  return samples_of_size_1 * work.size;
 }
 
 record::Counts counters_of(const VolumeWork& work) {
@@ -60,6 +67,36 @@ record::Counts counters_of(const ParticleWork& work) {
           {"fragments_discarded", pixels / 4},
           {"fragments_kept", pixels - pixels / 4},
           {"visible_ids", std::min(particles, pixels)}};
+}
+
+record::Counts counters_of(const AnchorWork& work) {
+  return {
+      {std::string(technique::anchor_counter), 1000003 * static_cast<std::uint64_t>(work.size)}};
+}
+
+// Invocations of one compute pass, or of the fragment stage.
+std::uint64_t invocations_of(const VolumeWork& work) {
+  return static_cast<std::uint64_t>(pixels_of(work.scene));
+}
+
+std::uint64_t invocations_of(const ParticleWork& work) {
+  return static_cast<std::uint64_t>(pixels_of(work.scene));
+}
+
+std::uint64_t invocations_of(const AnchorWork& work) {
+  return static_cast<std::uint64_t>(samples_of(work));
+}
+
+int stride_of(const VolumeWork& work) {
+  return work.options.extra_work_stride;
+}
+
+int stride_of(const ParticleWork& work) {
+  return work.options.extra_work_stride;
+}
+
+int stride_of(const AnchorWork&) {
+  return 0;  // takes no fault
 }
 
 // Everything that decides a picture, and nothing about how it is computed.
@@ -92,8 +129,8 @@ core::Image slopes(int width, int height, const std::string& key, double fault) 
       for (int x = 0; x < width; ++x) {
         const auto i = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                             static_cast<std::size_t>(x));
-        image.rgba[i + channel] = static_cast<float>(ground + along_x * (x + 0.5) / width +
-                                                     along_y * (y + 0.5) / height);
+        image.rgba[i + channel] =
+            static_cast<float>(ground + along_x * (x + 0.5) / width + along_y * (y + 0.5) / height);
       }
     }
   }
@@ -125,6 +162,26 @@ std::string code_options(const ParticleWork& work) {
                      options.extra_work_stride);
 }
 
+std::string code_options(const AnchorWork&) {
+  return "frozen";
+}
+
+core::Image pattern(const VolumeWork& work) {
+  return slopes(work.scene.width, work.scene.height, picture_key(work),
+                static_cast<double>(work.options.fault));
+}
+
+core::Image pattern(const ParticleWork& work) {
+  core::Image image = slopes(work.scene.width, work.scene.height, picture_key(work),
+                             static_cast<double>(work.options.fault));
+  add_particles(image, static_cast<std::uint32_t>(work.options.fault));
+  return image;
+}
+
+core::Image pattern(const AnchorWork&) {
+  return {};
+}
+
 }  // namespace
 
 std::uint64_t number_of(const std::string& text) {
@@ -136,8 +193,7 @@ double samples_of(const measure::Work& work) {
 }
 
 double extra_share(const measure::Work& work) {
-  const int stride =
-      std::visit([](const auto& each) { return each.options.extra_work_stride; }, work.scene);
+  const int stride = std::visit([](const auto& each) { return stride_of(each); }, work.scene);
   return stride > 0 ? 1.0 / stride : 0;
 }
 
@@ -146,8 +202,8 @@ record::Counts counters_of(const measure::Work& work) {
 }
 
 record::Counts statistics_of(const measure::Work& work) {
-  const auto pixels = static_cast<std::uint64_t>(
-      std::visit([](const auto& each) { return pixels_of(each.scene); }, work.scene));
+  const std::uint64_t pixels =
+      std::visit([](const auto& each) { return invocations_of(each); }, work.scene);
   if (technique::technique(work.technique).work == technique::Work::compute) {
     return {{"compute_invocations", pixels}};
   }
@@ -157,16 +213,7 @@ record::Counts statistics_of(const measure::Work& work) {
 }
 
 core::Image pattern(const measure::Work& work) {
-  core::Image image = std::visit(
-      [](const auto& each) {
-        return slopes(each.scene.width, each.scene.height, picture_key(each),
-                      static_cast<double>(each.options.fault));
-      },
-      work.scene);
-  if (const auto* particles = std::get_if<ParticleWork>(&work.scene)) {
-    add_particles(image, static_cast<std::uint32_t>(particles->options.fault));
-  }
-  return image;
+  return std::visit([](const auto& each) { return pattern(each); }, work.scene);
 }
 
 std::string code_key(const measure::Work& work) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "backends/opencl/anchor_frames.hpp"
 #include "backends/opencl/filter_probe.hpp"
 #include "backends/opencl/particle_limits.hpp"
 #include "backends/opencl/programs.hpp"
@@ -30,6 +31,12 @@ const std::map<std::string_view, decltype(&prepare_tiles)> particle_techniques{
     {"polygon_tess", prepare_polygon_tess},
     {"polygon_adaptive", prepare_polygon_adaptive},
     {"tiles", prepare_tiles}};
+
+const std::map<std::string_view, decltype(&prepare_anchor_launch)> anchor_techniques{
+    {"anchor_arithmetic", prepare_anchor_arithmetic},
+    {"anchor_fetch", prepare_anchor_fetch},
+    {"anchor_memory", prepare_anchor_memory},
+    {"anchor_launch", prepare_anchor_launch}};
 
 Session open_session(const Found& found) {
   return checked([&] {
@@ -128,23 +135,27 @@ std::optional<std::string> Device::size_defect(const measure::VolumeWork& work) 
 }
 
 std::optional<std::string> Device::unsupported(const measure::Work& work) const {
+  if (anchor_techniques.contains(work.technique)) {
+    const auto* anchor = std::get_if<measure::AnchorWork>(&work.scene);
+    if (anchor == nullptr) return fmt::format("'{}' is an anchor, without scene", work.technique);
+    return anchor_defect(session_, work.technique, *anchor);
+  }
   if (!volume_techniques.contains(work.technique) &&
       !particle_techniques.contains(work.technique)) {
     return fmt::format("OpenCL has no technique '{}'", work.technique);
   }
   const auto* particles = std::get_if<measure::ParticleWork>(&work.scene);
+  const auto* volume = std::get_if<measure::VolumeWork>(&work.scene);
   const bool draws_particles = particle_techniques.contains(work.technique);
-  if (draws_particles != (particles != nullptr)) {
-    return fmt::format("'{}' draws {}, the scene holds {}", work.technique,
-                       draws_particles ? "particles" : "volumes",
-                       draws_particles ? "a volume" : "particles");
+  if (draws_particles ? particles == nullptr : volume == nullptr) {
+    return fmt::format("'{}' draws {}, the scene holds none", work.technique,
+                       draws_particles ? "particles" : "volumes");
   }
   if (particles != nullptr) return particle_defect(session_, work.technique, *particles);
-  const auto& volume = std::get<measure::VolumeWork>(work.scene);
-  if (volume.options.sampler == Sampler::hardware) {
-    if (auto defect = image_defect(*volume.scene.grid)) return defect;
+  if (volume->options.sampler == Sampler::hardware) {
+    if (auto defect = image_defect(*volume->scene.grid)) return defect;
   }
-  return size_defect(volume);
+  return size_defect(*volume);
 }
 
 // By hand from a buffer wherever the sampler is not exact: on PoCL 3.1 that is also nine times
@@ -170,6 +181,9 @@ double Device::filter_weight_error(const measure::VolumePath& path) const {
 
 std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
+  if (const auto* anchor = std::get_if<measure::AnchorWork>(&work.scene)) {
+    return anchor_techniques.at(work.technique)(session_, programs_, *anchor);
+  }
   if (const auto* particles = std::get_if<measure::ParticleWork>(&work.scene)) {
     return particle_techniques.at(work.technique)(session_, programs_, *particles);
   }

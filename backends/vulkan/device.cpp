@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "backends/vulkan/anchor_frames.hpp"
 #include "backends/vulkan/errors.hpp"
 #include "backends/vulkan/filter_probe.hpp"
 #include "backends/vulkan/support.hpp"
@@ -23,10 +24,12 @@ using Prepare = std::unique_ptr<measure::Prepared> (*)(const Gpu&, const Instanc
 
 struct Entry {
   std::string_view technique;
-  std::variant<Prepare<measure::VolumeWork>, Prepare<measure::ParticleWork>> prepare;
+  std::variant<Prepare<measure::VolumeWork>, Prepare<measure::ParticleWork>,
+               Prepare<measure::AnchorWork>>
+      prepare;  // in the order of measure::Work
   Needs needs;
 };
-constexpr std::array<Entry, 11> entries{{
+constexpr std::array<Entry, 16> entries{{
     {"raycast", &prepare_raycast, Needs::nothing},
     {"raycast_fragment", &prepare_raycast_fragment, Needs::drawing},
     {"speed_of_light", &prepare_speed_of_light, Needs::nothing},
@@ -38,6 +41,11 @@ constexpr std::array<Entry, 11> entries{{
     {"polygon_adaptive", &prepare_polygon_adaptive, Needs::tessellation},
     {"point", &prepare_point, Needs::drawing},
     {"tiles", &prepare_tiles, Needs::nothing},
+    {"anchor_arithmetic", &prepare_anchor_arithmetic, Needs::nothing},
+    {"anchor_fetch", &prepare_anchor_fetch, Needs::nothing},
+    {"anchor_memory", &prepare_anchor_memory, Needs::nothing},
+    {"anchor_raster", &prepare_anchor_raster, Needs::drawing},
+    {"anchor_launch", &prepare_anchor_launch, Needs::nothing},
 }};
 
 const Entry* find_entry(std::string_view technique) {
@@ -65,11 +73,14 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
     const Entry* entry = find_entry(work.technique);
     if (entry == nullptr) return fmt::format("Vulkan has no technique {}", work.technique);
     if (entry->prepare.index() != work.scene.index()) {
-      return fmt::format("the technique {} draws scenes of the other suite", work.technique);
+      return fmt::format("the technique {} draws scenes of another suite", work.technique);
     }
     if (auto reason = feature_reason(gpu_, entry->needs)) return reason;
     if (const auto* volume = std::get_if<measure::VolumeWork>(&work.scene)) {
       return volume_reason(gpu_, *volume, entry->needs);
+    }
+    if (const auto* anchor = std::get_if<measure::AnchorWork>(&work.scene)) {
+      return anchor_reason(gpu_, *anchor, work.technique);
     }
     return particle_reason(gpu_, std::get<measure::ParticleWork>(work.scene), work.technique,
                            entry->needs);
@@ -104,11 +115,11 @@ std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   const Entry* entry = find_entry(work.technique);
   if (reason || entry == nullptr) throw core::NotSupported(reason.value_or(work.technique));
   return translated([&] {
-    if (const auto* volume = std::get_if<measure::VolumeWork>(&work.scene)) {
-      return std::get<Prepare<measure::VolumeWork>>(entry->prepare)(gpu_, *instance_, *volume);
-    }
-    return std::get<Prepare<measure::ParticleWork>>(entry->prepare)(
-        gpu_, *instance_, std::get<measure::ParticleWork>(work.scene));
+    return std::visit(
+        [&]<class SuiteWork>(const SuiteWork& scene) {
+          return std::get<Prepare<SuiteWork>>(entry->prepare)(gpu_, *instance_, scene);
+        },
+        work.scene);
   });
 }
 

@@ -30,9 +30,15 @@ class Stages {
   std::vector<vk::PipelineShaderStageCreateInfo> infos_;
 };
 
-std::vector<vk::PipelineColorBlendAttachmentState> overwriting(std::uint32_t targets) {
+std::vector<vk::PipelineColorBlendAttachmentState> blending(std::uint32_t targets, bool added_up) {
   using enum vk::ColorComponentFlagBits;
-  return {targets, {.colorWriteMask = eR | eG | eB | eA}};
+  return {targets,
+          {.blendEnable = added_up ? VK_TRUE : VK_FALSE,
+           .srcColorBlendFactor = vk::BlendFactor::eOne,
+           .dstColorBlendFactor = vk::BlendFactor::eOne,
+           .srcAlphaBlendFactor = vk::BlendFactor::eOne,
+           .dstAlphaBlendFactor = vk::BlendFactor::eOne,
+           .colorWriteMask = eR | eG | eB | eA}};
 }
 
 vk::PipelineDepthStencilStateCreateInfo depth_state(std::optional<vk::CompareOp> compare) {
@@ -65,7 +71,7 @@ vk::raii::Pipeline make_draw_pipeline(const Gpu& gpu, const Layout& layout,
   const vk::PipelineMultisampleStateCreateInfo one_sample{.rasterizationSamples =
                                                               vk::SampleCountFlagBits::e1};
   const vk::PipelineDepthStencilStateCreateInfo depth = depth_state(state.depth);
-  const auto targets = overwriting(state.colour_targets);
+  const auto targets = blending(state.colour_targets, state.added_up);
   const vk::PipelineColorBlendStateCreateInfo blend{
       .attachmentCount = static_cast<std::uint32_t>(targets.size()),
       .pAttachments = targets.data()};

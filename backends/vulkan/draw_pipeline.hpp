@@ -1,6 +1,6 @@
 #pragma once
 // Graphics pipelines as the techniques here need them: one viewport, a scissor set at draw time, no
-// blending, no face culling, one sample.
+// face culling, one sample.
 
 #include <optional>
 #include <string_view>
@@ -22,6 +22,7 @@ struct DrawState {
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
   std::uint32_t patch_points = 1;  // of ePatchList
   std::uint32_t colour_targets = 1;
+  bool added_up = false;               // colours are added to the targets, else overwrite them
   std::optional<vk::CompareOp> depth;  // tested and written where given
   vk::Extent3D extent;
 };

@@ -54,8 +54,8 @@ void describe_work(const Work& work, const Device& device, record::Record& recor
     record.data_hash = volume->scene.grid->hash;
     record.precision["filter_weight_error"] = device.filter_weight_error(
         {.voxel = volume->scene.grid->format, .sampler = volume->options.sampler});
-  } else {
-    record.data_hash = std::get<ParticleWork>(work.scene).scene.particles->hash;
+  } else if (const auto* particles = std::get_if<ParticleWork>(&work.scene)) {
+    record.data_hash = particles->scene.particles->hash;
   }
 }
 

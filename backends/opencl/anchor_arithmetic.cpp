@@ -1,0 +1,13 @@
+// Chains of multiply-adds in registers.
+#include "backends/opencl/anchor_frames.hpp"
+#include "backends/opencl/techniques.hpp"
+
+namespace triptych::opencl_backend {
+
+std::unique_ptr<measure::Prepared> prepare_anchor_arithmetic(const Session& session,
+                                                             Programs& programs,
+                                                             const measure::AnchorWork& work) {
+  return std::make_unique<AnchorFrames>(session, programs, "anchor_arithmetic", work);
+}
+
+}  // namespace triptych::opencl_backend

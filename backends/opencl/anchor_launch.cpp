@@ -1,0 +1,12 @@
+// One work item per launch, many launches.
+#include "backends/opencl/anchor_frames.hpp"
+#include "backends/opencl/techniques.hpp"
+
+namespace triptych::opencl_backend {
+
+std::unique_ptr<measure::Prepared> prepare_anchor_launch(const Session& session, Programs& programs,
+                                                         const measure::AnchorWork& work) {
+  return std::make_unique<AnchorFrames>(session, programs, "anchor_launch", work);
+}
+
+}  // namespace triptych::opencl_backend

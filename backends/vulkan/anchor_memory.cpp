@@ -1,0 +1,12 @@
+// One stream of storage read, another written.
+#include "backends/vulkan/anchor_frames.hpp"
+#include "backends/vulkan/techniques.hpp"
+
+namespace triptych::vulkan_backend {
+
+std::unique_ptr<measure::Prepared> prepare_anchor_memory(const Gpu& gpu, const Instance& instance,
+                                                         const measure::AnchorWork& work) {
+  return std::make_unique<AnchorFrames>(gpu, instance, "anchor_memory", work);
+}
+
+}  // namespace triptych::vulkan_backend
