@@ -43,6 +43,7 @@ void add_list_command(Commands& commands);
 void add_run_commands(Commands& commands);  // run, worker
 void add_render_command(Commands& commands);
 void add_gate_commands(Commands& commands);  // gate, accept
+void add_compare_command(Commands& commands);
 void add_report_command(Commands& commands);
 void add_test_commands(Commands& commands);  // what CTest calls
 

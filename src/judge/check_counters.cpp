@@ -5,13 +5,11 @@
 #include <cstdint>
 #include <optional>
 
+#include "judge/agreement.hpp"
 #include "judge/run_view.hpp"
 
 namespace triptych::judge {
 namespace {
-
-// A threshold on floats may fall the other way on another device for a few samples.
-constexpr double across_devices = 1e-4;
 
 struct Expected {
   std::uint64_t value = 0;
@@ -52,7 +50,7 @@ void compare_counter(const std::string& name, const std::map<std::string, std::u
   }
   const double relative = relative_difference(found->second, expected.value);
   const bool same =
-      expected.own ? found->second == expected.value : std::abs(relative) <= across_devices;
+      expected.own ? found->second == expected.value : std::abs(relative) <= counters_across_devices;
   out.largest = std::max(out.largest, std::abs(relative));
   if (same) return;
   out.wrong.push_back(fmt::format("{} {} → {} ({:+.4g} %{})", name, expected.value, found->second,

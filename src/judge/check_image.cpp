@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/image_io.hpp"
+#include "judge/agreement.hpp"
 #include "judge/anchor.hpp"
 #include "judge/image_metrics.hpp"
 #include "judge/run_view.hpp"
@@ -291,6 +292,11 @@ void check_bits(const RunView& view, std::vector<Finding>& findings) {
 }
 
 }  // namespace
+
+std::string image_fault(const ImageComparison& comparison, const core::Image& image,
+                        const core::Image& expected, std::string_view name) {
+  return fault(comparison, image, expected, name);
+}
 
 ImageFindings check_images(const RunView& view) {
   ImageFindings out;

@@ -1,19 +1,14 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <string_view>
 
+#include "judge/agreement.hpp"
 #include "judge/run_view.hpp"
 
 namespace triptych::judge {
 namespace {
 
 using Dialect = std::map<std::string, std::string>;  // record::Device::statistics_dialect
-
-// Vulkan and GL leave the rest of the statistics to the implementation.
-constexpr std::array<std::string_view, 5> portable{
-    "input_assembly_vertices", "input_assembly_primitives", "geometry_primitives",
-    "tessellation_control_patches", "compute_invocations"};
 
 Finding check_exact(const RunView& view, const record::Record& record,
                     const record::Counts& stored) {
@@ -52,15 +47,6 @@ Finding check_exact(const RunView& view, const record::Record& record,
   return about(Verdict::pass, fmt::format("{} statistics as stored", stored.size()));
 }
 
-// Why a number cannot be held against other drivers'; empty where it can. A dialect that nobody
-// looked at says nothing, and old baselines hold none: their numbers are taken as they are.
-std::string reservation(const Dialect& dialect, const std::string& statistic) {
-  if (dialect.empty()) return {};
-  const auto verdict = dialect.find(statistic);
-  if (verdict == dialect.end()) return "not calibrated";
-  return verdict->second == "exact" ? std::string() : verdict->second;
-}
-
 struct Elsewhere {
   std::vector<std::string> differences;   // which portable values no stored driver has
   std::vector<std::string> not_compared;  // with the reason
@@ -72,7 +58,7 @@ void compare_elsewhere(const RunView& view, const record::Record& record, const 
                        const std::map<std::string, record::Counts>& stored, Elsewhere& result) {
   const auto own = record.statistics.find(name);
   if (own == record.statistics.end()) return;
-  const std::string here = reservation(view.device(record).statistics_dialect, name);
+  const std::string here = statistic_reservation(view.device(record).statistics_dialect, name);
   if (!here.empty()) {
     result.not_compared.push_back(fmt::format("{} (here {})", name, here));
     return;
@@ -82,7 +68,7 @@ void compare_elsewhere(const RunView& view, const record::Record& record, const 
   for (const auto& [driver, counts] : stored) {
     const auto other = counts.find(name);
     if (other == counts.end()) continue;
-    const std::string there = reservation(view.baselines.statistics_dialect(driver), name);
+    const std::string there = statistic_reservation(view.baselines.statistics_dialect(driver), name);
     if (!there.empty()) {
       result.not_compared.push_back(fmt::format("{} (on {} {})", name, driver, there));
       continue;
@@ -104,7 +90,7 @@ Finding check_elsewhere(const RunView& view, const record::Record& record) {
   }
   const auto stored = view.baselines.statistics_of_all_drivers(record.configuration);
   Elsewhere result;
-  for (const std::string_view name : portable) {
+  for (const std::string_view name : portable_statistics) {
     if (stored.empty()) break;
     compare_elsewhere(view, record, std::string(name), stored, result);
   }
@@ -138,6 +124,13 @@ Finding check_record(const RunView& view, const record::Record& record) {
 }
 
 }  // namespace
+
+std::string statistic_reservation(const Dialect& dialect, const std::string& statistic) {
+  if (dialect.empty()) return {};
+  const auto verdict = dialect.find(statistic);
+  if (verdict == dialect.end()) return "not calibrated";
+  return verdict->second == "exact" ? std::string() : verdict->second;
+}
 
 std::vector<Finding> check_statistics(const RunView& view) {
   std::vector<Finding> findings;

@@ -87,11 +87,17 @@ CacheFolder::CacheFolder(std::string_view device_id) {
                   device_id, most_at_once));
 }
 
-std::vector<std::string> worker_environment(std::string_view device_id, const CacheFolder& cache) {
-  std::vector<std::string> result;
+std::vector<std::string> worker_environment(std::string_view device_id, const CacheFolder& cache,
+                                            std::span<const std::string> overrides) {
+  std::vector<std::string> result(overrides.begin(), overrides.end());
+  const auto overridden = [&](std::string_view name) {
+    return std::ranges::any_of(overrides,
+                               [&](const std::string& entry) { return name_in(entry) == name; });
+  };
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
     const std::string_view text(*entry);
-    if (!text.starts_with("BENCHMARK_")) result.emplace_back(text);
+    if (text.starts_with("BENCHMARK_") || overridden(name_in(text))) continue;
+    result.emplace_back(text);
   }
   for (const EnvironmentDefault& each : defaults) {
     const bool set = std::ranges::any_of(
@@ -106,11 +112,19 @@ std::vector<std::string> worker_environment(std::string_view device_id, const Ca
 
 std::optional<std::string> forbids_measuring() {
   if (std::getenv("LP_PERF") == nullptr) return std::nullopt;
-  return fmt::format(
-      "LP_PERF={} is set: it turns off parts of llvmpipe's and lavapipe's work, so that times and "
-      "images "
-      "would be of something else; unset it",
-      variable("LP_PERF"));
+  const std::array<std::string, 1> set{"LP_PERF=" + variable("LP_PERF")};
+  return forbids_measuring(set);
+}
+
+std::optional<std::string> forbids_measuring(std::span<const std::string> environment) {
+  for (const std::string& entry : environment) {
+    if (name_in(entry) != "LP_PERF") continue;
+    return fmt::format(
+        "{} is set: it turns off parts of llvmpipe's and lavapipe's work, so that times and images "
+        "would be of something else; unset it",
+        entry);
+  }
+  return std::nullopt;
 }
 
 }  // namespace triptych::measure

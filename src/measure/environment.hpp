@@ -38,12 +38,17 @@ class CacheFolder {
 };
 
 // The whole environment of a worker for this device, "NAME=VALUE" each: the caller's own without
-// what would change how benchmarks are run (BENCHMARK_*), with the defaults it lacks.
-[[nodiscard]] std::vector<std::string> worker_environment(std::string_view device_id,
-                                                          const CacheFolder& cache);
+// what would change how benchmarks are run (BENCHMARK_*), with the defaults it lacks. `overrides`,
+// "NAME=VALUE" each, win over both.
+[[nodiscard]] std::vector<std::string> worker_environment(
+    std::string_view device_id, const CacheFolder& cache,
+    std::span<const std::string> overrides = {});
 
 // Why nothing may be measured in this process's environment; nullopt: it may. (LP_PERF turns off
 // parts of llvmpipe's work: what is timed would not be what is drawn.)
 [[nodiscard]] std::optional<std::string> forbids_measuring();
+// The same of a worker's environment, "NAME=VALUE" each.
+[[nodiscard]] std::optional<std::string> forbids_measuring(
+    std::span<const std::string> environment);
 
 }  // namespace triptych::measure

@@ -159,21 +159,12 @@ class DeviceRun {
     }
     const Start start{.suite = context_.plan.suite, .kinds = context_.kinds, .clocks = clocks_};
     const auto asked = Clock::now();
-    WorkerLink::Reply reply = worker->ask(to_message(start), context_.options.start_limit);
+    const auto greeting = worker->greet(start, context_.options.start_limit);
     opening_ns_ += ns_since(asked);
-    if (const auto* died = std::get_if<WorkerLink::Died>(&reply)) {
-      return fmt::format("{} cannot be opened: its worker was {}", device_, died->reason);
+    if (const auto* reason = std::get_if<std::string>(&greeting)) {
+      return fmt::format("{} cannot be opened: {}", device_, *reason);
     }
-    if (const auto* late = std::get_if<WorkerLink::Late>(&reply)) {
-      return fmt::format("{} cannot be opened: {}", device_, late->reason);
-    }
-    const Message& message = std::get<Message>(reply);
-    if (const auto refused = as_refused(message)) {
-      return fmt::format("{} cannot be opened: {}", device_, refused->reason);
-    }
-    const auto hello = as_hello(message);
-    if (!hello) return fmt::format("{} cannot be opened: its worker did not greet", device_);
-    greet(*hello);
+    greet(std::get<Hello>(greeting));
     worker_ = std::move(worker);
     return {};
   }

@@ -195,6 +195,27 @@ Message to_message(Answer answer) {
           std::move(answer.exr)};
 }
 
+Message to_message(const Hold& hold) {
+  return {{{"type", "hold"}, {"configuration", hold.configuration}, {"plants", hold.plants}}, {}};
+}
+
+Message to_message(const Frames& frames) {
+  return {{{"type", "frames"}, {"count", frames.count}}, {}};
+}
+
+Message to_message(const Release&) {
+  return {{{"type", "release"}}, {}};
+}
+
+Message to_message(const Turn& turn) {
+  return {{{"type", "turn"},
+           {"outcome", record::name_of(turn.outcome)},
+           {"reason", turn.reason},
+           {"wall_ns", turn.wall_ns},
+           {"device_ns", turn.device_ns}},
+          {}};
+}
+
 std::optional<Start> as_start(const Message& message) {
   if (!is(message, "start")) return std::nullopt;
   return reading("start", [&] {
@@ -240,6 +261,33 @@ std::optional<Answer> as_answer(Message message) {
     return Answer{.record = message.json.at("record").get<record::Record>(),
                   .worker_ns = message.json.at("worker_ns"),
                   .exr = std::move(message.binary)};
+  });
+}
+
+std::optional<Hold> as_hold(const Message& message) {
+  if (!is(message, "hold")) return std::nullopt;
+  return reading("hold", [&] {
+    return Hold{.configuration = message.json.at("configuration").get<Configuration>(),
+                .plants = message.json.at("plants")};
+  });
+}
+
+std::optional<Frames> as_frames(const Message& message) {
+  if (!is(message, "frames")) return std::nullopt;
+  return reading("frames", [&] { return Frames{.count = message.json.at("count")}; });
+}
+
+std::optional<Release> as_release(const Message& message) {
+  return is(message, "release") ? std::optional(Release{}) : std::nullopt;
+}
+
+std::optional<Turn> as_turn(const Message& message) {
+  if (!is(message, "turn")) return std::nullopt;
+  return reading("turn", [&] {
+    return Turn{.outcome = record::outcome(message.json.at("outcome").get<std::string>()),
+                .reason = message.json.at("reason"),
+                .wall_ns = message.json.at("wall_ns"),
+                .device_ns = message.json.at("device_ns")};
   });
 }
 

@@ -8,6 +8,12 @@
 //   supervisor → worker   job     one configuration with the protocol and what is planted
 //   worker → supervisor   loading how far a large data set is loaded; any number before the answer
 //   worker → supervisor   answer  record, time taken; the image as EXR follows as binary
+// and, for measuring two workers in turns:
+//   supervisor → worker   hold    one configuration to be prepared and kept
+//   supervisor → worker   frames  how many timed frames of what is kept to draw now
+//   supervisor → worker   release what is kept is freed
+//   worker → supervisor   turn    to each of the three: times of the frames drawn, or why there are
+//                                 none; loading may come before it
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
@@ -74,12 +80,37 @@ struct Answer {
   std::vector<std::byte> exr;
 };
 
+// Replaces what is held already.
+struct Hold {
+  Configuration configuration;
+  std::vector<std::string> plants;
+};
+
+struct Frames {
+  int count = 1;
+};
+
+struct Release {};
+
+// What came of one of them. Of a configuration that cannot be held, or failed in a frame, nothing
+// is held any longer.
+struct Turn {
+  record::Outcome outcome = record::Outcome::measured;
+  std::string reason;             // for every outcome but measured
+  std::vector<double> wall_ns;    // one per frame drawn
+  std::vector<double> device_ns;  // empty where the device did not tell it of each
+};
+
 [[nodiscard]] Message to_message(const Start& start);
 [[nodiscard]] Message to_message(const Hello& hello);
 [[nodiscard]] Message to_message(const Refused& refused);
 [[nodiscard]] Message to_message(const Job& job);
 [[nodiscard]] Message to_message(const Loading& loading);
 [[nodiscard]] Message to_message(Answer answer);
+[[nodiscard]] Message to_message(const Hold& hold);
+[[nodiscard]] Message to_message(const Frames& frames);
+[[nodiscard]] Message to_message(const Release& release);
+[[nodiscard]] Message to_message(const Turn& turn);
 
 // Empty when the message is of another type. Throw InputError when it lacks something.
 [[nodiscard]] std::optional<Start> as_start(const Message& message);
@@ -88,5 +119,9 @@ struct Answer {
 [[nodiscard]] std::optional<Job> as_job(const Message& message);
 [[nodiscard]] std::optional<Loading> as_loading(const Message& message);
 [[nodiscard]] std::optional<Answer> as_answer(Message message);
+[[nodiscard]] std::optional<Hold> as_hold(const Message& message);
+[[nodiscard]] std::optional<Frames> as_frames(const Message& message);
+[[nodiscard]] std::optional<Release> as_release(const Message& message);
+[[nodiscard]] std::optional<Turn> as_turn(const Message& message);
 
 }  // namespace triptych::measure

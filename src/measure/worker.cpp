@@ -59,6 +59,22 @@ void describe_work(const Work& work, const Device& device, record::Record& recor
   }
 }
 
+// Every typed error ends here, as the outcome of one configuration.
+template <typename Act, typename OnFailure>
+void outcome_of(const Act& act, const OnFailure& on_failure) {
+  try {
+    act();
+  } catch (const core::NotSupported& error) {
+    on_failure(record::Outcome::skipped, error.what());
+  } catch (const core::DeviceLost& error) {
+    on_failure(record::Outcome::lost, error.what());
+  } catch (const std::bad_alloc&) {
+    on_failure(record::Outcome::failed, "out of host memory");
+  } catch (const std::exception& error) {
+    on_failure(record::Outcome::failed, error.what());
+  }
+}
+
 class Worker {
  public:
   Worker(std::unique_ptr<Device> device, Suite& suite, std::vector<record::ClockTrust> clocks)
@@ -80,22 +96,14 @@ class Worker {
     }
   }
 
-  // Every typed error ends here, as the outcome of this one configuration.
   [[nodiscard]] Answer answer(const Job& job) {
     const auto start = Clock::now();
     Answer answer;
     answer.record.factors = job.configuration;
-    try {
-      perform(job, answer);
-    } catch (const core::NotSupported& error) {
-      conclude(answer, record::Outcome::skipped, error.what());
-    } catch (const core::DeviceLost& error) {
-      conclude(answer, record::Outcome::lost, error.what());
-    } catch (const std::bad_alloc&) {
-      conclude(answer, record::Outcome::failed, "out of host memory");
-    } catch (const std::exception& error) {
-      conclude(answer, record::Outcome::failed, error.what());
-    }
+    outcome_of([&] { perform(job, answer); },
+               [&](record::Outcome outcome, const std::string& reason) {
+                 conclude(answer, outcome, reason);
+               });
     answer.record.peak_memory_bytes = peak_memory_bytes();
     answer.worker_ns = ns_since(start);
     answer.record.overhead_ns =
@@ -103,7 +111,47 @@ class Worker {
     return answer;
   }
 
+  [[nodiscard]] Turn hold(const Hold& hold) {
+    return turn([&](Turn&) {
+      held_.reset();
+      Configuration configuration = hold.configuration;
+      held_ = prepare(configuration, hold.plants).prepared;
+    });
+  }
+
+  [[nodiscard]] Turn draw(const Frames& frames) {
+    return turn([&](Turn& turn) {
+      if (!held_) throw core::InputError("frames are asked for, but no configuration is held");
+      for (int i = 0; i < frames.count; ++i) {
+        const Frame frame = held_->frame(Purpose::timing);
+        turn.wall_ns.push_back(frame.wall_ns);
+        if (frame.device_ns) turn.device_ns.push_back(*frame.device_ns);
+      }
+      if (turn.device_ns.size() != turn.wall_ns.size()) turn.device_ns.clear();
+    });
+  }
+
+  [[nodiscard]] Turn release() {
+    return turn([this](Turn&) { held_.reset(); });
+  }
+
  private:
+  template <typename Act>
+  Turn turn(const Act& act) {
+    Turn turn;
+    outcome_of([&] { act(turn); },
+               [&](record::Outcome outcome, const std::string& reason) {
+                 turn = {.outcome = outcome, .reason = reason, .wall_ns = {}, .device_ns = {}};
+                 // Freeing objects of a lost device is what drivers are worst at.
+                 if (outcome == record::Outcome::lost) {
+                   static_cast<void>(held_.release());
+                 } else {
+                   held_.reset();
+                 }
+               });
+    return turn;
+  }
+
   // Of a configuration that was not measured nothing may look as if it had been.
   static void conclude(Answer& answer, record::Outcome outcome, std::string reason) {
     record::Record record;
@@ -115,17 +163,27 @@ class Worker {
     answer.exr.clear();
   }
 
-  void perform(const Job& job, Answer& answer) {
-    measuring_ns_ = 0;
-    if (std::string reason = suite_.missing_data(job.configuration); !reason.empty()) {
+  struct Ready {
+    Work work;
+    std::unique_ptr<Prepared> prepared;
+  };
+  // Resolves the configuration's "auto" levels.
+  Ready prepare(Configuration& configuration, const std::vector<std::string>& plants) {
+    if (std::string reason = suite_.missing_data(configuration); !reason.empty()) {
       throw core::NotSupported(reason);
     }
+    Work work = suite_.work(configuration, *device_);
+    for (const std::string& plant : plants) apply_plant(plant, work);
+    if (const auto reason = device_->unsupported(work)) throw core::NotSupported(*reason);
+    auto prepared = device_->prepare(work);
+    return {std::move(work), std::move(prepared)};
+  }
+
+  void perform(const Job& job, Answer& answer) {
+    measuring_ns_ = 0;
     const auto start = Clock::now();
     Configuration configuration = job.configuration;
-    Work work = suite_.work(configuration, *device_);
-    for (const std::string& plant : job.plants) apply_plant(plant, work);
-    if (const auto reason = device_->unsupported(work)) throw core::NotSupported(*reason);
-    const auto prepared = device_->prepare(work);
+    const auto [work, prepared] = prepare(configuration, job.plants);
     const double prepare_ns = ns_since(start);
     answer.record.prepare_ns = prepare_ns;
 
@@ -140,7 +198,7 @@ class Worker {
     if (technique::technique(work.technique).picture) {
       answer.exr = core::encode_exr(measured.image);
     } else {
-      answer.record.image.clear();  // sums, not a picture
+      answer.record.image.clear();  // a sum, or nothing
     }
   }
 
@@ -148,6 +206,7 @@ class Worker {
   Suite& suite_;
   record::Device info_;
   std::vector<record::ClockTrust> clocks_;
+  std::unique_ptr<Prepared> held_;
   double measuring_ns_ = 0;  // of the last job: what measure() accounts for itself
 };
 
@@ -161,6 +220,28 @@ void die_with_parent() {
 // A process that a driver starts must not keep our pipes open after us.
 void keep_to_ourselves(int fd) {
   if (const int flags = ::fcntl(fd, F_GETFD); flags >= 0) ::fcntl(fd, F_SETFD, flags | FD_CLOEXEC);
+}
+
+record::Outcome serve_one(Worker& worker, const Message& message, int answer_fd) {
+  if (const auto job = as_job(message)) {
+    Answer answer = worker.answer(*job);
+    const record::Outcome outcome = answer.record.outcome;
+    send(answer_fd, to_message(std::move(answer)));
+    return outcome;
+  }
+  Turn turn;
+  if (const auto hold = as_hold(message)) {
+    turn = worker.hold(*hold);
+  } else if (const auto frames = as_frames(message)) {
+    turn = worker.draw(*frames);
+  } else if (as_release(message)) {
+    turn = worker.release();
+  } else {
+    throw core::InputError(fmt::format("a worker is asked for what it does not know: '{}'",
+                                       message.json.value("type", "")));
+  }
+  send(answer_fd, to_message(turn));
+  return turn.outcome;
 }
 
 int serve(const Backend& backend, std::string_view device_id, const FindSuite& find_suite,
@@ -177,13 +258,8 @@ int serve(const Backend& backend, std::string_view device_id, const FindSuite& f
   send(answer_fd, to_message(Hello{.device = worker.info(), .clocks = worker.clocks()}));
 
   while (const auto message = receive(request_fd)) {
-    const auto job = as_job(*message);
-    if (!job) throw core::InputError("a worker is given 'start' once and then only 'job'");
-    Answer answer = worker.answer(*job);
-    const bool lost = answer.record.outcome == record::Outcome::lost;
-    send(answer_fd, to_message(std::move(answer)));
     // Freeing objects of a lost device is what drivers are worst at: leave without it.
-    if (lost) ::_exit(0);
+    if (serve_one(worker, *message, answer_fd) == record::Outcome::lost) ::_exit(0);
   }
   return 0;
 }

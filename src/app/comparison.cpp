@@ -1,0 +1,433 @@
+#include "app/comparison.hpp"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "core/image_io.hpp"
+#include "technique/catalogue.hpp"
+
+namespace triptych::app {
+namespace {
+
+using judge::PairVerdict;
+using measure::Side;
+using measure::TurnClock;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::vector<std::string> kinds_of(const measure::Plan& plan) {
+  std::set<std::string> kinds;
+  for (const measure::Configuration& each : plan.configurations) {
+    kinds.emplace(technique::name_of(technique::technique(each.at("technique")).work));
+  }
+  return {kinds.begin(), kinds.end()};
+}
+
+// Pictures, counters and statistics come from one ordinary job; its few timed frames only tell
+// whether the device's clock can be believed about this work.
+constexpr measure::Protocol looking_protocol{.warm_up_frames = 2,
+                                             .timed_frames = 8,
+                                             .least_loop_ns = 0,
+                                             .most_loop_frames = 1,
+                                             .statistics = true,
+                                             .counters = true};
+
+// A configuration with what it takes to go on measuring it.
+struct Entry {
+  Compared& compared;
+  std::array<std::vector<std::string>, 2> plants;
+  std::vector<measure::Block> blocks;
+  std::vector<double> launches;  // the estimate of each fresh one
+};
+
+class Comparer {
+ public:
+  Comparer(const ComparisonOptions& options, const measure::Suite& suite, Truths& truths,
+           const std::function<void(const ComparisonProgress&)>& tell)
+      : options_(options),
+        suite_(suite),
+        truths_(truths),
+        tell_(tell),
+        same_setup_(options.a.environment == options.b.environment &&
+                    options.a.command == options.b.command),
+        turns_({.suite = options.plan.suite,
+                .kinds = kinds_of(options.plan),
+                .limit = options.limit,
+                .seed = options.seed},
+               options.a, options.b) {
+    result_.a = turns_.hello(Side::a).device;
+    result_.b = turns_.hello(Side::b).device;
+    for (const measure::Configuration& each : options.plan.configurations) {
+      result_.configurations.push_back(
+          {.key = measure::configuration_key(suite, each), .configuration = each});
+    }
+    for (Compared& each : result_.configurations) {
+      entries_.push_back({each, {std::vector<std::string>{}, plants_for(each.key)}, {}, {}});
+    }
+  }
+
+  ComparisonResult run() && {
+    first_looks();
+    go_on_with_the_widest();
+    confirm_suspects();
+    for (Entry& entry : entries_) conclude(entry);
+    result_.seconds = seconds_since(start_);
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::string> plants_for(const std::string& key) const {
+    std::vector<std::string> plants;
+    for (const measure::Plant& plant : options_.plants) {
+      const bool here = plant.only.empty() || ::fnmatch(plant.only.c_str(), key.c_str(), 0) == 0 ||
+                        ::fnmatch(plant.only.c_str(), options_.b.device.c_str(), 0) == 0;
+      if (here) plants.push_back(plant.fault);
+    }
+    return plants;
+  }
+
+  // Does `act` for a configuration: its time is counted, a side's end is its own.
+  template <typename Act>
+  void about(Entry& entry, const Act& act) {
+    const auto start = Clock::now();
+    try {
+      act();
+    } catch (const measure::SideEnded& ended) {
+      held_ = nullptr;
+      entry.compared.ended = ended.outcome();
+      entry.compared.reason = ended.what();
+      const bool fault_of_b =
+          ended.side() == Side::b && ended.outcome() != record::Outcome::skipped;
+      if (fault_of_b) {
+        entry.compared.differences.push_back(
+            {judge::DifferenceKind::regression, "outcome", ended.what()});
+      }
+    }
+    entry.compared.seconds += seconds_since(start);
+  }
+
+  void first_looks() {
+    int done = 0;
+    const int total = static_cast<int>(entries_.size());
+    const int first = options_.design.looks.front();
+    for (Entry& entry : entries_) {
+      const double each_s = done > 0 ? seconds_since(start_) / done : 0;
+      say("first look", entry, done, total, each_s * (total - done));
+      about(entry, [&] {
+        look_at_both(entry);
+        if (!entry.compared.reason.empty()) return;  // a wrong picture: its time means nothing
+        draw_until(entry, first);
+        judge_blocks(entry);
+      });
+      ++done;
+    }
+  }
+
+  measure::OnLoading loading_of(const Entry& entry) {
+    return [this, &entry](const measure::Loading& loading) {
+      if (tell_) tell_({.stage = {}, .configuration = entry.compared.key, .loading = loading});
+    };
+  }
+
+  [[nodiscard]] measure::Answer measure_one(Side side, const Entry& entry) {
+    const std::string& key = entry.compared.key;
+    measure::Answer answer =
+        turns_.measure(side,
+                       {.name = fmt::format("{}/{}", measure::name_of(side), key),
+                        .configuration = entry.compared.configuration,
+                        .protocol = looking_protocol,
+                        .plants = entry.plants.at(side == Side::a ? 0 : 1)},
+                       loading_of(entry));
+    record::Record& record = answer.record;
+    record.suite = options_.plan.suite;
+    record.plan = options_.plan.name;
+    record.configuration = key;
+    record.scene = measure::scene_key(suite_, entry.compared.configuration);
+    record.technique = entry.compared.configuration.at("technique");
+    record.device = turns_.hello(side).device.id;
+    return answer;
+  }
+
+  // Everything but time, and which clock is to be used.
+  void look_at_both(Entry& entry) {
+    release();
+    const measure::Answer a = measure_one(Side::a, entry);
+    const measure::Answer b = measure_one(Side::b, entry);
+    const core::Image image_a = a.exr.empty() ? core::Image() : core::decode_exr(a.exr);
+    const core::Image image_b = b.exr.empty() ? core::Image() : core::decode_exr(b.exr);
+    judge::ComparedSide side_a{a.record, result_.a, image_a};
+    judge::ComparedSide side_b{b.record, result_.b, image_b};
+    find_truth(side_a);
+    find_truth(side_b);
+    judge::Comparison found = judge::find_differences(side_a, side_b, same_setup_);
+    entry.compared.differences = std::move(found.differences);
+    entry.compared.reason = std::move(found.void_time);
+    entry.compared.split = judge::split_time(0, a.record.counters, b.record.counters);
+    choose_clock(entry.compared, a.record, b.record);
+  }
+
+  void find_truth(judge::ComparedSide& side) {
+    if (side.record.image.empty()) return;
+    try {
+      side.truth = &truths_.of(side.record);
+    } catch (const core::Error& error) {
+      side.no_truth = error.what();
+    }
+  }
+
+  static void choose_clock(Compared& compared, const record::Record& a, const record::Record& b) {
+    if (a.device_clock_trusted && b.device_clock_trusted) {
+      compared.clock = TurnClock::device;
+      return;
+    }
+    const bool neither = !a.device_clock_trusted && !b.device_clock_trusted;
+    compared.why_wall = fmt::format("the device clock of {} cannot be believed here",
+                                    neither                  ? "neither side"
+                                    : a.device_clock_trusted ? "side b"
+                                                             : "side a");
+    if (neither) compared.why_wall = "the device clocks of both sides cannot be believed here";
+  }
+
+  void release() {
+    if (held_ != nullptr) {
+      held_ = nullptr;
+      turns_.release();
+    }
+  }
+
+  void hold(Entry& entry) {
+    if (held_ == &entry) return;
+    held_ = nullptr;
+    turns_.hold(entry.compared.configuration, entry.plants, entry.compared.clock,
+                loading_of(entry));
+    entry.compared.frames_per_turn = turns_.frames_per_turn();
+    held_ = &entry;
+  }
+
+  void draw_until(Entry& entry, int blocks) {
+    hold(entry);
+    const bool first = entry.blocks.empty();
+    while (static_cast<int>(entry.blocks.size()) < blocks && (first || !over_budget())) {
+      entry.blocks.push_back(turns_.block());
+    }
+  }
+
+  void judge_blocks(Entry& entry) {
+    Compared& compared = entry.compared;
+    if (compared.clock == TurnClock::device && !measure::device_clock_holds(entry.blocks)) {
+      compared.clock = TurnClock::wall;
+      compared.why_wall = "the device times of these turns cannot be true";
+    }
+    const judge::Look look =
+        judge::look_at(measure::differences(entry.blocks, compared.clock), options_.design);
+    compared.verdict = look.verdict;
+    compared.shift = look.shift;
+    compared.blocks = static_cast<int>(entry.blocks.size());
+  }
+
+  [[nodiscard]] bool over_budget() const {
+    return options_.budget && Clock::now() - start_ >= *options_.budget;
+  }
+
+  [[nodiscard]] bool may_go_on(const Entry& entry) const {
+    const Compared& compared = entry.compared;
+    return !compared.ended && compared.reason.empty() &&
+           compared.verdict == PairVerdict::undecided &&
+           options_.design.next_look(compared.blocks) > 0;
+  }
+
+  // At most: every block that could still be asked for, or the budget.
+  [[nodiscard]] double most_left_s() const {
+    double left = 0;
+    for (const Entry& entry : entries_) {
+      if (!may_go_on(entry)) continue;
+      left += entry.compared.seconds / entry.compared.blocks *
+              (options_.design.looks.back() - entry.compared.blocks);
+    }
+    if (!options_.budget) return left;
+    return std::min(
+        left, std::chrono::duration<double>(*options_.budget).count() - seconds_since(start_));
+  }
+
+  void go_on_with_the_widest() {
+    while (!over_budget()) {
+      Entry* widest = nullptr;
+      int open = 0;
+      for (Entry& entry : entries_) {
+        if (!may_go_on(entry)) continue;
+        ++open;
+        const auto width = [](const Entry& each) {
+          return each.compared.shift.interval.half_width();
+        };
+        if (widest == nullptr || width(entry) > width(*widest)) widest = &entry;
+      }
+      if (widest == nullptr) return;
+      const int total = static_cast<int>(entries_.size());
+      say("more blocks", *widest, total - open, total, most_left_s());
+      about(*widest, [&] {
+        // The look at the budget's end is one of those that were planned.
+        draw_until(*widest, options_.design.next_look(widest->compared.blocks));
+        judge_blocks(*widest);
+      });
+    }
+  }
+
+  [[nodiscard]] std::vector<Entry*> suspects() {
+    std::vector<Entry*> result;
+    for (Entry& entry : entries_) {
+      const PairVerdict verdict = entry.compared.verdict;
+      const bool suspected = verdict == PairVerdict::slower || verdict == PairVerdict::faster;
+      if (suspected && !entry.compared.ended) result.push_back(&entry);
+    }
+    return result;
+  }
+
+  void confirm_suspects() {
+    const std::vector<Entry*> suspected = suspects();
+    if (suspected.empty()) return;
+    const auto start = Clock::now();
+    const int total = options_.launches * static_cast<int>(suspected.size());
+    int done = 0;
+    for (int launch = 1; launch <= options_.launches; ++launch) {
+      held_ = nullptr;
+      try {
+        turns_.relaunch();
+      } catch (const measure::SideEnded&) {
+        break;  // what is then not confirmed says so
+      }
+      for (Entry* entry : suspected) {
+        const double each_s = done > 0 ? seconds_since(start) / done : 0;
+        say(fmt::format("fresh launch {} of {}", launch, options_.launches), *entry, done, total,
+            each_s * (total - done));
+        if (!entry->compared.ended) about(*entry, [&] { launch_again(*entry); });
+        ++done;
+      }
+    }
+    judge_launches(suspected);
+  }
+
+  void launch_again(Entry& entry) {
+    hold(entry);
+    std::vector<measure::Block> blocks;
+    for (int i = 0; i < options_.blocks_per_launch; ++i) blocks.push_back(turns_.block());
+    if (entry.compared.clock == TurnClock::device && !measure::device_clock_holds(blocks)) return;
+    const auto differences = measure::differences(blocks, entry.compared.clock);
+    const double level = options_.design.alpha_of_a_look();
+    entry.launches.push_back(judge::estimate_shift(differences, level).estimate);
+  }
+
+  void judge_launches(const std::vector<Entry*>& suspected) {
+    std::vector<judge::Suspect> judged;
+    std::vector<Entry*> entries;
+    for (Entry* entry : suspected) {
+      Compared& compared = entry->compared;
+      if (compared.ended) continue;
+      if (entry->launches.size() < 2) {
+        compared.reason = fmt::format("{} at first, but fresh launches could not be measured",
+                                      judge::name_of(compared.verdict));
+        compared.verdict = PairVerdict::undecided;
+        continue;
+      }
+      judged.push_back({entry->launches, compared.verdict == PairVerdict::slower});
+      entries.push_back(entry);
+    }
+    const auto confirmed =
+        judge::confirm(judged, entries_.size(), options_.false_discovery_rate, options_.design);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      Compared& compared = entries[i]->compared;
+      compared.launches = static_cast<int>(entries[i]->launches.size());
+      if (confirmed[i].verdict != compared.verdict) {
+        compared.reason = fmt::format("{} in one launch by {:+.2f} %, not so in {} fresh ones",
+                                      judge::name_of(compared.verdict),
+                                      100 * std::expm1(compared.shift.estimate), compared.launches);
+      }
+      compared.verdict = confirmed[i].verdict;
+      compared.shift = confirmed[i].shift;
+    }
+  }
+
+  void conclude(Entry& entry) {
+    Compared& compared = entry.compared;
+    if (compared.split)
+      compared.split->ln_time_per_work = compared.shift.estimate - compared.split->ln_work;
+    if (compared.blocks == 0) compared.split.reset();
+    const bool unexplained = !compared.ended && compared.reason.empty();
+    if (unexplained && compared.verdict == PairVerdict::undecided) {
+      const bool all = options_.design.next_look(compared.blocks) == 0;
+      compared.reason = fmt::format("{} after {} blocks, the interval is ±{:.2f} % wide",
+                                    all ? "undecided" : "the budget ended", compared.blocks,
+                                    100 * std::expm1(compared.shift.interval.half_width()));
+    }
+  }
+
+  void say(std::string stage, const Entry& entry, int done, int total, double left_s) {
+    if (!tell_) return;
+    tell_({.stage = std::move(stage),
+           .configuration = entry.compared.key,
+           .done = done,
+           .total = total,
+           .left = std::chrono::seconds(static_cast<long>(std::ceil(std::max(0.0, left_s)))),
+           .loading = {}});
+  }
+
+  const ComparisonOptions& options_;
+  const measure::Suite& suite_;
+  Truths& truths_;
+  const std::function<void(const ComparisonProgress&)>& tell_;
+  bool same_setup_;
+  Clock::time_point start_ = Clock::now();
+  measure::Turns turns_;
+  ComparisonResult result_;
+  std::vector<Entry> entries_;
+  const Entry* held_ = nullptr;  // by both workers
+};
+
+bool has(const Compared& compared, judge::DifferenceKind kind) {
+  return std::ranges::any_of(compared.differences,
+                             [kind](const auto& each) { return each.kind == kind; });
+}
+
+}  // namespace
+
+bool Compared::is_regression() const {
+  return (!ended && verdict == PairVerdict::slower) ||
+         has(*this, judge::DifferenceKind::regression);
+}
+
+bool Compared::is_doubtful() const {
+  if (has(*this, judge::DifferenceKind::unjudged)) return true;
+  return ended ? *ended != record::Outcome::skipped : verdict == PairVerdict::undecided;
+}
+
+std::string_view Compared::verdict_name() const {
+  if (ended) return *ended == record::Outcome::skipped ? "skipped" : "cannot tell";
+  return judge::name_of(verdict);
+}
+
+core::ExitCode ComparisonResult::exit_code() const {
+  const auto any = [this](auto member) {
+    return std::ranges::any_of(configurations,
+                               [&](const Compared& each) { return (each.*member)(); });
+  };
+  if (any(&Compared::is_regression)) return core::ExitCode::regression;
+  const bool measured =
+      std::ranges::any_of(configurations, [](const Compared& each) { return each.blocks > 0; });
+  return measured && !any(&Compared::is_doubtful) ? core::ExitCode::pass
+                                                  : core::ExitCode::cannot_judge;
+}
+
+ComparisonResult compare(const ComparisonOptions& options, const measure::Suite& suite,
+                         Truths& truths,
+                         const std::function<void(const ComparisonProgress&)>& tell) {
+  return Comparer(options, suite, truths, tell).run();
+}
+
+}  // namespace triptych::app

@@ -1,0 +1,288 @@
+#include "measure/turns.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "core/hash.hpp"
+#include "measure/clock.hpp"
+#include "measure/environment.hpp"
+#include "measure/worker_link.hpp"
+
+namespace triptych::measure {
+namespace {
+
+constexpr std::array<Side, 2> both{Side::a, Side::b};
+
+// Sides with other variables or another program must not find each other's compiled code: drivers
+// do not put all that changes it into their caches' keys.
+std::string cache_name(const SideOptions& side) {
+  const std::string setup =
+      fmt::format("{} {}", fmt::join(side.command, " "), fmt::join(side.environment, " "));
+  return fmt::format("{}-{}", side.device, core::content_hash(setup).substr(0, 8));
+}
+
+std::vector<std::string> environment_of(const SideOptions& side, const CacheFolder& cache) {
+  const std::string name = "MESA_SHADER_CACHE_DIR";
+  std::vector<std::string> overrides = side.environment;
+  const bool set = std::getenv(name.c_str()) != nullptr ||
+                   std::ranges::any_of(overrides, [&](const std::string& entry) {
+                     return entry.starts_with(name + "=");
+                   });
+  if (!set) overrides.push_back(name + "=" + (cache.path() / "mesa").string());
+  return worker_environment(side.device, cache, overrides);
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double ln_mean(const std::array<double, 2>& times_ns) {
+  constexpr double least_ns = 1;
+  return 0.5 *
+         (std::log(std::max(times_ns[0], least_ns)) + std::log(std::max(times_ns[1], least_ns)));
+}
+
+}  // namespace
+
+std::string_view name_of(Side side) {
+  return side == Side::a ? "a" : "b";
+}
+
+SideEnded::SideEnded(Side side, record::Outcome outcome, const std::string& reason)
+    : Error(fmt::format("{} {}: {}", name_of(side), record::name_of(outcome), reason)),
+      side_(side),
+      outcome_(outcome) {}
+
+std::vector<double> differences(std::span<const Block> blocks, TurnClock clock) {
+  std::vector<double> result;
+  result.reserve(blocks.size());
+  for (const Block& block : blocks) {
+    const auto ln_time = [clock](const SideTimes& times) {
+      return ln_mean(clock == TurnClock::device ? times.device_ns.value() : times.wall_ns);
+    };
+    result.push_back(ln_time(block.b) - ln_time(block.a));
+  }
+  return result;
+}
+
+bool device_clock_holds(std::span<const Block> blocks) {
+  for (const auto side : {&Block::a, &Block::b}) {
+    std::vector<double> wall_ns;
+    std::vector<double> device_ns;
+    for (const Block& block : blocks) {
+      const SideTimes& times = block.*side;
+      if (!times.device_ns) return false;
+      wall_ns.insert(wall_ns.end(), times.wall_ns.begin(), times.wall_ns.end());
+      device_ns.insert(device_ns.end(), times.device_ns->begin(), times.device_ns->end());
+    }
+    if (!plausible(device_ns, wall_ns)) return false;
+  }
+  return true;
+}
+
+// A side with the worker that serves it just now.
+class Turns::Seat {
+ public:
+  Seat(Side side, SideOptions side_options, const TurnOptions& options, InterruptGuard& interrupts)
+      : side_(side),
+        side_options_(std::move(side_options)),
+        options_(options),
+        interrupts_(interrupts),
+        cache_(cache_name(side_options_)),
+        environment_(environment_of(side_options_, cache_)) {}
+
+  [[nodiscard]] const Hello& hello() const { return hello_; }
+  [[nodiscard]] const std::string& why_closed() const { return why_closed_; }
+
+  // False when no worker can be had, now or later; the reason is then in why_closed().
+  bool open() {
+    constexpr int most_attempts = 2;
+    for (int attempt = 0; !worker_ && why_closed_.empty(); ++attempt) {
+      std::string reason = start();
+      if (!reason.empty() && attempt + 1 >= most_attempts) why_closed_ = std::move(reason);
+    }
+    return worker_ != nullptr;
+  }
+
+  void close() {
+    if (worker_) worker_->finish();
+    worker_.reset();
+  }
+
+  // Throws SideEnded unless a message of the wanted kind comes back.
+  template <typename As>
+  auto ask(const Message& message, As as, const OnLoading& on_loading) {
+    if (!open()) throw SideEnded(side_, record::Outcome::failed, why_closed_);
+    WorkerLink::Reply reply = worker_->ask(message, options_.limit, on_loading);
+    if (const auto* died = std::get_if<WorkerLink::Died>(&reply)) {
+      give_up(record::Outcome::crashed, died->reason);
+    }
+    if (const auto* late = std::get_if<WorkerLink::Late>(&reply)) {
+      give_up(record::Outcome::hung, late->reason);
+    }
+    Message& answer = std::get<Message>(reply);
+    if (const auto refused = as_refused(answer)) give_up(record::Outcome::failed, refused->reason);
+    try {
+      if (auto wanted = as(std::move(answer))) return std::move(*wanted);
+    } catch (const core::InputError& error) {
+      give_up(record::Outcome::failed, error.what());
+    }
+    give_up(record::Outcome::failed, "the worker said something other than its answer");
+  }
+
+  // Throws SideEnded for an outcome that is none of a measured configuration.
+  void require_measured(record::Outcome outcome, const std::string& reason) {
+    if (outcome == record::Outcome::measured) return;
+    if (outcome == record::Outcome::lost) worker_.reset();
+    throw SideEnded(side_, outcome, reason);
+  }
+
+  Turn turn(const Message& message, const OnLoading& on_loading = {}) {
+    Turn turn = ask(
+        message, [](const Message& answer) { return as_turn(answer); }, on_loading);
+    require_measured(turn.outcome, turn.reason);
+    return turn;
+  }
+
+  // The times of so many frames.
+  Turn draw(int frames) {
+    Turn drawn = turn(to_message(Frames{.count = frames}));
+    if (drawn.wall_ns.size() != static_cast<std::size_t>(frames)) {
+      give_up(record::Outcome::failed,
+              fmt::format("{} frames were asked for, {} drawn", frames, drawn.wall_ns.size()));
+    }
+    return drawn;
+  }
+
+  void release() {
+    if (worker_) static_cast<void>(turn(to_message(Release{})));
+  }
+
+ private:
+  [[noreturn]] void give_up(record::Outcome outcome, const std::string& reason) {
+    worker_.reset();
+    throw SideEnded(side_, outcome, reason);
+  }
+
+  // Empty when a worker has said hello, else why not.
+  std::string start() {
+    std::vector<std::string> command = side_options_.command;
+    command.push_back(side_options_.device);
+    const auto closed = [this](std::string_view reason) {
+      return fmt::format("{} cannot be opened: {}", side_options_.device, reason);
+    };
+    try {
+      auto worker = std::make_unique<WorkerLink>(command, environment_, interrupts_);
+      // Further workers rest on the first one's verdict on the clocks.
+      const auto greeting =
+          worker->greet({.suite = options_.suite, .kinds = options_.kinds, .clocks = hello_.clocks},
+                        options_.start_limit);
+      if (const auto* reason = std::get_if<std::string>(&greeting)) return closed(*reason);
+      if (hello_.device.id.empty()) hello_ = std::get<Hello>(greeting);
+      worker_ = std::move(worker);
+    } catch (const core::IoError& error) {
+      return closed(error.what());
+    }
+    return {};
+  }
+
+  Side side_;
+  SideOptions side_options_;
+  const TurnOptions& options_;
+  InterruptGuard& interrupts_;
+  CacheFolder cache_;
+  std::vector<std::string> environment_;
+  Hello hello_;
+  std::unique_ptr<WorkerLink> worker_;
+  std::string why_closed_;
+};
+
+Turns::Turns(TurnOptions options, SideOptions a, SideOptions b)
+    : options_(std::move(options)), random_(options_.seed) {
+  if (const auto reason = forbids_measuring()) throw core::InputError(*reason);
+  for (const SideOptions* side : {&a, &b}) {
+    if (const auto reason = forbids_measuring(side->environment)) throw core::InputError(*reason);
+  }
+  seats_[0] = std::make_unique<Seat>(Side::a, std::move(a), options_, interrupts_);
+  seats_[1] = std::make_unique<Seat>(Side::b, std::move(b), options_, interrupts_);
+  // Clocks are calibrated one after the other: neither disturbs the other's.
+  for (const auto& each : seats_) {
+    if (!each->open()) throw core::NotSupported(each->why_closed());
+  }
+}
+
+Turns::~Turns() = default;
+
+const Hello& Turns::hello(Side side) const {
+  return seat(side).hello();
+}
+
+Answer Turns::measure(Side side, const Job& job, const OnLoading& on_loading) {
+  Answer answer = seat(side).ask(
+      to_message(job), [](Message&& message) { return as_answer(std::move(message)); }, on_loading);
+  seat(side).require_measured(answer.record.outcome, answer.record.reason);
+  return answer;
+}
+
+void Turns::hold(const Configuration& configuration,
+                 const std::array<std::vector<std::string>, 2>& plants, TurnClock clock,
+                 const OnLoading& on_loading) {
+  constexpr int warm_up_frames = 3;
+  constexpr int most_frames = 1000;
+  for (const Side side : both) {
+    const Hold request{configuration, plants.at(side == Side::a ? 0 : 1)};
+    static_cast<void>(seat(side).turn(to_message(request), on_loading));
+  }
+  double fastest_ns = std::numeric_limits<double>::infinity();
+  for (const Side side : both) {
+    const Turn turn = seat(side).draw(warm_up_frames);
+    const bool by_device = clock == TurnClock::device && !turn.device_ns.empty();
+    fastest_ns = std::min(fastest_ns, std::ranges::min(by_device ? turn.device_ns : turn.wall_ns));
+  }
+  const double frames = std::ceil(options_.least_turn_ns / std::max(fastest_ns, 1.0));
+  frames_per_turn_ = static_cast<int>(std::clamp(frames, 1.0, static_cast<double>(most_frames)));
+  for (const Side side : both) static_cast<void>(seat(side).draw(frames_per_turn_));
+}
+
+Block Turns::block() {
+  Block block{.b_first = random_.uniform() < 0.5, .a = {}, .b = {}};
+  const Side first = block.b_first ? Side::b : Side::a;
+  const Side second = block.b_first ? Side::a : Side::b;
+  std::array<std::array<double, 2>, 2> device_ns{};
+  std::array<bool, 2> told{true, true};
+  std::array<std::size_t, 2> turns{};
+  for (const Side side : {first, second, second, first}) {
+    const std::size_t index = side == Side::a ? 0 : 1;
+    const Turn turn = seat(side).draw(frames_per_turn_);
+    const std::size_t number = turns.at(index)++;
+    (side == Side::a ? block.a : block.b).wall_ns.at(number) = mean_of(turn.wall_ns);
+    if (turn.device_ns.empty()) {
+      told.at(index) = false;
+    } else {
+      device_ns.at(index).at(number) = mean_of(turn.device_ns);
+    }
+  }
+  if (told[0]) block.a.device_ns = device_ns[0];
+  if (told[1]) block.b.device_ns = device_ns[1];
+  return block;
+}
+
+void Turns::release() {
+  for (const Side side : both) seat(side).release();
+}
+
+void Turns::relaunch() {
+  for (const auto& each : seats_) each->close();
+  for (const Side side : both) {
+    if (!seat(side).open()) throw SideEnded(side, record::Outcome::failed, seat(side).why_closed());
+  }
+}
+
+}  // namespace triptych::measure
