@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "report/html.hpp"
+#include "report/page_frame.hpp"
 #include "report/page_sections.hpp"
-#include "triptych_report_embedded.hpp"
 
 namespace triptych::report {
 namespace {
@@ -47,32 +47,17 @@ std::string plan_part(const record::Store& store, const PlanReport& report,
          speed_of_light_section(plan) + counts_section(plan) + "</section>\n";
 }
 
-std::string head() {
-  std::string text =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
-      "<title>Triptych report</title><style>";
-  text += embedded("style.css");
-  text += "</style>\n";
-  for (const std::string_view script : {"vega.min.js", "vega-lite.min.js", "vega-embed.min.js"}) {
-    text += "<script>";
-    text += embedded(script);
-    text += "</script>\n";
-  }
-  return text + "</head><body>\n";
-}
-
 }  // namespace
 
 std::string page(const record::Store& store, const PageRequest& request) {
   std::string text =
-      head() +
-      "<header><h1>Triptych</h1><p>The same scenes through OpenCL, Vulkan and OpenGL, "
-      "compared with the truth and with what was stored before.</p></header>\n";
+      page_begin("Triptych report", "Triptych",
+                 "The same scenes through OpenCL, Vulkan and OpenGL, compared with the truth and "
+                 "with what was stored before.");
   for (std::size_t i = 0; i < request.plans.size(); ++i) {
     text += plan_part(store, request.plans[i], request, i);
   }
-  return text + "</body></html>\n";
+  return text + page_end();
 }
 
 }  // namespace triptych::report
