@@ -74,6 +74,11 @@ std::vector<StoredTiming> read_timings(const JsonNode& node) {
   return result;
 }
 
+// Device::key() begins with the id and the driver.
+std::string id_of_key(const std::string& key) {
+  return key.substr(0, key.find("; driver "));
+}
+
 bool is_iso_date(std::string_view text) {
   constexpr std::string_view shape = "dddd-dd-dd";
   return text.size() == shape.size() && std::ranges::equal(text, shape, [](char c, char s) {
@@ -229,6 +234,25 @@ std::vector<StoredTiming> Baselines::timings(const record::Device& device,
                 .first;
   }
   return find_optional(known->second, configuration).value_or(std::vector<StoredTiming>{});
+}
+
+std::vector<StoredDevice> Baselines::timings_of_all_devices() const {
+  std::vector<StoredDevice> result;
+  const auto folder = cache_->layout.timings_folder();
+  if (!std::filesystem::is_directory(folder)) return result;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".json") continue;
+    const auto file = JsonFile::read(entry.path());
+    if (!file) continue;
+    StoredDevice device;
+    device.key = file->root().at("device").text();
+    device.id = id_of_key(device.key);
+    device.timings =
+        read_members<std::vector<StoredTiming>>(file->root().at("configurations"), read_timings);
+    result.push_back(std::move(device));
+  }
+  std::ranges::sort(result, {}, &StoredDevice::key);
+  return result;
 }
 
 bool Baselines::accepted_before(const record::Device& device) const {

@@ -35,6 +35,13 @@ struct StoredTiming {
   std::string kernel_hash;
 };
 
+// All that is stored of one device's times.
+struct StoredDevice {
+  std::string id;
+  std::string key;                                           // Device::key()
+  std::map<std::string, std::vector<StoredTiming>> timings;  // by configuration
+};
+
 struct StoredBits {
   std::string image;
   std::string kernel_hash;
@@ -77,6 +84,10 @@ class Baselines {
       const std::string& driver) const;
   [[nodiscard]] std::vector<StoredTiming> timings(const record::Device& device,
                                                   const std::string& configuration) const;
+  // Of every device that was ever accepted, by key.
+  [[nodiscard]] std::vector<StoredDevice> timings_of_all_devices() const;
+  // The baselines of another plan beside these.
+  [[nodiscard]] Baselines of_plan(std::string_view plan) const { return {root_, plan}; }
   // Whether a device with this key was ever accepted: its bits and timings must then be there.
   [[nodiscard]] bool accepted_before(const record::Device& device) const;
   // Configurations that have counters stored: what a complete run must hold.

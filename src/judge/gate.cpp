@@ -17,11 +17,20 @@ bool asked_for(const GateRequest& request, const std::string& device) {
   return request.devices.empty() || any_glob_matches(request.devices, device);
 }
 
+bool enough_to_correlate(const RunView& view) {
+  std::map<std::string, std::size_t> measured;
+  for (const record::Record* record : view.measured) ++measured[record->device];
+  return std::ranges::any_of(measured, [](const auto& device) {
+    return device.second >= CorrelationModel::least_configurations;
+  });
+}
+
 RunView view_of(const record::Store& store, const std::string& run, const Baselines& baselines,
                 const GateRequest& request) {
   RunView view{store, baselines, request, request.checks, {}, {}, {}};
   if (view.checks.empty()) {
-    view.checks = {Check::image, Check::counters, Check::statistics, Check::timing};
+    view.checks = {Check::image, Check::counters, Check::statistics, Check::timing,
+                   Check::correlation};
   }
   for (auto& entry : store.devices(run)) {
     if (asked_for(request, entry.device.id)) view.devices.emplace(entry.device.id, entry.device);
@@ -36,6 +45,9 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   }
   for (const record::Record& record : view.records) {
     if (record.outcome == record::Outcome::measured) view.measured.push_back(&record);
+  }
+  if (request.checks.empty() && !enough_to_correlate(view)) {
+    view.checks.erase(Check::correlation);
   }
   return view;
 }
@@ -119,16 +131,25 @@ void append(std::vector<Finding>& findings, std::vector<Finding> more) {
 }
 
 // A wrong picture voids its time, so pictures are judged for the timing check too.
-void run_checks(const RunView& view, std::vector<Finding>& findings) {
+void run_checks(const RunView& view, GateResult& result) {
+  std::vector<Finding>& findings = result.findings;
   ImageFindings images;
   const bool wants_images = view.checks.contains(Check::image);
   const bool wants_timings = view.checks.contains(Check::timing) && view.baselines.present();
-  if (wants_images || (wants_timings && view.request.truth)) images = check_images(view);
+  const bool wants_correlations =
+      view.checks.contains(Check::correlation) && view.baselines.present();
+  if (wants_images || ((wants_timings || wants_correlations) && view.request.truth))
+    images = check_images(view);
   if (wants_images) append(findings, std::move(images.findings));
   if (!view.baselines.present()) return;
   if (view.checks.contains(Check::counters)) append(findings, check_counters(view));
   if (view.checks.contains(Check::statistics)) append(findings, check_statistics(view));
   if (wants_timings) append(findings, check_timings(view, images.wrong));
+  if (wants_correlations) {
+    CorrelationFindings correlations = check_correlations(view, images.wrong);
+    append(findings, std::move(correlations.findings));
+    result.correlations = std::move(correlations.pairs);
+  }
 }
 
 int rank(Verdict verdict) {
@@ -165,7 +186,7 @@ void sort_findings(std::vector<Finding>& findings) {
 GateResult judge_run(const record::Store& store, const std::string& run, const Baselines& baselines,
                      const GateRequest& request) {
   const RunView view = view_of(store, run, baselines, request);
-  GateResult result{request.plan, run, {}};
+  GateResult result{request.plan, run, {}, {}};
   report_nothing_measured(view, run, result.findings);
   report_outcomes(view, result.findings);
   if (baselines.present()) {
@@ -173,7 +194,7 @@ GateResult judge_run(const record::Store& store, const std::string& run, const B
   } else {
     report_no_baselines(view, result.findings);
   }
-  run_checks(view, result.findings);
+  run_checks(view, result);
   apply_waivers(view, result.findings);
   sort_findings(result.findings);
   return result;

@@ -15,11 +15,12 @@
 #include "core/error.hpp"
 #include "core/image.hpp"
 #include "judge/baselines.hpp"
+#include "judge/correlation_model.hpp"
 #include "record/store.hpp"
 
 namespace triptych::judge {
 
-enum class Check : std::uint8_t { image, counters, statistics, timing };
+enum class Check : std::uint8_t { image, counters, statistics, timing, correlation };
 [[nodiscard]] std::string_view name_of(Check check);
 [[nodiscard]] Check check(std::string_view name);  // throws InputError
 
@@ -46,18 +47,34 @@ struct Finding {
   std::map<std::string, double> numbers;  // "max_error", "bound", "rmse", "ratio", …
 };
 
+// A device of the run held against another one, for the report. What was found of it is among the
+// findings, but for pairs within the run, which only show how alike the devices are.
+struct CorrelationPair {
+  std::string device;             // B: the one that is judged
+  std::string other;              // A: id of the one that it is held against
+  std::string other_key;          // Device::key() of A
+  bool within_run = false;        // A was measured in the same run; else it is a stored baseline
+  std::size_t unlike_clocks = 0;  // configurations left out, as A and B were timed by other clocks
+  std::vector<CorrelationCase> cases;
+  Correlation result;  // judgements in the order of the cases
+};
+
 struct GateResult {
   std::string plan;
   std::string run;
-  std::vector<Finding> findings;  // worst first, then by device and configuration
+  std::vector<Finding> findings;                   // worst first, then by device and configuration
+  std::vector<CorrelationPair> correlations = {};  // where that was checked
   [[nodiscard]] core::ExitCode exit_code() const;
   [[nodiscard]] std::string headline()
       const;  // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices"
 };
 
 // {"plan", "run", "exit_code", "headline", "findings": [{"check", "verdict", "test", "device",
-// "configuration", "message", "numbers"}]}
+// "configuration", "message", "numbers"}], "correlations": [as of the pair]}
 [[nodiscard]] nlohmann::json to_json(const GateResult& result);
+// {"device", "other", "other_key", "within_run", "unlike_clocks", "refusals", …, "configurations",
+// "levels", "global"}; what is no number is null.
+[[nodiscard]] nlohmann::json to_json(const CorrelationPair& pair);
 
 struct TruthPair {
   core::Image truth;
@@ -66,7 +83,8 @@ struct TruthPair {
 
 struct GateRequest {
   std::string plan;
-  std::set<Check> checks;            // empty: all
+  std::set<Check> checks;            // empty: all; the correlation only where a device measured
+                                     // CorrelationModel::least_configurations
   std::vector<std::string> devices;  // globs; empty: all in the run
   std::vector<std::string>
       required_devices;  // globs; each must match a device that measured something

@@ -25,8 +25,9 @@ struct Layout {
   [[nodiscard]] std::filesystem::path statistics(const record::Device& device) const {
     return statistics_folder() / (device.statistics_key() + ".json");
   }
+  [[nodiscard]] std::filesystem::path timings_folder() const { return folder / "timings"; }
   [[nodiscard]] std::filesystem::path timings(const record::Device& device) const {
-    return folder / "timings" / (device.key_hash() + ".json");
+    return timings_folder() / (device.key_hash() + ".json");
   }
   [[nodiscard]] std::filesystem::path history() const { return folder / "history.json"; }
 };

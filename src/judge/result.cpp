@@ -13,11 +13,12 @@
 namespace triptych::judge {
 namespace {
 
-constexpr std::array<std::pair<Check, std::string_view>, 4> check_names{{
+constexpr std::array<std::pair<Check, std::string_view>, 5> check_names{{
     {Check::image, "image"},
     {Check::counters, "counters"},
     {Check::statistics, "statistics"},
     {Check::timing, "timing"},
+    {Check::correlation, "correlation"},
 }};
 
 constexpr std::array<std::pair<Verdict, std::string_view>, 7> verdict_names{{
@@ -89,8 +90,8 @@ Check check(std::string_view name) {
   for (const auto& [known, text] : check_names) {
     if (text == name) return known;
   }
-  throw core::InputError(
-      fmt::format("unknown check '{}'; expected image, counters, statistics or timing", name));
+  throw core::InputError(fmt::format(
+      "unknown check '{}'; expected image, counters, statistics, timing or correlation", name));
 }
 
 // A gate that decided nothing has not passed.
@@ -138,11 +139,14 @@ core::Json to_json(const GateResult& result) {
                         {"message", finding.message},
                         {"numbers", core::Json(finding.numbers)}});
   }
+  core::Json correlations = core::Json::array();
+  for (const CorrelationPair& pair : result.correlations) correlations.push_back(to_json(pair));
   return {{"plan", result.plan},
           {"run", result.run},
           {"exit_code", static_cast<int>(result.exit_code())},
           {"headline", result.headline()},
-          {"findings", std::move(findings)}};
+          {"findings", std::move(findings)},
+          {"correlations", std::move(correlations)}};
 }
 
 std::string RunView::plan_test(Check check) const {

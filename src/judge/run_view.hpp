@@ -52,6 +52,12 @@ struct ImageFindings {
 [[nodiscard]] std::vector<Finding> check_statistics(const RunView& view);
 [[nodiscard]] std::vector<Finding> check_timings(const RunView& view, const WrongImages& wrong);
 
+struct CorrelationFindings {
+  std::vector<Finding> findings;
+  std::vector<CorrelationPair> pairs;
+};
+[[nodiscard]] CorrelationFindings check_correlations(const RunView& view, const WrongImages& wrong);
+
 // Turns regressions that waivers.json excuses into waived ones; says where a waiver has expired.
 void apply_waivers(const RunView& view, std::vector<Finding>& findings);
 

@@ -1,0 +1,201 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "judge/correlation_pairs.hpp"
+#include "judge/run_view.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using Model = CorrelationModel;
+
+double percent(double effect) {
+  return 100 * std::expm1(effect);
+}
+
+bool is_worth_telling(double effect) {
+  return effect >= std::log(Model::least_effect);
+}
+
+std::string level_name(const LevelEffect& level) {
+  std::string name = fmt::format("{}={}", level.factor, level.level);
+  if (!level.aliases.empty()) name += fmt::format(" (= {})", fmt::join(level.aliases, ", "));
+  return name;
+}
+
+// "work (samples) +20.0 %, time per unit of work +2.1 %"
+std::string decomposition(const CorrelationCase& each, double residual) {
+  if (!each.log_work) return "no counter of both devices tells whether it is more work";
+  return fmt::format("work ({}) {:+.1f} %, time per unit of work {:+.1f} %", each.work_unit,
+                     percent(*each.log_work), percent(residual - *each.log_work));
+}
+
+class PairReport {
+ public:
+  PairReport(const RunView& view, const CorrelationPair& pair, std::vector<Finding>& findings)
+      : view_(view), pair_(pair), result_(pair.result), findings_(findings) {}
+
+  void run() {
+    if (!result_.admitted()) {
+      add(Verdict::advisory, fmt::format("cannot be judged by {}: {}; {}", pair_.other_key,
+                                         fmt::join(result_.refusals, "; "), remedy()));
+      add_numbers();
+      return;
+    }
+    for (std::size_t i = 0; i < pair_.cases.size(); ++i) report_configuration(i);
+    for (const LevelEffect& level : result_.levels) report_level(level);
+    report_global();
+    if (regressions_ > 0) return;
+    add(Verdict::pass, fmt::format("as {} lets expect: {}", pair_.other_key, fit_text()));
+    add_numbers();
+  }
+
+ private:
+  void add(Verdict verdict, std::string message) {
+    findings_.push_back(finding_about(view_, view_.devices.at(pair_.device), Check::correlation,
+                                      verdict, std::move(message)));
+    if (verdict == Verdict::regression) ++regressions_;
+  }
+
+  [[nodiscard]] std::string fit_text() const {
+    return fmt::format(
+        "{} configurations, {} anchors, r = {:.3f}, ln t_B = {:.3f} + {:.3f} ln t_A, residuals "
+        "{:.1f} %; one configuration shows from {:+.0f} % on",
+        result_.configurations, result_.anchors, result_.r, result_.line.intercept,
+        result_.line.slope, percent(result_.scale), percent(result_.smallest_effect));
+  }
+
+  // What would help depends on what is missing.
+  [[nodiscard]] std::string remedy() const {
+    if (result_.anchors < Model::least_anchors) {
+      return fmt::format(
+          "measure anchors into the same store with triptych run {0}, and accept them on the other "
+          "device with triptych accept {0} --reason TEXT",
+          anchors_plan);
+    }
+    if (result_.configurations < Model::least_configurations) {
+      return pair_.unlike_clocks > 0
+                 ? fmt::format(
+                       "{} more were timed by other kinds of clocks; accept this device's "
+                       "own baseline with {}",
+                       pair_.unlike_clocks, view_.accept_command())
+                 : fmt::format("use a plan with more configurations, or {}",
+                               view_.accept_command());
+    }
+    return fmt::format(
+        "the devices are too unlike; accept this device's own baseline with {}, or "
+        "compare builds here with triptych compare {}",
+        view_.accept_command(), view_.request.plan);
+  }
+
+  void report_configuration(std::size_t index) {
+    const ConfigurationJudgement& judgement = result_.judgements[index];
+    if (!judgement.slower) return;
+    const CorrelationCase& each = pair_.cases[index];
+    add(judgement.standing ? Verdict::advisory : Verdict::regression,
+        fmt::format("{:.4g} ms, {:+.1f} % against what {} lets expect, z = {:.1f}, q = {:.2g}, "
+                    "{:.0f} % of all deviation; {}",
+                    1e-6 * std::exp(each.log_time_b), percent(judgement.residual), pair_.other_key,
+                    judgement.z, judgement.q, 100 * judgement.share,
+                    decomposition(each, judgement.residual)));
+    Finding& finding = findings_.back();
+    finding.configuration = each.configuration;
+    if (judgement.standing) finding.message += "; as when this device was accepted";
+    set_number(finding, "median_ns", std::exp(each.log_time_b));
+    set_number(finding, "ratio", std::exp(judgement.residual));
+    set_number(finding, "z", judgement.z);
+    set_number(finding, "p", judgement.p);
+    set_number(finding, "q", judgement.q);
+    set_number(finding, "share", judgement.share);
+    if (each.log_work) set_number(finding, "work_ratio", std::exp(*each.log_work));
+  }
+
+  // A few percent on a level may be how the other device is made: only what is also large decides.
+  void report_level(const LevelEffect& level) {
+    if (!level.slower) return;
+    const bool decides = !level.standing && is_worth_telling(level.effect);
+    std::string message = fmt::format(
+        "{}: {} configurations {:+.1f} % ± {:.1f} % against the others, as {} lets expect, q = "
+        "{:.2g}, {:.0f} % of all deviation",
+        level_name(level), level.size, percent(level.effect), percent(level.standard_error),
+        pair_.other_key, level.q, 100 * level.share);
+    if (level.standing) {
+      message += "; as when this device was accepted";
+    } else if (!decides) {
+      message += fmt::format(
+          "; less than {:.0f} % may be the devices' character: settle it with triptych compare {}",
+          100 * (Model::least_effect - 1), view_.request.plan);
+    }
+    add(decides ? Verdict::regression : Verdict::advisory, std::move(message));
+    set_number(findings_.back(), "ratio", std::exp(level.effect));
+    set_number(findings_.back(), "standard_error", level.standard_error);
+    set_number(findings_.back(), "q", level.q);
+    set_number(findings_.back(), "share", level.share);
+    set_number(findings_.back(), "smallest_effect", level.smallest_effect);
+  }
+
+  void report_global() {
+    const GlobalShift& global = result_.global;
+    if (!global.slower) return;
+    add(global.standing ? Verdict::advisory : Verdict::regression,
+        fmt::format("the whole program is {:+.1f} % ± {:.1f} % slower than {} lets expect, by {} "
+                    "groups of anchors, p = {:.2g}: the program, not the device{}",
+                    percent(global.delta), percent(global.standard_error), pair_.other_key,
+                    global.groups, global.p,
+                    global.standing ? "; as when this device was accepted" : ""));
+    add_numbers();
+  }
+
+  void add_numbers() {
+    Finding& finding = findings_.back();
+    set_number(finding, "configurations", static_cast<double>(result_.configurations));
+    set_number(finding, "anchors", static_cast<double>(result_.anchors));
+    set_number(finding, "r", result_.r);
+    set_number(finding, "rho", result_.rho);
+    set_number(finding, "intercept", result_.line.intercept);
+    set_number(finding, "slope", result_.line.slope);
+    set_number(finding, "scale", result_.scale);
+    set_number(finding, "anchor_intercept", result_.anchor_intercept);
+    set_number(finding, "smallest_effect", result_.smallest_effect);
+    if (result_.global.groups > 1) {
+      set_number(finding, "global_delta", result_.global.delta);
+      set_number(finding, "global_standard_error", result_.global.standard_error);
+      set_number(finding, "global_p", result_.global.p);
+      set_number(finding, "global_smallest_effect", result_.global.smallest_effect);
+    }
+  }
+
+  const RunView& view_;
+  const CorrelationPair& pair_;
+  const Correlation& result_;
+  std::vector<Finding>& findings_;
+  int regressions_ = 0;
+};
+
+}  // namespace
+
+CorrelationFindings check_correlations(const RunView& view, const WrongImages& wrong) {
+  CorrelationFindings result;
+  result.pairs = correlation_pairs(view, wrong);
+  std::set<std::string> held;
+  for (const CorrelationPair& pair : result.pairs) {
+    if (pair.within_run) continue;
+    held.insert(pair.device);
+    PairReport(view, pair, result.findings).run();
+  }
+  for (const auto& [id, device] : view.devices) {
+    const bool measured = std::ranges::any_of(
+        view.measured, [&](const record::Record* record) { return record->device == id; });
+    if (!measured || held.contains(id)) continue;
+    result.findings.push_back(finding_about(
+        view, device, Check::correlation, Verdict::advisory,
+        fmt::format("no other device is stored in {}; accept this plan's run of one: {}",
+                    view.baselines.folder().string(), view.accept_command())));
+  }
+  return result;
+}
+
+}  // namespace triptych::judge

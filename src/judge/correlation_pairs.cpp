@@ -1,0 +1,251 @@
+#include "judge/correlation_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "judge/anchor.hpp"
+#include "judge/statistics.hpp"
+
+namespace triptych::judge {
+namespace {
+
+constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
+
+using Stored = std::map<std::string, std::vector<StoredTiming>>;
+
+// ln t of the stored runs that the same kind of clock timed, without the run that is judged.
+std::vector<double> like_runs(const Stored& stored, const record::Record& record) {
+  std::vector<double> result;
+  const auto found = stored.find(record.configuration);
+  if (found == stored.end()) return result;
+  for (const StoredTiming& timing : found->second) {
+    if (timing.clock == record.clock() && timing.run != record.run) {
+      result.push_back(std::log(timing.median_ns));
+    }
+  }
+  return result;
+}
+
+// Scatter between a device's runs, over all configurations that have several.
+VariancePrior scatter_between_runs(const Stored& stored) {
+  constexpr double least = 1e-12;  // a clock's steps make runs identical
+  std::vector<double> variances;
+  std::vector<double> degrees;
+  for (const auto& [configuration, runs] : stored) {
+    std::vector<double> logarithms;
+    for (const StoredTiming& timing : runs) {
+      if (timing.clock == runs.back().clock) logarithms.push_back(std::log(timing.median_ns));
+    }
+    if (logarithms.size() < 2) continue;
+    variances.push_back(std::max(sample_variance(logarithms), least));
+    degrees.push_back(static_cast<double>(logarithms.size() - 1));
+  }
+  return fit_variance_prior(variances, degrees);
+}
+
+// Of one run, moderated; 0 where no configuration has two runs: ŝ then carries it alone, as it
+// holds the typical scatter anyway.
+double variance_of_a_run(const VariancePrior& prior, const std::vector<double>& runs) {
+  if (runs.size() < 2) return prior.variance;
+  return moderated_variance(prior, sample_variance(runs), static_cast<double>(runs.size() - 1));
+}
+
+// Of ln median of one run's frames: π/2 times that of a mean of as many, by their own scatter.
+double variance_within(const std::vector<double>& samples) {
+  const double scale = normal_mad * median_absolute_deviation(samples) / median(samples);
+  return std::numbers::pi / 2 * scale * scale / static_cast<double>(samples.size());
+}
+
+double log_median(const record::Record& record) {
+  return std::log(median(record.time_ns()));
+}
+
+// ln(work of `record`/work on A) by the first counter that both have.
+void set_work(CorrelationCase& each, const record::Counts& counters_b,
+              const std::function<std::optional<double>(const std::string&)>& work_a) {
+  for (const std::string_view unit : work_units) {
+    const auto b = counters_b.find(std::string(unit));
+    if (b == counters_b.end() || b->second == 0) continue;
+    const auto a = work_a(b->first);
+    if (!a || !(*a > 0)) continue;
+    each.log_work = std::log(static_cast<double>(b->second) / *a);
+    each.work_unit = b->first;
+    return;
+  }
+}
+
+bool has_time(const record::Record& record) {
+  if (record.outcome != record::Outcome::measured || record.time_ns().empty()) return false;
+  const double time = median(record.time_ns());
+  return time > 0 && std::isfinite(time);
+}
+
+CorrelationCase case_of(const record::Record& record) {
+  CorrelationCase each;
+  each.configuration = record.configuration;
+  each.factors = record.factors;
+  each.factors["technique"] = record.technique;
+  each.anchor = is_anchor(record);
+  each.log_time_b = log_median(record);
+  each.variance_b = variance_within(record.time_ns());
+  return each;
+}
+
+class Pairs {
+ public:
+  Pairs(const RunView& view, const WrongImages& wrong)
+      : view_(view),
+        anchor_baselines_(view.baselines.of_plan(anchors_plan)),
+        stored_(view.baselines.timings_of_all_devices()),
+        stored_anchors_(anchor_baselines_.timings_of_all_devices()) {
+    for (const record::Record* record : view.measured) {
+      if (has_time(*record) && !wrong.contains({record->device, record->configuration})) {
+        records_[record->device].push_back(record);
+      }
+    }
+    if (view.request.plan == anchors_plan) return;
+    if (const auto run = view.store.latest_run(anchors_plan)) load_anchors(run->id);
+    for (const record::Record& anchor : anchors_) records_[anchor.device].push_back(&anchor);
+  }
+
+  [[nodiscard]] std::vector<CorrelationPair> run() const {
+    std::vector<CorrelationPair> pairs;
+    for (const auto& [id, device] : view_.devices) {
+      if (!records_.contains(id)) continue;
+      for (const StoredDevice& other : stored_) {
+        if (other.key != device.key()) pairs.push_back(against_stored(device, other));
+      }
+    }
+    for (const auto& [id, device] : view_.devices) {
+      for (auto other = view_.devices.upper_bound(id); other != view_.devices.end(); ++other) {
+        if (records_.contains(id) && records_.contains(other->first)) {
+          pairs.push_back(within_run(other->second, device));
+        }
+      }
+    }
+    return pairs;
+  }
+
+ private:
+  // Only of the very devices that are judged: another driver is another device.
+  void load_anchors(const std::string& run) {
+    std::set<std::string> same;
+    for (const auto& entry : view_.store.devices(run)) {
+      const auto judged = view_.devices.find(entry.device.id);
+      if (judged != view_.devices.end() && judged->second.key() == entry.device.key()) {
+        same.insert(entry.device.id);
+      }
+    }
+    for (record::Record& record : view_.store.records(run)) {
+      if (same.contains(record.device) && has_time(record)) anchors_.push_back(std::move(record));
+    }
+  }
+
+  // All that is stored under one key, of the plan and of the anchors' plan.
+  [[nodiscard]] Stored stored_under(const std::string& key) const {
+    Stored result;
+    for (const auto* devices : {&stored_, &stored_anchors_}) {
+      for (const StoredDevice& device : *devices) {
+        if (device.key == key) result.insert(device.timings.begin(), device.timings.end());
+      }
+    }
+    return result;
+  }
+
+  [[nodiscard]] CorrelationPair against_stored(const record::Device& device,
+                                               const StoredDevice& other) const {
+    CorrelationPair pair;
+    pair.device = device.id;
+    pair.other = other.id;
+    pair.other_key = other.key;
+    const Stored of_a = stored_under(other.key);
+    const Stored of_b = stored_under(device.key());
+    const VariancePrior scatter_a = scatter_between_runs(of_a);
+    const VariancePrior scatter_b = scatter_between_runs(of_b);
+    for (const record::Record* record : records_.at(device.id)) {
+      if (!of_a.contains(record->configuration)) continue;
+      const auto runs_a = like_runs(of_a, *record);
+      if (runs_a.empty()) {
+        ++pair.unlike_clocks;
+        continue;
+      }
+      CorrelationCase each = case_of(*record);
+      each.log_time_a = mean(runs_a);
+      each.variance_a = variance_of_a_run(scatter_a, runs_a) / static_cast<double>(runs_a.size());
+      const auto runs_b = like_runs(of_b, *record);
+      if (!runs_b.empty()) each.known_log_time_b = mean(runs_b);
+      // A launch scatters more than its frames; unknown of B, it is taken as A's.
+      each.variance_b =
+          std::max(each.variance_b, scatter_b.variance > 0 ? variance_of_a_run(scatter_b, runs_b)
+                                                           : variance_of_a_run(scatter_a, runs_a));
+      set_work(each, record->counters, [&](const std::string& unit) {
+        return stored_work(record->configuration, unit, other.id);
+      });
+      pair.cases.push_back(std::move(each));
+    }
+    pair.result = correlate(pair.cases);
+    return pair;
+  }
+
+  [[nodiscard]] CorrelationPair within_run(const record::Device& device,
+                                           const record::Device& other) const {
+    CorrelationPair pair;
+    pair.device = device.id;
+    pair.other = other.id;
+    pair.other_key = other.key();
+    pair.within_run = true;
+    std::map<std::string, const record::Record*> of_a;
+    for (const record::Record* record : records_.at(other.id)) {
+      of_a.emplace(record->configuration, record);
+    }
+    for (const record::Record* record : records_.at(device.id)) {
+      const auto a = of_a.find(record->configuration);
+      if (a == of_a.end()) continue;
+      if (a->second->clock() != record->clock()) {
+        ++pair.unlike_clocks;
+        continue;
+      }
+      CorrelationCase each = case_of(*record);
+      each.log_time_a = log_median(*a->second);
+      each.variance_a = variance_within(a->second->time_ns());
+      set_work(each, record->counters, [&](const std::string& unit) {
+        const auto found = a->second->counters.find(unit);
+        return found == a->second->counters.end()
+                   ? std::nullopt
+                   : std::optional(static_cast<double>(found->second));
+      });
+      pair.cases.push_back(std::move(each));
+    }
+    pair.result = correlate(pair.cases);
+    return pair;
+  }
+
+  [[nodiscard]] std::optional<double> stored_work(const std::string& configuration,
+                                                  const std::string& unit,
+                                                  const std::string& device) const {
+    const auto counters = view_.baselines.counters(configuration);
+    if (!counters) return std::nullopt;
+    const auto counter = counters->find(unit);
+    if (counter == counters->end()) return std::nullopt;
+    const auto value = counter->second.find(device);
+    if (value == counter->second.end()) return std::nullopt;
+    return static_cast<double>(value->second);
+  }
+
+  const RunView& view_;
+  Baselines anchor_baselines_;
+  std::vector<StoredDevice> stored_;
+  std::vector<StoredDevice> stored_anchors_;
+  std::vector<record::Record> anchors_;  // of the latest run of the anchors' plan
+  std::map<std::string, std::vector<const record::Record*>> records_;  // by device
+};
+
+}  // namespace
+
+std::vector<CorrelationPair> correlation_pairs(const RunView& view, const WrongImages& wrong) {
+  return Pairs(view, wrong).run();
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,25 @@
+#pragma once
+// From records and baselines to the cases of the correlation model.
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "judge/run_view.hpp"
+
+namespace triptych::judge {
+
+inline constexpr std::string_view anchors_plan = "anchors/frozen";
+
+// Counters to which the time of a technique is proportional; the first that both devices have tells
+// how much work a configuration is.
+inline constexpr std::array<std::string_view, 2> work_units{"samples", "fragments"};
+
+// Every device of the run against every stored device with another key, and against every other
+// device of the run (once each). Configurations whose picture is wrong are left out, and those that
+// the two devices' clocks of different kinds have timed. Anchors are the plan's own and those of
+// the store's latest run of anchors_plan.
+[[nodiscard]] std::vector<CorrelationPair> correlation_pairs(const RunView& view,
+                                                             const WrongImages& wrong);
+
+}  // namespace triptych::judge

@@ -1,0 +1,291 @@
+// What the gate says of a device that nobody accepted, by another device's baselines.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "core/file.hpp"
+#include "core/hash.hpp"
+#include "core/image_io.hpp"
+#include "core/json.hpp"
+#include "fixture.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using core::ExitCode;
+using testing::HasSubstr;
+
+// A plan of 48 configurations and the anchors' own, on the device "a:known" whose runs are accepted
+// and on "b:new", half as fast.
+class CorrelationGateTest : public JudgeTest {
+ protected:
+  static constexpr const char* plan = "volume/correlation";
+  static constexpr const char* anchors = "anchors/frozen";
+  using Times = std::function<double(const record::Record&)>;  // factor on a record's times
+
+  CorrelationGateTest() {
+    request_.plan = plan;
+    request_.checks = {Check::correlation};
+    request_.truth = nullptr;
+  }
+
+  static record::Device device(const std::string& id) {
+    record::Device device;
+    device.id = id;
+    device.api = "gl";
+    device.driver_version = "1";
+    return device;
+  }
+
+  void add(const std::string& run, const std::string& in_plan, const std::string& on,
+           record::Record record, double level, const Times& times) {
+    record.run = run;
+    record.plan = in_plan;
+    record.suite = in_plan.substr(0, in_plan.find('/'));
+    record.device = on;
+    record.scene = record.configuration;
+    record.outcome = record::Outcome::measured;
+    record.kernel_hash = "k";
+    const double speed = on == "b:new" ? 2 : 1;
+    // How a configuration differs from the line is a device's own, its noise is a run's.
+    const double own = on == "b:new" ? 0.02 * std::sin(level * 1e3) : 0;
+    const double factor = times ? times(record) : 1;
+    for (int frame = 0; frame < 7; ++frame) {
+      record.wall_ns.push_back(factor * speed * std::exp(level + own + 0.005 * scatter()));
+    }
+    if (record.suite != "anchors") {
+      const auto bytes = core::encode_exr(truth_of(record.scene));
+      record.image = core::content_hash(bytes);
+      store_.add_image(record.image, bytes);
+    }
+    store_.add_record(record);
+  }
+
+  void measure(const std::string& run, const std::string& on, const Times& times = {}) {
+    store_.add_run({run, plan, "2026-02-01T00:00:00Z", {}});
+    store_.add_device(run, device(on), {});
+    for (int i = 0; i < 48; ++i) {
+      record::Record record;
+      record.technique = i % 2 == 0 ? "raycast" : "raycast_fragment";
+      record.factors = {{"technique", record.technique},
+                        {"data", fmt::format("d{}", i / 2 % 4)},
+                        {"step", fmt::format("{}", i / 8)}};
+      record.configuration =
+          fmt::format("data=d{},step={},technique={}", i / 2 % 4, i / 8, record.technique);
+      record.counters = {{"samples", 1000}};
+      add(run, plan, on, record, 14 + 0.06 * i, times);
+    }
+  }
+
+  void measure_anchors(const std::string& run, const std::string& on) {
+    store_.add_run({run, anchors, "2026-02-01T00:00:00Z", {}});
+    store_.add_device(run, device(on), {});
+    int i = 0;
+    for (const char* technique :
+         {"anchor_arithmetic", "anchor_fetch", "anchor_memory", "anchor_raster"}) {
+      for (int size = 1; size <= 4; size *= 2) {
+        record::Record record;
+        record.technique = technique;
+        record.factors = {{"technique", technique}, {"size", fmt::format("{}", size)}};
+        record.configuration = fmt::format("size={},technique={}", size, technique);
+        add(run, anchors, on, record, 14.3 + 0.1 * ++i + std::log(size), {});
+      }
+    }
+  }
+
+  void accept_plan(const std::string& run, const char* of) {
+    AcceptRequest request;
+    request.plan = of;
+    request.reason = "a test";
+    request.date = "2026-02-01";
+    request.truth = [](const record::Record& record) { return truth_of(record.scene); };
+    (void)accept(store_, run, folder_.path() / "baselines", request);
+  }
+
+  void accept_known() {
+    for (int i = 1; i <= 3; ++i) {
+      measure_anchors(fmt::format("anchors{}", i), "a:known");
+      accept_plan(fmt::format("anchors{}", i), anchors);
+      measure(fmt::format("known{}", i), "a:known");
+      accept_plan(fmt::format("known{}", i), plan);
+    }
+  }
+
+  [[nodiscard]] GateResult judge(const std::string& run) const {
+    return judge_run(store_, run, Baselines(folder_.path() / "baselines", plan), request_);
+  }
+
+ private:
+  double scatter() { return random_.uniform(-1, 1) + random_.uniform(-1, 1); }
+  core::Random random_{11};
+};
+
+TEST_F(CorrelationGateTest, ASlowerDevicePasses) {
+  accept_known();
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new");
+  const GateResult result = judge("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  const auto passed = with(result, Verdict::pass, Check::correlation);
+  ASSERT_EQ(passed.size(), 1U);
+  EXPECT_EQ(passed[0].device, "b:new");
+  EXPECT_NEAR(passed[0].numbers.at("slope"), 1, 0.02);
+  EXPECT_EQ(passed[0].numbers.at("anchors"), 12);
+  EXPECT_EQ(passed[0].test, "volume.correlation.correlation.b:new");
+  ASSERT_EQ(result.correlations.size(), 1U);
+  EXPECT_EQ(result.correlations[0].other, "a:known");
+  EXPECT_EQ(result.correlations[0].cases.size(), 60U);
+}
+
+TEST_F(CorrelationGateTest, OneConfigurationIsNamedWithItsWork) {
+  accept_known();
+  measure_anchors("anchors", "b:new");
+  const std::string planted = "data=d2,step=3,technique=raycast_fragment";
+  measure("b", "b:new",
+          [&](const record::Record& r) { return r.configuration == planted ? 1.25 : 1; });
+  const GateResult result = judge("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::regression);
+  const auto slower = with(result, Verdict::regression);
+  ASSERT_EQ(slower.size(), 1U) << text(result);
+  EXPECT_EQ(slower[0].configuration, planted);
+  EXPECT_THAT(slower[0].message, HasSubstr("work (samples) +0.0 %, time per unit of work +2"));
+}
+
+TEST_F(CorrelationGateTest, AWholeLevelIsNamed) {
+  accept_known();
+  measure_anchors("anchors", "b:new");
+  const Times slower = [](const record::Record& r) {
+    return r.factors.at("data") == "d1" ? 1.2 : 1;
+  };
+  measure("b", "b:new", slower);
+  const GateResult result = judge("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::regression);
+  bool named = false;
+  for (const Finding& finding : with(result, Verdict::regression)) {
+    named = named || finding.message.starts_with("data=d1: 12 configurations +");
+  }
+  EXPECT_TRUE(named) << text(result);
+}
+
+TEST_F(CorrelationGateTest, AFewPercentOnALevelOnlyAdvise) {
+  accept_known();
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new",
+          [](const record::Record& r) { return r.factors.at("data") == "d1" ? 1.06 : 1; });
+  const GateResult result = judge("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_FALSE(advice.empty());
+  EXPECT_THAT(advice[0].message, HasSubstr("data=d1"));
+  EXPECT_THAT(advice[0].message, HasSubstr("triptych compare"));
+}
+
+TEST_F(CorrelationGateTest, AnchorsTellAProgramThatIsSlowerAsAWhole) {
+  accept_known();
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new", [](const record::Record&) { return 1.15; });
+  const GateResult result = judge("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::regression);
+  const auto slower = with(result, Verdict::regression);
+  ASSERT_EQ(slower.size(), 1U) << text(result);
+  EXPECT_THAT(slower[0].message, HasSubstr("the whole program"));
+  EXPECT_NEAR(slower[0].numbers.at("global_delta"), std::log(1.15), 0.03);
+}
+
+TEST_F(CorrelationGateTest, WithoutAnchorsNothingIsJudged) {
+  accept_known();
+  measure("b", "b:new");
+  const GateResult result = judge("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_EQ(advice.size(), 1U) << text(result);
+  EXPECT_THAT(advice[0].message, HasSubstr("0 anchors, 6 are needed"));
+  EXPECT_THAT(advice[0].message, HasSubstr("triptych run anchors/frozen"));
+}
+
+TEST_F(CorrelationGateTest, AnchorsOfAnotherDriverAreNoAnchors) {
+  accept_known();
+  store_.add_run({"anchors", anchors, "2026-02-01T00:00:00Z", {}});
+  measure_anchors("anchors", "b:new");
+  record::Device updated = device("b:new");
+  updated.driver_version = "2";
+  store_.add_device("anchors", updated, {});
+  measure("b", "b:new");
+  EXPECT_EQ(judge("b").correlations.at(0).result.anchors, 0U);
+}
+
+TEST_F(CorrelationGateTest, OtherKindsOfClocksAreLeftOut) {
+  accept_known();
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new");
+  for (record::Record record : store_.records("b")) {
+    if (record.technique != "raycast") continue;
+    record.device_ns = record.wall_ns;
+    record.device_clock_trusted = true;
+    store_.add_record(record);
+  }
+  const GateResult result = judge("b");
+  EXPECT_EQ(result.correlations.at(0).unlike_clocks, 24U);
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_EQ(advice.size(), 1U) << text(result);
+  EXPECT_THAT(advice[0].message, HasSubstr("24 configurations with like clocks, 30 are needed"));
+}
+
+TEST_F(CorrelationGateTest, WhatWasAcceptedOnThisDeviceIsItsCharacter) {
+  accept_known();
+  const std::string odd = "data=d2,step=3,technique=raycast_fragment";
+  const Times character = [&](const record::Record& r) { return r.configuration == odd ? 1.3 : 1; };
+  measure_anchors("anchors", "b:new");
+  accept_plan("anchors", anchors);
+  measure("b1", "b:new", character);
+  accept_plan("b1", plan);
+  measure("b2", "b:new", character);
+  const GateResult result = judge("b2");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_EQ(advice.size(), 1U) << text(result);
+  EXPECT_THAT(advice[0].message, HasSubstr("as when this device was accepted"));
+}
+
+TEST_F(CorrelationGateTest, ADeviceIsNotHeldAgainstItself) {
+  accept_known();
+  measure("k", "a:known");
+  const GateResult result = judge("k");
+  EXPECT_TRUE(result.correlations.empty());
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_EQ(advice.size(), 1U);
+  EXPECT_THAT(advice[0].message, HasSubstr("no other device is stored"));
+}
+
+TEST_F(CorrelationGateTest, DevicesOfOneRunAreShownAndNotJudged) {
+  accept_known();
+  measure("b", "b:new");
+  store_.add_device("b", device("a:known"), {});
+  for (record::Record record : store_.records("b")) {
+    record.device = "a:known";
+    store_.add_record(record);
+  }
+  const GateResult result = judge("b");
+  ASSERT_EQ(result.correlations.size(), 2U);
+  EXPECT_TRUE(result.correlations[1].within_run);
+  EXPECT_EQ(result.correlations[1].device, "b:new");
+  EXPECT_EQ(result.correlations[1].other, "a:known");
+}
+
+TEST_F(CorrelationGateTest, JsonHoldsTheWholePair) {
+  accept_known();
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new");
+  const core::Json json = to_json(judge("b"));
+  ASSERT_EQ(json.at("correlations").size(), 1U);
+  const core::Json& pair = json.at("correlations")[0];
+  EXPECT_EQ(pair.at("configurations").size(), 60U);
+  EXPECT_EQ(pair.at("configurations")[0].at("work_unit"), "samples");
+  EXPECT_FALSE(pair.at("levels").empty());
+  EXPECT_EQ(pair.at("global").at("groups"), 4);
+}
+
+}  // namespace
+}  // namespace triptych::judge
