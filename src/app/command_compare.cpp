@@ -100,6 +100,7 @@ ComparisonCommand command_of(const CompareArguments& arguments, const measure::P
       .varied = plan.varied};
   if (!arguments.a_program.empty()) command.sides += " --a-program " + quoted(arguments.a_program);
   if (!arguments.b_program.empty()) command.sides += " --b-program " + quoted(arguments.b_program);
+  for (const std::string& plant : arguments.plants) command.sides += " --plant " + quoted(plant);
   // What the command line set to one value is no longer varied, but must be said again.
   for (const auto& [factor, values] : parse_overrides(arguments.plan.set)) {
     if (std::ranges::find(command.varied, factor) == command.varied.end()) {

@@ -199,7 +199,7 @@ std::vector<Confirmation> confirm(std::span<const Suspect> suspects, std::size_t
     const double error = std::sqrt(moderated_variance(prior, variances[i], degrees[i]) /
                                    static_cast<double>(suspect.launches.size()));
     const double centre = mean(suspect.launches);
-    const double reach = student_t_upper_quantile(0.025, freedom) * error;
+    const double reach = student_t_upper_quantile(q, freedom) * error;
     const double beyond = (suspect.slower ? centre : -centre) - design.tolerated;
     results.push_back({.shift = {centre, {centre - reach, centre + reach}},
                        .p = student_t_upper_tail(beyond / error, freedom)});

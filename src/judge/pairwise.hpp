@@ -80,7 +80,7 @@ struct Suspect {
 };
 struct Confirmation {
   PairVerdict verdict = PairVerdict::undecided;  // slower or faster only as suspected
-  Shift shift;   // mean of the launches, 95 % interval by Student's t
+  Shift shift;   // mean of the launches; Student's t leaves out `q` on each side of the interval
   double p = 1;  // of a shift no larger than what is tolerated
 };
 // Student's t of the launches' mean against τ₀, the variance between launches moderated over the

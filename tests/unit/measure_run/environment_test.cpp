@@ -36,6 +36,19 @@ TEST(WorkerEnvironment, LeavesWhatTheUserSet) {
   EXPECT_THAT(environment, Not(Contains("POCL_PTHREAD_MIN_WGS=1")));
 }
 
+TEST(WorkerEnvironment, OverridesWinOverTheUserAndTheDefaults) {
+  const ScratchFolder scratch;
+  const Variable cache_home("XDG_CACHE_HOME", scratch.path().string());
+  const Variable set("LP_NUM_THREADS", "2");
+  const CacheFolder cache("opencl:pocl");
+  const std::vector<std::string> overrides{"LP_NUM_THREADS=1", "POCL_PTHREAD_MIN_WGS=4"};
+  const auto environment = worker_environment("opencl:pocl", cache, overrides);
+  EXPECT_THAT(environment, Contains("LP_NUM_THREADS=1"));
+  EXPECT_THAT(environment, Not(Contains("LP_NUM_THREADS=2")));
+  EXPECT_THAT(environment, Contains("POCL_PTHREAD_MIN_WGS=4"));
+  EXPECT_THAT(environment, Not(Contains("POCL_PTHREAD_MIN_WGS=1")));
+}
+
 TEST(WorkerEnvironment, KeepsFlagsOfGoogleBenchmarkAway) {
   const ScratchFolder scratch;
   const Variable cache_home("XDG_CACHE_HOME", scratch.path().string());

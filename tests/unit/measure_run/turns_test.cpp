@@ -1,0 +1,210 @@
+#include "measure/turns.hpp"
+
+#include <cmath>
+
+#include "tests/unit/measure_run/run_fixture.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using record::Outcome;
+using ::testing::DoubleNear;
+using ::testing::Each;
+using ::testing::HasSubstr;
+
+std::string script_with(const std::string& keys) {
+  return "TRIPTYCH_NULL_SCRIPT={" + keys + "}";
+}
+
+class TurnsTest : public RunTest {
+ protected:
+  TurnsTest() {
+    a.device = b.device = "null:scripted";
+    a.command = b.command = {MEASURE_RUN_HELPER, "worker"};
+  }
+
+  [[nodiscard]] Turns open() const { return {options_, a, b}; }
+  [[nodiscard]] Configuration configuration() { return small_plan().configurations.front(); }
+  void hold(Turns& turns, const std::vector<std::string>& plants_b = {}) {
+    turns.hold(configuration(), {std::vector<std::string>{}, plants_b}, TurnClock::wall);
+  }
+  static std::vector<Block> blocks(Turns& turns, int count) {
+    std::vector<Block> result;
+    while (static_cast<int>(result.size()) < count) result.push_back(turns.block());
+    return result;
+  }
+
+  // How a side ended when b holds a configuration with this fault in it.
+  struct Ended {
+    Side side;
+    Outcome outcome;
+    std::string reason;
+  };
+  std::optional<Ended> ended(Turns& turns, const std::string& fault) {
+    try {
+      hold(turns, {fault});
+    } catch (const SideEnded& error) {
+      return Ended{error.side(), error.outcome(), error.what()};
+    }
+    return std::nullopt;
+  }
+
+  TurnOptions options_{.suite = "fake", .kinds = {"compute"}};
+  SideOptions a;
+  SideOptions b;
+};
+
+TEST_F(TurnsTest, TheDifferenceIsTheLogarithmOfTheRatio) {
+  b.environment = {script_with(R"("base_ns": 3e6, "devices": [1.1])")};
+  Turns turns = open();
+  hold(turns);
+  const std::vector<Block> all = blocks(turns, 6);
+  EXPECT_EQ(turns.frames_per_turn(), 1);
+  EXPECT_THAT(differences(all, TurnClock::wall), Each(DoubleNear(std::log(1.1), 1e-9)));
+  EXPECT_THAT(differences(all, TurnClock::device), Each(DoubleNear(std::log(1.1), 1e-9)));
+  EXPECT_TRUE(device_clock_holds(all));
+}
+
+TEST_F(TurnsTest, OrdersAreBothThereAndFollowFromTheSeed) {
+  const auto orders = [this](std::uint64_t seed) {
+    options_.seed = seed;
+    Turns turns = open();
+    hold(turns);
+    std::vector<bool> result;
+    for (const Block& block : blocks(turns, 16)) result.push_back(block.b_first);
+    return result;
+  };
+  const std::vector<bool> first = orders(1);
+  EXPECT_THAT(first, testing::Contains(true));
+  EXPECT_THAT(first, testing::Contains(false));
+  EXPECT_EQ(orders(1), first);
+  EXPECT_NE(orders(2), first);
+}
+
+TEST_F(TurnsTest, ShortFramesAreBatchedAlikeOnBothSides) {
+  a.environment = {script_with(R"("base_ns": 1e5, "ns_per_sample": 0)")};
+  b.environment = {script_with(R"("base_ns": 4e5, "ns_per_sample": 0)")};
+  Turns turns = open();
+  hold(turns);
+  EXPECT_EQ(turns.frames_per_turn(), 10);  // the faster side's turn lasts the millisecond
+  const Block block = turns.block();
+  EXPECT_NEAR(block.a.wall_ns[0], 1e5, 1);  // means, not sums
+  EXPECT_NEAR(block.b.wall_ns[1], 4e5, 1);
+}
+
+TEST_F(TurnsTest, AClockThatTellsNothingOrLiesDoesNotHold) {
+  b.environment = {script_with(R"("base_ns": 3e6, "device_over_wall": null)")};
+  {
+    Turns turns = open();
+    hold(turns);
+    const std::vector<Block> all = blocks(turns, 4);
+    EXPECT_FALSE(device_clock_holds(all));
+    EXPECT_FALSE(all.front().b.device_ns);
+    EXPECT_TRUE(all.front().a.device_ns);
+  }
+  b.environment = {script_with(R"("base_ns": 3e6, "device_over_wall": 0.1)")};
+  Turns turns = open();
+  EXPECT_FALSE(turns.hello(Side::b).clocks.front().trusted);
+  EXPECT_TRUE(turns.hello(Side::a).clocks.front().trusted);
+  hold(turns);
+  EXPECT_FALSE(device_clock_holds(blocks(turns, 4)));
+}
+
+TEST_F(TurnsTest, ACrashCostsOneConfigurationAndNamesItsSide) {
+  Turns turns = open();
+  const auto end = ended(turns, "crash");
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->side, Side::b);
+  EXPECT_EQ(end->outcome, Outcome::crashed);
+  EXPECT_THAT(end->reason, HasSubstr("SIGSEGV"));
+  hold(turns);
+  EXPECT_THAT(differences(blocks(turns, 2), TurnClock::wall), Each(DoubleNear(0, 1e-9)));
+  EXPECT_EQ(started_workers().size(), 3U);
+}
+
+TEST_F(TurnsTest, AHangCostsItsLimit) {
+  options_.limit = std::chrono::seconds(1);
+  Turns turns = open();
+  const auto end = ended(turns, "hang");
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->outcome, Outcome::hung);
+  hold(turns);
+}
+
+TEST_F(TurnsTest, ALostDeviceCostsItsWorker) {
+  Turns turns = open();
+  const auto end = ended(turns, "device_lost");
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->outcome, Outcome::lost);
+  hold(turns);
+  EXPECT_EQ(started_workers().size(), 3U);
+}
+
+TEST_F(TurnsTest, AnErrorInAFrameEndsTheBlockAndNoWorker) {
+  b.environment = {script_with(
+      R"("base_ns": 3e6, "failures": [{"kind": "api_error", "at": "frame", "frame": 12, "only": "*data=*"}])")};
+  options_.kinds = {};  // the calibration's frames would meet it too
+  Turns turns = open();
+  hold(turns);
+  try {
+    blocks(turns, 12);
+    FAIL() << "nothing was thrown";
+  } catch (const SideEnded& error) {
+    EXPECT_EQ(error.side(), Side::b);
+    EXPECT_EQ(error.outcome(), Outcome::failed);
+    EXPECT_THAT(error.what(), HasSubstr("NULL_ERROR"));
+  }
+  EXPECT_THROW(static_cast<void>(turns.block()), SideEnded);  // nothing is held any longer
+  EXPECT_EQ(started_workers().size(), 2U);
+}
+
+TEST_F(TurnsTest, NothingIsDrawnOfWhatIsNotHeld) {
+  Turns turns = open();
+  EXPECT_THROW(static_cast<void>(turns.block()), SideEnded);
+  hold(turns);
+  static_cast<void>(turns.block());
+  turns.release();
+  EXPECT_THROW(static_cast<void>(turns.block()), SideEnded);
+}
+
+TEST_F(TurnsTest, FreshLaunchesAreNewProcesses) {
+  Turns turns = open();
+  hold(turns);
+  turns.relaunch();
+  EXPECT_EQ(started_workers().size(), 4U);
+  EXPECT_THROW(static_cast<void>(turns.block()), SideEnded);
+  hold(turns);
+  EXPECT_EQ(turns.block().a.wall_ns, turns.block().b.wall_ns);
+}
+
+TEST_F(TurnsTest, TheOrdinaryJobIsAnsweredToo) {
+  Turns turns = open();
+  const Answer answer = turns.measure(
+      Side::b, {.name = "b", .configuration = configuration(), .protocol = {}, .plants = {}});
+  EXPECT_FALSE(answer.record.counters.empty());
+  EXPECT_FALSE(answer.exr.empty());
+}
+
+TEST_F(TurnsTest, ADeviceThatIsNotThereIsRefusedAtOnce) {
+  b.device = "null:nothing";
+  EXPECT_THROW(static_cast<void>(open()), core::NotSupported);
+}
+
+TEST_F(TurnsTest, AnEnvironmentThatChangesTheWorkIsRefused) {
+  b.environment = {"LP_PERF=no_tex"};
+  EXPECT_THROW(static_cast<void>(open()), core::InputError);
+}
+
+TEST(TurnDifferences, ADriftThatIsLinearOverABlockCancels) {
+  // ln t = 0, 0.1, 0.2, 0.3 over the four turns, b slower by 0.05.
+  const Block abba{.b_first = false,
+                   .a = {.wall_ns = {1e6, 1e6 * std::exp(0.3)}, .device_ns = {}},
+                   .b = {.wall_ns = {1e6 * std::exp(0.15), 1e6 * std::exp(0.25)}, .device_ns = {}}};
+  const Block baab{.b_first = true,
+                   .a = {.wall_ns = {1e6 * std::exp(0.1), 1e6 * std::exp(0.2)}, .device_ns = {}},
+                   .b = {.wall_ns = {1e6 * std::exp(0.05), 1e6 * std::exp(0.35)}, .device_ns = {}}};
+  EXPECT_THAT(differences(std::vector{abba, baab}, TurnClock::wall), Each(DoubleNear(0.05, 1e-12)));
+}
+
+}  // namespace
+}  // namespace triptych::measure
