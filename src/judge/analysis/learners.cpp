@@ -60,6 +60,23 @@ double LinearModel::predict(std::span<const double> features) const {
   return sum;
 }
 
+namespace {
+
+// The library draws from one generator per thread: it starts here at a state of ours and goes on
+// afterwards as if nothing had been drawn.
+class SeededDraws {
+ public:
+  SeededDraws() : before_(cv::theRNG()) { cv::theRNG() = cv::RNG(1); }
+  ~SeededDraws() { cv::theRNG() = before_; }
+  SeededDraws(const SeededDraws&) = delete;
+  SeededDraws& operator=(const SeededDraws&) = delete;
+
+ private:
+  cv::RNG before_;
+};
+
+}  // namespace
+
 struct Forest::State {
   cv::Ptr<cv::ml::RTrees> trees = cv::ml::RTrees::create();
 };
@@ -79,6 +96,7 @@ Forest::Forest(const Features& features, const std::vector<bool>& categorical,
   for (std::size_t j = 0; j < width; ++j) {
     if (categorical[j]) kinds.at<unsigned char>(as_int(j)) = cv::ml::VAR_CATEGORICAL;
   }
+  const SeededDraws seeded;
   cv::ml::RTrees& trees = *state_->trees;
   trees.setMaxDepth(options.depth);
   trees.setMinSampleCount(options.least_samples);
