@@ -1,5 +1,5 @@
 // Triptych anchor_arithmetic, version 1. FROZEN: never changed; see technique/anchors/shape.hpp.
-// Sixty-four chains of x·a + b in registers, with a and b that the compiler does not know.
+// Sixty-four chains of x * a + b in registers, with a and b that the compiler does not know.
 #pragma OPENCL FP_CONTRACT ON
 
 #define TRI_STEP                                                  \

@@ -26,18 +26,6 @@ technique::AnchorFrame shape_of(const std::string& technique, int size) {
   return shape;
 }
 
-std::optional<double> from_first_to_last(const std::vector<cl::Event>& events) {
-  try {
-    const auto start = events.front().getProfilingInfo<CL_PROFILING_COMMAND_START>();
-    const auto end = events.back().getProfilingInfo<CL_PROFILING_COMMAND_END>();
-    if (end < start) return std::nullopt;
-    return static_cast<double>(end - start);
-  } catch (const cl::Error& error) {
-    if (error.err() == CL_PROFILING_INFO_NOT_AVAILABLE) return std::nullopt;
-    throw;
-  }
-}
-
 }  // namespace
 
 std::optional<std::string> anchor_defect(const Session& session, const std::string& technique,
@@ -111,7 +99,9 @@ measure::Frame AnchorFrames::frame(measure::Purpose purpose) {
     run(session_, launches_, events_);
     const auto end = std::chrono::steady_clock::now();
     frame.wall_ns = std::chrono::duration<double, std::nano>(end - begin).count();
-    if (purpose == measure::Purpose::timing) frame.device_ns = from_first_to_last(events_);
+    if (purpose == measure::Purpose::timing && events_.size() == 1) {
+      frame.device_ns = device_ns(events_);
+    }
     if (counts) {
       std::vector<std::uint32_t> words(shape_.result_words);
       session_.queue.enqueueReadBuffer(results_, CL_TRUE, 0, bytes_of(shape_.result_words),

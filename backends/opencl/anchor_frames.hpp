@@ -23,9 +23,9 @@ class AnchorFrames final : public measure::Prepared {
   AnchorFrames(const Session& session, Programs& programs, const std::string& technique,
                const measure::AnchorWork& work);
 
-  // Device time is from the first launch's start to the last one's end: what lies between launches
-  // is a part of what they cost. A frame that counts begins with cleared results, so that what is
-  // summed was made by it.
+  // Many launches have no device time: what they cost lies between the times of their events, where
+  // a device may run behind the host or along with it. A frame that counts begins with cleared
+  // results, so that what is summed was made by it.
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
   [[nodiscard]] core::Image image() override { return {}; }
   [[nodiscard]] std::string kernel_hash() const override { return hash_; }

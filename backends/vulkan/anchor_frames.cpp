@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <span>
+#include <vector>
 
 #include "backends/vulkan/errors.hpp"
 #include "backends/vulkan/filter_probe.hpp"
@@ -17,19 +17,20 @@ namespace {
 namespace shape = technique::anchor_shape;
 constexpr vk::Format volume_format = vk::Format::eR32Sfloat;
 
-Layout make_anchor_layout(const Gpu& gpu) {
+// Only what the code uses: lavapipe looks into every binding of a set, filled or not.
+Layout make_anchor_layout(const Gpu& gpu, const technique::AnchorFrame& shape) {
   using enum vk::DescriptorType;
-  const auto binding = [](std::uint32_t number, vk::DescriptorType type) {
-    return vk::DescriptorSetLayoutBinding{.binding = number,
-                                          .descriptorType = type,
-                                          .descriptorCount = 1,
-                                          .stageFlags = vk::ShaderStageFlagBits::eCompute};
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  const auto add = [&](std::uint32_t number, vk::DescriptorType type) {
+    bindings.push_back({.binding = number,
+                        .descriptorType = type,
+                        .descriptorCount = 1,
+                        .stageFlags = vk::ShaderStageFlagBits::eCompute});
   };
-  const std::array<vk::DescriptorSetLayoutBinding, 4> bindings{
-      binding(technique::anchor_parameters_binding, eUniformBuffer),
-      binding(technique::anchor_results_binding, eStorageBuffer),
-      binding(technique::anchor_source_binding, eStorageBuffer),
-      binding(technique::anchor_volume_binding, eCombinedImageSampler)};
+  add(technique::anchor_parameters_binding, eUniformBuffer);
+  add(technique::anchor_results_binding, eStorageBuffer);
+  if (shape.source_words > 0) add(technique::anchor_source_binding, eStorageBuffer);
+  if (shape.fetches) add(technique::anchor_volume_binding, eCombinedImageSampler);
   return make_layout(gpu, bindings);
 }
 
@@ -87,7 +88,7 @@ AnchorFrames::AnchorFrames(const Gpu& gpu, const Instance& instance, std::string
       source_(make_source(gpu, shape_.source_words)),
       volume_(make_volume(gpu, shape_.fetches)),
       sampler_(make_sampler(gpu, vk::Filter::eLinear)),
-      layout_(make_anchor_layout(gpu)),
+      layout_(make_anchor_layout(gpu, shape_)),
       pool_(make_pool(gpu, 1)),
       set_(make_set()),
       pipeline_(make_compute_pipeline(gpu, layout_, spirv(code_), Constants{})),
@@ -101,7 +102,6 @@ AnchorFrames::AnchorFrames(const Gpu& gpu, const Instance& instance, std::string
   instance_.check_validation();
 }
 
-// Bindings that the code does not use stay empty.
 vk::DescriptorSet AnchorFrames::make_set() const {
   using enum vk::DescriptorType;
   const vk::DescriptorSet set = allocate_sets(gpu_, pool_, layout_, 1).front();

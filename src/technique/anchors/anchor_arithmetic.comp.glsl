@@ -1,5 +1,5 @@
 // Triptych anchor_arithmetic, version 1. FROZEN: never changed; see technique/anchors/shape.hpp.
-// Eight chains of x·a + b in registers, with a and b that the compiler does not know.
+// Eight chains of x * a + b in registers, with a and b that the compiler does not know.
 layout(local_size_x = 64) in;
 layout(std140) TRI_BINDING(0) uniform Anchor { uvec4 work; vec4 numbers; };  // turns; a, b
 layout(std430) TRI_BINDING(1) writeonly buffer Results { uint results[]; };

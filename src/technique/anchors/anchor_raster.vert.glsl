@@ -1,5 +1,5 @@
 // Triptych anchor_raster, version 1. FROZEN: never changed; see technique/anchors/shape.hpp.
-// Half a rectangle of 32×31 pixels in each cell of a layer; which half, goes round with the cells.
+// Half a rectangle of 32 by 31 pixels in each cell of a layer; which half, goes round with the cells.
 void main() {
   uint vertex = uint(TRI_VERTEX);
   uint triangle = vertex / 3u;

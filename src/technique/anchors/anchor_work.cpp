@@ -15,10 +15,12 @@ namespace shape = anchor_shape;
 // Every API takes this many work-groups, and Mesa's software renderers this many turns of a loop.
 constexpr int most_groups = 65535;
 constexpr int most_turns = 65535;
+// The sum of an invocation's chains stays below 2^24, to which floats hold whole numbers: in OpenCL
+// C 64 chains of 255 + 512 steps per size.
+constexpr int most_arithmetic = 256;
 
 int most_size(std::string_view technique) {
-  if (technique == "anchor_arithmetic")
-    return most_turns / static_cast<int>(shape::arithmetic_turns);
+  if (technique == "anchor_arithmetic") return most_arithmetic;
   if (technique == "anchor_fetch") return most_turns / static_cast<int>(shape::fetch_turns);
   if (technique == "anchor_memory") return most_groups / static_cast<int>(shape::memory_groups);
   if (technique == "anchor_raster") {

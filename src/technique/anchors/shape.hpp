@@ -20,7 +20,7 @@ inline constexpr std::uint32_t group = 64;
 inline constexpr std::uint32_t arithmetic_chains = 131072;
 inline constexpr std::uint32_t arithmetic_groups = 256;
 inline constexpr std::uint32_t arithmetic_groups_opencl = 32;
-inline constexpr std::uint32_t arithmetic_turns = 32;
+inline constexpr std::uint32_t arithmetic_turns = 64;
 inline constexpr std::uint32_t arithmetic_steps_a_turn = 8;
 
 // anchor_fetch: trilinear fetches at scattered places of a volume of fetch_edge³ floats. Places lie
