@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 
@@ -16,12 +17,13 @@
 #include "core/image_io.hpp"
 #include "judge/gate.hpp"
 #include "judge/image_metrics.hpp"
+#include "technique/catalogue.hpp"
 
 namespace triptych::app {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::array checks{"image", "counters", "statistics", "timing"};
+constexpr std::array<std::string_view, 4> checks{"image", "counters", "statistics", "timing"};
 
 struct Test {
   std::string name;
@@ -64,6 +66,21 @@ struct PlanTests {
   fs::path store;
 };
 
+// What is judged of a plan. One for correlation is held against other devices; its pictures and
+// times are of the kinds that the other plans judge.
+std::vector<std::string_view> checks_of(const PlanTests& plan, bool pictures) {
+  if (plan.plan.ends_with("/correlation")) return {"correlation"};
+  std::vector<std::string_view> result(checks.begin(), checks.end());
+  if (!pictures) std::erase(result, "image");
+  return result;
+}
+
+bool has_pictures(const std::string& suite) {
+  return std::ranges::any_of(technique::catalogue(), [&](const technique::Technique& each) {
+    return each.suite == suite && each.picture;
+  });
+}
+
 void add_plan(std::vector<Test>& tests, const PlanTests& plan,
               const std::vector<record::Device>& devices) {
   const std::string store = plan.store.string();
@@ -72,6 +89,7 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
                    .labels = {plan.suite, "device"},
                    .requires_fixtures = {},
                    .sets_up = plan.stem});
+  const std::vector<std::string_view> own_checks = checks_of(plan, has_pictures(plan.suite));
   std::vector<std::string> measured;
   for (const record::Device& device : devices) {
     const std::string fixture = plan.stem + "." + device.id;
@@ -83,16 +101,17 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
          .requires_fixtures = {plan.stem},
          .sets_up = fixture,
          .lock = device.id});
-    for (const char* check : checks) {
+    for (const std::string_view check : own_checks) {
       tests.push_back({.name = fmt::format("{}.{}.{}", plan.stem, check, device.id),
-                       .command = {"test-check", plan.plan, "--check", check, "--device", device.id,
-                                   "--store", store},
-                       .labels = {plan.suite, check, "device", device.api, device.id},
+                       .command = {"test-check", plan.plan, "--check", std::string(check),
+                                   "--device", device.id, "--store", store},
+                       .labels = {plan.suite, std::string(check), "device", device.api, device.id},
                        .requires_fixtures = {fixture},
                        .sets_up = {},
                        .lock = {}});
     }
   }
+  if (std::ranges::find(own_checks, "image") == own_checks.end()) return;
   tests.push_back({.name = plan.stem + ".agreement",
                    .command = {"test-check", plan.plan, "--check", "image", "--store", store},
                    .labels = {plan.suite, "image", "agreement", "device"},
@@ -170,7 +189,11 @@ std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
   for (const judge::Finding& finding : result.findings) {
     const bool idle =
         finding.verdict == judge::Verdict::advisory || finding.verdict == judge::Verdict::skipped;
-    if (!idle && !finding.configuration.empty()) return std::nullopt;
+    // A correlation is decided of a device as a whole.
+    const bool decided_whole =
+        finding.check == judge::Check::correlation &&
+        (finding.verdict == judge::Verdict::pass || finding.verdict == judge::Verdict::regression);
+    if (decided_whole || (!idle && !finding.configuration.empty())) return std::nullopt;
     if (idle && reason.empty()) reason = finding.message;
   }
   if (reason.empty()) return std::nullopt;
