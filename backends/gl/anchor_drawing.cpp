@@ -75,7 +75,8 @@ void AnchorDrawing::bind(const Api& gl, measure::Purpose purpose) {
   }
   if (purpose == measure::Purpose::counters) {
     const std::vector<std::uint32_t> zeros(shape_.result_words);
-    gl.BufferSubData(GL_SHADER_STORAGE_BUFFER, 0,
+    gl.BindBuffer(GL_COPY_WRITE_BUFFER, results_.get());
+    gl.BufferSubData(GL_COPY_WRITE_BUFFER, 0,
                      static_cast<GLsizeiptr>(std::span(zeros).size_bytes()), zeros.data());
   }
 }
