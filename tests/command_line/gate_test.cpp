@@ -2,28 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "core/image_io.hpp"
-#include "measure/plan.hpp"
 #include "program.hpp"
-#include "suites/volume/suite.hpp"
+#include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
-
-// The truth of the tiny plan's scene as a file, for a device to replay.
-std::filesystem::path right_picture(const Program& program) {
-  const auto suite = volume_suite::make_suite({});
-  const measure::Plan plan =
-      measure::load_plan("volume/quick",
-                         {{"technique", {"raycast"}},
-                          {"data", {"generate:gaussian_blob:16"}},
-                          {"transfer_function", {"haze"}},
-                          {"viewport", {"16"}}},
-                         [&](std::string_view) -> measure::Suite& { return *suite; });
-  const auto file = program.folder() / "right.exr";
-  core::write_exr(suite->truth(plan.configurations.at(0), {}).image, file);
-  return file;
-}
 
 // `speed`: factor on all times of the device.
 std::string script(const std::filesystem::path& picture, double speed, int seed) {

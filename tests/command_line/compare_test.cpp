@@ -1,0 +1,117 @@
+// Two scripted sides of known speed, measured in turns.
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+#include "right_picture.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+class Compare : public testing::Test {
+ protected:
+  // `keys`: more of the script, each with a comma before it.
+  [[nodiscard]] std::string script(double speed, int seed, const std::string& keys = "") const {
+    return fmt::format(
+        R"({{"images": {{"*": "{}"}}, "devices": [{}], "seed": {}, "base_ns": 5e6{}}})",
+        picture.string(), speed, seed, keys);
+  }
+  [[nodiscard]] std::string b_as(double speed, const std::string& keys = noise) const {
+    return "null:scripted,TRIPTYCH_NULL_SCRIPT=" + script(speed, 2, keys);
+  }
+
+  [[nodiscard]] Result compare(const std::string& b, const std::string& more = "") const {
+    return program.run(
+        fmt::format("compare volume/quick --a null:scripted --b '{}' {} {}", b, tiny_plan, more),
+        script(1, 1, noise));
+  }
+
+  static constexpr const char* noise = R"(, "noise": 0.01)";
+  static constexpr const char* tiny_plan =
+      "--set technique=raycast --set data=generate:gaussian_blob:16 "
+      "--set transfer_function=haze --set viewport=16";
+  Program program;
+  std::filesystem::path picture = right_picture(program);
+};
+
+void expect_verdict(const Result& result, int code, std::string_view says) {
+  EXPECT_EQ(result.code, code) << result.output;
+  EXPECT_NE(result.output.find(says), std::string::npos) << result.output;
+}
+
+TEST_F(Compare, ASideIsNotSlowerThanItself) {
+  expect_verdict(compare(b_as(1)), 0, "PASS: 1 same");
+}
+
+TEST_F(Compare, FivePercentAreFoundEitherWay) {
+  const Result slower = compare(b_as(1.05));
+  expect_verdict(slower, 1, "FAIL: 1 slower");
+  EXPECT_NE(slower.output.find("5 fresh launches"), std::string::npos) << slower.output;
+  expect_verdict(compare(b_as(1 / 1.05)), 0, "PASS: 1 faster");
+}
+
+TEST_F(Compare, APlantedSlowdownIsInSideBAlone) {
+  expect_verdict(compare(b_as(1), "--plant slowdown:5"), 1, "FAIL: 1 slower");
+  expect_verdict(compare(b_as(1), "--plant 'slowdown:5@*step=7*'"), 0, "PASS: 1 same");
+}
+
+TEST_F(Compare, TooMuchNoiseCannotBeToldAndSaysWhatWouldSettleIt) {
+  const Result result = compare(b_as(1, R"(, "noise": 0.9)"));
+  expect_verdict(result, 2, "cannot tell");
+  EXPECT_NE(result.output.find("384 blocks"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("settle it: triptych compare volume/quick --a null:scripted"),
+            std::string::npos)
+      << result.output;
+}
+
+TEST_F(Compare, AWrongPictureIsARegressionWhateverTheTime) {
+  const std::string wrong = R"(, "failures": [{"kind": "wrong_image", "at": "image"}])";
+  const Result result = compare(b_as(0.5, wrong));
+  expect_verdict(result, 1, "pixels are over the bound against the truth");
+  EXPECT_NE(result.output.find("the picture of b is wrong"), std::string::npos) << result.output;
+}
+
+TEST_F(Compare, ACrashOfBIsARegressionOfAMerelyADoubt) {
+  expect_verdict(compare(b_as(1), "--plant crash"), 1, "b crashed: killed by SIGSEGV");
+  const Result of_a = program.run(
+      fmt::format("compare volume/quick --a null:scripted --b '{}' {}", b_as(1), tiny_plan),
+      script(1, 1, R"(, "failures": [{"kind": "crash", "at": "prepare", "only": "*width=16,*"}])"));
+  expect_verdict(of_a, 2, "a crashed");
+}
+
+TEST_F(Compare, AClockThatCannotBeBelievedIsNotUsed) {
+  const Result result = compare(b_as(1, R"(, "noise": 0.01, "device_over_wall": 0.1)"));
+  expect_verdict(result, 0, "the device clock of side b cannot be believed here");
+}
+
+TEST_F(Compare, JsonSaysTheSame) {
+  const Result result = compare(b_as(1.05), "--json");
+  ASSERT_EQ(result.code, 1) << result.output;
+  const auto json = nlohmann::json::parse(
+      result.output.substr(result.output.find("\n{") + 1));  // after the progress
+  EXPECT_EQ(json.at("exit_code"), 1);
+  const auto& compared = json.at("configurations").at(0);
+  EXPECT_EQ(compared.at("verdict"), "slower");
+  EXPECT_NEAR(compared.at("ratio").get<double>(), 1.05, 0.02);
+  EXPECT_LT(compared.at("ratio_low"), compared.at("ratio_high"));
+}
+
+TEST_F(Compare, WrongUsageIsOneLine) {
+  EXPECT_EQ(program.run("compare volume/quick --a null:scripted").code, 3);
+  expect_verdict(compare("null"), 3, "expected a device such as");
+  expect_verdict(compare("null:scripted,FAST"), 3, "expected NAME=VALUE after the device");
+  expect_verdict(compare(b_as(1), "--plant wings"), 3, "unknown fault 'wings'");
+  expect_verdict(compare(b_as(1), "--b-program nothing"), 3, "no program to run");
+  expect_verdict(compare("null:scripted,LP_PERF=no_tex"), 3, "LP_PERF=no_tex is set");
+  expect_verdict(compare("null:nothing"), 2, "null:nothing cannot be opened");
+}
+
+TEST_F(Compare, AnotherProgramServesItsSide) {
+  expect_verdict(compare(b_as(1), "--b-program " TRIPTYCH_PROGRAM), 0, "PASS: 1 same");
+  expect_verdict(compare(b_as(1), "--b-program /bin/true"), 2, "cannot be opened");
+}
+
+}  // namespace
+}  // namespace triptych::command_line
