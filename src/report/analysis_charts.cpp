@@ -57,17 +57,18 @@ std::string histogram_chart(const Json& bins, bool logarithmic) {
       Json::array({{{"calculate", logarithmic ? "sqrt(datum.from_ms * datum.to_ms)"
                                               : "(datum.from_ms + datum.to_ms) / 2"},
                     {"as", "middle"}}});
-  Json middle = field("middle", "quantitative", nullptr);
+  Json middle = field("middle", "quantitative", x.at("title"));
   if (logarithmic) middle["scale"] = {{"type", "log"}};
   const Json bars{{"mark", {{"type", "bar"}, {"binSpacing", 1}}},
                   {"encoding",
                    {{"x", x},
                     {"x2", {{"field", "to_ms"}}},
                     {"y", field("count", "quantitative", "configurations")},
+                    {"y2", {{"datum", 0}}},
                     {"tooltip", tooltip({"from_ms", "to_ms", "count", "expected"})}}}};
   const Json curve{
       {"mark", {{"type", "line"}, {"color", "#222"}, {"interpolate", "monotone"}}},
-      {"encoding", {{"x", middle}, {"y", field("expected", "quantitative", nullptr)}}}};
+      {"encoding", {{"x", middle}, {"y", field("expected", "quantitative", "configurations")}}}};
   spec["layer"] = Json::array({bars, curve});
   return spec.dump();
 }
@@ -82,14 +83,22 @@ std::string correlation_boxes_chart(const Json& cells) {
   spec["height"] = {{"step", 26}};
   Json x = field("r", "quantitative", "Pearson's r");
   x["scale"] = {{"zero", false}};
-  spec["mark"] = {{"type", "boxplot"}, {"extent", "min-max"}, {"size", 14}};
+  // A factor of two levels has one r, of which a box shows nothing.
+  const Json box{{"mark", {{"type", "boxplot"}, {"extent", "min-max"}, {"size", 14}}}};
+  const Json ticks{{"mark", {{"type", "tick"}, {"color", "#222"}, {"thickness", 1}}},
+                   {"encoding", {{"tooltip", tooltip({"factor", "a", "b", "r", "pairs"})}}}};
   spec["encoding"] = {{"x", x}, {"y", field("factor", "nominal", nullptr)}};
+  spec["layer"] = Json::array({box, ticks});
   return spec.dump();
 }
 
 std::string correlation_matrix_chart(const Json& cells) {
+  // Every level in its natural order: the first one and all that it is paired with.
+  Json order = Json::array();
   Json both = Json::array();
   for (const Json& each : cells) {
+    if (order.empty()) order.push_back(each.at("a"));
+    if (each.at("a") == order.front()) order.push_back(each.at("b"));
     both.push_back(each);
     both.push_back(each);
     both.back()["a"] = each.at("b");
@@ -97,8 +106,11 @@ std::string correlation_matrix_chart(const Json& cells) {
   }
   Json r = field("r", "quantitative", "r");
   r["scale"] = {{"scheme", "redyellowgreen"}, {"domain", {0, 1}}, {"clamp", true}};
-  return heat_map(both, level_field("a", nullptr), level_field("b", nullptr), r, ".2f",
-                  tooltip({"a", "b", "r", "pairs"}));
+  Json x = level_field("a", nullptr);
+  Json y = level_field("b", nullptr);
+  x["sort"] = order;
+  y["sort"] = order;
+  return heat_map(both, x, y, r, ".2f", tooltip({"a", "b", "r", "pairs"}));
 }
 
 std::string mean_times_chart(const Json& cells) {
@@ -122,7 +134,7 @@ std::string speed_ups_chart(const Json& rows) {
   const Json error{
       {"mark", {{"type", "rule"}, {"strokeWidth", 2}}},
       {"encoding",
-       {{"x", field("low", "quantitative", nullptr)}, {"x2", {{"field", "high"}}}, {"y", y}}}};
+       {{"x", field("low", "quantitative", "speed-up")}, {"x2", {{"field", "high"}}}, {"y", y}}}};
   spec["layer"] = Json::array({bar, error});
   return spec.dump();
 }

@@ -41,7 +41,7 @@ class SuitePage {
                         escape(analysis_.dataset.suite), analysis_.dataset.observations.size(),
                         analysis_.dataset.clock);
     for (const std::string& note : analysis_.dataset.notes) {
-      text_ += "<p>" + escape(note) + ".</p>\n";
+      text_ += "<p class=\"system\">" + escape(note) + ".</p>\n";
     }
     add_distributions();
     add_correlations();
