@@ -112,7 +112,8 @@ void add_gate_commands(Commands& commands) {
   command->add_option("--store", arguments->store)->capture_default_str();
   command->add_option("--baselines", arguments->baselines, "Folder of the baselines");
   command
-      ->add_option("--check", arguments->checks, "image,counters,statistics,timing (default: all)")
+      ->add_option("--check", arguments->checks,
+                   "image,counters,statistics,timing,correlation (default: all)")
       ->delimiter(',');
   command->add_option("--device", arguments->devices, "Glob: judge only these (repeatable)");
   command->add_option("--require", arguments->required,

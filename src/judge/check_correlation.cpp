@@ -33,14 +33,24 @@ std::string decomposition(const CorrelationCase& each, double residual) {
                      percent(*each.log_work), percent(residual - *each.log_work));
 }
 
+// The id and the driver: what a person calls a device. Its key goes on with what else it depends
+// on.
+std::string short_name(const std::string& key) {
+  return key.substr(0, key.find("; API "));
+}
+
 class PairReport {
  public:
   PairReport(const RunView& view, const CorrelationPair& pair, std::vector<Finding>& findings)
-      : view_(view), pair_(pair), result_(pair.result), findings_(findings) {}
+      : view_(view),
+        pair_(pair),
+        result_(pair.result),
+        other_(short_name(pair.other_key)),
+        findings_(findings) {}
 
   void run() {
     if (!result_.admitted()) {
-      add(Verdict::advisory, fmt::format("cannot be judged by {}: {}; {}", pair_.other_key,
+      add(Verdict::advisory, fmt::format("cannot be judged by {}: {}; {}", other_,
                                          fmt::join(result_.refusals, "; "), remedy()));
       add_numbers();
       return;
@@ -49,7 +59,7 @@ class PairReport {
     for (const LevelEffect& level : result_.levels) report_level(level);
     report_global();
     if (regressions_ > 0) return;
-    add(Verdict::pass, fmt::format("as {} lets expect: {}", pair_.other_key, fit_text()));
+    add(Verdict::pass, fmt::format("as {} lets expect: {}", other_, fit_text()));
     add_numbers();
   }
 
@@ -70,6 +80,12 @@ class PairReport {
 
   // What would help depends on what is missing.
   [[nodiscard]] std::string remedy() const {
+    if (result_.anchors < Model::least_anchors && pair_.unlike_anchors > 0) {
+      return fmt::format(
+          "{} more anchors were timed by other kinds of clocks there; accept this device's own "
+          "baseline with {}",
+          pair_.unlike_anchors, view_.accept_command());
+    }
     if (result_.anchors < Model::least_anchors) {
       return fmt::format(
           "measure anchors into the same store with triptych run {0}, and accept them on the other "
@@ -98,7 +114,7 @@ class PairReport {
     add(judgement.standing ? Verdict::advisory : Verdict::regression,
         fmt::format("{:.4g} ms, {:+.1f} % against what {} lets expect, z = {:.1f}, q = {:.2g}, "
                     "{:.0f} % of all deviation; {}",
-                    1e-6 * std::exp(each.log_time_b), percent(judgement.residual), pair_.other_key,
+                    1e-6 * std::exp(each.log_time_b), percent(judgement.residual), other_,
                     judgement.z, judgement.q, 100 * judgement.share,
                     decomposition(each, judgement.residual)));
     Finding& finding = findings_.back();
@@ -120,8 +136,8 @@ class PairReport {
     std::string message = fmt::format(
         "{}: {} configurations {:+.1f} % ± {:.1f} % against the others, as {} lets expect, q = "
         "{:.2g}, {:.0f} % of all deviation",
-        level_name(level), level.size, percent(level.effect), percent(level.standard_error),
-        pair_.other_key, level.q, 100 * level.share);
+        level_name(level), level.size, percent(level.effect), percent(level.standard_error), other_,
+        level.q, 100 * level.share);
     if (level.standing) {
       message += "; as when this device was accepted";
     } else if (!decides) {
@@ -143,9 +159,8 @@ class PairReport {
     add(global.standing ? Verdict::advisory : Verdict::regression,
         fmt::format("the whole program is {:+.1f} % ± {:.1f} % slower than {} lets expect, by {} "
                     "groups of anchors, p = {:.2g}: the program, not the device{}",
-                    percent(global.delta), percent(global.standard_error), pair_.other_key,
-                    global.groups, global.p,
-                    global.standing ? "; as when this device was accepted" : ""));
+                    percent(global.delta), percent(global.standard_error), other_, global.groups,
+                    global.p, global.standing ? "; as when this device was accepted" : ""));
     add_numbers();
   }
 
@@ -171,6 +186,7 @@ class PairReport {
   const RunView& view_;
   const CorrelationPair& pair_;
   const Correlation& result_;
+  std::string other_;
   std::vector<Finding>& findings_;
   int regressions_ = 0;
 };

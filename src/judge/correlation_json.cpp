@@ -77,6 +77,7 @@ Json to_json(const CorrelationPair& pair) {
           {"other_key", pair.other_key},
           {"within_run", pair.within_run},
           {"unlike_clocks", pair.unlike_clocks},
+          {"unlike_anchors", pair.unlike_anchors},
           {"refusals", result.refusals},
           {"r", number(result.r)},
           {"rho", number(result.rho)},

@@ -15,13 +15,14 @@ constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 
 using Stored = std::map<std::string, std::vector<StoredTiming>>;
 
-// ln t of the stored runs that the same kind of clock timed, without the run that is judged.
-std::vector<double> like_runs(const Stored& stored, const record::Record& record) {
+// ln t of the stored runs but one that the same kind of clock timed.
+std::vector<double> like_runs(const Stored& stored, const record::Record& record,
+                              std::string_view but = {}) {
   std::vector<double> result;
   const auto found = stored.find(record.configuration);
   if (found == stored.end()) return result;
   for (const StoredTiming& timing : found->second) {
-    if (timing.clock == record.clock() && timing.run != record.run) {
+    if (timing.clock == record.clock() && timing.run != but) {
       result.push_back(std::log(timing.median_ns));
     }
   }
@@ -168,13 +169,15 @@ class Pairs {
       if (!of_a.contains(record->configuration)) continue;
       const auto runs_a = like_runs(of_a, *record);
       if (runs_a.empty()) {
-        ++pair.unlike_clocks;
+        ++(is_anchor(*record) ? pair.unlike_anchors : pair.unlike_clocks);
         continue;
       }
       CorrelationCase each = case_of(*record);
       each.log_time_a = mean(runs_a);
       each.variance_a = variance_of_a_run(scatter_a, runs_a) / static_cast<double>(runs_a.size());
-      const auto runs_b = like_runs(of_b, *record);
+      // A run that was accepted is what was accepted, but others are better witnesses of it.
+      auto runs_b = like_runs(of_b, *record, record->run);
+      if (runs_b.empty()) runs_b = like_runs(of_b, *record);
       if (!runs_b.empty()) each.known_log_time_b = mean(runs_b);
       // A launch scatters more than its frames; unknown of B, it is taken as A's.
       each.variance_b =
@@ -204,7 +207,7 @@ class Pairs {
       const auto a = of_a.find(record->configuration);
       if (a == of_a.end()) continue;
       if (a->second->clock() != record->clock()) {
-        ++pair.unlike_clocks;
+        ++(is_anchor(*record) ? pair.unlike_anchors : pair.unlike_clocks);
         continue;
       }
       CorrelationCase each = case_of(*record);

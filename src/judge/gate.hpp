@@ -50,11 +50,12 @@ struct Finding {
 // A device of the run held against another one, for the report. What was found of it is among the
 // findings, but for pairs within the run, which only show how alike the devices are.
 struct CorrelationPair {
-  std::string device;             // B: the one that is judged
-  std::string other;              // A: id of the one that it is held against
-  std::string other_key;          // Device::key() of A
-  bool within_run = false;        // A was measured in the same run; else it is a stored baseline
-  std::size_t unlike_clocks = 0;  // configurations left out, as A and B were timed by other clocks
+  std::string device;              // B: the one that is judged
+  std::string other;               // A: id of the one that it is held against
+  std::string other_key;           // Device::key() of A
+  bool within_run = false;         // A was measured in the same run; else it is a stored baseline
+  std::size_t unlike_clocks = 0;   // configurations left out: other clocks timed them on A
+  std::size_t unlike_anchors = 0;  // and anchors
   std::vector<CorrelationCase> cases;
   Correlation result;  // judgements in the order of the cases
 };

@@ -24,6 +24,8 @@ struct PlanData {
     const std::function<judge::TruthPair(const record::Record&)>& truth);
 [[nodiscard]] std::string times_section(const PlanData& plan);
 [[nodiscard]] std::string speed_of_light_section(const PlanData& plan);
+// Of the pairs of devices in the verdict.
+[[nodiscard]] std::string correlation_section(const PlanData& plan);
 [[nodiscard]] std::string counts_section(const PlanData& plan);
 
 // The factors that tell a record's scene from the plan's others, "data=…, camera=…"; all that its

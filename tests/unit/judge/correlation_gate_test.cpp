@@ -133,6 +133,7 @@ TEST_F(CorrelationGateTest, ASlowerDevicePasses) {
   EXPECT_EQ(passed[0].device, "b:new");
   EXPECT_NEAR(passed[0].numbers.at("slope"), 1, 0.02);
   EXPECT_EQ(passed[0].numbers.at("anchors"), 12);
+  EXPECT_THAT(passed[0].message, HasSubstr("as a:known; driver 1 lets expect"));
   EXPECT_EQ(passed[0].test, "volume.correlation.correlation.b:new");
   ASSERT_EQ(result.correlations.size(), 1U);
   EXPECT_EQ(result.correlations[0].other, "a:known");

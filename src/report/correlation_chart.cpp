@@ -1,0 +1,116 @@
+#include "report/correlation_chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/json.hpp"
+
+namespace triptych::report {
+namespace {
+
+using core::Json;
+
+double milliseconds(double log_ns) {
+  return 1e-6 * std::exp(log_ns);
+}
+
+std::string kind_of(const judge::CorrelationCase& each,
+                    const judge::ConfigurationJudgement& judgement) {
+  if (each.anchor) return "anchor";
+  if (judgement.standing) return "slower, as when accepted";
+  if (judgement.slower) return "slower";
+  return judgement.faster ? "faster" : "as expected";
+}
+
+Json points(const judge::CorrelationPair& pair) {
+  Json values = Json::array();
+  for (std::size_t i = 0; i < pair.cases.size(); ++i) {
+    const judge::CorrelationCase& each = pair.cases[i];
+    const judge::ConfigurationJudgement& judgement = pair.result.judgements[i];
+    values.push_back({{"a", milliseconds(each.log_time_a)},
+                      {"b", milliseconds(each.log_time_b)},
+                      {"technique", each.factors.at("technique")},
+                      {"configuration", each.configuration},
+                      {"deviation", std::expm1(judgement.residual)},
+                      {"kind", kind_of(each, judgement)}});
+  }
+  return values;
+}
+
+// From the smallest to the largest time on A: straight on two logarithmic axes.
+Json line_points(const judge::CorrelationPair& pair, double intercept) {
+  const auto [first, last] =
+      std::ranges::minmax(pair.cases, {}, &judge::CorrelationCase::log_time_a);
+  Json values = Json::array();
+  for (const double a : {first.log_time_a, last.log_time_a}) {
+    values.push_back(
+        {{"a", milliseconds(a)}, {"b", milliseconds(intercept + pair.result.line.slope * a)}});
+  }
+  return values;
+}
+
+Json axis(const char* field, const std::string& title) {
+  return {{"field", field},
+          {"type", "quantitative"},
+          {"title", title + ", ms"},
+          {"scale", {{"type", "log"}, {"nice", false}, {"padding", 12}}}};
+}
+
+Json line_layer(const judge::CorrelationPair& pair, double intercept, const Json& position,
+                bool dashed) {
+  Json mark{{"type", "line"}, {"color", "#555"}, {"strokeWidth", 1}};
+  if (dashed) mark["strokeDash"] = Json::array({5, 4});
+  return {
+      {"data", {{"values", line_points(pair, intercept)}}}, {"mark", mark}, {"encoding", position}};
+}
+
+Json point_layer(const Json& position) {
+  Json encoding = position;
+  encoding["color"] = {{"field", "technique"}, {"type", "nominal"}};
+  encoding["shape"] = {
+      {"field", "kind"},
+      {"type", "nominal"},
+      {"title", nullptr},
+      {"scale",
+       {{"domain", {"as expected", "anchor", "slower", "slower, as when accepted", "faster"}},
+        {"range", {"circle", "triangle-up", "cross", "diamond", "square"}}}}};
+  encoding["tooltip"] = Json::array({{{"field", "configuration"}},
+                                     {{"field", "a"}, {"format", ".3f"}},
+                                     {{"field", "b"}, {"format", ".3f"}},
+                                     {{"field", "deviation"}, {"format", "+.1%"}}});
+  return {{"mark", {{"type", "point"}, {"filled", true}, {"size", 55}, {"opacity", 0.75}}},
+          {"encoding", encoding}};
+}
+
+Json label_layer(const Json& position) {
+  Json encoding = position;
+  encoding["text"] = {{"field", "deviation"}, {"type", "quantitative"}, {"format", "+.0%"}};
+  return {{"transform",
+           Json::array({{{"filter", {{"field", "kind"}, {"oneOf", {"slower", "faster"}}}}}})},
+          {"mark", {{"type", "text"}, {"align", "left"}, {"dx", 7}, {"fontSize", 11}}},
+          {"encoding", encoding}};
+}
+
+}  // namespace
+
+std::string correlation_chart(const judge::CorrelationPair& pair) {
+  const Json position{{"x", axis("a", pair.other)}, {"y", axis("b", pair.device)}};
+  Json layers = Json::array();
+  if (!pair.cases.empty() && pair.result.line.slope != 0) {
+    layers.push_back(line_layer(pair, pair.result.line.intercept, position, false));
+    if (std::isfinite(pair.result.anchor_intercept)) {
+      layers.push_back(line_layer(pair, pair.result.anchor_intercept, position, true));
+    }
+  }
+  layers.push_back(point_layer(position));
+  layers.push_back(label_layer(position));
+  const Json spec{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
+                  {"data", {{"values", points(pair)}}},
+                  {"width", 430},
+                  {"height", 380},
+                  {"layer", layers},
+                  {"config", {{"view", {{"stroke", "#ddd"}}}, {"legend", {{"labelLimit", 220}}}}}};
+  return spec.dump();
+}
+
+}  // namespace triptych::report
