@@ -216,6 +216,21 @@ TEST(Correlation, ASlowerDeviceIsNoSlowerProgram) {
   EXPECT_LE(alarms, most(200, CorrelationModel::false_global_alarms));
 }
 
+// The ratio of two devices differs from resource to resource, and a program is one more mix of
+// them.
+TEST(Correlation, AProgramIsOneMoreMixOfResources) {
+  const Bench bench{.anchor_scatter = 0.08};
+  int alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    auto cases = bench.draw(seed);
+    core::Random random(seed + 1000);
+    const double own = bench.anchor_scatter * normal(random);
+    for (CorrelationCase& each : cases) each.log_time_b += each.anchor ? 0 : own;
+    alarms += correlate(cases).global.slower;
+  }
+  EXPECT_LE(alarms, most(400, CorrelationModel::false_global_alarms));
+}
+
 TEST(Correlation, WhatStoodWhenTheDeviceWasAcceptedIsNoNews) {
   Bench bench{.noise = 0.03};
   bench.planted = [](const CorrelationCase& each) {
