@@ -24,7 +24,7 @@ const std::map<std::string, std::string> frozen{
     {"src/technique/anchors/anchor_memory.comp.glsl", "c25e591882558cc8a2bb30538cfc2806"},
     {"src/technique/anchors/anchor_raster.frag.glsl", "eea97bf1be57dbff5bed43a2882bcc7d"},
     {"src/technique/anchors/anchor_raster.vert.glsl", "85d94e6b473f34ff663700e4af9cb660"},
-    {"src/technique/anchors/shape.hpp", "82fa6822abc6192330bc6909927e12f8"},
+    {"src/technique/anchors/shape.hpp", "de7657fc5e5dcfdcb218185df359d384"},
 };
 
 TEST(Frozen, AnchorsAreTheTextTheyWere) {

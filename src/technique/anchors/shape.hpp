@@ -32,7 +32,7 @@ inline constexpr std::uint32_t fetch_turns = 32;  // fetches per invocation
 
 // anchor_memory: reads a stream of words and writes another. Work groups, words of each stream per
 // group.
-inline constexpr std::uint32_t memory_groups = 2048;
+inline constexpr std::uint32_t memory_groups = 1024;
 inline constexpr std::uint32_t memory_words_a_group = 4096;
 inline constexpr std::uint32_t memory_key = 0x9E3779B9;
 
