@@ -146,10 +146,14 @@ void update_timings(const record::Record& record, Json& table) {
   for (const Json& entry : runs) {
     if (entry.value("run", "") != record.run) kept.push_back(entry);
   }
-  kept.push_back({{"run", record.run},
-                  {"median_ns", median(record.time_ns())},
-                  {"clock", record.clock()},
-                  {"kernel_hash", record.kernel_hash}});
+  Json entry{{"run", record.run},
+             {"median_ns", median(record.time_ns())},
+             {"clock", record.clock()},
+             {"kernel_hash", record.kernel_hash}};
+  if (record.clock() != "wall" && !record.wall_ns.empty()) {
+    entry["median_wall_ns"] = median(record.wall_ns);
+  }
+  kept.push_back(std::move(entry));
   while (kept.size() > kept_timings) kept.erase(kept.begin());
   runs = std::move(kept);
 }

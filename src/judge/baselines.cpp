@@ -69,7 +69,10 @@ std::vector<StoredTiming> read_timings(const JsonNode& node) {
   std::vector<StoredTiming> result;
   for (const JsonNode& entry : node.elements()) {
     result.push_back({entry.at("run").text(), entry.at("median_ns").positive_number(),
-                      entry.at("clock").text(), entry.at("kernel_hash").text()});
+                      entry.at("clock").text(), entry.at("kernel_hash").text(),
+                      entry.has("median_wall_ns")
+                          ? std::optional(entry.at("median_wall_ns").positive_number())
+                          : std::nullopt});
   }
   return result;
 }

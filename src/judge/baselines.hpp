@@ -33,6 +33,14 @@ struct StoredTiming {
   double median_ns = 0;
   std::string clock;
   std::string kernel_hash;
+  // By the wall clock, where `clock` is another: what two devices whose own clocks are not both
+  // trusted can be compared by. Baselines from before it was kept have none.
+  std::optional<double> median_wall_ns = {};
+
+  [[nodiscard]] std::optional<double> median_by(std::string_view which) const {
+    if (which == clock) return median_ns;
+    return which == "wall" ? median_wall_ns : std::nullopt;
+  }
 };
 
 // All that is stored of one device's times.

@@ -49,8 +49,8 @@ void compare_counter(const std::string& name, const std::map<std::string, std::u
     return;
   }
   const double relative = relative_difference(found->second, expected.value);
-  const bool same =
-      expected.own ? found->second == expected.value : std::abs(relative) <= counters_across_devices;
+  const bool same = expected.own ? found->second == expected.value
+                                 : std::abs(relative) <= counters_across_devices;
   out.largest = std::max(out.largest, std::abs(relative));
   if (same) return;
   out.wrong.push_back(fmt::format("{} {} → {} ({:+.4g} %{})", name, expected.value, found->second,

@@ -68,7 +68,8 @@ void compare_elsewhere(const RunView& view, const record::Record& record, const 
   for (const auto& [driver, counts] : stored) {
     const auto other = counts.find(name);
     if (other == counts.end()) continue;
-    const std::string there = statistic_reservation(view.baselines.statistics_dialect(driver), name);
+    const std::string there =
+        statistic_reservation(view.baselines.statistics_dialect(driver), name);
     if (!there.empty()) {
       result.not_compared.push_back(fmt::format("{} (on {} {})", name, driver, there));
       continue;

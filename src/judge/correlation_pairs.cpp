@@ -15,18 +15,32 @@ constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 
 using Stored = std::map<std::string, std::vector<StoredTiming>>;
 
-// ln t of the stored runs but one that the same kind of clock timed.
-std::vector<double> like_runs(const Stored& stored, const record::Record& record,
-                              std::string_view but = {}) {
+// ln t by one clock of the stored runs but one.
+std::vector<double> runs_by(std::string_view clock, const Stored& stored,
+                            const std::string& configuration, std::string_view but = {}) {
   std::vector<double> result;
-  const auto found = stored.find(record.configuration);
+  const auto found = stored.find(configuration);
   if (found == stored.end()) return result;
   for (const StoredTiming& timing : found->second) {
-    if (timing.clock == record.clock() && timing.run != but) {
-      result.push_back(std::log(timing.median_ns));
-    }
+    const auto time = timing.median_by(clock);
+    if (time && timing.run != but) result.push_back(std::log(*time));
   }
   return result;
+}
+
+const std::vector<double>& samples_by(std::string_view clock, const record::Record& record) {
+  return clock == "wall" ? record.wall_ns : record.device_ns;
+}
+
+// Times by different clocks are not compared: the record's own, or the wall clock, by which
+// everything is timed, where the other side has nothing by that one.
+std::string_view common_clock(const record::Record& record, const Stored& stored) {
+  if (!runs_by(record.clock(), stored, record.configuration).empty()) return record.clock();
+  return "wall";
+}
+
+std::string_view common_clock(const record::Record& a, const record::Record& b) {
+  return a.clock() == b.clock() ? a.clock() : "wall";
 }
 
 // Scatter between a device's runs, over all configurations that have several.
@@ -59,8 +73,8 @@ double variance_within(const std::vector<double>& samples) {
   return std::numbers::pi / 2 * scale * scale / static_cast<double>(samples.size());
 }
 
-double log_median(const record::Record& record) {
-  return std::log(median(record.time_ns()));
+double log_median(const record::Record& record, std::string_view clock) {
+  return std::log(median(samples_by(clock, record)));
 }
 
 // ln(work of `record`/work on A) by the first counter that both have.
@@ -83,14 +97,14 @@ bool has_time(const record::Record& record) {
   return time > 0 && std::isfinite(time);
 }
 
-CorrelationCase case_of(const record::Record& record) {
+CorrelationCase case_of(const record::Record& record, std::string_view clock) {
   CorrelationCase each;
   each.configuration = record.configuration;
   each.factors = record.factors;
   each.factors["technique"] = record.technique;
   each.anchor = is_anchor(record);
-  each.log_time_b = log_median(record);
-  each.variance_b = variance_within(record.time_ns());
+  each.log_time_b = log_median(record, clock);
+  each.variance_b = variance_within(samples_by(clock, record));
   return each;
 }
 
@@ -167,17 +181,18 @@ class Pairs {
     const VariancePrior scatter_b = scatter_between_runs(of_b);
     for (const record::Record* record : records_.at(device.id)) {
       if (!of_a.contains(record->configuration)) continue;
-      const auto runs_a = like_runs(of_a, *record);
-      if (runs_a.empty()) {
+      const std::string_view clock = common_clock(*record, of_a);
+      const auto runs_a = runs_by(clock, of_a, record->configuration);
+      if (runs_a.empty() || samples_by(clock, *record).empty()) {
         ++(is_anchor(*record) ? pair.unlike_anchors : pair.unlike_clocks);
         continue;
       }
-      CorrelationCase each = case_of(*record);
+      CorrelationCase each = case_of(*record, clock);
       each.log_time_a = mean(runs_a);
       each.variance_a = variance_of_a_run(scatter_a, runs_a) / static_cast<double>(runs_a.size());
       // A run that was accepted is what was accepted, but others are better witnesses of it.
-      auto runs_b = like_runs(of_b, *record, record->run);
-      if (runs_b.empty()) runs_b = like_runs(of_b, *record);
+      auto runs_b = runs_by(clock, of_b, record->configuration, record->run);
+      if (runs_b.empty()) runs_b = runs_by(clock, of_b, record->configuration);
       if (!runs_b.empty()) each.known_log_time_b = mean(runs_b);
       // A launch scatters more than its frames; unknown of B, it is taken as A's.
       each.variance_b =
@@ -206,13 +221,14 @@ class Pairs {
     for (const record::Record* record : records_.at(device.id)) {
       const auto a = of_a.find(record->configuration);
       if (a == of_a.end()) continue;
-      if (a->second->clock() != record->clock()) {
+      const std::string_view clock = common_clock(*record, *a->second);
+      if (samples_by(clock, *record).empty() || samples_by(clock, *a->second).empty()) {
         ++(is_anchor(*record) ? pair.unlike_anchors : pair.unlike_clocks);
         continue;
       }
-      CorrelationCase each = case_of(*record);
-      each.log_time_a = log_median(*a->second);
-      each.variance_a = variance_within(a->second->time_ns());
+      CorrelationCase each = case_of(*record, clock);
+      each.log_time_a = log_median(*a->second, clock);
+      each.variance_a = variance_within(samples_by(clock, *a->second));
       set_work(each, record->counters, [&](const std::string& unit) {
         const auto found = a->second->counters.find(unit);
         return found == a->second->counters.end()

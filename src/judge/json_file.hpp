@@ -26,6 +26,7 @@ class JsonNode {
   [[nodiscard]] std::vector<std::pair<std::string, JsonNode>> members() const;
   [[nodiscard]] std::vector<JsonNode> elements() const;
   [[nodiscard]] JsonNode at(const std::string& key) const;
+  [[nodiscard]] bool has(const std::string& key) const { return value_->contains(key); }
   [[nodiscard]] std::string text() const;
   [[nodiscard]] double positive_number() const;
   [[nodiscard]] std::uint64_t whole_number() const;

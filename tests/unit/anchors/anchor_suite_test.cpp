@@ -17,16 +17,16 @@ measure::Plan load(measure::Suite& suite, const measure::Overrides& overrides = 
                             [&](std::string_view) -> measure::Suite& { return suite; });
 }
 
-TEST(AnchorSuite, TheFrozenPlanIsEveryTechniqueInThreeSizes) {
+TEST(AnchorSuite, TheFrozenPlanIsEveryTechniqueInTwoSizes) {
   const auto suite = make_suite({});
   std::set<std::string> keys;
   for (const auto& each : load(*suite).configurations) {
     keys.insert(measure::configuration_key(*suite, each));
     EXPECT_TRUE(suite->missing_data(each).empty());
   }
-  EXPECT_EQ(keys.size(), 15U);
+  EXPECT_EQ(keys.size(), 10U);
   EXPECT_TRUE(keys.contains("technique=anchor_arithmetic"));
-  EXPECT_TRUE(keys.contains("size=4,technique=anchor_launch"));
+  EXPECT_TRUE(keys.contains("size=2,technique=anchor_launch"));
 }
 
 TEST(AnchorSuite, ASizeIsAWholeNumber) {

@@ -217,13 +217,32 @@ TEST_F(CorrelationGateTest, AnchorsOfAnotherDriverAreNoAnchors) {
   EXPECT_EQ(judge("b").correlations.at(0).result.anchors, 0U);
 }
 
-TEST_F(CorrelationGateTest, OtherKindsOfClocksAreLeftOut) {
+// The device's clock says something else altogether, so that mixing the two would show.
+TEST_F(CorrelationGateTest, DevicesOfUnlikeClocksAreComparedByTheWall) {
   accept_known();
   measure_anchors("anchors", "b:new");
   measure("b", "b:new");
   for (record::Record record : store_.records("b")) {
     if (record.technique != "raycast") continue;
     record.device_ns = record.wall_ns;
+    for (double& ns : record.device_ns) ns /= 5;
+    record.device_clock_trusted = true;
+    store_.add_record(record);
+  }
+  const GateResult result = judge("b");
+  const CorrelationPair& pair = result.correlations.at(0);
+  EXPECT_EQ(pair.unlike_clocks, 0U);
+  EXPECT_TRUE(pair.result.admitted()) << text(result);
+  EXPECT_TRUE(with(result, Verdict::regression).empty()) << text(result);
+}
+
+TEST_F(CorrelationGateTest, WhatHasNoCommonClockIsLeftOut) {
+  accept_known();
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new");
+  for (record::Record record : store_.records("b")) {
+    if (record.technique != "raycast") continue;
+    record.device_ns = std::exchange(record.wall_ns, {});
     record.device_clock_trusted = true;
     store_.add_record(record);
   }
