@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -83,6 +84,13 @@ struct Truth {
   core::Image bound;
 };
 
+// What the pictures of a scene tend to as its sampling is refined: errors against it are what
+// sampling costs, beside all else.
+struct Limit {
+  core::Image image;
+  core::Image uncertainty;  // per pixel in all four channels: how far it may be from the limit
+};
+
 // A suite whose pictures can be judged.
 class SuiteWithTruth : public Suite {
  public:
@@ -95,6 +103,16 @@ class SuiteWithTruth : public Suite {
   // Two configurations with the same text share their truth and bound.
   [[nodiscard]] virtual std::string truth_key(const Configuration& configuration,
                                               const std::map<std::string, double>& precision) = 0;
+
+  // Two configurations with the same text share their limit; empty: they have none.
+  [[nodiscard]] virtual std::string limit_key(const Configuration&) { return {}; }
+  // Of a configuration with a limit_key.
+  [[nodiscard]] virtual Limit limit(const Configuration&) { return {}; }
+  // The picture by a formula, where the scene has one. It differs from the limit by what the data's
+  // grid and tables cannot represent.
+  [[nodiscard]] virtual std::optional<core::Image> closed_form(const Configuration&) {
+    return std::nullopt;
+  }
 };
 
 // Canonical text of the factors of a configuration that decide the picture: "camera=…,data=…".

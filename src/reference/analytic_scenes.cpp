@@ -246,6 +246,51 @@ AnalyticPixel gaussian_pixel(const Setting& setting, int x, int y) {
   return finish(setting, channels, error);
 }
 
+// g of v8_trilinear: its height along every axis, each constant in the outermost half voxels.
+double heights_product(const Setting& setting, const glm::dvec3& p) {
+  double g = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = 0.5 * setting.options.spacing[static_cast<std::size_t>(axis)];
+    g *= std::clamp(p[axis], half, setting.extent[axis] - half) / setting.extent[axis];
+  }
+  return g;
+}
+
+// Where the ray crosses the outermost voxel centres, with both ends, ascending.
+std::vector<double> cuts_of_all_axes(const Setting& setting, const Chord& chord) {
+  std::vector<double> at{chord.begin, chord.end};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = 0.5 * setting.options.spacing[static_cast<std::size_t>(axis)];
+    for (const double plane : {half, setting.extent[axis] - half}) {
+      const double t = (plane - setting.camera.eye[axis]) / chord.direction[axis];
+      if (t > chord.begin && t < chord.end) at.push_back(t);
+    }
+  }
+  std::sort(at.begin(), at.end());
+  return at;
+}
+
+// A product of three heights is a cubic along the ray, which two points of Gauss integrate exactly.
+AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
+  const Chord chord = chord_of(setting, x, y);
+  const std::vector<double> at = cuts_of_all_axes(setting, chord);
+  double depth = 0;
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    const double half = 0.5 * (at[i + 1] - at[i]);
+    for (const double side : {-1.0, 1.0}) {
+      const double t = at[i] + half + side * half / std::numbers::sqrt3;
+      const glm::dvec3 p = setting.camera.eye + t * chord.direction;
+      depth += half * setting.medium.tau(heights_product(setting, p));
+    }
+  }
+  std::array<Radiance, 3> channels;
+  for (std::size_t i = 0; i < 3; ++i) {
+    channels[i] = v1_constant(depth, setting.medium.colour(0.5)[i], 1.0);
+  }
+  const double error = chord.length() > 0 ? table_error(setting, chord.length()) : 0.0;
+  return finish(setting, channels, error);
+}
+
 // Optical depths of the box along z (of the blob: through its centre) are between 1 and 2.5, so
 // that nothing is hidden and nothing negligible. Colours of constant media are exact in float.
 Medium medium_of(AnalyticProblem problem, const Setting& setting) {
@@ -281,6 +326,9 @@ Medium medium_of(AnalyticProblem problem, const Setting& setting) {
                 },
                 2.0 * depth, 0, 0};
       break;
+    case AnalyticProblem::v8_trilinear:
+      medium = {[=](double g) { return 8.0 * depth * g; }, constant, 8.0 * depth, 8.0 * depth, 0};
+      break;
   }
   return medium;
 }
@@ -291,6 +339,7 @@ double stored_g(AnalyticProblem problem, const Setting& setting, const std::arra
   const glm::dvec3 centre = (glm::dvec3(voxel[0], voxel[1], voxel[2]) + 0.5) * spacing;
   if (problem == AnalyticProblem::v1_constant) return 0.5;
   if (problem == AnalyticProblem::v6_layers) return centre.z < 0.5 * setting.extent.z ? 0.0 : 1.0;
+  if (problem == AnalyticProblem::v8_trilinear) return heights_product(setting, centre);
   if (problem != AnalyticProblem::v4_gaussian) return centre.z / setting.extent.z;
   const double r = glm::length(centre - 0.5 * setting.extent) / blob_sigma(setting);
   return std::exp(-0.5 * r * r);
@@ -350,6 +399,8 @@ std::function<AnalyticPixel(int, int)> exact_of(AnalyticProblem problem,
       return [setting](int x, int y) { return along_z(*setting, atmosphere_piece, x, y); };
     case AnalyticProblem::v6_layers:
       return [setting](int x, int y) { return layers_pixel(*setting, x, y); };
+    case AnalyticProblem::v8_trilinear:
+      return [setting](int x, int y) { return trilinear_pixel(*setting, x, y); };
     case AnalyticProblem::v2_ramp:
     case AnalyticProblem::v3_segment:
       break;
@@ -373,8 +424,17 @@ std::string_view name_of(AnalyticProblem problem) {
       return "v5_atmosphere";
     case AnalyticProblem::v6_layers:
       return "v6_layers";
+    case AnalyticProblem::v8_trilinear:
+      return "v8_trilinear";
   }
   return {};
+}
+
+std::optional<AnalyticProblem> analytic_problem(std::string_view name) {
+  for (const AnalyticProblem problem : analytic_problems) {
+    if (name_of(problem) == name) return problem;
+  }
+  return std::nullopt;
 }
 
 AnalyticScene analytic_scene(AnalyticProblem problem, const AnalyticOptions& options) {

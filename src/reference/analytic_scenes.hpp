@@ -20,8 +20,14 @@ enum class AnalyticProblem {
   v4_gaussian,    // Gaussian blob in the middle of the box   order 2 in h and in the voxel size
   v5_atmosphere,  // τ = τ₀·e^(−z/H), constant colour         order 2 in h
   v6_layers,  // two homogeneous layers across z          ≤ 1 and erratic in h: the edge limits it
+  v8_trilinear,  // τ = k·xyz, constant colour                order 2 in h
 };
+inline constexpr std::array analytic_problems{
+    AnalyticProblem::v1_constant, AnalyticProblem::v2_ramp,       AnalyticProblem::v3_segment,
+    AnalyticProblem::v4_gaussian, AnalyticProblem::v5_atmosphere, AnalyticProblem::v6_layers,
+    AnalyticProblem::v8_trilinear};
 [[nodiscard]] std::string_view name_of(AnalyticProblem problem);
+[[nodiscard]] std::optional<AnalyticProblem> analytic_problem(std::string_view name);
 
 struct AnalyticOptions {
   std::array<int, 3> size{32, 32, 32};  // voxels; v6_layers needs an even number along z
@@ -45,7 +51,8 @@ struct AnalyticPixel {
 // entry k is at g = k/255. The problems along z have g = z/L at voxel centres, thus exactly linear
 // between the first and the last; outside, in the outermost half voxels, the field is constant, and
 // so is τ in the closed form. v4_gaussian has g = e^(−r²/2σ²), σ a tenth of the smallest extent;
-// v6_layers g = 0 and 1.
+// v6_layers g = 0 and 1; v8_trilinear the product of the three heights, which trilinear
+// interpolation reproduces.
 //
 // The model's error, with u the smallest spacing and α(g) = 1 − e^(−u·τ(g)): interpolating α over
 // 1/255 errs by at most (1/255)²/8·max|α''|; rounding to float adds 2⁻²⁴·(α + |α'|); both become

@@ -4,6 +4,7 @@
 #include "scene/camera.hpp"
 #include "scene/generators.hpp"
 #include "scene/transfer_function.hpp"
+#include "suites/volume/analytic_data.hpp"
 
 namespace triptych::volume_suite {
 namespace {
@@ -27,12 +28,16 @@ const std::vector<Factor>& volume_factors() {
       choice("technique", measure::technique_ids("volume"), "raycast", Decides::how_it_is_made,
              "how the picture is made"),
       text("data", "generate:mandelbulb:96",
-           "a volume file (.nrrd, .nhdr, .dat) or generate:NAME:SIZE or generate:NAME:NXxNYxNZ"),
+           "a volume file (.nrrd, .nhdr, .dat), generate:NAME:SIZE, generate:NAME:NXxNYxNZ, or "
+           "analytic:PROBLEM:SIZE, known by a formula"),
       choice("voxel", {"auto", "u8", "u16", "f32"}, "auto", Decides::how_it_is_made,
              "how voxels are stored on the device; auto: the device's fastest exact path"),
       choice("sampler", {"auto", "hardware", "manual"}, "auto", Decides::how_it_is_made,
              "who interpolates between voxels; auto: as for voxel"),
-      text("transfer_function", "haze", "haze, surfaces, or a file of 256 RGBA entries"),
+      text(
+          "transfer_function", "haze",
+          "haze, surfaces, a file of 256 RGBA entries, or own: an analytic problem's own, haze for "
+          "all other data"),
       number("step", 1.0 / 64, 4096, "1", Decides::the_picture,
              "distance of samples in smallest voxel spacings"),
       choice("quadrature", {"midpoint"}, "midpoint", Decides::the_picture,
@@ -57,7 +62,8 @@ void check_value(const Factor& factor, std::string_view value,
     static_cast<void>(scene::camera_at(value, scene::Box{}, field_of_view));
   } else if (factor.name == "data") {
     if (value.starts_with("generate:")) measure::check_generator(value, generator_names());
-  } else if (factor.name == "transfer_function") {
+    static_cast<void>(analytic_data(value));
+  } else if (factor.name == "transfer_function" && value != own_transfer_function) {
     static_cast<void>(scene::load_transfer_function(value, folders));
   }
 }

@@ -10,6 +10,7 @@
 #include "measure/factor.hpp"
 #include "reference/volume.hpp"
 #include "scene/generators.hpp"
+#include "suites/volume/analytic_data.hpp"
 #include "suites/volume/factors.hpp"
 #include "suites/volume/frame_description.hpp"
 #include "suites/volume/tolerance.hpp"
@@ -41,6 +42,9 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   std::string truth_key(const Configuration& configuration,
                         const std::map<std::string, double>& precision) override;
   nlohmann::json describe(const Configuration& configuration) override;
+  std::string limit_key(const Configuration& configuration) override;
+  measure::Limit limit(const Configuration& configuration) override;
+  std::optional<core::Image> closed_form(const Configuration& configuration) override;
 
  private:
   // The last data set loaded: neighbours in a plan share it.
@@ -52,6 +56,7 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   using ChooseFormat = std::function<scene::VoxelFormat(scene::VoxelFormat native)>;
 
   const Loaded& load(const std::string& data, const ChooseFormat& choose);
+  const Loaded& load_as_it_is(const Configuration& configuration);
   scene::VolumeScene scene(const Configuration& configuration,
                            const std::shared_ptr<const scene::VoxelGrid>& grid) const;
 
@@ -72,7 +77,7 @@ std::string_view VolumeSuite::plan_text(std::string_view plan) const {
 
 std::string VolumeSuite::missing_data(const Configuration& configuration) const {
   const std::string& data = configuration.at("data");
-  if (scene::is_present(data, folders_)) return {};
+  if (analytic_data(data) || scene::is_present(data, folders_)) return {};
   return fmt::format(
       "data file '{}' is not here; set TRIPTYCH_DATA to the folder that holds volumes/", data);
 }
@@ -82,7 +87,8 @@ const VolumeSuite::Loaded& VolumeSuite::load(const std::string& data, const Choo
     return loaded_;
   }
   loaded_ = {};  // frees the old one before the new one is loaded
-  scene::Volume volume = scene::load_volume(data, folders_);
+  const auto analytic = analytic_data(data);
+  scene::Volume volume = analytic ? analytic_volume(*analytic) : scene::load_volume(data, folders_);
   const scene::VoxelFormat native = scene::lossless_format(volume.type);
   loaded_ = {.data = data,
              .native = native,
@@ -91,13 +97,24 @@ const VolumeSuite::Loaded& VolumeSuite::load(const std::string& data, const Choo
   return loaded_;
 }
 
+const VolumeSuite::Loaded& VolumeSuite::load_as_it_is(const Configuration& configuration) {
+  return load(configuration.at("data"), [](scene::VoxelFormat native) { return native; });
+}
+
+scene::TransferFunction transfer_function(const Configuration& configuration,
+                                          const std::vector<std::filesystem::path>& folders) {
+  const std::string& name = configuration.at("transfer_function");
+  if (name != own_transfer_function) return scene::load_transfer_function(name, folders);
+  const auto analytic = analytic_data(configuration.at("data"));
+  return analytic ? analytic_transfer_function(*analytic) : scene::load_transfer_function("haze");
+}
+
 scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
                                       const std::shared_ptr<const scene::VoxelGrid>& grid) const {
   const auto [width, height] = measure::parse_viewport(configuration.at("viewport"));
   return {
       .grid = grid,
-      .transfer_function =
-          scene::load_transfer_function(configuration.at("transfer_function"), folders_),
+      .transfer_function = transfer_function(configuration, folders_),
       .camera =
           scene::camera_at(configuration.at("camera"), scene::bounding_box(*grid), field_of_view),
       .width = width,
@@ -170,8 +187,7 @@ reference::ErrorModel model_of(const Configuration& configuration, const scene::
 
 measure::Truth VolumeSuite::truth(const Configuration& configuration,
                                   const std::map<std::string, double>& precision) {
-  const Loaded& loaded =
-      load(configuration.at("data"), [](scene::VoxelFormat native) { return native; });
+  const Loaded& loaded = load_as_it_is(configuration);
   const scene::VolumeScene pictured = scene(configuration, loaded.grid);
   const reference::Truth truth = reference::render_volume(
       pictured, model_of(configuration, pictured, precision, loaded.native));
@@ -180,8 +196,7 @@ measure::Truth VolumeSuite::truth(const Configuration& configuration,
 
 std::string VolumeSuite::truth_key(const Configuration& configuration,
                                    const std::map<std::string, double>& precision) {
-  const Loaded& loaded =
-      load(configuration.at("data"), [](scene::VoxelFormat native) { return native; });
+  const Loaded& loaded = load_as_it_is(configuration);
   const scene::VolumeScene pictured = scene(configuration, loaded.grid);
   const reference::ErrorModel model = model_of(configuration, pictured, precision, loaded.native);
   return fmt::format("reference {} data {} model {:a} {:a} {:a} {:a} {:a} {:a} {:a}",
@@ -191,9 +206,33 @@ std::string VolumeSuite::truth_key(const Configuration& configuration,
 }
 
 nlohmann::json VolumeSuite::describe(const Configuration& configuration) {
-  const Loaded& loaded =
-      load(configuration.at("data"), [](scene::VoxelFormat native) { return native; });
+  const Loaded& loaded = load_as_it_is(configuration);
   return describe_frame(scene(configuration, loaded.grid), as_number(configuration, "ert"));
+}
+
+// The step is no part of it: it is what tends to zero.
+std::string VolumeSuite::limit_key(const Configuration& configuration) {
+  return fmt::format(
+      "converged {} data {} {}, transfer_function {}, shading {}, camera {}, "
+      "viewport {}",
+      reference::volume_version, configuration.at("data"), load_as_it_is(configuration).grid->hash,
+      configuration.at("transfer_function"), configuration.at("shading"),
+      configuration.at("camera"), configuration.at("viewport"));
+}
+
+measure::Limit VolumeSuite::limit(const Configuration& configuration) {
+  // Below the rounding of a float picture's whole range.
+  constexpr double tolerance = 0x1.0p-24;
+  const reference::Truth truth = reference::render_volume_converged(
+      scene(configuration, load_as_it_is(configuration).grid), tolerance);
+  return {.image = truth.image(), .uncertainty = truth.bound_image()};
+}
+
+std::optional<core::Image> VolumeSuite::closed_form(const Configuration& configuration) {
+  const auto analytic = analytic_data(configuration.at("data"));
+  const bool own = configuration.at("transfer_function") == own_transfer_function;
+  if (!analytic || !own || configuration.at("shading") != "none") return std::nullopt;
+  return analytic_picture(*analytic, scene(configuration, load_as_it_is(configuration).grid));
 }
 
 }  // namespace

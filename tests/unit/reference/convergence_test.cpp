@@ -95,6 +95,7 @@ TEST(Convergence, SmoothProblemsAreOfSecondOrder) {
   EXPECT_GE(order_against_closed_form(AnalyticProblem::v2_ramp, 10), 1.9);
   EXPECT_GE(order_against_closed_form(AnalyticProblem::v3_segment, 10), 1.9);
   EXPECT_GE(order_against_closed_form(AnalyticProblem::v5_atmosphere, 10), 1.9);
+  EXPECT_GE(order_against_closed_form(AnalyticProblem::v8_trilinear, 10), 1.9);
 }
 
 // The blob's grid is not its closed form, so the order in the step is taken against the grid's own
@@ -147,9 +148,7 @@ TEST(Convergence, LayersSeenFromBehindAreReversed) {
 
 // The limit of the step must be the closed form, up to how finely grid and table represent it.
 TEST(Convergence, LimitIsTheClosedForm) {
-  for (const AnalyticProblem problem :
-       {AnalyticProblem::v1_constant, AnalyticProblem::v2_ramp, AnalyticProblem::v3_segment,
-        AnalyticProblem::v4_gaussian, AnalyticProblem::v5_atmosphere, AnalyticProblem::v6_layers}) {
+  for (const AnalyticProblem problem : analytic_problems) {
     for (const int size : {8, 32}) {
       const AnalyticScene analytic = analytic_scene(problem, options(size));
       const double tolerance = 1e-7;

@@ -1,0 +1,34 @@
+#pragma once
+// Data whose picture is known by a formula: "analytic:PROBLEM:SIZE", a cube of SIZE³ voxels with a
+// transfer function of its own (reference/analytic_scenes.hpp).
+
+#include <optional>
+#include <string_view>
+
+#include "core/image.hpp"
+#include "reference/analytic_scenes.hpp"
+#include "scene/volume.hpp"
+#include "scene/volume_scene.hpp"
+
+namespace triptych::volume_suite {
+
+struct AnalyticData {
+  reference::AnalyticProblem problem{};
+  int size = 0;
+};
+
+// The transfer function that belongs to the data: of a problem its own, of all else the standard.
+inline constexpr std::string_view own_transfer_function = "own";
+
+// nullopt for other data. Throws InputError for an unknown problem and for a size outside 2…512 or,
+// of the layers, odd.
+[[nodiscard]] std::optional<AnalyticData> analytic_data(std::string_view data);
+
+[[nodiscard]] scene::Volume analytic_volume(const AnalyticData& data);
+[[nodiscard]] scene::TransferFunction analytic_transfer_function(const AnalyticData& data);
+
+// The problem's picture from the scene's camera, in its viewport, over its background.
+[[nodiscard]] core::Image analytic_picture(const AnalyticData& data,
+                                           const scene::VolumeScene& scene);
+
+}  // namespace triptych::volume_suite
