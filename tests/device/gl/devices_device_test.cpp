@@ -19,7 +19,7 @@ std::vector<std::string> ids(const measure::Listing& listing) {
 }
 
 TEST(GlDevices, ListingTwiceIsTheSame) {
-  const auto backend = debug_backend();
+  const auto backend = backend_under_test();
   const measure::Listing first = backend->list();
   EXPECT_EQ(first.devices, backend->list().devices);
   const std::vector<std::string> all = ids(first);
@@ -32,7 +32,7 @@ TEST(GlDevices, ListingTwiceIsTheSame) {
 }
 
 TEST(GlDevices, WhatIsListedOpensAsListed) {
-  const auto backend = debug_backend();
+  const auto backend = backend_under_test();
   for (const record::Device& each : backend->list().devices) {
     EXPECT_EQ(backend->open(each.id)->info(), each);
     EXPECT_FALSE(each.name.empty());
@@ -41,7 +41,7 @@ TEST(GlDevices, WhatIsListedOpensAsListed) {
 }
 
 TEST(GlDevices, AnUnknownDeviceIsNotSupported) {
-  const auto backend = debug_backend();
+  const auto backend = backend_under_test();
   for (const char* id : {"gl:nothing-egl", "gl:nothing-osmesa"}) {
     try {
       static_cast<void>(backend->open(id));
@@ -54,7 +54,7 @@ TEST(GlDevices, AnUnknownDeviceIsNotSupported) {
 
 // Both libraries keep the thread's current context in one variable.
 TEST(GlDevices, TwoOpenAtOnceDoNotDisturbEachOther) {
-  const auto backend = debug_backend();
+  const auto backend = backend_under_test();
   const std::vector<std::string> all = ids(backend->list());
   if (all.size() < 2) GTEST_SKIP() << "fewer than two OpenGL devices";
   const auto a = backend->open(all[0]);

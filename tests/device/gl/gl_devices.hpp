@@ -1,92 +1,32 @@
 #pragma once
-// The devices and the scenes that the cases here run with.
-
-#include <gtest/gtest.h>
+// The API's devices, opened as its cases want them.
 
 #include <array>
-#include <cmath>
 #include <cstdlib>
 #include <memory>
-#include <string>
 #include <string_view>
 #include <utility>
 
 #include "backends/gl/backend.hpp"
-#include "measure/backend.hpp"
-#include "scene/volume_scene.hpp"
+#include "tests/support/device_cases.hpp"
 
 namespace triptych::gl_backend {
 
+using test::largest_difference;
+using test::make_scene;
+using test::make_work;
+using test::picture;
+using test::SceneOptions;
+
 // Debug contexts, so that any message of the driver fails the case.
-inline std::unique_ptr<measure::Backend> debug_backend() {
+inline std::unique_ptr<measure::Backend> backend_under_test() {
   setenv("TRIPTYCH_GL_DEBUG", "1", 1);
   return make_backend();
 }
 
-// Runs `check(device)` for each device that is here; skips the case with the reasons where none is.
 template <class Check>
 void for_each_device(Check&& check) {
-  const auto backend = debug_backend();
-  const measure::Listing listing = backend->list();
-  if (listing.devices.empty()) {
-    std::string reasons;
-    for (const measure::Broken& each : listing.broken) {
-      reasons += each.what + ": " + each.reason + "; ";
-    }
-    GTEST_SKIP() << reasons;
-  }
-  for (const record::Device& each : listing.devices) {
-    SCOPED_TRACE(each.id);
-    const auto device = backend->open(each.id);
-    check(*device);
-  }
-}
-
-struct SceneOptions {
-  std::string_view data = "generate:mandelbulb:40";
-  std::string_view transfer_function = "surfaces";
-  std::string_view camera = "orbit_y:1/8";
-  scene::VoxelFormat voxel = scene::VoxelFormat::f32;
-  int width = 33;
-  int height = 29;
-  double step_voxels = 0.7;
-  bool shading = false;
-};
-
-inline scene::VolumeScene make_scene(const SceneOptions& options) {
-  scene::VolumeScene scene;
-  scene.grid = std::make_shared<const scene::VoxelGrid>(
-      scene::encode(scene::load_volume(options.data), options.voxel));
-  scene.transfer_function = scene::load_transfer_function(options.transfer_function);
-  scene.camera = scene::camera_at(options.camera, scene.box(), 40);
-  scene.width = options.width;
-  scene.height = options.height;
-  scene.step_voxels = options.step_voxels;
-  scene.shading.enabled = options.shading;
-  scene.background = {0.1F, 0.2F, 0.3F, 1.0F};
-  return scene;
-}
-
-inline measure::Work make_work(std::string_view technique, scene::VolumeScene scene,
-                               const technique::RaycastOptions& options = {}) {
-  return {std::string(technique), measure::VolumeWork{std::move(scene), options}};
-}
-
-// One timed frame's picture.
-inline core::Image picture(measure::Device& device, const measure::Work& work) {
-  const auto prepared = device.prepare(work);
-  static_cast<void>(prepared->frame(measure::Purpose::timing));
-  return prepared->image();
-}
-
-inline double largest_difference(const core::Image& a, const core::Image& b) {
-  EXPECT_EQ(a.rgba.size(), b.rgba.size());
-  double largest = 0;
-  for (std::size_t i = 0; i < std::min(a.rgba.size(), b.rgba.size()); ++i) {
-    const double difference = std::abs(static_cast<double>(a.rgba[i]) - b.rgba[i]);
-    largest = difference <= largest ? largest : difference;  // not a number is taken over
-  }
-  return largest;
+  test::for_each_device_of(*backend_under_test(), std::forward<Check>(check));
 }
 
 inline constexpr std::array<std::string_view, 2> picture_techniques{"raycast", "raycast_fragment"};

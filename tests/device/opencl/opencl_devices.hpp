@@ -1,91 +1,30 @@
 #pragma once
-// The devices and the scenes that the cases here run with.
+// The API's devices, opened as its cases want them.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <memory>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "backends/opencl/backend.hpp"
-#include "measure/backend.hpp"
-#include "scene/volume_scene.hpp"
+#include "tests/support/device_cases.hpp"
 
 namespace triptych::opencl_backend {
 
-// Runs `check(device)` for each device that is here; skips the case with the reasons where none is.
+using test::largest_difference;
+using test::make_scene;
+using test::make_work;
+using test::picture;
+using test::SceneOptions;
+
+// As the program starts its workers: PoCL leaves small launches on one thread otherwise.
+inline std::unique_ptr<measure::Backend> backend_under_test() {
+  setenv("POCL_PTHREAD_MIN_WGS", "1", 0);
+  return make_backend();
+}
+
 template <class Check>
 void for_each_device(Check&& check) {
-  // As the program starts its workers: PoCL leaves small launches on one thread otherwise.
-  setenv("POCL_PTHREAD_MIN_WGS", "1", 0);
-  const auto backend = make_backend();
-  const measure::Listing listing = backend->list();
-  if (listing.devices.empty()) {
-    std::string reasons;
-    for (const measure::Broken& each : listing.broken) {
-      reasons += each.what + ": " + each.reason + "; ";
-    }
-    GTEST_SKIP() << reasons;
-  }
-  for (const record::Device& each : listing.devices) {
-    SCOPED_TRACE(each.id);
-    const auto device = backend->open(each.id);
-    check(*device);
-  }
-}
-
-struct SceneOptions {
-  std::string_view data = "generate:mandelbulb:40";
-  std::string_view transfer_function = "surfaces";
-  std::string_view camera = "orbit_y:1/8";
-  scene::VoxelFormat voxel = scene::VoxelFormat::f32;
-  int width = 33;
-  int height = 29;
-  double step_voxels = 0.7;
-  bool shading = false;
-};
-
-inline scene::VolumeScene make_scene(const SceneOptions& options) {
-  scene::VolumeScene scene;
-  scene.grid = std::make_shared<const scene::VoxelGrid>(
-      scene::encode(scene::load_volume(options.data), options.voxel));
-  scene.transfer_function = scene::load_transfer_function(options.transfer_function);
-  scene.camera = scene::camera_at(options.camera, scene.box(), 40);
-  scene.width = options.width;
-  scene.height = options.height;
-  scene.step_voxels = options.step_voxels;
-  scene.shading.enabled = options.shading;
-  scene.background = {0.1F, 0.2F, 0.3F, 1.0F};
-  return scene;
-}
-
-inline measure::Work make_work(std::string_view technique, scene::VolumeScene scene,
-                               const technique::RaycastOptions& options = {}) {
-  return {std::string(technique), measure::VolumeWork{std::move(scene), options}};
-}
-
-// One timed frame's picture.
-inline core::Image picture(measure::Device& device, const measure::Work& work) {
-  const auto prepared = device.prepare(work);
-  static_cast<void>(prepared->frame(measure::Purpose::timing));
-  return prepared->image();
-}
-
-// Infinity for pictures of different sizes and where a value is not finite.
-inline double largest_difference(const core::Image& a, const core::Image& b) {
-  if (a.width != b.width || a.height != b.height) return std::numeric_limits<double>::infinity();
-  double largest = 0;
-  for (std::size_t i = 0; i < a.rgba.size(); ++i) {
-    const double difference =
-        std::abs(static_cast<double>(a.rgba[i]) - static_cast<double>(b.rgba[i]));
-    if (!std::isfinite(difference)) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, difference);
-  }
-  return largest;
+  test::for_each_device_of(*backend_under_test(), std::forward<Check>(check));
 }
 
 }  // namespace triptych::opencl_backend

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "reference/volume.hpp"
+#include "scene/generators.hpp"
 #include "suites/volume/tolerance.hpp"
 #include "tests/device/vulkan/vulkan_devices.hpp"
 
