@@ -67,6 +67,7 @@ core::ExitCode gate(const GateArguments& arguments) {
       .devices = arguments.devices,
       .required_devices = arguments.required,
       .truth = [&](const record::Record& record) { return truths.of(record); },
+      .limit = [&](const record::Record& record) { return truths.limit_of(record); },
       .today = today(),
   };
   for (const std::string& name : arguments.checks) request.checks.insert(judge::check(name));
@@ -88,13 +89,18 @@ core::ExitCode accept(const AcceptArguments& arguments) {
   require_store(arguments.store);
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
+  judge::AcceptRequest request{
+      .plan = arguments.plan,
+      .reason = arguments.reason,
+      .only = arguments.only,
+      .date = today(),
+      .truth = [&](const record::Record& record) { return truths.of(record).truth; }};
+  // Errors against the limit are baselines of the plans made for them.
+  if (arguments.plan.ends_with("/accuracy")) {
+    request.limit = [&](const record::Record& record) { return truths.limit_of(record); };
+  }
   const std::vector<std::string> changes = judge::accept(
-      store, latest_run(store, arguments.plan, arguments.store), arguments.baselines,
-      {.plan = arguments.plan,
-       .reason = arguments.reason,
-       .only = arguments.only,
-       .date = today(),
-       .truth = [&](const record::Record& record) { return truths.of(record).truth; }});
+      store, latest_run(store, arguments.plan, arguments.store), arguments.baselines, request);
   for (const std::string& change : changes) fmt::print("{}\n", change);
   fmt::print("{} changes under {}; review them before you commit\n", changes.size(),
              arguments.baselines);
@@ -113,7 +119,7 @@ void add_gate_commands(Commands& commands) {
   command->add_option("--baselines", arguments->baselines, "Folder of the baselines");
   command
       ->add_option("--check", arguments->checks,
-                   "image,counters,statistics,timing,correlation (default: all)")
+                   "image,counters,statistics,timing,correlation,accuracy (default: all)")
       ->delimiter(',');
   command->add_option("--device", arguments->devices, "Glob: judge only these (repeatable)");
   command->add_option("--require", arguments->required,

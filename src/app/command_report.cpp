@@ -35,13 +35,15 @@ core::ExitCode write_report(const ReportArguments& arguments) {
     const record::Run run = *store.latest_run(plan);
     request.plans.push_back(
         {.run = run,
-         .verdict = judge::judge_run(store, run.id, judge::Baselines(arguments.baselines, plan),
-                                     {.plan = plan,
-                                      .checks = {},
-                                      .devices = {},
-                                      .required_devices = {},
-                                      .truth = request.truth,
-                                      .today = today()})});
+         .verdict = judge::judge_run(
+             store, run.id, judge::Baselines(arguments.baselines, plan),
+             {.plan = plan,
+              .checks = {},
+              .devices = {},
+              .required_devices = {},
+              .truth = request.truth,
+              .limit = [&](const record::Record& record) { return truths.limit_of(record); },
+              .today = today()})});
   }
   if (request.plans.empty()) {
     throw core::NotSupported(arguments.store + " holds no run: measure first with `triptych run`");

@@ -213,6 +213,7 @@ core::ExitCode check(const CheckArguments& arguments) {
       .devices = {},
       .required_devices = {},
       .truth = [&](const record::Record& record) { return truths.of(record); },
+      .limit = [&](const record::Record& record) { return truths.limit_of(record); },
       .today = today()};
   if (!arguments.device.empty()) request.devices = {arguments.device};
   const judge::GateResult result = judge::judge_run(

@@ -44,4 +44,34 @@ judge::TruthPair Truths::find_or_render(const record::Record& record) {
   return {.truth = std::move(truth.image), .bound = std::move(truth.bound)};
 }
 
+const judge::LimitPicture* Truths::limit_of(const record::Record& record) {
+  const std::string key = registry_.suite(record.suite).limit_key(record.factors);
+  if (key.empty()) return nullptr;
+  const auto found = limits_.find(key);
+  if (found != limits_.end()) return &found->second;
+  return &limits_.emplace(key, find_or_render_limit(record, key)).first->second;
+}
+
+judge::LimitPicture Truths::find_or_render_limit(const record::Record& record,
+                                                 const std::string& key) {
+  measure::SuiteWithTruth& suite = registry_.suite(record.suite);
+  judge::LimitPicture picture{
+      .key = key, .image = {}, .uncertainty = {}, .closed_form = suite.closed_form(record.factors)};
+  // Among the truths: a scene's name of its own, and its uncertainty for a bound.
+  const std::string scene = "limit of " + record.suite;
+  if (const auto stored = store_.truth(scene, key)) {
+    picture.image = core::decode_exr(stored->image);
+    picture.uncertainty = core::decode_exr(stored->bound);
+    return picture;
+  }
+  measure::Limit limit = suite.limit(record.factors);
+  store_.set_truth({.scene = scene,
+                    .version = key,
+                    .image = core::encode_exr(limit.image),
+                    .bound = core::encode_exr(limit.uncertainty)});
+  picture.image = std::move(limit.image);
+  picture.uncertainty = std::move(limit.uncertainty);
+  return picture;
+}
+
 }  // namespace triptych::app

@@ -14,13 +14,18 @@ class Truths {
   Truths(const Registry& registry, record::Store& store) : registry_(registry), store_(store) {}
 
   [[nodiscard]] const judge::TruthPair& of(const record::Record& record);
+  // nullptr where the record's scene has none.
+  [[nodiscard]] const judge::LimitPicture* limit_of(const record::Record& record);
 
  private:
   [[nodiscard]] judge::TruthPair find_or_render(const record::Record& record);
 
   const Registry& registry_;
   record::Store& store_;
+  [[nodiscard]] judge::LimitPicture find_or_render_limit(const record::Record& record,
+                                                         const std::string& key);
   std::map<std::string, judge::TruthPair> known_;
+  std::map<std::string, judge::LimitPicture> limits_;  // by key
 };
 
 }  // namespace triptych::app

@@ -130,6 +130,22 @@ void update_counters(const Accepted& accepted, Update& update) {
   }
 }
 
+// Each record's error against the limit of its scene, on the device it was measured on.
+void update_errors(const record::Store& store, const Accepted& accepted,
+                   const AcceptRequest& request, Update& update) {
+  Json& table = update.object();
+  if (accepted.replaces_all) drop_all_but(table, accepted.configurations);
+  for (const record::Record& record : accepted.measured) {
+    const LimitPicture* limit = record.image.empty() ? nullptr : request.limit(record);
+    if (limit == nullptr) continue;
+    const auto error = picture_error(core::decode_exr(store.image(record.image)),
+                                     request.truth(record), limit->image);
+    if (!error) continue;
+    table[record.configuration][record.device] = {{"rmse", error->rmse},
+                                                  {"arithmetic", error->arithmetic}};
+  }
+}
+
 void update_bits(const record::Record& record, Json& table) {
   if (record.image.empty()) {
     table.erase(record.configuration);
@@ -286,6 +302,7 @@ Accepted select(const record::Store& store, const std::string& run, const Accept
 void check_stored(const Accepted& accepted, const Baselines& stored) {
   const std::string& any = accepted.measured.front().configuration;
   (void)stored.counters(any);
+  (void)stored.errors(any);
   for (const auto& [id, device] : accepted.devices) {
     (void)stored.bits(device, any);
     (void)stored.statistics(device, any);
@@ -307,6 +324,11 @@ std::vector<std::string> accept(const record::Store& store, const std::string& r
   Update counters(layout.counters(), layout.folder);
   update_counters(accepted, counters);
   counters.write(2, lines);
+  if (request.limit) {
+    Update errors(layout.errors(), layout.folder);
+    update_errors(store, accepted, request, errors);
+    errors.write(2, lines);
+  }
   for (const auto& [id, device] : accepted.devices) {
     write_device_files(accepted, device, layout, lines);
   }

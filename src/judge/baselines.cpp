@@ -61,6 +61,13 @@ StoredCounters read_counters(const JsonNode& node) {
   return read_members<record::Counts>(node, read_counts);
 }
 
+std::map<std::string, StoredError> read_errors(const JsonNode& node) {
+  return read_members<StoredError>(node, [](const JsonNode& error) {
+    return StoredError{error.at("rmse").number_from_zero(),
+                       error.at("arithmetic").number_from_zero()};
+  });
+}
+
 StoredBits read_bits(const JsonNode& node) {
   return {node.at("image").text(), node.at("kernel_hash").text()};
 }
@@ -129,6 +136,7 @@ struct Baselines::Cache {
   Layout layout;
   std::optional<ByName<StoredImage>> images;
   std::optional<ByName<StoredCounters>> counters;
+  std::optional<ByName<std::map<std::string, StoredError>>> errors;
   std::map<std::filesystem::path, ByName<StoredBits>> bits;
   std::map<std::filesystem::path, ByName<record::Counts>> statistics;
   std::map<std::filesystem::path, ByName<std::string>> dialects;
@@ -187,6 +195,15 @@ std::optional<core::Image> Baselines::image(const std::string& scene) const {
 
 std::optional<StoredCounters> Baselines::counters(const std::string& configuration) const {
   return find_optional(cache_->all_counters(), configuration);
+}
+
+std::map<std::string, StoredError> Baselines::errors(const std::string& configuration) const {
+  if (!cache_->errors) {
+    cache_->errors =
+        read_table<std::map<std::string, StoredError>>(cache_->layout.errors(), read_errors);
+  }
+  return find_optional(*cache_->errors, configuration)
+      .value_or(std::map<std::string, StoredError>{});
 }
 
 std::optional<StoredBits> Baselines::bits(const record::Device& device,

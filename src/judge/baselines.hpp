@@ -11,6 +11,8 @@
 //   [{run, median, clock, kernel
 //                                  hash}, …]}}, one entry per accepted run, oldest first
 //   history.json                   every accept: date, reason, run, device keys, what changed
+//   accuracy.json                  {configuration: {device id: {rmse, arithmetic}}}, of plans
+//   SUITE/accuracy
 // and baselines/waivers.json: [{device, test, reason, expiry}, …].
 
 #include <cstdint>
@@ -24,6 +26,7 @@
 #include <vector>
 
 #include "core/image.hpp"
+#include "judge/accuracy_cases.hpp"
 #include "record/store.hpp"
 
 namespace triptych::judge {
@@ -48,6 +51,12 @@ struct StoredDevice {
   std::string id;
   std::string key;                                           // Device::key()
   std::map<std::string, std::vector<StoredTiming>> timings;  // by configuration
+};
+
+// Of a configuration on a device: its picture against the limit of its scene.
+struct StoredError {
+  double rmse = 0;
+  double arithmetic = 0;  // against the truth on its own lattice
 };
 
 struct StoredBits {
@@ -77,6 +86,8 @@ class Baselines {
   [[nodiscard]] std::optional<core::Image> image(const std::string& scene) const;
   // Of every device; nullopt: the configuration was never accepted.
   [[nodiscard]] std::optional<StoredCounters> counters(const std::string& configuration) const;
+  // By device id; empty: never accepted.
+  [[nodiscard]] std::map<std::string, StoredError> errors(const std::string& configuration) const;
   [[nodiscard]] std::optional<StoredBits> bits(const record::Device& device,
                                                const std::string& configuration) const;
   // nullopt: nothing stored for this driver version at all, or not for this configuration.
@@ -116,6 +127,8 @@ struct AcceptRequest {
   std::string date;    // ISO
   // The truth of a scene, as for the gate.
   std::function<core::Image(const record::Record&)> truth;
+  // The limit of a record's scene, nullptr where it has none; nothing: no errors are stored.
+  std::function<const LimitPicture*(const record::Record&)> limit = {};
 };
 
 // Writes what a run measured as the new baselines; returns one line per changed file, each followed

@@ -29,8 +29,8 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
                 const GateRequest& request) {
   RunView view{store, baselines, request, request.checks, {}, {}, {}};
   if (view.checks.empty()) {
-    view.checks = {Check::image, Check::counters, Check::statistics, Check::timing,
-                   Check::correlation};
+    view.checks = {Check::image,  Check::counters,    Check::statistics,
+                   Check::timing, Check::correlation, Check::accuracy};
   }
   for (auto& entry : store.devices(run)) {
     if (asked_for(request, entry.device.id)) view.devices.emplace(entry.device.id, entry.device);
@@ -48,6 +48,9 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   }
   if (request.checks.empty() && !enough_to_correlate(view)) {
     view.checks.erase(Check::correlation);
+  }
+  if (request.checks.empty() && !request.plan.ends_with("/accuracy")) {
+    view.checks.erase(Check::accuracy);
   }
   return view;
 }
@@ -141,6 +144,11 @@ void run_checks(const RunView& view, GateResult& result) {
   if (wants_images || ((wants_timings || wants_correlations) && view.request.truth))
     images = check_images(view);
   if (wants_images) append(findings, std::move(images.findings));
+  if (view.checks.contains(Check::accuracy)) {
+    AccuracyFindings accuracies = check_accuracies(view);
+    append(findings, std::move(accuracies.findings));
+    result.accuracies = std::move(accuracies.scenes);
+  }
   if (!view.baselines.present()) return;
   if (view.checks.contains(Check::counters)) append(findings, check_counters(view));
   if (view.checks.contains(Check::statistics)) append(findings, check_statistics(view));
@@ -186,7 +194,7 @@ void sort_findings(std::vector<Finding>& findings) {
 GateResult judge_run(const record::Store& store, const std::string& run, const Baselines& baselines,
                      const GateRequest& request) {
   const RunView view = view_of(store, run, baselines, request);
-  GateResult result{request.plan, run, {}, {}};
+  GateResult result{request.plan, run, {}, {}, {}};
   report_nothing_measured(view, run, result.findings);
   report_outcomes(view, result.findings);
   if (baselines.present()) {

@@ -14,13 +14,14 @@
 
 #include "core/error.hpp"
 #include "core/image.hpp"
+#include "judge/accuracy_cases.hpp"
 #include "judge/baselines.hpp"
 #include "judge/correlation_model.hpp"
 #include "record/store.hpp"
 
 namespace triptych::judge {
 
-enum class Check : std::uint8_t { image, counters, statistics, timing, correlation };
+enum class Check : std::uint8_t { image, counters, statistics, timing, correlation, accuracy };
 [[nodiscard]] std::string_view name_of(Check check);
 [[nodiscard]] Check check(std::string_view name);  // throws InputError
 
@@ -65,6 +66,7 @@ struct GateResult {
   std::string run;
   std::vector<Finding> findings;                   // worst first, then by device and configuration
   std::vector<CorrelationPair> correlations = {};  // where that was checked
+  std::vector<AccuracyScene> accuracies = {};      // likewise; by device, then as measured
   [[nodiscard]] core::ExitCode exit_code() const;
   [[nodiscard]] std::string headline()
       const;  // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices"
@@ -85,13 +87,16 @@ struct TruthPair {
 struct GateRequest {
   std::string plan;
   std::set<Check> checks;            // empty: all; the correlation only where a device measured
-                                     // CorrelationModel::least_configurations
+                                     // CorrelationModel::least_configurations,
+                                     // accuracy only of a plan SUITE/accuracy
   std::vector<std::string> devices;  // globs; empty: all in the run
   std::vector<std::string>
       required_devices;  // globs; each must match a device that measured something
   // The truth for a record's scene with the bound that holds for the record's path. Computed by the
   // suite, cached in the store by the caller.
   std::function<TruthPair(const record::Record&)> truth;
+  // The limit of a record's scene, nullptr where it has none; it lives as long as the request.
+  std::function<const LimitPicture*(const record::Record&)> limit = {};
   std::string today;  // ISO date, for the expiry of waivers
 };
 

@@ -162,6 +162,12 @@ double JsonNode::positive_number() const {
   return number;
 }
 
+double JsonNode::number_from_zero() const {
+  const double number = value_->is_number() ? value_->get<double>() : -1;
+  if (!std::isfinite(number) || number < 0) fail("expected a number, 0 or more");
+  return number;
+}
+
 std::uint64_t JsonNode::whole_number() const {
   if (!value_->is_number_unsigned()) fail("expected a whole number, 0 or more");
   return value_->get<std::uint64_t>();

@@ -29,6 +29,7 @@ class JsonNode {
   [[nodiscard]] bool has(const std::string& key) const { return value_->contains(key); }
   [[nodiscard]] std::string text() const;
   [[nodiscard]] double positive_number() const;
+  [[nodiscard]] double number_from_zero() const;  // 0 or more
   [[nodiscard]] std::uint64_t whole_number() const;
   [[noreturn]] void fail(std::string_view message) const;
 

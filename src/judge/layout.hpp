@@ -18,6 +18,7 @@ struct Layout {
     return core::content_hash(scene) + ".exr";
   }
   [[nodiscard]] std::filesystem::path counters() const { return folder / "counters.json"; }
+  [[nodiscard]] std::filesystem::path errors() const { return folder / "accuracy.json"; }
   [[nodiscard]] std::filesystem::path bits(const record::Device& device) const {
     return folder / "bits" / (device.key_hash() + ".json");
   }

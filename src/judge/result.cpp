@@ -13,12 +13,13 @@
 namespace triptych::judge {
 namespace {
 
-constexpr std::array<std::pair<Check, std::string_view>, 5> check_names{{
+constexpr std::array<std::pair<Check, std::string_view>, 6> check_names{{
     {Check::image, "image"},
     {Check::counters, "counters"},
     {Check::statistics, "statistics"},
     {Check::timing, "timing"},
     {Check::correlation, "correlation"},
+    {Check::accuracy, "accuracy"},
 }};
 
 constexpr std::array<std::pair<Verdict, std::string_view>, 7> verdict_names{{
@@ -91,7 +92,7 @@ Check check(std::string_view name) {
     if (text == name) return known;
   }
   throw core::InputError(fmt::format(
-      "unknown check '{}'; expected image, counters, statistics, timing or correlation", name));
+      "unknown check '{}'; expected image, counters, statistics, timing, correlation or accuracy", name));
 }
 
 // A gate that decided nothing has not passed.

@@ -58,6 +58,13 @@ struct CorrelationFindings {
 };
 [[nodiscard]] CorrelationFindings check_correlations(const RunView& view, const WrongImages& wrong);
 
+struct AccuracyFindings {
+  std::vector<Finding> findings;
+  std::vector<AccuracyScene> scenes;
+};
+// Without baselines there are no findings, yet scenes.
+[[nodiscard]] AccuracyFindings check_accuracies(const RunView& view);
+
 // Turns regressions that waivers.json excuses into waived ones; says where a waiver has expired.
 void apply_waivers(const RunView& view, std::vector<Finding>& findings);
 

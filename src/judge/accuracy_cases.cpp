@@ -1,0 +1,94 @@
+#include "judge/accuracy_cases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "judge/image_metrics.hpp"
+
+namespace triptych::judge {
+namespace {
+
+// "camera=…,data=…,step=…" without its step.
+std::string without_step(std::string_view scene) {
+  std::string kept;
+  while (!scene.empty()) {
+    const std::size_t end = std::min(scene.find(','), scene.size());
+    const std::string_view factor = scene.substr(0, end);
+    if (!factor.starts_with("step=")) {
+      if (!kept.empty()) kept += ",";
+      kept += factor;
+    }
+    scene.remove_prefix(std::min(end + 1, scene.size()));
+  }
+  return kept;
+}
+
+double root_mean_square(const std::vector<float>& values) {
+  double squares = 0;
+  for (const float value : values)
+    squares += static_cast<double>(value) * static_cast<double>(value);
+  return values.empty() ? 0 : std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+core::Image in_eight_bits(core::Image image) {
+  for (float& value : image.rgba) {
+    value = std::round(std::clamp(value, 0.0F, 1.0F) * 255.0F) / 255.0F;
+  }
+  return image;
+}
+
+}  // namespace
+
+std::optional<PictureError> picture_error(const core::Image& picture, const core::Image& truth,
+                                          const core::Image& limit) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  const ImageComparison whole = compare(picture, limit, any);
+  const double arithmetic = judge::root_mean_square(picture, truth);
+  const double lattice = judge::root_mean_square(truth, limit);
+  if (whole.size_mismatch || whole.non_finite > 0 || whole.pixels == 0 ||
+      !std::isfinite(arithmetic) || !std::isfinite(lattice)) {
+    return std::nullopt;
+  }
+  return PictureError{whole.rmse, whole.largest.error, whole.error_99, lattice, arithmetic};
+}
+
+std::optional<AccuracyCase> accuracy_case(const record::Record& record, const PictureError& error) {
+  const auto summary = record::summarise(record.time_ns());
+  if (!summary) return std::nullopt;
+  AccuracyCase result{.configuration = record.configuration,
+                      .factors = record.factors,
+                      .time_ns = summary->median,
+                      .samples = {},
+                      .rmse = error.rmse,
+                      .largest = error.largest,
+                      .error_99 = error.error_99,
+                      .lattice = error.lattice,
+                      .arithmetic = error.arithmetic};
+  const auto samples = record.counters.find("samples");
+  if (samples != record.counters.end()) result.samples = samples->second;
+  return result;
+}
+
+AccuracyScene accuracy_scene(const record::Record& record, const LimitPicture& limit) {
+  AccuracyScene scene;
+  scene.device = record.device;
+  scene.scene = without_step(record.scene);
+  const auto data = record.factors.find("data");
+  if (data != record.factors.end()) scene.data = data->second;
+  scene.uncertainty = root_mean_square(limit.uncertainty.rgba);
+  if (limit.closed_form) {
+    scene.representation = judge::root_mean_square(limit.image, *limit.closed_form);
+  }
+  scene.eight_bits = judge::root_mean_square(in_eight_bits(limit.image), limit.image);
+  return scene;
+}
+
+void evaluate(AccuracyScene& scene) {
+  scene.families = accuracy_families(scene.cases);
+  scene.front = pareto_front(scene.cases);
+  scene.dominated = dominated(scene.cases, scene.front);
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,102 @@
+// Errors against the limit: told of every scene and device, and held to what was accepted.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/image_io.hpp"
+#include "judge/run_view.hpp"
+
+namespace triptych::judge {
+namespace {
+
+// Writing a picture to float rounds each channel once.
+constexpr double float_rounding = 0x1.0p-24;
+
+// What rounding, storage and early termination had of the accepted error may be as much again: two
+// right pictures differ by no more than both their distances from the truth on their lattice, the
+// root mean square being a distance.
+double allowed(const StoredError& stored) {
+  return stored.rmse + 2 * stored.arithmetic + float_rounding;
+}
+
+// The device's own, else the largest of all.
+std::optional<double> allowed_on(const std::map<std::string, StoredError>& stored,
+                                 const std::string& device) {
+  const auto own = stored.find(device);
+  if (own != stored.end()) return allowed(own->second);
+  std::optional<double> largest;
+  for (const auto& [other, error] : stored) {
+    largest = std::max(largest.value_or(0), allowed(error));
+  }
+  return largest;
+}
+
+Finding judge_error(const RunView& view, const record::Record& record, const PictureError& error) {
+  const auto limit = allowed_on(view.baselines.errors(record.configuration), record.device);
+  const auto about = [&](Verdict verdict, std::string message) {
+    Finding finding = finding_about(record, Check::accuracy, verdict, std::move(message));
+    set_number(finding, "rmse", error.rmse);
+    set_number(finding, "max_error", error.largest);
+    set_number(finding, "error_99", error.error_99);
+    set_number(finding, "lattice", error.lattice);
+    set_number(finding, "arithmetic", error.arithmetic);
+    if (limit) set_number(finding, "bound", *limit);
+    return finding;
+  };
+  if (!limit) {
+    return about(Verdict::cannot_judge,
+                 "no stored error for this configuration; accept it: " + view.accept_command());
+  }
+  const std::string what =
+      fmt::format("RMSE {:.3g} against the limit, allowed {:.3g}", error.rmse, *limit);
+  return about(error.rmse <= *limit ? Verdict::pass : Verdict::regression, what);
+}
+
+// Scenes by device and limit, in the order in which they come.
+class Scenes {
+ public:
+  AccuracyScene& of(const record::Record& record, const LimitPicture& limit) {
+    const auto [known, is_new] = index_.try_emplace({record.device, limit.key}, scenes_.size());
+    if (is_new) scenes_.push_back(accuracy_scene(record, limit));
+    return scenes_[known->second];
+  }
+  std::vector<AccuracyScene> finish() && {
+    for (AccuracyScene& scene : scenes_) evaluate(scene);
+    return std::move(scenes_);
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, std::size_t> index_;
+  std::vector<AccuracyScene> scenes_;
+};
+
+}  // namespace
+
+AccuracyFindings check_accuracies(const RunView& view) {
+  AccuracyFindings result;
+  if (!view.request.limit || !view.request.truth) return result;
+  Scenes scenes;
+  for (const record::Record* record : view.measured) {
+    const LimitPicture* limit = record->image.empty() ? nullptr : view.request.limit(*record);
+    if (limit == nullptr) continue;
+    const auto error = picture_error(core::decode_exr(view.store.image(record->image)),
+                                     view.request.truth(*record).truth, limit->image);
+    if (!error) {
+      result.findings.push_back(finding_about(
+          *record, Check::accuracy, Verdict::regression,
+          "the picture cannot be compared: of another size, or with values that are not finite"));
+      continue;
+    }
+    if (auto each = accuracy_case(*record, *error)) {
+      scenes.of(*record, *limit).cases.push_back(std::move(*each));
+    }
+    if (view.baselines.present()) result.findings.push_back(judge_error(view, *record, *error));
+  }
+  result.scenes = std::move(scenes).finish();
+  return result;
+}
+
+}  // namespace triptych::judge

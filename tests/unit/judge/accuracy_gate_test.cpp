@@ -1,0 +1,139 @@
+// Pictures against their limits: the parts of an error, and errors as baselines.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "fixture.hpp"
+#include "judge/accuracy_cases.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using testing::HasSubstr;
+
+core::Image shifted(core::Image image, float by) {
+  for (float& value : image.rgba) value += by;
+  return image;
+}
+
+class AccuracyGateTest : public JudgeTest {
+ protected:
+  static constexpr float lattice = 0.01F;
+
+  AccuracyGateTest() {
+    request_.checks = {Check::accuracy};
+    request_.limit = [this](const record::Record& record) { return limit_of(record); };
+  }
+
+  const LimitPicture* limit_of(const record::Record& record) {
+    LimitPicture& limit = limits_[record.scene];
+    limit.key = record.scene;
+    limit.image = shifted(truth_of(record.scene), lattice);
+    return &limit;
+  }
+
+  void accept_with_errors(const std::string& run) {
+    AcceptRequest request;
+    request.plan = plan;
+    request.reason = "a test";
+    request.date = "2026-02-01";
+    request.truth = [](const record::Record& record) { return truth_of(record.scene); };
+    request.limit = request_.limit;
+    (void)accept(store_, run, folder_.path() / "baselines", request);
+  }
+
+  // Moves one device's pictures.
+  static Tweak moved(float by) {
+    return [by](record::Record& record, core::Image& image) {
+      if (record.device == "vulkan:lavapipe" && record.configuration == plain_) {
+        image = shifted(image, by);
+      }
+    };
+  }
+
+ private:
+  std::map<std::string, LimitPicture> limits_;
+};
+
+TEST_F(AccuracyGateTest, SplitsTheErrorByTheTruthOnTheLattice) {
+  const core::Image truth = truth_of(front_);
+  const auto error = picture_error(shifted(truth, 0.25F), truth, shifted(truth, 0.75F));
+  ASSERT_TRUE(error);
+  EXPECT_NEAR(error->arithmetic, 0.25, 1e-6);
+  EXPECT_NEAR(error->lattice, 0.75, 1e-6);
+  EXPECT_NEAR(error->rmse, 0.5, 1e-6);
+  EXPECT_NEAR(error->largest, 0.5, 1e-6);
+  EXPECT_NEAR(error->error_99, 0.5, 1e-6);
+  EXPECT_FALSE(picture_error(truth, truth, core::Image(1, 1)));
+  EXPECT_FALSE(picture_error(shifted(truth, std::nanf("")), truth, truth));
+}
+
+TEST_F(AccuracyGateTest, AcceptedErrorsPass) {
+  add_run("a");
+  accept_with_errors("a");
+  add_run("b");
+  const GateResult result = gate("b");
+  EXPECT_EQ(result.exit_code(), core::ExitCode::pass) << text(result);
+  EXPECT_EQ(with(result, Verdict::pass, Check::accuracy).size(), 12U);
+  ASSERT_EQ(result.accuracies.size(), 6U);  // two scenes, three devices
+  EXPECT_EQ(result.accuracies[0].cases.size(), 2U);
+}
+
+// Farther from the limit than rounding explains, though within the bound on the picture.
+TEST_F(AccuracyGateTest, ALargerErrorIsARegression) {
+  add_run("a");
+  accept_with_errors("a");
+  add_run("b", moved(-bound / 2));
+  const auto regressions = with(gate("b"), Verdict::regression, Check::accuracy);
+  ASSERT_EQ(regressions.size(), 1U);
+  EXPECT_EQ(regressions[0].device, "vulkan:lavapipe");
+  EXPECT_THAT(regressions[0].message, HasSubstr("against the limit, allowed"));
+  EXPECT_GT(regressions[0].numbers.at("rmse"), regressions[0].numbers.at("bound"));
+}
+
+TEST_F(AccuracyGateTest, ASmallerErrorPasses) {
+  add_run("a");
+  accept_with_errors("a");
+  add_run("b", moved(lattice / 2));
+  EXPECT_TRUE(with(gate("b"), Verdict::regression, Check::accuracy).empty());
+}
+
+TEST_F(AccuracyGateTest, WithoutAStoredErrorNothingIsDecided) {
+  add_run("a");
+  (void)accept_run("a");
+  EXPECT_EQ(with(gate("a"), Verdict::cannot_judge, Check::accuracy).size(), 12U);
+}
+
+// A device that was never accepted may be as far off as the worst of those that were.
+TEST_F(AccuracyGateTest, AnotherDeviceIsHeldToTheWorstOfTheAccepted) {
+  add_run("a");
+  accept_with_errors("a");
+  std::string stored;
+  {
+    std::ifstream in(baseline("accuracy.json"));
+    stored.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  for (auto place = stored.find("vulkan:lavapipe"); place != std::string::npos;
+       place = stored.find("vulkan:lavapipe")) {
+    stored.replace(place, 15, "vulkan:other");
+  }
+  std::ofstream(baseline("accuracy.json")) << stored;
+  add_run("b", moved(-bound / 2));
+  add_run("c");
+  EXPECT_EQ(with(gate("b"), Verdict::regression, Check::accuracy).size(), 1U);
+  EXPECT_TRUE(with(gate("c"), Verdict::regression, Check::accuracy).empty());
+}
+
+TEST_F(AccuracyGateTest, OnlyAnAccuracyPlanIsJudgedUnasked) {
+  add_run("a");
+  accept_with_errors("a");
+  GateRequest unasked = request_;
+  unasked.checks.clear();
+  EXPECT_TRUE(gate("a", unasked).accuracies.empty());
+}
+
+}  // namespace
+}  // namespace triptych::judge
