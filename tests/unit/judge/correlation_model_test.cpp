@@ -274,6 +274,24 @@ TEST(Correlation, OneConfigurationInManyStandsOutByItsShare) {
   EXPECT_LT(result.levels.front().share, result.judgements[5].share);
 }
 
+// The median of two levels of one size, one of them slower, lies where nothing is.
+TEST(Correlation, ALevelIsHeldAgainstTwoThatDiffer) {
+  Bench bench;
+  bench.noise = 0.004;
+  bench.repeats = 2;
+  bench.planted = [](const CorrelationCase& each) {
+    return each.factors.at("camera") == "c1" ? std::log(1.3) : 0.0;
+  };
+  const Correlation result = correlate(bench.draw(9));
+  ASSERT_TRUE(result.admitted());
+  ASSERT_FALSE(result.levels.empty());
+  EXPECT_EQ(result.levels.front().level, "c1");
+  for (const LevelEffect& level : result.levels) {
+    EXPECT_TRUE(std::isfinite(level.effect)) << level.level;
+    EXPECT_EQ(level.slower, level.level == "c1") << level.level;
+  }
+}
+
 TEST(Correlation, LevelsOfTheSameConfigurationsAreOne) {
   auto cases = Bench{}.draw(1);
   for (CorrelationCase& each : cases) each.factors["sampler"] = each.factors["technique"];
