@@ -1,0 +1,169 @@
+#include "judge/evaluation.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <numeric>
+
+namespace triptych::judge {
+namespace {
+
+void add(Rate& sum, const Rate& rate) {
+  sum.hits += rate.hits;
+  sum.trials += rate.trials;
+}
+
+using Chosen = std::function<bool(const TrialKind&)>;
+
+Aim aim(std::string text, const Tallies& tallies, Rate Tally::*member, double bound, bool at_least,
+        const Chosen& chosen) {
+  Aim result{std::move(text), {}, bound, at_least};
+  for (const auto& [kind, tally] : tallies) {
+    if (chosen(kind)) add(result.rate, tally.*member);
+  }
+  return result;
+}
+
+bool is_correlation(const TrialKind& kind) {
+  return kind.method.starts_with("correlation");
+}
+
+// What is planted as 3 % is an extra row in 33: sizes are compared with some room.
+bool is_size(const TrialKind& kind, double percent) {
+  return std::abs(kind.percent - percent) < 0.05 * percent;
+}
+
+std::vector<Aim> aims_of_gates(const Tallies& tallies) {
+  const auto of = [](const char* method, Spread spread, double percent = 0) {
+    return [=](const TrialKind& kind) {
+      return kind.method == method && kind.spread == spread &&
+             (percent == 0 || is_size(kind, percent));
+    };
+  };
+  std::vector<Aim> result;
+  for (const char* method : {"compare", "history"}) {
+    const std::string name = std::string(method) + ": ";
+    result.push_back(aim(name + "3 % of one configuration found", tallies, &Tally::detected, 0.95,
+                         true, of(method, Spread::configuration, 3)));
+    result.push_back(aim(name + "A/A runs with a false alarm", tallies, &Tally::false_alarms, 0.01,
+                         false, of(method, Spread::none)));
+    result.push_back(aim(name + "configurations of A/A runs that it cannot tell", tallies,
+                         &Tally::undecided, 0.05, false, of(method, Spread::none)));
+  }
+  return result;
+}
+
+std::vector<Aim> aims_of_correlation(const Tallies& tallies) {
+  const auto at = [](Spread spread, double least_percent) {
+    return [=](const TrialKind& kind) {
+      return is_correlation(kind) && kind.spread == spread && kind.percent >= least_percent;
+    };
+  };
+  const auto planted_somewhere = [](const TrialKind& kind) {
+    return is_correlation(kind) &&
+           (kind.spread == Spread::configuration || kind.spread == Spread::level);
+  };
+  return {
+      aim("correlation: 25 % and more of one configuration found", tallies, &Tally::detected, 1,
+          true, at(Spread::configuration, 25)),
+      aim("correlation: 5 % and more of a factor level found", tallies, &Tally::detected, 1, true,
+          at(Spread::level, 5)),
+      aim("correlation: false among the discoveries", tallies, &Tally::false_discoveries, 0.05,
+          false, planted_somewhere),
+      aim("correlation: uncorrelated pairs refused", tallies, &Tally::detected, 1, true,
+          at(Spread::scrambled, 0)),
+      aim("correlation: 10 % of everything found", tallies, &Tally::detected, 0.9, true,
+          [](const TrialKind& kind) {
+            return is_correlation(kind) && kind.spread == Spread::global && is_size(kind, 10);
+          }),
+      aim("correlation: a device slower by 10 % taken for the program", tallies,
+          &Tally::false_alarms, 0.1, false,
+          [](const TrialKind& kind) {
+            return is_correlation(kind) && kind.spread == Spread::device && is_size(kind, 10);
+          }),
+      aim("correlation: named first is what was planted", tallies, &Tally::first_named, 0.9, true,
+          planted_somewhere),
+      aim("correlation: work and throughput told apart", tallies, &Tally::split, 0.95, true,
+          planted_somewhere),
+  };
+}
+
+}  // namespace
+
+Interval clopper_pearson(std::size_t hits, std::size_t trials, double confidence) {
+  if (trials == 0) return {0, 1};
+  const double tail = (1 - confidence) / 2;
+  const auto k = static_cast<double>(hits);
+  const auto n = static_cast<double>(trials);
+  return {hits == 0 ? 0 : boost::math::ibeta_inv(k, n - k + 1, tail),
+          hits == trials ? 1 : boost::math::ibetac_inv(k + 1, n - k, tail)};
+}
+
+double Rate::share() const {
+  return trials == 0 ? std::numeric_limits<double>::quiet_NaN()
+                     : static_cast<double>(hits) / static_cast<double>(trials);
+}
+
+std::string_view name_of(Spread spread) {
+  switch (spread) {
+    case Spread::none:
+      return "none (A/A)";
+    case Spread::configuration:
+      return "one configuration";
+    case Spread::level:
+      return "one factor level";
+    case Spread::api:
+      return "one API";
+    case Spread::global:
+      return "everything";
+    case Spread::device:
+      return "the device";
+    case Spread::scrambled:
+      break;
+  }
+  return "scrambled";
+}
+
+SmallestFound smallest_found(const Tallies& tallies, double share) {
+  SmallestFound result;
+  // Sizes of one kind stand in ascending order: walked from the largest down to the first miss.
+  std::map<TrialKind, bool> missed;
+  for (auto each = tallies.rbegin(); each != tallies.rend(); ++each) {
+    TrialKind kind = each->first;
+    const double percent = std::exchange(kind.percent, 0);
+    if (percent == 0 || kind.spread == Spread::device) continue;
+    bool& already = missed[kind];
+    already = already || !(each->second.detected.share() >= share);
+    std::optional<double>& smallest = result[kind];
+    if (!already) smallest = percent;
+  }
+  return result;
+}
+
+std::optional<bool> Aim::met() const {
+  if (rate.trials == 0) return std::nullopt;
+  return at_least ? rate.share() >= bound : rate.share() <= bound;
+}
+
+std::vector<Aim> aims(const Tallies& tallies) {
+  std::vector<Aim> result = aims_of_gates(tallies);
+  std::ranges::move(aims_of_correlation(tallies), std::back_inserter(result));
+  result.push_back(aim("gate: the same bytes from the same store", tallies, &Tally::same_bytes, 1,
+                       true, [](const TrialKind&) { return true; }));
+  return result;
+}
+
+std::vector<std::size_t> shuffled(std::size_t count, core::Random& random) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t i = count; i > 1; --i) {
+    const auto other = static_cast<std::size_t>(random.uniform() * static_cast<double>(i));
+    std::swap(order[i - 1], order[other]);
+  }
+  return order;
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,94 @@
+#pragma once
+// The judge judged: how often it finds what was planted, and how often it finds what is not there.
+// Counts and rates; what is replayed is in evaluation_compare.hpp and evaluation_runs.hpp.
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/random.hpp"
+#include "judge/pairwise.hpp"
+
+namespace triptych::judge {
+
+// Clopper and Pearson's (1934) exact interval of a share of which `hits` of `trials` were seen: it
+// holds the true one with at least this confidence. [0, 1] for no trials.
+[[nodiscard]] Interval clopper_pearson(std::size_t hits, std::size_t trials,
+                                       double confidence = 0.95);
+
+struct Rate {
+  std::size_t hits = 0;
+  std::size_t trials = 0;
+  [[nodiscard]] double share() const;  // NaN for no trials
+  [[nodiscard]] Interval interval() const { return clopper_pearson(hits, trials); }
+  void count(bool hit) {
+    ++trials;
+    hits += hit ? 1 : 0;
+  }
+};
+
+// Where a trial's slowdown is.
+enum class Spread : std::uint8_t {
+  none,           // nowhere: A/A
+  configuration,  // one, on one device
+  level,          // all configurations of one factor level, on one device
+  api,            // everything on the devices of one API
+  global,         // everything but the anchors
+  device,         // everything and the anchors: not the program's fault, nothing is to be found
+  scrambled       // none, but times do not belong to their configurations: to be refused
+};
+[[nodiscard]] std::string_view name_of(Spread spread);
+
+// Trials of one kind are counted together.
+struct TrialKind {
+  std::string method;   // "compare", "history", "correlation, new device", "…, accepted device"
+  std::string plan;     // whose configurations were measured
+  std::string subject;  // a device, or "B by A"
+  Spread spread = Spread::none;
+  double percent = 0;  // planted
+  auto operator<=>(const TrialKind&) const = default;
+};
+
+struct Tally {
+  Rate detected;           // trials in which (part of) what was planted is called slower; of
+                           // Spread::scrambled, in which the pair is refused
+  Rate found;              // planted configurations that are called slower
+  Rate false_alarms;       // trials in which something is called slower that is not
+  Rate false_discoveries;  // of all that is called slower, what is not
+  Rate undecided;          // configurations about which nothing is said
+  Rate first_named;        // of trials that name something: the first is what was planted
+  Rate split;              // of what was found: more work, or more time for the same, told rightly
+  Rate same_bytes;         // verdicts that were the same to the byte when asked for again
+  double seconds = 0;      // of measuring, over all configurations of all trials
+  std::size_t configurations = 0;  // those
+};
+
+using Tallies = std::map<TrialKind, Tally>;
+
+// The smallest planted size from which on every size was found in at least `share` of the trials,
+// by kind with its percent left out (0); nullopt: none was.
+using SmallestFound = std::map<TrialKind, std::optional<double>>;
+[[nodiscard]] SmallestFound smallest_found(const Tallies& tallies, double share = 0.95);
+
+// What a project asks of its judge, with what was counted.
+struct Aim {
+  std::string text;
+  Rate rate;
+  double bound = 0;
+  bool at_least = true;  // else at most
+  // By the rate itself; nullopt where nothing was tried. The interval says how far to trust it.
+  [[nodiscard]] std::optional<bool> met() const;
+};
+[[nodiscard]] std::vector<Aim> aims(const Tallies& tallies);
+
+// A random order of 0 … count − 1, the same everywhere for one state of `random`.
+[[nodiscard]] std::vector<std::size_t> shuffled(std::size_t count, core::Random& random);
+
+}  // namespace triptych::judge

@@ -1,0 +1,192 @@
+#include "judge/evaluation_bench.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "judge/correlation_pairs.hpp"
+
+namespace triptych::judge {
+namespace {
+
+constexpr const char* trial_run = "trial";
+constexpr const char* trial_anchors = "trial-anchors";
+
+// The size of "slowdown:PERCENT", 0 for nothing planted; nullopt for any other fault.
+std::optional<double> planted_percent(std::string_view planted) {
+  constexpr std::string_view slowdown = "slowdown:";
+  if (planted.empty()) return 0;
+  if (!planted.starts_with(slowdown)) return std::nullopt;
+  planted.remove_prefix(slowdown.size());
+  double percent = 0;
+  const auto [end, error] =
+      std::from_chars(planted.data(), planted.data() + planted.size(), percent);
+  if (error != std::errc() || end != planted.data() + planted.size()) return std::nullopt;
+  return percent;
+}
+
+std::vector<record::Record> measured(const record::Store& store, const std::string& run) {
+  std::vector<record::Record> result;
+  for (record::Record& record : store.records(run)) {
+    if (record.outcome != record::Outcome::measured || record.time_ns().empty()) continue;
+    record.image.clear();
+    record.statistics.clear();
+    record.benchmark_json.clear();
+    result.push_back(std::move(record));
+  }
+  return result;
+}
+
+// nullopt where not all has the same planted.
+std::optional<double> planted_everywhere(const std::vector<record::Record>& records) {
+  std::optional<double> percent;
+  for (const record::Record& record : records) {
+    const auto own = planted_percent(record.planted);
+    if (!own || (percent && *percent != *own)) return std::nullopt;
+    percent = own;
+  }
+  return percent;
+}
+
+void drop_incomplete(std::vector<PooledRun>& runs) {
+  std::size_t most = 0;
+  for (const PooledRun& run : runs) most = std::max(most, run.records.size());
+  std::erase_if(runs, [most](const PooledRun& run) { return run.records.size() < most; });
+}
+
+void sort_out(const std::string& plan, std::vector<PooledRun> runs, std::vector<RunPool>& pools) {
+  drop_incomplete(runs);
+  RunPool pool{plan, {}, {}};
+  for (PooledRun& run : runs) {
+    if (run.percent == 0) {
+      pool.unplanted.push_back(std::move(run));
+    } else {
+      run.before = pool.unplanted.empty() ? 0 : pool.unplanted.size() - 1;
+      pool.planted.push_back(std::move(run));
+    }
+  }
+  pools.push_back(std::move(pool));
+}
+
+// A copy of a run under an id of its own, of all devices or of one.
+void add_copy(const PooledRun& run, const std::string& plan, const std::string& id,
+              const std::vector<record::Record>& records, const std::string& device,
+              record::Store& store) {
+  store.add_run({id, plan, "", {}});
+  for (const auto& entry : run.devices) {
+    if (device.empty() || entry.device.id == device)
+      store.add_device(id, entry.device, entry.clocks);
+  }
+  for (record::Record record : records) {
+    if (!device.empty() && record.device != device) continue;
+    record.run = id;
+    store.add_record(record);
+  }
+}
+
+void accept_copy(const record::Store& store, const std::string& id, const std::string& plan,
+                 const std::filesystem::path& root) {
+  static_cast<void>(accept(store, id, root,
+                           {.plan = plan,
+                            .reason = "a trial's history",
+                            .only = {},
+                            .date = "1970-01-01",
+                            .truth = [](const record::Record&) {
+                              core::Image image;
+                              image.width = image.height = 1;
+                              image.rgba.assign(4, 0.0F);
+                              return image;
+                            }}));
+}
+
+}  // namespace
+
+std::vector<RunPool> pool_runs(const record::Store& store) {
+  std::vector<std::string> plans;
+  std::map<std::string, std::vector<PooledRun>> by_plan;
+  std::string anchors;
+  for (const record::Run& run : store.runs()) {
+    if (run.plan == anchors_plan) {
+      anchors = run.id;
+      continue;
+    }
+    PooledRun pooled{
+        .run = run.id,
+        .records = measured(store, run.id),
+        .anchors = anchors.empty() ? std::vector<record::Record>{} : measured(store, anchors),
+        .devices = store.devices(run.id)};
+    const auto percent = planted_everywhere(pooled.records);
+    if (!percent) continue;
+    pooled.percent = *percent;
+    if (!by_plan.contains(run.plan)) plans.push_back(run.plan);
+    by_plan[run.plan].push_back(std::move(pooled));
+  }
+  std::vector<RunPool> pools;
+  for (const std::string& plan : plans) sort_out(plan, std::move(by_plan.at(plan)), pools);
+  return pools;
+}
+
+TrialBench::TrialBench(const RunPool& pool, std::size_t base, const std::filesystem::path& folder)
+    : base_(pool.unplanted.at(base)),
+      plan_(pool.plan),
+      store_(folder / "trial.sqlite", record::Store::Mode::append) {
+  add_copy(base_, std::string(anchors_plan), trial_anchors, base_.anchors, {}, store_);
+  add_copy(base_, plan_, trial_run, base_.records, {}, store_);
+  record::Store history(folder / "history.sqlite", record::Store::Mode::append);
+  std::vector<std::string> known{""};
+  for (const auto& entry : base_.devices) known.push_back(entry.device.id);
+  for (std::size_t which = 0; which < known.size(); ++which) {
+    const std::filesystem::path root = folder / std::to_string(which);
+    for (std::size_t i = 0; i < pool.unplanted.size(); ++i) {
+      if (i == base) continue;
+      const PooledRun& run = pool.unplanted[i];
+      const std::string id = std::to_string(which) + "-" + std::to_string(i);
+      add_copy(run, plan_, id, run.records, known[which], history);
+      accept_copy(history, id, plan_, root);
+      if (run.anchors.empty()) continue;
+      add_copy(run, std::string(anchors_plan), id + "-anchors", run.anchors, known[which], history);
+      accept_copy(history, id + "-anchors", std::string(anchors_plan), root);
+    }
+    baselines_.emplace(known[which], Baselines(root, plan_));
+  }
+}
+
+void TrialBench::put(const std::vector<record::Record>& records) {
+  for (record::Record record : records) {
+    record.run = record.plan == anchors_plan ? trial_anchors : trial_run;
+    store_.add_record(record);
+  }
+}
+
+std::vector<GateResult> TrialBench::judge(const std::vector<record::Record>& changed,
+                                          const std::set<std::string>& known,
+                                          const std::set<Check>& checks,
+                                          const std::vector<std::string>& devices) {
+  put(changed);
+  const GateRequest request{.plan = plan_,
+                            .checks = checks,
+                            .devices = devices,
+                            .required_devices = {},
+                            .truth = {},
+                            .today = "1970-01-01"};
+  std::vector<GateResult> results;
+  for (const std::string& device : known) {
+    results.push_back(judge_run(store_, trial_run, baselines_.at(device), request));
+  }
+  std::set<std::tuple<std::string, std::string, std::string>> touched;
+  for (const auto& each : changed) touched.emplace(each.plan, each.configuration, each.device);
+  std::vector<record::Record> original;
+  for (const auto* records : {&base_.records, &base_.anchors}) {
+    std::ranges::copy_if(*records, std::back_inserter(original), [&](const record::Record& each) {
+      return touched.contains({each.plan, each.configuration, each.device});
+    });
+  }
+  put(original);
+  return results;
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,34 @@
+#pragma once
+// What a gate said of a trial, counted against what was planted.
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "judge/evaluation.hpp"
+#include "judge/gate.hpp"
+
+namespace triptych::judge {
+
+struct Trial {
+  Spread spread = Spread::none;
+  double percent = 0;
+  std::set<std::pair<std::string, std::string>> planted = {};  // (device, configuration)
+  std::pair<std::string, std::string> level = {};              // factor, level; Spread::level only
+  bool more_work = false;  // Spread::configuration only: else more time for the same work
+};
+
+[[nodiscard]] std::set<std::pair<std::string, std::string>> names_of(
+    const std::vector<record::Record>& records);
+
+// The timing check, each device for itself.
+void count_history(const std::string& plan, const GateResult& result, const Trial& trial,
+                   const std::vector<std::string>& devices, Tallies& tallies);
+
+// Each device by each stored one, what stood when the device was accepted left out. A level is
+// found where it is called slower beyond chance, whether it decides or only advises.
+void count_correlations(const std::string& plan, const std::string& method,
+                        const GateResult& result, const Trial& trial, Tallies& tallies);
+
+}  // namespace triptych::judge

@@ -1,0 +1,194 @@
+// Trials put together from runs of two synthetic devices whose true times are known.
+
+#include "judge/evaluation_runs.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.hpp"
+#include "fixture.hpp"
+
+namespace triptych::judge {
+namespace {
+
+constexpr const char* plan = "volume/correlation";
+constexpr const char* anchors = "anchors/frozen";
+
+class EvaluateRuns : public testing::Test {
+ protected:
+  EvaluateRuns() : store_(folder_.path() / "runs.sqlite", record::Store::Mode::append) {}
+
+  static constexpr std::array<const char*, 2> devices{"gl:one", "vulkan:two"};
+
+  void add_devices(const std::string& run) {
+    for (const char* id : devices) {
+      record::Device device;
+      device.id = id;
+      device.driver_version = "1";
+      store_.add_device(run, device, {});
+    }
+  }
+
+  void add(record::Record record, double log_ns) {
+    record.scene = record.configuration;
+    record.outcome = record::Outcome::measured;
+    record.kernel_hash = "k";
+    const double between = noise_ * scatter();
+    for (const char* device : devices) {
+      record.device = device;
+      record.wall_ns.clear();
+      const double speed = record.device == "gl:one" ? 0 : 0.7;
+      for (int frame = 0; frame < 8; ++frame) {
+        record.wall_ns.push_back(std::exp(log_ns + speed + between + noise_ * scatter()));
+      }
+      store_.add_record(record);
+    }
+  }
+
+  // A run of 36 configurations, with its anchors before it.
+  void measure(double percent) {
+    const std::string id = fmt::format("run{}", ++runs_);
+    const std::string anchors_id = id + "-anchors";
+    store_.add_run({anchors_id, anchors, "", {}});
+    add_devices(anchors_id);
+    for (const char* technique : {"anchor_arithmetic", "anchor_fetch", "anchor_memory"}) {
+      for (int size = 1; size <= 4; size *= 2) {
+        record::Record record{.run = anchors_id, .suite = "anchors", .plan = anchors};
+        record.technique = technique;
+        record.factors = {{"technique", technique}, {"size", fmt::format("{}", size)}};
+        record.configuration = fmt::format("size={},technique={}", size, technique);
+        add(record, 14.5 + std::log(size));
+      }
+    }
+    store_.add_run({id, plan, "", {}});
+    add_devices(id);
+    for (int i = 0; i < 36; ++i) {
+      record::Record record{.run = id, .suite = "volume", .plan = plan};
+      record.technique = "raycast";
+      record.factors = {{"technique", "raycast"},
+                        {"data", fmt::format("d{}", i % 3)},
+                        {"step", fmt::format("{}", i / 3)}};
+      record.configuration = fmt::format("data=d{},step={}", i % 3, i / 3);
+      record.counters = {{"samples", 100000}};
+      if (percent > 0) record.planted = fmt::format("slowdown:{}", percent);
+      add(record, 14 + 0.08 * i + std::log1p(percent / 100));
+    }
+  }
+
+  Tallies evaluate(std::uint64_t seed = 1) {
+    const auto pools = pool_runs(store_);
+    EXPECT_EQ(pools.size(), 1U);
+    return evaluate_runs(pools.at(0), {.most = 6, .seed = seed},
+                         folder_.path() / fmt::format("scratch{}", ++scratch_));
+  }
+
+  static Tally sum(const Tallies& tallies, std::string_view method, Spread spread,
+                   double percent = 0) {
+    Tally total;
+    const auto add = [](Rate& to, const Rate& from) {
+      to.hits += from.hits;
+      to.trials += from.trials;
+    };
+    for (const auto& [kind, tally] : tallies) {
+      if (!kind.method.starts_with(method) || kind.spread != spread || kind.percent != percent)
+        continue;
+      for (const auto rate :
+           {&Tally::detected, &Tally::found, &Tally::false_alarms, &Tally::false_discoveries,
+            &Tally::undecided, &Tally::first_named, &Tally::split, &Tally::same_bytes}) {
+        add(total.*rate, tally.*rate);
+      }
+    }
+    return total;
+  }
+
+  double noise_ = 0.003;
+  TemporaryFolder folder_;
+  record::Store store_;
+
+ private:
+  double scatter() { return random_.uniform(-1, 1) + random_.uniform(-1, 1); }
+  core::Random random_{17};
+  int runs_ = 0;
+  int scratch_ = 0;
+};
+
+void expect_all(const Rate& rate) {
+  EXPECT_GT(rate.trials, 0U);
+  EXPECT_EQ(rate.hits, rate.trials);
+}
+
+void expect_none(const Rate& rate) {
+  EXPECT_GT(rate.trials, 0U);
+  EXPECT_EQ(rate.hits, 0U);
+}
+
+TEST_F(EvaluateRuns, PoolsHoldWholeRunsWithTheirAnchors) {
+  measure(0);
+  measure(25);
+  measure(0);
+  store_.add_run({"broken", plan, "", {}});
+  const auto pools = pool_runs(store_);
+  ASSERT_EQ(pools.size(), 1U);
+  ASSERT_EQ(pools[0].unplanted.size(), 2U);
+  EXPECT_EQ(pools[0].unplanted[1].run, "run3");
+  EXPECT_EQ(pools[0].unplanted[1].anchors.at(0).run, "run3-anchors");
+  ASSERT_EQ(pools[0].planted.size(), 1U);
+  EXPECT_EQ(pools[0].planted[0].percent, 25);
+  EXPECT_EQ(pools[0].planted[0].before, 0U);
+}
+
+TEST_F(EvaluateRuns, FindsWhatIsPlantedAndNamesIt) {
+  for (int round = 0; round < 6; ++round) {
+    measure(0);
+    if (round == 2) measure(25);
+  }
+  const Tallies tallies = evaluate();
+  for (const char* method : {"history", "correlation"}) {
+    SCOPED_TRACE(method);
+    for (const Spread spread :
+         {Spread::configuration, Spread::level, Spread::api, Spread::global}) {
+      SCOPED_TRACE(name_of(spread));
+      expect_all(sum(tallies, method, spread, 25).detected);
+    }
+    EXPECT_EQ(sum(tallies, method, Spread::none).false_alarms.hits, 0U);
+    EXPECT_EQ(sum(tallies, method, Spread::none).undecided.hits, 0U);
+  }
+  // Only the correlation has anchors from outside the plan.
+  expect_none(sum(tallies, "correlation", Spread::device, 25).false_alarms);
+  expect_all(sum(tallies, "history", Spread::device, 25).false_alarms);
+  expect_all(sum(tallies, "correlation", Spread::configuration, 25).first_named);
+  expect_all(sum(tallies, "correlation", Spread::configuration, 25).split);
+  expect_all(sum(tallies, "correlation", Spread::level, 25).first_named);
+  expect_all(sum(tallies, "correlation", Spread::scrambled).detected);
+  expect_all(sum(tallies, "gate", Spread::none).same_bytes);
+  // Two ordered pairs of devices, in both states of acceptance.
+  EXPECT_EQ(sum(tallies, "correlation", Spread::none).false_alarms.trials, 4U * 6U);
+}
+
+TEST_F(EvaluateRuns, TooFewRunsTellNothingOfHistory) {
+  for (int round = 0; round < 3; ++round) measure(0);
+  const Tallies tallies = evaluate();
+  expect_all(sum(tallies, "history", Spread::none).undecided);
+  expect_none(sum(tallies, "history", Spread::none).false_alarms);
+}
+
+TEST_F(EvaluateRuns, NoiseHidesASlowdownAndIsCounted) {
+  noise_ = 0.2;
+  for (int round = 0; round < 6; ++round) {
+    measure(0);
+    if (round == 2) measure(5);
+  }
+  const Tally planted = sum(evaluate(), "history", Spread::configuration, 5);
+  EXPECT_LT(planted.detected.hits, planted.detected.trials / 2);
+  EXPECT_GT(planted.undecided.share(), 0.5);
+}
+
+TEST_F(EvaluateRuns, OneRunIsNoMaterial) {
+  measure(0);
+  EXPECT_TRUE(evaluate().empty());
+}
+
+}  // namespace
+}  // namespace triptych::judge

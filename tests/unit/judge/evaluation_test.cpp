@@ -1,0 +1,182 @@
+// Rates and what is asked of them.
+
+#include "judge/evaluation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/random.hpp"
+#include "judge/evaluation_compare.hpp"
+
+namespace triptych::judge {
+namespace {
+
+struct Published {
+  std::size_t hits, trials;
+  double low, high;
+};
+
+// Tables of exact 95 % limits (such as Diem's in Documenta Geigy).
+TEST(ClopperPearson, PublishedLimits) {
+  for (const Published& each : {Published{0, 10, 0, 0.3085},
+                                {5, 10, 0.1871, 0.8129},
+                                {10, 100, 0.0490, 0.1762},
+                                {10, 10, 0.6915, 1}}) {
+    const Interval interval = clopper_pearson(each.hits, each.trials);
+    EXPECT_NEAR(interval.low, each.low, 5e-5) << each.hits << "/" << each.trials;
+    EXPECT_NEAR(interval.high, each.high, 5e-5) << each.hits << "/" << each.trials;
+  }
+}
+
+TEST(ClopperPearson, NothingTriedSaysNothing) {
+  const Interval interval = clopper_pearson(0, 0);
+  EXPECT_EQ(interval.low, 0);
+  EXPECT_EQ(interval.high, 1);
+  EXPECT_TRUE(std::isnan(Rate{}.share()));
+}
+
+// The limits are where the binomial tails are 2.5 %: P(X ≥ 3 | low) and P(X ≤ 3 | high) for 7.
+TEST(ClopperPearson, TheTailsAreAFortieth) {
+  const auto binomial = [](int k, double p) {
+    return std::tgamma(8) / std::tgamma(k + 1) / std::tgamma(8 - k) * std::pow(p, k) *
+           std::pow(1 - p, 7 - k);
+  };
+  const Interval interval = clopper_pearson(3, 7);
+  double above = 0;
+  double below = 0;
+  for (int k = 3; k <= 7; ++k) above += binomial(k, interval.low);
+  for (int k = 0; k <= 3; ++k) below += binomial(k, interval.high);
+  EXPECT_NEAR(above, 0.025, 1e-9);
+  EXPECT_NEAR(below, 0.025, 1e-9);
+}
+
+TEST(Evaluation, TheSmallestFoundHasNoMissAboveIt) {
+  Tallies tallies;
+  TrialKind kind{"compare", "p", "d", Spread::configuration};
+  const auto add = [&](double percent, std::size_t hits) {
+    kind.percent = percent;
+    tallies[kind].detected = {hits, 20};
+  };
+  add(1, 20);  // by luck: 2 % was missed
+  add(2, 10);
+  add(3, 19);
+  add(5, 20);
+  kind.percent = 0;
+  EXPECT_EQ(smallest_found(tallies).at(kind), 3);
+  add(5, 0);
+  kind.percent = 0;
+  EXPECT_EQ(smallest_found(tallies).at(kind), std::nullopt);
+}
+
+TEST(Evaluation, AimsAreMetByTheRate) {
+  Tallies tallies;
+  tallies[{"compare", "p", "d", Spread::configuration, 3}].detected = {19, 20};
+  tallies[{"compare", "p", "d", Spread::none}].false_alarms = {1, 20};
+  const std::vector<Aim> all = aims(tallies);
+  const auto met = [&](std::string_view text) {
+    for (const Aim& aim : all) {
+      if (aim.text == text) return aim.met();
+    }
+    ADD_FAILURE() << "no aim " << text;
+    return std::optional<bool>();
+  };
+  EXPECT_EQ(met("compare: 3 % of one configuration found"), true);
+  EXPECT_EQ(met("compare: A/A runs with a false alarm"), false);
+  EXPECT_EQ(met("history: 3 % of one configuration found"), std::nullopt);
+}
+
+TEST(Evaluation, AShuffleIsAnOrder) {
+  core::Random random(5);
+  const auto order = shuffled(100, random);
+  EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), 100U);
+  EXPECT_NE(order, shuffled(100, random));
+}
+
+// Six configurations whose launches differ by `between`, blocks by `within`.
+std::vector<BlockSeries> pool(double between, double within) {
+  core::Random random(3);
+  const auto scatter = [&] { return random.uniform(-1, 1) + random.uniform(-1, 1); };
+  std::vector<BlockSeries> result;
+  for (int configuration = 0; configuration < 6; ++configuration) {
+    for (const double percent : {0.0, 1.0, 3.0, 5.0}) {
+      for (int launch = 1; launch <= 8; ++launch) {
+        BlockSeries series{.plan = "p",
+                           .configuration = "c" + std::to_string(configuration),
+                           .factors = {{"view", configuration < 3 ? "near" : "far"}},
+                           .device = "d",
+                           .percent = percent,
+                           .launch = launch,
+                           .seconds = 48,
+                           .differences = {}};
+        const double centre = std::log1p(percent / 100) + between * scatter();
+        for (int i = 0; i < 48; ++i) series.differences.push_back(centre + within * scatter());
+        result.push_back(std::move(series));
+      }
+    }
+  }
+  return result;
+}
+
+Tally of(const Tallies& tallies, Spread spread, double percent = 0) {
+  return tallies.at({"compare", "p", "d", spread, percent});
+}
+
+TEST(EvaluateComparison, FindsWhatIsPlantedAndNothingElse) {
+  const Tallies tallies = evaluate_comparison(pool(0.002, 0.005), 50, 1);
+  EXPECT_EQ(of(tallies, Spread::none).false_alarms.hits, 0U);
+  EXPECT_EQ(of(tallies, Spread::none).false_alarms.trials, 50U);
+  EXPECT_EQ(of(tallies, Spread::none).undecided.hits, 0U);
+  EXPECT_EQ(of(tallies, Spread::none).detected.trials, 0U);
+  for (const Spread spread : {Spread::configuration, Spread::level, Spread::global}) {
+    EXPECT_EQ(of(tallies, spread, 5).detected.hits, 50U) << name_of(spread);
+    EXPECT_EQ(of(tallies, spread, 5).false_discoveries.hits, 0U) << name_of(spread);
+  }
+  EXPECT_EQ(of(tallies, Spread::level, 5).found.trials, 150U);
+  // What is tolerated is no alarm.
+  EXPECT_EQ(of(tallies, Spread::configuration, 1).detected.hits, 0U);
+}
+
+TEST(EvaluateComparison, NoiseMakesItSilentNotWrong) {
+  const Tallies tallies = evaluate_comparison(pool(0.002, 0.3), 50, 1);
+  EXPECT_EQ(of(tallies, Spread::none).undecided.share(), 1);
+  EXPECT_EQ(of(tallies, Spread::configuration, 3).detected.hits, 0U);
+  EXPECT_EQ(of(tallies, Spread::none).false_alarms.hits, 0U);
+}
+
+// Launches that disagree suspect much at first; fresh ones are what keeps that from being said.
+TEST(EvaluateComparison, LaunchesThatDisagreeAreNotBelieved) {
+  const Tallies tallies = evaluate_comparison(pool(0.02, 0.002), 200, 1);
+  EXPECT_LE(of(tallies, Spread::none).false_alarms.share(), 0.15);
+}
+
+TEST(EvaluateComparison, SecondsAreThoseOfTheBlocksUsed) {
+  const Tally tally = of(evaluate_comparison(pool(0.0005, 0.001), 20, 1), Spread::none);
+  EXPECT_DOUBLE_EQ(tally.seconds / static_cast<double>(tally.configurations), 12);
+}
+
+TEST(EvaluateComparison, TheSameSeedGivesTheSameCounts) {
+  const auto series = pool(0.01, 0.01);
+  const auto hits = [&](std::uint64_t seed) {
+    std::vector<std::size_t> result;
+    for (const auto& [kind, tally] : evaluate_comparison(series, 40, seed)) {
+      result.push_back(tally.detected.hits + 1000 * tally.undecided.hits);
+    }
+    return result;
+  };
+  EXPECT_EQ(hits(1), hits(1));
+  EXPECT_NE(hits(1), hits(2));
+}
+
+TEST(EvaluateComparison, WhatWasNotMeasuredIsNotTried) {
+  std::vector<BlockSeries> series = pool(0.002, 0.005);
+  std::erase_if(series, [](const BlockSeries& each) { return each.percent == 0; });
+  for (const auto& [kind, tally] : evaluate_comparison(series, 5, 1)) {
+    EXPECT_EQ(kind.spread, Spread::global);  // alone needs no unplanted launch
+  }
+  EXPECT_TRUE(evaluate_comparison({}, 5, 1).empty());
+}
+
+}  // namespace
+}  // namespace triptych::judge
