@@ -72,6 +72,7 @@ std::vector<std::string_view> checks_of(const PlanTests& plan, bool pictures) {
   if (plan.plan.ends_with("/correlation")) return {"correlation"};
   std::vector<std::string_view> result(checks.begin(), checks.end());
   if (!pictures) std::erase(result, "image");
+  if (plan.plan.ends_with("/accuracy")) result.push_back("accuracy");
   return result;
 }
 

@@ -44,12 +44,6 @@ std::string family_name(const AccuracyCase& each, const std::set<std::string>& t
   return name;
 }
 
-std::optional<double> step_of(const AccuracyCase& each) {
-  const auto found = each.factors.find("step");
-  if (found == each.factors.end()) return std::nullopt;
-  return std::strtod(found->second.c_str(), nullptr);
-}
-
 std::optional<Order> order_of(std::span<const AccuracyCase> cases,
                               std::span<const std::size_t> members) {
   std::vector<StepError> points;
@@ -87,6 +81,12 @@ std::optional<double> time_between(const AccuracyCase& a, const AccuracyCase& b,
 }
 
 }  // namespace
+
+std::optional<double> step_of(const AccuracyCase& each) {
+  const auto found = each.factors.find("step");
+  if (found == each.factors.end()) return std::nullopt;
+  return std::strtod(found->second.c_str(), nullptr);
+}
 
 std::optional<Order> fit_order(std::span<const StepError> points) {
   std::vector<double> x;

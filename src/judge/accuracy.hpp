@@ -28,6 +28,9 @@ struct AccuracyCase {
   double arithmetic = 0;
 };
 
+// In voxels; nullopt for what has no step.
+[[nodiscard]] std::optional<double> step_of(const AccuracyCase& each);
+
 // Error ∝ stepᵖ.
 struct StepError {
   double step = 0;

@@ -55,6 +55,41 @@ Finding judge_error(const RunView& view, const record::Record& record, const Pic
   return about(error.rmse <= *limit ? Verdict::pass : Verdict::regression, what);
 }
 
+// The order that the accepted errors of a family give: nothing but errors is stored.
+std::optional<Order> stored_order(const RunView& view, const AccuracyScene& scene,
+                                  const AccuracyFamily& family) {
+  std::vector<StepError> points;
+  for (const std::size_t i : family.members) {
+    const AccuracyCase& each = scene.cases[i];
+    const auto errors = view.baselines.errors(each.configuration);
+    const auto own = errors.find(scene.device);
+    const auto step = step_of(each);
+    if (own == errors.end() || !step) continue;
+    points.push_back({*step, own->second.rmse, own->second.arithmetic});
+  }
+  return fit_order(points);
+}
+
+// An order has fallen when it lies below the accepted one by more than both intervals.
+void judge_orders(const RunView& view, const AccuracyScene& scene, AccuracyFindings& result) {
+  const record::Device& device = view.devices.at(scene.device);
+  for (const AccuracyFamily& family : scene.families) {
+    const auto stored = stored_order(view, scene, family);
+    if (!stored || !family.order) continue;
+    const double least = stored->order - stored->half_width - family.order->half_width;
+    const bool fallen = family.order->order < least;
+    Finding finding =
+        finding_about(view, device, Check::accuracy, fallen ? Verdict::regression : Verdict::pass,
+                      fmt::format("order {:.2f} ± {:.2f} in the step, accepted {:.2f} ± {:.2f}",
+                                  family.order->order, family.order->half_width, stored->order,
+                                  stored->half_width));
+    finding.configuration = scene.cases[family.members.back()].configuration;
+    set_number(finding, "order", family.order->order);
+    set_number(finding, "stored_order", stored->order);
+    result.findings.push_back(std::move(finding));
+  }
+}
+
 // Scenes by device and limit, in the order in which they come.
 class Scenes {
  public:
@@ -96,6 +131,7 @@ AccuracyFindings check_accuracies(const RunView& view) {
     if (view.baselines.present()) result.findings.push_back(judge_error(view, *record, *error));
   }
   result.scenes = std::move(scenes).finish();
+  for (const AccuracyScene& scene : result.scenes) judge_orders(view, scene, result);
   return result;
 }
 

@@ -26,6 +26,8 @@ struct PlanData {
 [[nodiscard]] std::string speed_of_light_section(const PlanData& plan);
 // Of the pairs of devices in the verdict.
 [[nodiscard]] std::string correlation_section(const PlanData& plan);
+// Of the scenes whose accuracy the verdict tells.
+[[nodiscard]] std::string accuracy_section(const PlanData& plan);
 [[nodiscard]] std::string counts_section(const PlanData& plan);
 
 // The factors that tell a record's scene from the plan's others, "data=…, camera=…"; all that its

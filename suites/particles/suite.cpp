@@ -38,6 +38,8 @@ class ParticleSuite final : public measure::SuiteWithTruth {
   std::string truth_key(const Configuration& configuration,
                         const std::map<std::string, double>& precision) override;
   nlohmann::json describe(const Configuration& configuration) override;
+  std::string limit_key(const Configuration& configuration) override;
+  measure::Limit limit(const Configuration& configuration) override;
 
  private:
   [[nodiscard]] scene::ParticleScene scene(const Configuration& configuration);
@@ -149,6 +151,24 @@ nlohmann::json ParticleSuite::describe(const Configuration& configuration) {
               {"ambient", pictured.shading.ambient},
               {"diffuse", pictured.shading.diffuse}}},
             {"background", pictured.background}}}};
+}
+
+std::string ParticleSuite::limit_key(const Configuration& configuration) {
+  return fmt::format(
+      "spheres {} data {} {}, colour {}, transfer_function {}, radius_scale {}, camera {}, fov {}, "
+      "viewport {}",
+      reference::spheres_version, configuration.at("data"), scene(configuration).particles->hash,
+      configuration.at("colour"), configuration.at("transfer_function"),
+      configuration.at("radius_scale"), configuration.at("camera"), configuration.at("fov"),
+      configuration.at("viewport"));
+}
+
+// A pixel shows what the ray through its centre meets: there is nothing to refine, and the truth in
+// double precision is the limit itself.
+measure::Limit ParticleSuite::limit(const Configuration& configuration) {
+  core::Image image = reference::render_spheres(scene(configuration)).image();
+  core::Image none(image.width, image.height);
+  return {.image = std::move(image), .uncertainty = std::move(none)};
 }
 
 }  // namespace

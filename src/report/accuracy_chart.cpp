@@ -1,0 +1,109 @@
+#include "report/accuracy_chart.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/json.hpp"
+
+namespace triptych::report {
+namespace {
+
+using core::Json;
+
+std::optional<double> cost_of(const judge::AccuracyCase& each, Cost cost) {
+  if (cost == Cost::time) return each.time_ns / 1e6;
+  if (!each.samples) return std::nullopt;
+  return static_cast<double>(*each.samples);
+}
+
+void append_scene(Json& values, const judge::AccuracyScene& scene, Cost cost) {
+  for (const judge::AccuracyFamily& family : scene.families) {
+    for (const std::size_t i : family.members) {
+      const judge::AccuracyCase& each = scene.cases[i];
+      const auto paid = cost_of(each, cost);
+      if (!paid || !(*paid > 0) || !(each.rmse > 0)) continue;
+      const auto step = each.factors.find("step");
+      values.push_back({{"data", scene.data},
+                        {"device", scene.device},
+                        {"family", family.name},
+                        {"step", step == each.factors.end() ? "" : step->second},
+                        {"error", each.rmse},
+                        {"cost", *paid},
+                        {"front", std::ranges::find(scene.front, i) != scene.front.end()},
+                        {"configuration", each.configuration}});
+    }
+  }
+}
+
+Json axis(const char* field, const char* title, const char* format) {
+  return {{"field", field},
+          {"type", "quantitative"},
+          {"title", title},
+          {"scale", {{"type", "log"}, {"nice", false}, {"padding", 6}}},
+          {"axis", {{"format", format}, {"tickCount", 5}, {"labelFlush", false}}}};
+}
+
+Json facet(const char* field) {
+  return {{"field", field},
+          {"type", "nominal"},
+          {"title", nullptr},
+          {"sort", nullptr},
+          {"header", {{"labelLimit", 200}, {"labelFontSize", 11}}}};
+}
+
+// The cases are in the order of their steps already.
+Json line_layer(const Json& position) {
+  Json encoding = position;
+  encoding["color"] = {{"field", "family"}, {"type", "nominal"}, {"title", nullptr}};
+  encoding["order"] = {{"field", "error"}, {"type", "quantitative"}};
+  encoding["tooltip"] = Json::array({{{"field", "configuration"}},
+                                     {{"field", "error"}, {"format", ".3g"}},
+                                     {{"field", "cost"}, {"format", ".3g"}}});
+  return {{"mark", {{"type", "line"}, {"strokeWidth", 1}, {"point", {{"size", 14}}}}},
+          {"encoding", encoding}};
+}
+
+Json front_layer(const Json& position) {
+  Json encoding = position;
+  encoding["order"] = {{"field", "error"}, {"type", "quantitative"}};
+  return {{"transform", Json::array({{{"filter", "datum.front"}}})},
+          {"mark",
+           {{"type", "line"},
+            {"color", "black"},
+            {"strokeWidth", 1.5},
+            {"interpolate", "linear"},
+            {"point", {{"size", 40}, {"filled", false}, {"color", "black"}}}}},
+          {"encoding", encoding}};
+}
+
+Json goal_layer() {
+  Json goals = Json::array();
+  for (const double goal : judge::accuracy_goals) goals.push_back({{"error", goal}});
+  return {{"data", {{"values", goals}}},
+          {"mark", {{"type", "rule"}, {"color", "#bbb"}, {"strokeDash", Json::array({3, 3})}}},
+          {"encoding", {{"x", {{"field", "error"}, {"type", "quantitative"}}}}}};
+}
+
+}  // namespace
+
+std::string accuracy_chart(std::span<const judge::AccuracyScene> scenes, Cost cost) {
+  Json values = Json::array();
+  for (const judge::AccuracyScene& scene : scenes) append_scene(values, scene, cost);
+  const Json position{{"x", axis("error", "RMSE against the limit", ".0e")},
+                      {"y", cost == Cost::time ? axis("cost", "time of a frame, ms", "~g")
+                                               : axis("cost", "samples taken", ".0e")}};
+  const Json spec{
+      {"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
+      {"data", {{"values", values}}},
+      {"facet", {{"row", facet("data")}, {"column", facet("device")}}},
+      {"spec",
+       {{"width", 210},
+        {"height", 150},
+        {"layer", Json::array({goal_layer(), line_layer(position), front_layer(position)})}}},
+      {"config",
+       {{"view", {{"stroke", "#ddd"}}},
+        {"legend", {{"labelLimit", 320}, {"orient", "top"}, {"columns", 4}}}}}};
+  return spec.dump();
+}
+
+}  // namespace triptych::report
