@@ -17,7 +17,8 @@ struct AnalyticData {
   int size = 0;
 };
 
-// The transfer function that belongs to the data: of a problem its own, of all else the standard.
+// The transfer function that belongs to the data: of a problem its own; of all else `surfaces`,
+// whose rays end early.
 inline constexpr std::string_view own_transfer_function = "own";
 
 // nullopt for other data. Throws InputError for an unknown problem and for a size outside 2…512 or,

@@ -36,8 +36,8 @@ const std::vector<Factor>& volume_factors() {
              "who interpolates between voxels; auto: as for voxel"),
       text(
           "transfer_function", "haze",
-          "haze, surfaces, a file of 256 RGBA entries, or own: an analytic problem's own, haze for "
-          "all other data"),
+          "haze, surfaces, a file of 256 RGBA entries, or own: an analytic problem's own, surfaces "
+          "for all other data"),
       number("step", 1.0 / 64, 4096, "1", Decides::the_picture,
              "distance of samples in smallest voxel spacings"),
       choice("quadrature", {"midpoint"}, "midpoint", Decides::the_picture,

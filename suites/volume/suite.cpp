@@ -106,7 +106,8 @@ scene::TransferFunction transfer_function(const Configuration& configuration,
   const std::string& name = configuration.at("transfer_function");
   if (name != own_transfer_function) return scene::load_transfer_function(name, folders);
   const auto analytic = analytic_data(configuration.at("data"));
-  return analytic ? analytic_transfer_function(*analytic) : scene::load_transfer_function("haze");
+  return analytic ? analytic_transfer_function(*analytic)
+                  : scene::load_transfer_function("surfaces");
 }
 
 scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
