@@ -1,0 +1,56 @@
+#include <gmock/gmock.h>
+
+#include "core/json.hpp"
+#include "report/accuracy_chart.hpp"
+#include "report/page_sections.hpp"
+
+namespace triptych::report {
+namespace {
+
+using testing::HasSubstr;
+
+judge::AccuracyCase at(const std::string& step, double time, double rmse) {
+  return {.configuration = "step=" + step,
+          .factors = {{"data", "ball"}, {"step", step}},
+          .time_ns = time,
+          .samples = {},
+          .rmse = rmse};
+}
+
+judge::AccuracyScene some_scene() {
+  judge::AccuracyScene scene;
+  scene.device = "gl:x";
+  scene.data = "ball <1>";
+  scene.cases = {at("1", 1e6, 1e-3), at("0.5", 2e6, 2.5e-4), at("0.25", 4e6, 6.25e-5),
+                 at("0.125", 8e6, 0), at("2", 3e6, 4e-3)};
+  judge::evaluate(scene);
+  return scene;
+}
+
+TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
+  const std::vector<judge::AccuracyScene> scenes{some_scene()};
+  const auto values = core::Json::parse(accuracy_chart(scenes, Cost::time)).at("data").at("values");
+  ASSERT_EQ(values.size(), 4U);  // not the one without error
+  EXPECT_EQ(values[0].at("step"), "2");
+  EXPECT_FALSE(values[0].at("front"));
+  EXPECT_EQ(values[1].at("cost"), 1.0);  // milliseconds
+  EXPECT_TRUE(values[1].at("front"));
+  EXPECT_TRUE(
+      core::Json::parse(accuracy_chart(scenes, Cost::samples)).at("data").at("values").empty());
+}
+
+TEST(AccuracySection, TellsOrdersTimesAndParts) {
+  judge::GateResult verdict;
+  PlanData plan{.anchor = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
+  EXPECT_EQ(accuracy_section(plan), "");
+  verdict.accuracies = {some_scene()};
+  const std::string text = accuracy_section(plan);
+  EXPECT_THAT(text, HasSubstr("2.00 ± 0.00 (3 steps)"));
+  EXPECT_THAT(text, HasSubstr("ball &lt;1&gt;"));
+  EXPECT_THAT(text, HasSubstr("1 of 5"));  // dominated
+  EXPECT_THAT(text, HasSubstr("step 0.125 → 0.25"));
+  EXPECT_THAT(text, HasSubstr("plan0-accuracy-time"));
+}
+
+}  // namespace
+}  // namespace triptych::report
