@@ -16,6 +16,14 @@ std::optional<double> cost_of(const judge::AccuracyCase& each, Cost cost) {
   return static_cast<double>(*each.samples);
 }
 
+// What the colour tells: of configurations that stand alone the technique, else there would be as
+// many colours as points.
+std::string colour_of(const judge::AccuracyFamily& family, const judge::AccuracyCase& each) {
+  const auto technique = each.factors.find("technique");
+  const bool alone = family.members.size() == 1 && technique != each.factors.end();
+  return alone ? technique->second : family.name;
+}
+
 void append_scene(Json& values, const judge::AccuracyScene& scene, Cost cost) {
   for (const judge::AccuracyFamily& family : scene.families) {
     for (const std::size_t i : family.members) {
@@ -26,6 +34,7 @@ void append_scene(Json& values, const judge::AccuracyScene& scene, Cost cost) {
       values.push_back({{"data", scene.data},
                         {"device", scene.device},
                         {"family", family.name},
+                        {"colour", colour_of(family, each)},
                         {"step", step == each.factors.end() ? "" : step->second},
                         {"error", each.rmse},
                         {"cost", *paid},
@@ -54,7 +63,8 @@ Json facet(const char* field) {
 // The cases are in the order of their steps already.
 Json line_layer(const Json& position) {
   Json encoding = position;
-  encoding["color"] = {{"field", "family"}, {"type", "nominal"}, {"title", nullptr}};
+  encoding["color"] = {{"field", "colour"}, {"type", "nominal"}, {"title", nullptr}};
+  encoding["detail"] = {{"field", "family"}, {"type", "nominal"}};
   encoding["order"] = {{"field", "error"}, {"type", "quantitative"}};
   encoding["tooltip"] = Json::array({{{"field", "configuration"}},
                                      {{"field", "error"}, {"format", ".3g"}},
