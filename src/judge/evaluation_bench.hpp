@@ -40,10 +40,9 @@ class TrialBench {
   // and live as long.
   TrialBench(const RunPool& pool, std::size_t base, const std::filesystem::path& folder);
 
-  [[nodiscard]] const PooledRun& base() const { return base_; }
-
   // Judges the run with these records instead of those of the same plan, configuration and device.
-  // `known`: the device whose stored runs judge; empty: all devices'. `devices`: as in GateRequest.
+  // One result for each of `known`: the device whose stored runs judge, "" for all devices'.
+  // `devices`: as in GateRequest.
   [[nodiscard]] std::vector<GateResult> judge(const std::vector<record::Record>& changed,
                                               const std::set<std::string>& known,
                                               const std::set<Check>& checks,
