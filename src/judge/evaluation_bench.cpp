@@ -34,6 +34,7 @@ std::vector<record::Record> measured(const record::Store& store, const std::stri
   for (record::Record& record : store.records(run)) {
     if (record.outcome != record::Outcome::measured || record.time_ns().empty()) continue;
     record.image.clear();
+    record.scene = "none";  // baselines keep a picture of each
     record.statistics.clear();
     record.benchmark_json.clear();
     result.push_back(std::move(record));
