@@ -24,6 +24,10 @@ double smallest_gap(std::vector<double> samples) {
   return gap;
 }
 
+const std::vector<double>& samples_by(const record::Record& record, std::string_view clock) {
+  return clock == "wall" ? record.wall_ns : record.device_ns;
+}
+
 // What one step of the clock makes of a time, in ln t.
 double one_step(double step, double time) {
   return step < time ? -std::log1p(-step / time) : std::numeric_limits<double>::infinity();
@@ -32,12 +36,27 @@ double one_step(double step, double time) {
 Resolutions resolutions(const RunView& view) {
   Resolutions result;
   for (const record::Record* record : view.measured) {
-    const double gap = smallest_gap(record->time_ns());
-    if (!std::isfinite(gap)) continue;
-    const auto [known, added] = result.try_emplace({record->device, record->clock()}, gap);
-    if (!added) known->second = std::min(known->second, gap);
+    for (const std::string_view clock : {"wall", "device"}) {
+      const double gap = smallest_gap(samples_by(*record, clock));
+      if (!std::isfinite(gap)) continue;
+      const auto [known, added] = result.try_emplace({record->device, clock}, gap);
+      if (!added) known->second = std::min(known->second, gap);
+    }
   }
   return result;
+}
+
+// Times by different clocks are not compared: the record's own, or the wall clock, by which
+// everything is timed, where no stored run has a time by that one. A clock that a busy machine made
+// doubtful once is no reason to judge nothing.
+std::string_view common_clock(const record::Record& record,
+                              const std::vector<StoredTiming>& stored) {
+  const auto told = [&](const StoredTiming& timing) {
+    return timing.median_by(record.clock()).has_value();
+  };
+  return stored.empty() || std::ranges::any_of(stored, told) || record.wall_ns.empty()
+             ? record.clock()
+             : "wall";
 }
 
 // A record that can be judged, with what it is judged by.
@@ -72,36 +91,37 @@ class TimingCheck {
           "its picture is wrong, so its time means nothing: " + wrong->second);
       return;
     }
-    const double now = record.time_ns().empty() ? 0 : median(record.time_ns());
+    const auto stored = view_.baselines.timings(view_.device(record), record.configuration);
+    const std::string_view clock = common_clock(record, stored);
+    const std::vector<double>& samples = samples_by(record, clock);
+    const double now = samples.empty() ? 0 : median(samples);
     if (!(now > 0) || !std::isfinite(now)) {
       add(record, Verdict::cannot_judge, "no time was measured; run the plan again");
       return;
     }
-    const auto stored = view_.baselines.timings(view_.device(record), record.configuration);
     std::map<std::string, double> same_clock;
+    std::size_t other_clocks = 0;
     for (const StoredTiming& timing : stored) {
+      const auto time = timing.median_by(clock);
+      if (!time) ++other_clocks;
       // A run that was accepted is no witness against itself.
-      if (timing.clock == record.clock() && timing.run != record.run) {
-        same_clock[timing.run] = timing.median_ns;
-      }
+      if (time && timing.run != record.run) same_clock[timing.run] = *time;
     }
-    const bool only_other_clocks =
-        !stored.empty() && std::ranges::none_of(stored, [&](const StoredTiming& timing) {
-          return timing.clock == record.clock();
-        });
-    if (only_other_clocks) {
-      add(record, Verdict::cannot_judge,
-          fmt::format("timed by the {} clock, stored by the {} clock; accept anew: {}",
-                      record.clock(), stored.back().clock, view_.accept_command()));
+    if (same_clock.size() + other_clocks < TimingModel::least_runs) {
+      report_too_few(record, now, same_clock, other_clocks, stored.empty());
     } else if (same_clock.size() < TimingModel::least_runs) {
-      report_too_few(record, now, same_clock, stored.empty());
+      add(record, Verdict::cannot_judge,
+          fmt::format("timed by the {} clock, stored by the {} clock; accept anew: {}", clock,
+                      stored.back().clock, view_.accept_command()));
     } else {
-      keep(record, now, std::move(same_clock), stored.back().kernel_hash != record.kernel_hash);
+      keep(record, clock, now, std::move(same_clock),
+           stored.back().kernel_hash != record.kernel_hash);
     }
   }
 
   void report_too_few(const record::Record& record, double now,
-                      const std::map<std::string, double>& stored, bool nothing_stored) {
+                      const std::map<std::string, double>& stored, std::size_t other_clocks,
+                      bool nothing_stored) {
     if (nothing_stored && view_.baselines.accepted_before(view_.device(record))) {
       add(record, Verdict::cannot_judge,
           "no stored timings, though this device was accepted before; restore them or accept: " +
@@ -113,6 +133,7 @@ class TimingCheck {
     std::string message = fmt::format("{} stored runs of this device key, {} are needed to judge",
                                       stored.size(), TimingModel::least_runs);
     const double ratio = now / std::exp(mean(logarithms));
+    if (other_clocks > 0) message += fmt::format("; {} more are of another clock", other_clocks);
     if (!stored.empty()) message += fmt::format("; now {:.3f} × their mean", ratio);
     add(record, Verdict::advisory, std::move(message));
     set_number(findings_.back(), "median_ns", now);
@@ -120,9 +141,9 @@ class TimingCheck {
     set_number(findings_.back(), "runs", static_cast<double>(stored.size()));
   }
 
-  void keep(const record::Record& record, double now, std::map<std::string, double> stored,
-            bool other_code) {
-    const auto resolution = resolutions_.find({record.device, record.clock()});
+  void keep(const record::Record& record, std::string_view clock, double now,
+            std::map<std::string, double> stored, bool other_code) {
+    const auto resolution = resolutions_.find({record.device, clock});
     const double step = resolution == resolutions_.end() ? 0 : resolution->second;
     TimingCase timing;
     timing.device = record.device;

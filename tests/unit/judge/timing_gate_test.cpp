@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/file.hpp"
 #include "fixture.hpp"
@@ -19,6 +20,16 @@ class TimingGateTest : public JudgeTest {
     return [=](record::Record& record, core::Image&) {
       if (!configuration.empty() && record.configuration != configuration) return;
       for (double& ns : record.wall_ns) ns *= factor;
+    };
+  }
+
+  // Its device times are a fifth of the wall's, so that mixing the two would show.
+  static Tweak by_the_device(const Tweak& times) {
+    return [=](record::Record& record, core::Image& image) {
+      times(record, image);
+      record.device_ns = record.wall_ns;
+      for (double& ns : record.device_ns) ns /= 5;
+      record.device_clock_trusted = true;
     };
   }
 };
@@ -78,8 +89,9 @@ TEST_F(TimingGateTest, AnAcceptedRunIsNoWitnessForItself) {
 TEST_F(TimingGateTest, AnotherClockCannotBeCompared) {
   accept_history();
   add_run("b", [](record::Record& record, core::Image&) {
-    record.device_ns = record.wall_ns;
-    record.device_clock_trusted = record.device == "vulkan:lavapipe";
+    if (record.device != "vulkan:lavapipe") return;
+    record.device_ns = std::exchange(record.wall_ns, {});
+    record.device_clock_trusted = true;
   });
   const GateResult result = gate("b");
   EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
@@ -87,6 +99,28 @@ TEST_F(TimingGateTest, AnotherClockCannotBeCompared) {
   ASSERT_EQ(undecided.size(), 4U) << text(result);
   EXPECT_THAT(undecided[0].message,
               HasSubstr("timed by the device clock, stored by the wall clock"));
+}
+
+TEST_F(TimingGateTest, ADeviceWhoseClockIsDoubtedTodayIsJudgedByTheWall) {
+  accept_history(by_the_device(times(1)));
+  add_run("same", times(1));
+  EXPECT_EQ(with(gate("same"), Verdict::pass, Check::timing).size(), 12U) << text(gate("same"));
+  add_run("slower", times(1.2, bricks_));
+  EXPECT_EQ(with(gate("slower"), Verdict::regression, Check::timing).size(), 3U);
+}
+
+TEST_F(TimingGateTest, FewRunsOfAnotherClockOnlyAdvise) {
+  add_run("1", [](record::Record& record, core::Image&) {
+    record.device_ns = std::exchange(record.wall_ns, {});
+    record.device_clock_trusted = true;
+  });
+  (void)accept_run("1");
+  add_run("b");
+  const GateResult result = gate("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  const auto advice = with(result, Verdict::advisory, Check::timing);
+  ASSERT_EQ(advice.size(), 12U);
+  EXPECT_THAT(advice[0].message, HasSubstr("1 more are of another clock"));
 }
 
 TEST_F(TimingGateTest, NewDeviceCodeIsJudgedAndNamed) {
