@@ -28,15 +28,20 @@ typedef struct {
   float w[TRI_MOST_CORNERS];
 } Outline;
 
+// Rays of one triangle: the place on the image plane per 1/256 pixel right and down, and at the
+// image's first corner.
+typedef struct {
+  float2 right;
+  float2 down;
+  float2 origin;
+} RayPlane;
+
 typedef struct {
   int n;
   int x[TRI_MOST_CORNERS];  // 1/256 pixel
   int y[TRI_MOST_CORNERS];
 #if TRI_RAY_AT_VERTEX
-  // Place on the image plane per 1/256 pixel right and down, and at the image's first corner.
-  float2 ray_right;
-  float2 ray_down;
-  float2 ray_origin;
+  RayPlane rays[TRI_MOST_CORNERS - 2];  // of the triangles 0, k + 1, k + 2
 #endif
 } Polygon;
 
@@ -188,23 +193,46 @@ TRI_FN void clip_outline(Outline* outline, float near) {
 }
 
 // Rays interpolated between corners: with perspective, (x, y, z)/w is linear on the screen, and z
-// is w, so that the place on the image plane is linear too. Its slopes are those of three corners,
-// as snapped to the grid.
+// is w, so that the place on the image plane is linear too. One plane for each triangle of the fan,
+// through its corners as snapped to the grid: within a triangle the snapping moves a ray by no more
+// than it moved a corner, which a plane that reaches beyond its triangle would not keep.
 #if TRI_RAY_AT_VERTEX
-TRI_FN void fit_rays(const Particles* u, const Outline* outline, Polygon* polygon) {
-  int a = 0, b = polygon->n / 3, c = 2 * polygon->n / 3;
+TRI_FN float2 place_of_corner(const Particles* u, const Outline* outline, int k) {
   float2 half_size = (float2)(u->plane.x, 0.0f - u->plane.y);
-  float2 at_a = (float2)(outline->x[a], outline->y[a]) / outline->w[a] * half_size;
-  float2 to_b = (float2)(outline->x[b], outline->y[b]) / outline->w[b] * half_size - at_a;
-  float2 to_c = (float2)(outline->x[c], outline->y[c]) / outline->w[c] * half_size - at_a;
-  float bx = (float)(polygon->x[b] - polygon->x[a]), by = (float)(polygon->y[b] - polygon->y[a]);
-  float cx = (float)(polygon->x[c] - polygon->x[a]), cy = (float)(polygon->y[c] - polygon->y[a]);
+  return (float2)(outline->x[k], outline->y[k]) / outline->w[k] * half_size;
+}
+
+TRI_FN RayPlane fit_rays(const Particles* u, const Outline* outline, const Polygon* polygon,
+                         int b, int c) {
+  float2 at_a = place_of_corner(u, outline, 0);
+  float2 to_b = place_of_corner(u, outline, b) - at_a;
+  float2 to_c = place_of_corner(u, outline, c) - at_a;
+  float bx = (float)(polygon->x[b] - polygon->x[0]), by = (float)(polygon->y[b] - polygon->y[0]);
+  float cx = (float)(polygon->x[c] - polygon->x[0]), cy = (float)(polygon->y[c] - polygon->y[0]);
   float area = bx * cy - by * cx;
   float scale = area != 0.0f ? 1.0f / area : 0.0f;
-  polygon->ray_right = (to_b * cy - to_c * by) * scale;
-  polygon->ray_down = (to_c * bx - to_b * cx) * scale;
-  polygon->ray_origin = at_a - (float)polygon->x[a] * polygon->ray_right -
-                        (float)polygon->y[a] * polygon->ray_down;
+  RayPlane rays;
+  rays.right = (to_b * cy - to_c * by) * scale;
+  rays.down = (to_c * bx - to_b * cx) * scale;
+  rays.origin =
+      at_a - (float)polygon->x[0] * rays.right - (float)polygon->y[0] * rays.down;
+  return rays;
+}
+
+// The triangle of the fan that holds a place on the grid. On a diagonal either will do: there their
+// planes meet.
+TRI_FN int fan_triangle(const Polygon* polygon, float right, float down) {
+  float from_x = right - (float)polygon->x[0];
+  float from_y = down - (float)polygon->y[0];
+  int found = 0;
+  for (int k = 1; k + 2 < polygon->n; ++k) {
+    float dx = (float)(polygon->x[k + 1] - polygon->x[0]);
+    float dy = (float)(polygon->y[k + 1] - polygon->y[0]);
+    float next_x = (float)(polygon->x[k + 2] - polygon->x[0]);
+    float next_y = (float)(polygon->y[k + 2] - polygon->y[0]);
+    if ((dx * from_y - dy * from_x) * (dx * next_y - dy * next_x) > 0.0f) found = k;
+  }
+  return found;
 }
 #endif
 
@@ -227,7 +255,9 @@ TRI_FN int make_polygon(const Particles* u, float4 sphere, Polygon* polygon) {
   }
   polygon->n = outline.n;
 #if TRI_RAY_AT_VERTEX
-  if (polygon->n > 2) fit_rays(u, &outline, polygon);
+  for (int k = 0; k + 2 < polygon->n; ++k) {
+    polygon->rays[k] = fit_rays(u, &outline, polygon, k + 1, k + 2);
+  }
 #endif
 #if TRI_SPRITE == TRI_SCREEN_QUAD
   return outline.n;

@@ -91,8 +91,9 @@ TRI_FN void load_rays(const Tile* tile, const Polygon* polygon, int x, int y, fl
   float down = (float)((tile->y + y) * TRI_SUBPIXELS + TRI_SUBPIXELS / 2);
   for (int k = 0; k < TRI_LANES; ++k) {
     float right = from_x + (float)(k * TRI_SUBPIXELS);
-    sx[k] = polygon->ray_origin.x + right * polygon->ray_right.x + down * polygon->ray_down.x;
-    sy[k] = polygon->ray_origin.y + right * polygon->ray_right.y + down * polygon->ray_down.y;
+    const RayPlane* rays = &polygon->rays[fan_triangle(polygon, right, down)];
+    sx[k] = rays->origin.x + right * rays->right.x + down * rays->down.x;
+    sy[k] = rays->origin.y + right * rays->right.y + down * rays->down.y;
   }
 #else
   for (int k = 0; k < TRI_LANES; ++k) sx[k] = tile->column[x + k];
