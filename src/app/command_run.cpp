@@ -6,6 +6,7 @@
 #include "app/arguments.hpp"
 #include "app/listing.hpp"
 #include "app/loading.hpp"
+#include "app/measuring.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "measure/process.hpp"
@@ -130,6 +131,16 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
 }
 
 }  // namespace
+
+core::ExitCode measure_as_test(const std::string& plan, const std::string& device,
+                               const std::string& store) {
+  RunArguments arguments;
+  arguments.plan.plan = plan;
+  arguments.devices = {device};
+  arguments.store = store;
+  arguments.resume = true;
+  return run_as_test(arguments);
+}
 
 void add_run_commands(Commands& commands) {
   auto arguments = std::make_shared<RunArguments>();

@@ -11,6 +11,7 @@
 
 #include "app/arguments.hpp"
 #include "app/listing.hpp"
+#include "app/measuring.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/truth.hpp"
@@ -109,7 +110,7 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
                        .labels = {plan.suite, std::string(check), "device", device.api, device.id},
                        .requires_fixtures = {fixture},
                        .sets_up = {},
-                       .lock = {}});
+                       .lock = check == "correlation" ? device.id : std::string()});
     }
   }
   if (std::ranges::find(own_checks, "image") == own_checks.end()) return;
@@ -201,11 +202,12 @@ std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
   return reason;
 }
 
-core::ExitCode check(const CheckArguments& arguments) {
-  const Registry registry = make_registry();
-  require_store(arguments.store);
-  record::Store store(arguments.store, record::Store::Mode::append);
-  Truths truths(registry, store);
+struct Checked {
+  std::string run;
+  judge::GateResult result;
+};
+
+Checked judge_store(const CheckArguments& arguments, const record::Store& store, Truths& truths) {
   const auto run = store.latest_run(arguments.plan);
   if (!run) throw core::NotSupported("nothing was measured");
   judge::GateRequest request{
@@ -217,8 +219,44 @@ core::ExitCode check(const CheckArguments& arguments) {
       .limit = [&](const record::Record& record) { return truths.limit_of(record); },
       .today = today()};
   if (!arguments.device.empty()) request.devices = {arguments.device};
-  const judge::GateResult result = judge::judge_run(
-      store, run->id, judge::Baselines(default_baselines(), arguments.plan), request);
+  return {run->id,
+          judge::judge_run(store, run->id, judge::Baselines(default_baselines(), arguments.plan),
+                           request)};
+}
+
+// One launch on a busy machine makes suspects; a slowdown of the program is there on a fresh one
+// too. A second measurement decided on beforehand, of suspects only: it can take findings back and
+// never adds any.
+void confirm_suspects(const CheckArguments& arguments, const Registry& registry,
+                      judge::GateResult& result) {
+  const std::string fresh = arguments.store + ".confirm." + arguments.device;
+  start(fresh);
+  if (measure_as_test(arguments.plan, arguments.device, fresh) != core::ExitCode::pass) return;
+  record::Store store(fresh, record::Store::Mode::append);
+  Truths truths(registry, store);
+  const judge::GateResult again = judge_store(arguments, store, truths).result;
+  for (judge::Finding& finding : result.findings) {
+    if (finding.verdict != judge::Verdict::regression) continue;
+    const bool confirmed = std::ranges::any_of(again.findings, [&](const judge::Finding& other) {
+      return other.verdict == judge::Verdict::regression &&
+             other.configuration == finding.configuration;
+    });
+    if (confirmed) continue;
+    finding.verdict = judge::Verdict::advisory;
+    finding.message += "; not so on a fresh launch";
+  }
+}
+
+core::ExitCode check(const CheckArguments& arguments) {
+  const Registry registry = make_registry();
+  require_store(arguments.store);
+  record::Store store(arguments.store, record::Store::Mode::append);
+  Truths truths(registry, store);
+  auto [run, result] = judge_store(arguments, store, truths);
+  if (arguments.check == "correlation" && !arguments.device.empty() &&
+      result.exit_code() == core::ExitCode::regression) {
+    confirm_suspects(arguments, registry, result);
+  }
   for (const judge::Finding& finding : result.findings) {
     if (finding.verdict == judge::Verdict::pass) continue;
     fmt::print("{} {}: {}\n", judge::name_of(finding.verdict), finding.configuration,
@@ -228,7 +266,7 @@ core::ExitCode check(const CheckArguments& arguments) {
     const judge::Finding& worst = result.findings.front();
     for (const auto& [name, value] : worst.numbers) print_measurement(name, value);
     if (arguments.check == "image" && !worst.device.empty()) {
-      print_pictures(store, run->id, truths, worst);
+      print_pictures(store, run, truths, worst);
     }
   }
   fmt::print("{}\n", result.headline());
