@@ -92,7 +92,8 @@ Check check(std::string_view name) {
     if (text == name) return known;
   }
   throw core::InputError(fmt::format(
-      "unknown check '{}'; expected image, counters, statistics, timing, correlation or accuracy", name));
+      "unknown check '{}'; expected image, counters, statistics, timing, correlation or accuracy",
+      name));
 }
 
 // A gate that decided nothing has not passed.

@@ -24,8 +24,8 @@ struct Look {
   double intensity = 0;
 };
 
-// The ranks of the kinds in an order that does not depend on which comes first in the file: elements
-// by atomic number, types by number, whatever else there is after them by name.
+// The ranks of the kinds in an order that does not depend on which comes first in the file:
+// elements by atomic number, types by number, whatever else there is after them by name.
 std::vector<std::size_t> ranks_of(const Atoms& atoms) {
   const auto key = [&atoms](std::size_t kind) {
     const std::string& name = atoms.kind_names[kind];
@@ -77,9 +77,9 @@ std::vector<std::uint32_t> sorted_by_number(const Atoms& atoms, const LineReader
   const auto twice = std::ranges::adjacent_find(sorted, {}, number);
   if (twice != sorted.end()) {
     const std::uint32_t second = *std::next(twice);
-    reader.reject_at(first_line + static_cast<int>(second),
-                     fmt::format("atom {} is there twice; expected each number once",
-                                 number(second)));
+    reader.reject_at(
+        first_line + static_cast<int>(second),
+        fmt::format("atom {} is there twice; expected each number once", number(second)));
   }
   return sorted;
 }
@@ -95,8 +95,7 @@ std::uint32_t Atoms::kind(std::string_view name) {
   return index;
 }
 
-ParticleSet to_particles(Atoms atoms, ColourKind colour, const LineReader& reader,
-                         int first_line) {
+ParticleSet to_particles(Atoms atoms, ColourKind colour, const LineReader& reader, int first_line) {
   const std::vector<Look> looks = looks_of(atoms);
   const std::vector<std::uint32_t> sorted = sorted_by_number(atoms, reader, first_line);
   const bool one_kind = looks.size() == 1;

@@ -28,12 +28,13 @@ struct Radius {
 
 constexpr double unlisted_radius = 2.0;
 constexpr std::array<Radius, 38> bondi{{
-    {"H", 1.20},  {"He", 1.40}, {"Li", 1.82}, {"C", 1.70},  {"N", 1.55},  {"O", 1.52},  {"F", 1.47},
-    {"Ne", 1.54}, {"Na", 2.27}, {"Mg", 1.73}, {"Si", 2.10}, {"P", 1.80},  {"S", 1.80},  {"Cl", 1.75},
-    {"Ar", 1.88}, {"K", 2.75},  {"Ni", 1.63}, {"Cu", 1.40}, {"Zn", 1.39}, {"Ga", 1.87}, {"As", 1.85},
-    {"Se", 1.90}, {"Br", 1.85}, {"Kr", 2.02}, {"Pd", 1.63}, {"Ag", 1.72}, {"Cd", 1.58}, {"In", 1.93},
-    {"Sn", 2.17}, {"Te", 2.06}, {"I", 1.98},  {"Xe", 2.16}, {"Pt", 1.72}, {"Au", 1.66}, {"Hg", 1.55},
-    {"Tl", 1.96}, {"Pb", 2.02}, {"U", 1.86},
+    {"H", 1.20},  {"He", 1.40}, {"Li", 1.82}, {"C", 1.70},  {"N", 1.55},  {"O", 1.52},
+    {"F", 1.47},  {"Ne", 1.54}, {"Na", 2.27}, {"Mg", 1.73}, {"Si", 2.10}, {"P", 1.80},
+    {"S", 1.80},  {"Cl", 1.75}, {"Ar", 1.88}, {"K", 2.75},  {"Ni", 1.63}, {"Cu", 1.40},
+    {"Zn", 1.39}, {"Ga", 1.87}, {"As", 1.85}, {"Se", 1.90}, {"Br", 1.85}, {"Kr", 2.02},
+    {"Pd", 1.63}, {"Ag", 1.72}, {"Cd", 1.58}, {"In", 1.93}, {"Sn", 2.17}, {"Te", 2.06},
+    {"I", 1.98},  {"Xe", 2.16}, {"Pt", 1.72}, {"Au", 1.66}, {"Hg", 1.55}, {"Tl", 1.96},
+    {"Pb", 2.02}, {"U", 1.86},
 }};
 
 struct Colour {
@@ -58,7 +59,9 @@ constexpr std::array<Colour, 14> traditional{{
     {"Zn", {0.50, 0.50, 0.70}},
 }};
 
-bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
 
 // The letters of a word up to the first other character, leading digits left out.
 std::string_view letters_of(std::string_view word) {

@@ -14,16 +14,17 @@ namespace triptych::scene {
 // 1 … 118, else nothing.
 [[nodiscard]] std::optional<std::string_view> symbol_of(int atomic_number);
 
-// Van der Waals radius in ångström (Bondi 1964); 2.0 for what is not listed there, an unknown symbol
-// among them.
+// Van der Waals radius in ångström (Bondi 1964); 2.0 for what is not listed there, an unknown
+// symbol among them.
 [[nodiscard]] double van_der_waals_radius(std::string_view symbol);
 
 // In the tradition of Corey, Pauling and Koltun: carbon grey, nitrogen blue, oxygen red and so on.
 // Elements without such a colour, and unknown symbols, have one of many hues.
 [[nodiscard]] Rgb element_colour(std::string_view symbol);
 
-// The element of an atom that has a name only, such as "CA" or "1HB", in a residue: the first letter,
-// but the whole name for an ion, which has the name of its residue ("NA" in "NA" is sodium).
+// The element of an atom that has a name only, such as "CA" or "1HB", in a residue: the first
+// letter, but the whole name for an ion, which has the name of its residue ("NA" in "NA" is
+// sodium).
 [[nodiscard]] std::string element_from_name(std::string_view atom, std::string_view residue);
 
 // A symbol in its proper case: "CL" as "Cl".

@@ -33,8 +33,8 @@ class LineReader {
   [[noreturn]] void reject(const std::string& message) const { reject_at(line_, message); }
   [[noreturn]] void reject_at(int line, const std::string& message) const;
 
-  // The number a word spells; throws "WHAT: expected a number, found 'WORD'". NaN and infinities are
-  // numbers here; whoever takes a place from them drops it.
+  // The number a word spells; throws "WHAT: expected a number, found 'WORD'". NaN and infinities
+  // are numbers here; whoever takes a place from them drops it.
   [[nodiscard]] double number(std::string_view word, std::string_view what) const;
   // A count of particles: 0 … most_particles.
   [[nodiscard]] std::uint64_t count(std::string_view word, std::string_view what) const;

@@ -20,7 +20,6 @@
 #define TRI_PRECISE
 
 namespace triptych::technique::portable {
-#include "technique/portable/volume_math.h"
-
 #include "technique/portable/sphere_math.h"
+#include "technique/portable/volume_math.h"
 }  // namespace triptych::technique::portable
