@@ -30,9 +30,11 @@ std::string version_lines(const Api& gl) {
 std::string constant_lines(const Constants& constants) {
   return fmt::format(
       "#define TRI_MANUAL_SAMPLER {:d}\n#define TRI_SHADING {:d}\n#define TRI_COUNT {:d}\n"
-      "#define TRI_SPEED_OF_LIGHT {:d}\n#define TRI_FAULT {}\n#define TRI_OPACITY_FORM {}\n",
+      "#define TRI_SPEED_OF_LIGHT {:d}\n#define TRI_FAULT {}\n#define TRI_OPACITY_FORM {}\n"
+      "#define TRI_PREINTEGRATED {:d}\n#define TRI_LEAPS {:d}\n",
       int{constants.manual_sampler}, int{constants.shading}, int{constants.count},
-      int{constants.speed_of_light}, constants.fault, constants.opacity_form);
+      int{constants.speed_of_light}, constants.fault, constants.opacity_form,
+      int{constants.preintegrated}, int{constants.leaps});
 }
 
 // For messages.
@@ -103,8 +105,9 @@ std::string shared_source(const Api& gl, std::string_view constant_lines,
 }
 
 std::string volume_source(const Api& gl, const Constants& constants, std::string_view main_file) {
-  static constexpr std::array<std::string_view, 3> files{
-      "volume_math.h", "volume/raycast/parameters.glsl", "raycast.glsl"};
+  static constexpr std::array<std::string_view, 5> files{"volume_math.h", "volume_preintegration.h",
+                                                         "volume/raycast/parameters.glsl",
+                                                         "preintegrated.glsl", "raycast.glsl"};
   return shared_source(gl, constant_lines(constants), files).append(embedded(main_file));
 }
 

@@ -15,6 +15,8 @@ struct Constants {
   bool speed_of_light = false;
   int fault = 0;
   int opacity_form = 0;  // technique::opacity_form of the step
+  bool preintegrated = false;
+  bool leaps = false;
 };
 
 // A work group takes a square of this many pixels (shaders/raycast.comp).

@@ -1,9 +1,11 @@
 #include "backends/gl/volume_data.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include "technique/volume/bricks.hpp"
+#include "technique/volume/preintegration.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -13,6 +15,7 @@ constexpr GLuint binding_parameters = 0;
 constexpr GLuint unit_volume = 1;
 constexpr GLuint unit_transfer = 2;
 constexpr GLuint binding_bricks = 3;
+constexpr GLuint binding_pairs = 6;
 
 void use_texels_as_they_are(const Api& gl, GLenum target, GLint filter) {
   gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
@@ -35,12 +38,17 @@ Texture transfer_texture(const Api& gl, const scene::TransferFunction& function)
 
 // One word where nothing is skipped: the kernel is the same and never reads it.
 Buffer brick_buffer(const Api& gl, const measure::VolumeWork& work) {
-  std::vector<std::uint32_t> visible{1U};
-  if (work.options.skip == technique::Skip::bricks) {
-    visible = technique::brick_visibility(technique::brick_ranges(*work.scene.grid),
-                                          work.scene.transfer_function);
+  const std::vector<std::int32_t> map = technique::brick_map(work.scene, work.options.skip);
+  return constant_buffer(gl, std::as_bytes(std::span(map)));
+}
+
+// The same for a quadrature that does not look pairs up.
+Buffer pair_buffer(const Api& gl, const scene::VolumeScene& scene) {
+  std::vector<std::array<float, 4>> pairs(1);
+  if (scene.quadrature == scene::Quadrature::preintegrated) {
+    pairs = technique::preintegrated_pairs(scene.transfer_function);
   }
-  return constant_buffer(gl, std::as_bytes(std::span(visible)));
+  return constant_buffer(gl, std::as_bytes(std::span(pairs)));
 }
 
 }  // namespace
@@ -90,7 +98,8 @@ VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work)
     : volume_(volume_texture(gl, *work.scene.grid,
                              work.options.sampler == technique::Sampler::hardware)),
       transfer_(transfer_texture(gl, work.scene.transfer_function)),
-      bricks_(brick_buffer(gl, work)) {
+      bricks_(brick_buffer(gl, work)),
+      pairs_(pair_buffer(gl, work.scene)) {
   technique::RaycastParameters parameters = technique::raycast_parameters(
       work.scene, work.options, texel_format(work.scene.grid->format).stored_maximum);
   parameters_ = constant_buffer(gl, std::as_bytes(std::span(&parameters, 1)));
@@ -105,6 +114,7 @@ void VolumeData::bind(const Api& gl) const {
   gl.ActiveTexture(GL_TEXTURE0 + unit_transfer);
   gl.BindTexture(GL_TEXTURE_1D, transfer_.get());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_bricks, bricks_.get());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_pairs, pairs_.get());
   choose(gl, Rows::all);
 }
 

@@ -33,7 +33,7 @@ class VolumeData {
  public:
   VolumeData(const Api& gl, const measure::VolumeWork& work);
 
-  // Makes the data what the shared source's bindings 0…3 stand for.
+  // Makes the data what the shared source's bindings 0…3 and 6 stand for.
   void bind(const Api& gl) const;
   // Switches binding 0 between the two sets of rows.
   void choose(const Api& gl, Rows rows) const;
@@ -42,6 +42,7 @@ class VolumeData {
   Texture volume_;
   Texture transfer_;
   Buffer bricks_;
+  Buffer pairs_;
   Buffer parameters_;
   Buffer extra_parameters_;
 };

@@ -112,15 +112,16 @@ class VolumeDrawing final : public Drawing {
 }  // namespace
 
 Constants constants_of(const measure::VolumeWork& work) {
-  return {.manual_sampler = work.options.sampler == technique::Sampler::manual,
-          .shading = work.scene.shading.enabled,
-          .count = false,
-          .speed_of_light = false,
-          .fault = static_cast<int>(work.options.fault),
-          .opacity_form =
-              technique::opacity_form(work.options.fault == technique::Fault::uncorrected_opacity
-                                          ? 1
-                                          : work.scene.step_voxels)};
+  return {
+      .manual_sampler = work.options.sampler == technique::Sampler::manual,
+      .shading = work.scene.shading.enabled,
+      .count = false,
+      .speed_of_light = false,
+      .fault = static_cast<int>(work.options.fault),
+      .opacity_form = technique::opacity_form(
+          work.options.fault == technique::Fault::uncorrected_opacity ? 1 : work.scene.step_voxels),
+      .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated,
+      .leaps = work.options.skip == technique::Skip::distance};
 }
 
 std::optional<std::string> volume_unsupported(const Api& gl, const measure::VolumeWork& work) {

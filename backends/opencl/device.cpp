@@ -152,6 +152,9 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
                        draws_particles ? "particles" : "volumes");
   }
   if (particles != nullptr) return particle_defect(session_, work.technique, *particles);
+  if (auto reason = technique::quadrature_reason(work.technique, volume->scene.quadrature)) {
+    return reason;
+  }
   if (volume->options.sampler == Sampler::hardware) {
     if (auto defect = image_defect(*volume->scene.grid)) return defect;
   }

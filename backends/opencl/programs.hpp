@@ -20,6 +20,8 @@ struct Constants {
   bool shading = false;
   bool count = false;
   bool speed_of_light = false;
+  bool preintegrated = false;
+  bool leaps = false;  // technique::Skip::distance
   technique::Fault fault = technique::Fault::none;
   int batch = 1;
 

@@ -3,8 +3,8 @@
 // Raycasting that is timed leaps over whole cubes of bricks that are all visible or all invisible.
 // A sample within rounding of a face may then be given to the other side than a walk from brick to
 // brick gives it to: no matter for an image to which invisible bricks add nothing, which is the same
-// bit for bit with leaps, with a walk and without bricks. The build that counts, and speed_of_light,
-// which adds up every colour that it fetches, walk.
+// bit for bit with leaps, with a walk and without bricks. With skip bricks, the build that counts, and
+// speed_of_light, which adds up every colour that it fetches, walk; with skip distance (TRI_LEAPS) all leap.
 //
 // brick_reach: n > 0 where all bricks fewer than n away (the greatest distance along any axis) are
 // visible, n < 0 where all fewer than −n away are invisible (brick_reach.hpp).
@@ -21,15 +21,18 @@ TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {
   float3 d = u->ray_centre.xyz + ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz;
   d = d / sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
   float3 v = d * u->inverse_spacing.xyz;
-  float2 x = tri_slab(u->eye.x, v.x, (float)u->volume_size.x);
-  float2 y = tri_slab(u->eye.y, v.y, (float)u->volume_size.y);
-  float2 z = tri_slab(u->eye.z, v.z, (float)u->volume_size.z);
+  // Where the ray begins: on a plane between eye and box where that is far away, else at the eye.
+  float3 origin = u->eye.xyz + (u->value_map.z * (ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz)) *
+                                   u->inverse_spacing.xyz;
+  float2 x = tri_slab(origin.x, v.x, (float)u->volume_size.x);
+  float2 y = tri_slab(origin.y, v.y, (float)u->volume_size.y);
+  float2 z = tri_slab(origin.z, v.z, (float)u->volume_size.z);
   float t0 = max(max(x.x, y.x), max(z.x, 0.0f));
   float t1 = min(min(x.y, y.y), z.y);
   Ray ray;
   ray.d = d;
   ray.g = v * u->eye.w;
-  ray.p0 = u->eye.xyz + t0 * v;
+  ray.p0 = origin + t0 * v;
   ray.steps = t1 > t0 ? (t1 - t0) / u->eye.w : 0.0f;
   return ray;
 }
@@ -37,7 +40,7 @@ TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {
 // Whether there is anything to skip. The build that counts walks through a full volume too.
 TRI_FN int skips(__constant Parameters* u, __global const int* brick_reach) {
   int4 grid = u->brick_grid;
-  if (TRI_COUNT) return grid.w > 0;
+  if (TRI_COUNT && !TRI_LEAPS) return grid.w > 0;
   return grid.w > 0 && brick_reach[0] < max(grid.x, max(grid.y, grid.z));
 }
 
@@ -50,7 +53,7 @@ typedef struct {
   uint terminated;
 } Counts;
 
-#if TRI_COUNT || TRI_SPEED_OF_LIGHT
+#if (TRI_COUNT || TRI_SPEED_OF_LIGHT) && !TRI_LEAPS
 
 // A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed
 // from the brick's index, not accumulated, so that they do not drift.
@@ -192,10 +195,14 @@ TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_reach, 
   while (!visible && stop < end) {
     begin = stop;
     stop = leap(u, brick_reach, walk, ray, begin, end, &visible);
+    counts->bricks_visited++;
+    counts->bricks_skipped += !visible;
   }
   if (!visible) return (int2)(end, end);
-  while (visible && stop < end && stop - begin < TRI_BATCH) {
+  // The build that counts looks on to the next invisible brick, so that no count depends on the batch.
+  while (visible && stop < end && (TRI_COUNT || stop - begin < TRI_BATCH)) {
     int beyond = leap(u, brick_reach, walk, ray, stop, end, &visible);
+    counts->bricks_visited += visible;
     stop = visible ? beyond : stop;
   }
   return (int2)(begin, stop);

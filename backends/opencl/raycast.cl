@@ -5,7 +5,8 @@
 // A batch is fetched and classified whole and composited sample by sample, so a ray may fetch a few
 // samples beyond its end; what is composited and counted is the same for every size of the batch.
 //
-// Compile-time constants: TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, and those of volume.cl.
+// Compile-time constants: TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, TRI_PREINTEGRATED, TRI_LEAPS, and
+// those of volume.cl.
 
 // Headlight shading (scene::Shading) of a colour at p: d is the world direction of the ray.
 TRI_FN float4 shade(__constant Parameters* u, TRI_VOLUME volume, float4 colour, float3 p,
@@ -118,6 +119,54 @@ TRI_FN int take_batch(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 #endif
 }
 
+#if TRI_PREINTEGRATED
+// Steps per batch: one value more than steps is fetched.
+#define TRI_STEPS_PER_BATCH (TRI_BATCH > 1 ? TRI_BATCH - 1 : 1)
+
+// Takes the n steps from the i-th on; 1 where the ray ends among them.
+TRI_FN int take_steps(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
+                      __global const float4* pairs, const Ray* ray, int i, int n,
+                      Gathered* gathered, Counts* counts) {
+  int lanes = TRI_WHOLE_VECTORS(n + 1);
+  Positions p;
+  float value[TRI_LANES];
+  float4 step[TRI_BATCH];
+  for (int k = 0; k < lanes; ++k) {
+    float along = (float)(i + k);
+    along = along < ray->steps ? along : ray->steps;
+    p.x[k] = ray->p0.x + along * ray->g.x;
+    p.y[k] = ray->p0.y + along * ray->g.y;
+    p.z[k] = ray->p0.z + along * ray->g.z;
+  }
+  fetch(u, volume, &p, lanes, value);
+  float step_voxels = TRI_FAULT == FAULT_UNCORRECTED_OPACITY ? 1.0f : u->ray_centre.w;
+  for (int k = 0; k < n; ++k) {
+    step[k] = preintegrated(table, pairs, value[k], value[k + 1],
+                            step_voxels * tri_step_share(ray->steps, i + k));
+  }
+  for (int k = 0; k < n; ++k) {
+    counts->samples++;
+    if (step[k].w > 0.0f) {
+      counts->nonzero++;
+#if TRI_SHADING
+      float begin = (float)(i + k);
+      float end = begin + 1.0f < ray->steps ? begin + 1.0f : ray->steps;
+      float4 straight = (float4)(step[k].xyz / step[k].w, step[k].w);
+      straight = shade(u, volume, straight, ray->p0 + (0.5f * (begin + end)) * ray->g, ray->d);
+      step[k].xyz = step[k].w * straight.xyz;
+#endif
+      gathered->sum += gathered->transmittance * step[k];
+      gathered->transmittance -= gathered->transmittance * step[k].w;
+    }
+    if (gathered->transmittance < u->ray_right.w) {
+      counts->terminated = 1u;
+      return 1;
+    }
+  }
+  return 0;
+}
+#endif
+
 // What the kernel leaves for a pixel, in the order of technique::raycast_counters.
 TRI_FN void store_counts(__global uint* to, const Counts* counts, int total) {
   to[0] = total > 0 ? 1u : 0u;
@@ -132,7 +181,7 @@ TRI_FN void store_counts(__global uint* to, const Counts* counts, int total) {
 // Image: premultiplied RGBA, top row first. Work items cover every viewport.z-th row.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const int* brick_reach, __global float4* image,
-                      __global uint* counters) {
+                      __global uint* counters, __global const float4* pairs) {
   int2 pixel = (int2)((int)get_global_id(0), (int)get_global_id(1) * u->viewport.z);
   if (pixel.x >= u->viewport.x || pixel.y >= u->viewport.y) return;
   Ray ray = make_ray(u, pixel);
@@ -155,8 +204,13 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
       stop = run.y;
     }
     while (i < stop && !ended) {
+#if TRI_PREINTEGRATED
+      int n = min(stop - i, TRI_STEPS_PER_BATCH);
+      ended = take_steps(u, volume, table, pairs, &ray, i, n, &gathered, &counts);
+#else
       int n = TRI_BATCH == 1 ? 1 : min(stop - i, TRI_BATCH);
       ended = take_batch(u, volume, table, &ray, i, n, &gathered, &counts);
+#endif
       i += n;
     }
   }

@@ -134,15 +134,24 @@ cl::Memory upload(const Session& session, const scene::VoxelGrid& grid,
 }
 
 const VolumeCache::Entry& VolumeCache::get(const Session& session, const scene::VoxelGrid& grid,
-                                           technique::Sampler sampler) {
+                                           technique::Sampler sampler,
+                                           const technique::BrickLayout& layout) {
   const std::string key = grid.hash.empty()
                               ? std::string()
                               : fmt::format("{} {} {}", grid.hash, scene::name_of(grid.format),
                                             technique::name_of(sampler));
-  if (!key.empty() && key == key_) return entry_;
+  if (!key.empty() && key == key_) {
+    if (layout != entry_.layout) {
+      entry_.ranges = technique::brick_ranges(grid, layout);
+      entry_.layout = layout;
+    }
+    return entry_;
+  }
   key_.clear();
   entry_ = {};  // frees the old volume before the new one is made
-  entry_ = {.volume = upload(session, grid, sampler), .ranges = technique::brick_ranges(grid)};
+  entry_ = {.volume = upload(session, grid, sampler),
+            .layout = layout,
+            .ranges = technique::brick_ranges(grid, layout)};
   key_ = key;
   return entry_;
 }

@@ -34,11 +34,12 @@ class VolumeCache {
  public:
   struct Entry {
     cl::Memory volume;
+    technique::BrickLayout layout;
     technique::BrickRanges ranges;
   };
   // Valid until the next call.
   [[nodiscard]] const Entry& get(const Session& session, const scene::VoxelGrid& grid,
-                                 technique::Sampler sampler);
+                                 technique::Sampler sampler, const technique::BrickLayout& layout);
 
  private:
   std::string key_;

@@ -4,15 +4,17 @@
 #include <cstdint>
 #include <span>
 
-#include "backends/opencl/brick_reach.hpp"
+#include "technique/volume/brick_reach.hpp"
 #include "technique/volume/bricks.hpp"
+#include "technique/volume/preintegration.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
 
-const std::vector<std::string_view> source_files{"parameters.cl", "volume.cl", "ray.cl",
-                                                 "raycast.cl"};
+const std::vector<std::string_view> source_files{
+    "volume_preintegration.h", "parameters.cl", "volume.cl", "ray.cl",
+    "preintegrated.cl",      "raycast.cl"};
 
 // Pixels of a work-group: wide enough for a GPU's waves; a CPU is indifferent.
 constexpr std::size_t group_width = 16;
@@ -24,6 +26,8 @@ Constants constants_of(const Session& session, const measure::VolumeWork& work) 
   return {.sampler = work.options.sampler,
           .voxel = work.scene.grid->format,
           .shading = work.scene.shading.enabled,
+          .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated,
+          .leaps = work.options.skip == technique::Skip::distance,
           .fault = work.options.fault,
           .batch = session.batch};
 }
@@ -39,14 +43,21 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
   const cl::Program timed = programs.get(program_source(source_files), constants.options());
   constants.count = true;
   const cl::Program counting = programs.get(program_source(source_files), constants.options());
-  const VolumeCache::Entry& volume = volumes.get(session, *work.scene.grid, constants.sampler);
+  const VolumeCache::Entry& volume =
+      volumes.get(session, *work.scene.grid, constants.sampler,
+                  technique::brick_layout(work.scene, work.options.skip));
   technique::RaycastParameters parameters = technique::raycast_parameters(
       work.scene, work.options, stored_maximum(constants.voxel, constants.sampler));
   checked([&] {
     volume_ = volume.volume;
     table_ = upload_bytes(session, std::as_bytes(std::span(work.scene.transfer_function.entries)));
     const auto visible = technique::brick_visibility(volume.ranges, work.scene.transfer_function);
-    const auto reach = brick_reach(volume.ranges.counts, visible);
+    const auto reach = technique::brick_reach(volume.ranges.counts, visible);
+    std::vector<std::array<float, 4>> pairs(1);  // read by nothing with another quadrature
+    if (constants.preintegrated) {
+      pairs = technique::preintegrated_pairs(work.scene.transfer_function);
+    }
+    pairs_ = upload_bytes(session, std::as_bytes(std::span(pairs)));
     bricks_ = upload_bytes(session, std::as_bytes(std::span(reach)));
     image_ = cl::Buffer(session.context, CL_MEM_WRITE_ONLY,
                         core::Image(width_, height_).rgba.size() * sizeof(float));
@@ -72,7 +83,7 @@ Launch VolumeFrames::launch(const cl::Program& program, const cl::Buffer& parame
   const auto height = static_cast<std::size_t>(rows);
   const cl::NDRange global(round_up(width, group_width), round_up(height, group_height));
   Launch made = make_launch(program, "raycast", global, cl::NDRange(group_width, group_height),
-                            parameters, volume_, table_, bricks_, image_, counters_);
+                            parameters, volume_, table_, bricks_, image_, counters_, pairs_);
   const auto most = made.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(session_.device);
   if (most < group_width * group_height) made.local = cl::NullRange;
   return made;

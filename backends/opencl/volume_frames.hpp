@@ -39,6 +39,7 @@ class VolumeFrames final : public measure::Prepared {
   cl::Memory volume_;
   cl::Buffer table_;
   cl::Buffer bricks_;
+  cl::Buffer pairs_;
   cl::Buffer image_;
   cl::Buffer counters_;
   std::vector<Launch> timed_;      // the frame, then the planted extra work if there is any

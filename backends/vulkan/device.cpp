@@ -77,7 +77,7 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
     }
     if (auto reason = feature_reason(gpu_, entry->needs)) return reason;
     if (const auto* volume = std::get_if<measure::VolumeWork>(&work.scene)) {
-      return volume_reason(gpu_, *volume, entry->needs);
+      return volume_reason(gpu_, *volume, work.technique, entry->needs);
     }
     if (const auto* anchor = std::get_if<measure::AnchorWork>(&work.scene)) {
       return anchor_reason(gpu_, *anchor, work.technique);

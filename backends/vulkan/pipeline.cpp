@@ -45,9 +45,11 @@ vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
 
 std::string code_hash(std::string_view code, const Constants& constants) {
   std::string text(code);
-  text += fmt::format("manual_sampler={} shading={} speed_of_light={} fault={} opacity_form={}",
-                      constants.manual_sampler, constants.shading, constants.speed_of_light,
-                      constants.fault, constants.opacity_form);
+  text += fmt::format(
+      "manual_sampler={} shading={} speed_of_light={} fault={} opacity_form={} "
+      "preintegrated={} leaps={}",
+      constants.manual_sampler, constants.shading, constants.speed_of_light, constants.fault,
+      constants.opacity_form, constants.preintegrated, constants.leaps);
   return core::content_hash(text);
 }
 

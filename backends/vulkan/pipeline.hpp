@@ -44,8 +44,10 @@ struct Constants {
   std::int32_t speed_of_light = 0;
   std::int32_t fault = 0;
   std::int32_t opacity_form = 0;
+  std::int32_t preintegrated = 0;
+  std::int32_t leaps = 0;
 };
-static_assert(sizeof(Constants) == 5 * 4);
+static_assert(sizeof(Constants) == 7 * 4);
 
 // The embedded SPIR-V by its file name, "raycast.comp.spv".
 [[nodiscard]] std::string_view spirv(std::string_view name);

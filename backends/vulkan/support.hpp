@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "backends/vulkan/gpu.hpp"
 #include "measure/backend.hpp"
@@ -23,7 +24,7 @@ enum class Needs : std::uint8_t { nothing, drawing, geometry, tessellation };
 
 [[nodiscard]] std::optional<std::string> volume_reason(const Gpu& gpu,
                                                        const measure::VolumeWork& work,
-                                                       Needs needs);
+                                                       std::string_view technique, Needs needs);
 [[nodiscard]] std::optional<std::string> particle_reason(const Gpu& gpu,
                                                          const measure::ParticleWork& work,
                                                          const std::string& technique, Needs needs);

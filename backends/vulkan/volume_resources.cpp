@@ -6,12 +6,14 @@
 
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/opacity_form.hpp"
+#include "technique/volume/preintegration.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
 
 constexpr std::uint32_t passes = 3;
+constexpr std::uint32_t storage_buffers = 4;  // bricks, output, counters, pairs
 
 // What an integer texel of this format is divided by on its way to the shader.
 double stored_maximum(scene::VoxelFormat format) {
@@ -35,13 +37,17 @@ Buffer upload_parameters(const Gpu& gpu, const measure::VolumeWork& work, int ro
 }
 
 Buffer upload_bricks(const Gpu& gpu, const measure::VolumeWork& work) {
-  std::vector<std::uint32_t> visible{1};  // read by nothing when nothing is skipped
-  if (work.options.skip == technique::Skip::bricks) {
-    visible = technique::brick_visibility(technique::brick_ranges(*work.scene.grid),
-                                          work.scene.transfer_function);
+  // Read by nothing when nothing is skipped.
+  const std::vector<std::int32_t> map = technique::brick_map(work.scene, work.options.skip);
+  return make_buffer(gpu, std::as_bytes(std::span(map)), vk::BufferUsageFlagBits::eStorageBuffer);
+}
+
+Buffer upload_pairs(const Gpu& gpu, const scene::VolumeScene& scene) {
+  std::vector<std::array<float, 4>> pairs(1);  // read by nothing with another quadrature
+  if (scene.quadrature == scene::Quadrature::preintegrated) {
+    pairs = technique::preintegrated_pairs(scene.transfer_function);
   }
-  return make_buffer(gpu, std::as_bytes(std::span(visible)),
-                     vk::BufferUsageFlagBits::eStorageBuffer);
+  return make_buffer(gpu, std::as_bytes(std::span(pairs)), vk::BufferUsageFlagBits::eStorageBuffer);
 }
 
 Image upload_table(const Gpu& gpu, const scene::TransferFunction& function) {
@@ -52,7 +58,7 @@ Image upload_table(const Gpu& gpu, const scene::TransferFunction& function) {
   return image;
 }
 
-std::array<vk::DescriptorSetLayoutBinding, 6> volume_bindings() {
+std::array<vk::DescriptorSetLayoutBinding, 7> volume_bindings() {
   using enum vk::DescriptorType;
   constexpr auto stages = vk::ShaderStageFlagBits::eCompute | vk::ShaderStageFlagBits::eFragment;
   const auto binding = [&](Binding number, vk::DescriptorType type) {
@@ -64,7 +70,8 @@ std::array<vk::DescriptorSetLayoutBinding, 6> volume_bindings() {
           binding(transfer_binding, eCombinedImageSampler),
           binding(bricks_binding, eStorageBuffer),
           binding(output_binding, eStorageBuffer),
-          binding(counters_binding, eStorageBuffer)};
+          binding(counters_binding, eStorageBuffer),
+          binding(pairs_binding, eStorageBuffer)};
 }
 
 std::size_t pixel_count(const scene::VolumeScene& scene) {
@@ -102,13 +109,14 @@ VolumeResources::VolumeResources(const Gpu& gpu, const measure::VolumeWork& work
       volume_(upload_volume(gpu, *work.scene.grid)),
       table_(upload_table(gpu, work.scene.transfer_function)),
       bricks_(upload_bricks(gpu, work)),
+      pairs_(upload_pairs(gpu, work.scene)),
       parameters_(upload_parameters(gpu, work, 1)),
       strided_parameters_(upload_parameters(gpu, work, work.options.extra_work_stride)),
       linear_(make_sampler(gpu, vk::Filter::eLinear)),
       nearest_(make_sampler(gpu, vk::Filter::eNearest)),
       hardware_filter_(work.options.sampler == technique::Sampler::hardware),
       layout_(make_layout(gpu, volume_bindings())),
-      pool_(make_pool(gpu, passes)),
+      pool_(make_pool(gpu, passes, storage_buffers)),
       sets_(allocate_sets(gpu, pool_, layout_, passes)) {
   write_set(Pass::whole, parameters_);
   write_set(Pass::strided, strided_parameters_);
@@ -122,6 +130,7 @@ void VolumeResources::write_set(Pass pass, const Buffer& parameters) const {
   bind_texture(gpu_, to, volume_binding, volume_, hardware_filter_ ? linear_ : nearest_);
   bind_texture(gpu_, to, transfer_binding, table_, nearest_);
   bind_buffer(gpu_, to, bricks_binding, eStorageBuffer, bricks_);
+  bind_buffer(gpu_, to, pairs_binding, eStorageBuffer, pairs_);
   if (output_ != nullptr) bind_buffer(gpu_, to, output_binding, eStorageBuffer, *output_);
 }
 
@@ -160,7 +169,9 @@ Constants constants_of(const measure::VolumeWork& work) {
           .fault = static_cast<std::int32_t>(work.options.fault),
           .opacity_form = work.options.fault == technique::Fault::uncorrected_opacity
                               ? technique::opacity_form(1)
-                              : technique::opacity_form(work.scene.step_voxels)};
+                              : technique::opacity_form(work.scene.step_voxels),
+          .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated ? 1 : 0,
+          .leaps = work.options.skip == technique::Skip::distance ? 1 : 0};
 }
 
 }  // namespace triptych::vulkan_backend

@@ -17,7 +17,8 @@ enum Binding : std::uint32_t {
   transfer_binding = 2,
   bricks_binding = 3,
   output_binding = 4,  // compute only
-  counters_binding = 5
+  counters_binding = 5,
+  pairs_binding = 6
 };
 
 [[nodiscard]] vk::Format texture_format(scene::VoxelFormat format);
@@ -53,6 +54,7 @@ class VolumeResources {
   Image volume_;
   Image table_;
   Buffer bricks_;
+  Buffer pairs_;
   Buffer parameters_;
   Buffer strided_parameters_;
   vk::raii::Sampler linear_;

@@ -40,9 +40,10 @@ std::optional<std::string> volume_size_reason(const Gpu& gpu, const scene::Voxel
 }  // namespace
 
 std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWork& work,
-                                         Needs needs) {
+                                         std::string_view technique, Needs needs) {
   constexpr std::uint64_t pixel_bytes = 4 * sizeof(float);
   const scene::VolumeScene& scene = work.scene;
+  if (auto reason = technique::quadrature_reason(technique, scene.quadrature)) return reason;
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
   if (auto reason = format_reason(gpu, work)) return reason;

@@ -25,9 +25,10 @@ constexpr double rounding = 0x1.0p-24;
 struct Medium {
   std::function<double(double)> tau;
   std::function<Rgb(double)> colour;
-  double largest = 0;    // of τ
-  double slope = 0;      // of |dτ/dg|
-  double curvature = 0;  // of |d²τ/dg²|
+  double largest = 0;              // of τ
+  double slope = 0;                // of |dτ/dg|
+  double curvature = 0;            // of |d²τ/dg²|, but for its kinks
+  std::vector<double> kinks = {};  // at multiples of 1/255
 };
 
 // The box, what fills it, and the ray of a pixel in it; lengths in world units.
@@ -116,8 +117,11 @@ double z_at(const Setting& setting, const Chord& chord, double t) {
   return setting.camera.eye.z + t * chord.direction.z;
 }
 
+// Of the field, and of the medium as the table shows it.
 std::vector<double> kinks(const Setting& setting) {
-  return {0.5 * setting.layer_z, setting.extent.z - 0.5 * setting.layer_z};
+  std::vector<double> at{0.5 * setting.layer_z, setting.extent.z - 0.5 * setting.layer_z};
+  for (const double g : setting.medium.kinks) at.push_back(g * setting.extent.z);
+  return at;
 }
 
 using Piece = std::function<Radiance(const Setting&, double g0, double g1, double length,
@@ -309,6 +313,16 @@ Medium medium_of(AnalyticProblem problem, const Setting& setting) {
       medium = {[=](double g) { return (2.5 - 2.0 * g) * depth; }, linear, 2.5 * depth, 2.0 * depth,
                 0};
       break;
+    case AnalyticProblem::v3_plateaus: {
+      const auto inner = [](double g) { return std::clamp((g - 0.2) / 0.6, 0.0, 1.0); };
+      medium = {[=](double g) { return (2.5 - 2.0 * inner(g)) * depth; },
+                [=](double g) { return linear(inner(g)); },
+                2.5 * depth,
+                2.0 / 0.6 * depth,
+                0,
+                {0.2, 0.8}};
+      break;
+    }
     case AnalyticProblem::v4_gaussian: {
       const double tau = 1.5 / (blob_sigma(setting) * std::sqrt(2.0 * std::numbers::pi));
       medium = {[=](double g) { return tau * g; }, constant, tau, tau, 0};
@@ -403,6 +417,7 @@ std::function<AnalyticPixel(int, int)> exact_of(AnalyticProblem problem,
       return [setting](int x, int y) { return trilinear_pixel(*setting, x, y); };
     case AnalyticProblem::v2_ramp:
     case AnalyticProblem::v3_segment:
+    case AnalyticProblem::v3_plateaus:
       break;
   }
   return [setting](int x, int y) { return along_z(*setting, linear_piece, x, y); };
@@ -418,6 +433,8 @@ std::string_view name_of(AnalyticProblem problem) {
       return "v2_ramp";
     case AnalyticProblem::v3_segment:
       return "v3_segment";
+    case AnalyticProblem::v3_plateaus:
+      return "v3_plateaus";
     case AnalyticProblem::v4_gaussian:
       return "v4_gaussian";
     case AnalyticProblem::v5_atmosphere:

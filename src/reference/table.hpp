@@ -46,10 +46,12 @@ class Table {
     return next_visible_[static_cast<std::size_t>(span.lo)] > above;
   }
 
+  using Rgba = std::array<double, 4>;
+  // Straight colour and opacity per voxel length at a position 0 … 255.
+  [[nodiscard]] Rgba at(double position) const;
+
  private:
   static constexpr std::size_t entries = 256;
-  using Rgba = std::array<double, 4>;
-  [[nodiscard]] Rgba at(double position) const;
   [[nodiscard]] Looked look_up_across_entries(const Span& span) const;
 
   std::array<Rgba, entries> rgba_{};

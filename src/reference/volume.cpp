@@ -10,6 +10,7 @@
 #include "reference/drawing.hpp"
 #include "reference/field.hpp"
 #include "reference/opacity.hpp"
+#include "reference/preintegrated.hpp"
 #include "reference/ray.hpp"
 #include "reference/shading.hpp"
 #include "reference/table.hpp"
@@ -30,12 +31,18 @@ class Raycaster {
         table_(table),
         rays_(scene, model.position_error_voxels),
         compositor_(model, scene.background),
+        segments_(table, model),
         smallest_spacing_(scene.smallest_spacing()),
         gradient_scale_(gradient_scale(*scene.grid)) {}
 
   [[nodiscard]] Pixel operator()(int x, int y) {
     compositor_.start();
-    if (const std::optional<Ray> ray = rays_(x, y)) walk(*ray);
+    const std::optional<Ray> ray = rays_(x, y);
+    if (ray && scene_.quadrature == scene::Quadrature::preintegrated) {
+      walk_segments(*ray);
+    } else if (ray) {
+      walk(*ray);
+    }
     return compositor_.finish();
   }
 
@@ -59,9 +66,41 @@ class Raycaster {
     }
   }
 
+  // As walk, by values at the ends of the steps. The last step ends where the ray does, which is as
+  // uncertain as its length is.
+  void walk_segments(const Ray& ray) {
+    const double step = scene_.step_voxels;
+    const double length = ray.length / smallest_spacing_;
+    const double shortest = ray.shortest / smallest_spacing_;
+    const double longest = ray.longest / smallest_spacing_;
+    const glm::dvec3 stride = ray.voxels_per_unit * scene_.step_world();
+    const double end_error = std::max(ray.longest - ray.length, ray.length - ray.shortest);
+    const auto count = static_cast<std::int64_t>(std::ceil(longest / step));
+    Bounded front = field_.at(ray.entry, ray.position_error);
+    for (std::int64_t i = 0; i < count; ++i) {
+      const double begin = static_cast<double>(i);
+      const double end = std::min(begin + 1.0, std::max(length / step, begin));
+      glm::dvec3 error = ray.position_error;
+      if ((begin + 1.0) * step > shortest) error += end_error * glm::abs(ray.voxels_per_unit);
+      const Bounded back = field_.at(ray.entry + end * stride, error);
+      const StepLength part{std::clamp(length - begin * step, 0.0, step),
+                            std::clamp(shortest - begin * step, 0.0, step),
+                            std::clamp(longest - begin * step, 0.0, step)};
+      if (!segments_.transparent(front, back)) {
+        const glm::dvec3 middle = ray.entry + 0.5 * (begin + end) * stride;
+        const Segment segment = segments_(front, back, part);
+        if (!add(ray, middle, segment.looked, segment.opacity)) return;
+      }
+      front = back;
+    }
+  }
+
   bool add(const Ray& ray, const glm::dvec3& p, const Span& span, const StepLength& length) {
-    Looked looked = table_.look_up(span);
-    const StepOpacity opacity = step_opacity(looked, length, model_.opacity_error);
+    const Looked looked = table_.look_up(span);
+    return add(ray, p, looked, step_opacity(looked, length, model_.opacity_error));
+  }
+
+  bool add(const Ray& ray, const glm::dvec3& p, Looked looked, const StepOpacity& opacity) {
     if (scene_.shading.enabled) {
       const double rounding = model_.compositing_error;
       shade(looked,
@@ -78,6 +117,7 @@ class Raycaster {
   const Table& table_;
   RayMaker rays_;
   Compositor compositor_;
+  Preintegration segments_;
   double smallest_spacing_;
   glm::dvec3 gradient_scale_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <memory>
 
 #include "scene/camera.hpp"
@@ -23,6 +24,14 @@ struct Shading {
   double gradient_floor = 1.0 / 256;
 };
 
+// The rule for the ray integral over one step of the lattice.
+//   midpoint: the sample in the middle of a whole step stands for it.
+//   preintegrated: the field is taken to run straight from its value at the step's front to that at
+//     its back, and the transfer function, with the light that is lost within the step, is
+//     integrated exactly along that line. The last step ends where the ray leaves the box. Shading
+//     takes the gradient in the middle of the step.
+enum class Quadrature : std::uint8_t { midpoint, preintegrated };
+
 // Everything that decides the picture, and nothing about how it is computed.
 // Samples stand at t₀ + (i+½)·h, h = step_voxels · smallest spacing, t₀ where the ray enters the
 // box; the i-th stands for the length min(h, t₁ − t₀ − i·h), so that only the last one is partial.
@@ -33,6 +42,7 @@ struct VolumeScene {
   int width = 0;
   int height = 0;
   double step_voxels = 1;
+  Quadrature quadrature = Quadrature::midpoint;
   Shading shading;
   std::array<float, 4> background{0, 0, 0, 0};  // premultiplied
 

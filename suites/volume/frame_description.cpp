@@ -26,6 +26,8 @@ Json describe_frame(const scene::VolumeScene& scene, double ert) {
             {"spacing", grid.spacing},
             {"range", {grid.range_lo, grid.range_hi}},
             {"step_voxels", scene.step_voxels},
+            {"quadrature",
+             scene.quadrature == scene::Quadrature::preintegrated ? "preintegrated" : "midpoint"},
             {"transfer_function", scene.transfer_function.entries},
             {"background", scene.background},
             {"ert", ert},

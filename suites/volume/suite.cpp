@@ -121,6 +121,9 @@ scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
       .width = width,
       .height = height,
       .step_voxels = as_number(configuration, "step"),
+      .quadrature = configuration.at("quadrature") == "preintegrated"
+                        ? scene::Quadrature::preintegrated
+                        : scene::Quadrature::midpoint,
       .shading = {.enabled = configuration.at("shading") == "gradient"},
   };
 }

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
+
+#include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::volume_suite {
 namespace {
@@ -22,15 +25,25 @@ double largest_stored(scene::VoxelFormat format) {
   return 1;
 }
 
+// A length in the largest number of voxels that it may be along an axis.
 double position_error(const scene::VolumeScene& scene) {
   const scene::VoxelGrid& grid = *scene.grid;
   const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
-  const glm::dvec3 size{grid.size[0], grid.size[1], grid.size[2]};
-  const glm::dvec3 eye = scene.camera.eye / spacing;
-  const double diagonal = glm::length(size);
-  const double farthest = glm::length(glm::max(glm::abs(eye), glm::abs(eye - size)));
+  const scene::Box box = scene.box();
+  const double voxel = scene.smallest_spacing();
+  const double plane = technique::ray_plane(scene);
+  const glm::dvec3 origin = scene.camera.eye + plane * scene.camera.forward;
+  const double diagonal = glm::length(box.hi) / voxel;
+  const double farthest =
+      glm::length(glm::max(glm::abs(origin), glm::abs(origin - box.hi))) / voxel;
   const double outside = std::max(farthest - diagonal, 0.0);
-  return unit_roundoff * (glm::length(eye) + 48 * outside + 25 * diagonal);
+  double error = glm::length(origin / spacing) + 48 * outside + 25 * diagonal;
+  if (plane > 0) {
+    const double half = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360);
+    const double aspect = static_cast<double>(scene.width) / scene.height;
+    error += 4 * plane / voxel * half * std::hypot(aspect, 1.0) + 6 * farthest;
+  }
+  return unit_roundoff * error;
 }
 
 }  // namespace
@@ -39,6 +52,7 @@ reference::ErrorModel error_model(const scene::VolumeScene& scene, const PathPre
   const scene::VoxelGrid& grid = *scene.grid;
   const double format_range = std::abs(grid.scale) * largest_stored(grid.format);
   const double magnitude = format_range + std::abs(grid.offset);
+  const bool preintegrated = scene.quadrature == scene::Quadrature::preintegrated;
   const double filter =
       std::exp2(std::ceil(std::log2(std::max(path.filter_weight_error, unit_roundoff))));
   return {
@@ -46,8 +60,8 @@ reference::ErrorModel error_model(const scene::VolumeScene& scene, const PathPre
       .value_error = 13 * unit_roundoff * std::max(magnitude, 1.0) + path.storage_step / 2 +
                      filter * format_range,
       .filter_weight_error = filter,
-      .table_error = 3 * unit_roundoff,
-      .opacity_error = 14 * unit_roundoff,
+      .table_error = (preintegrated ? 4 : 3) * unit_roundoff,
+      .opacity_error = (preintegrated ? 32 : 14) * unit_roundoff,
       .compositing_error = 4 * unit_roundoff,
       .ert = path.ert,
   };

@@ -36,10 +36,13 @@ struct PathPrecision {
 //   that rounds its result to the steps of the format errs by that much between equal voxels too;
 //   the probe, whose neighbours differ by the whole range, sees both errors together, so what it
 //   found is an absolute error of the value as well.
-// table. Interpolation between two entries: 3u.
+// table. Interpolation between two entries: 3u. Preintegrated: 4u, for the opacity in the middle of
+//   a cell's part is rounded once more.
 // opacity, relative. tri_opacity is stated to 8u, its exponent's two factors 2u each, the share of
 // the
-//   step 2u: 14u.
+//   step 2u: 14u. Preintegrated: the logarithm's mean (8u and 3u of its series), a piece's length
+//   (share 2u, division by the difference of two positions 4u, product 2u), the exponential 8u, and
+//   three pieces put together, 1u each for product and sum: 32u.
 // compositing, relative per sample. weight u, product u, sum u, transmittance u: 4u.
 [[nodiscard]] reference::ErrorModel error_model(const scene::VolumeScene& scene,
                                                 const PathPrecision& path);

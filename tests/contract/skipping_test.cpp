@@ -1,5 +1,5 @@
 // Skipping empty space leaves every bit as it is: for every generator, both transfer functions,
-// shaded or not, and for every real volume.
+// shaded or not, both quadratures, and for every real volume.
 
 #include "data_folder.hpp"
 #include "under_test.hpp"
@@ -13,8 +13,11 @@ void expect_same_bits(measure::Device& device, measure::Work work) {
     options.ert = ert;
     options.skip = technique::Skip::none;
     const core::Image without = draw(device, work);
-    options.skip = technique::Skip::bricks;
-    EXPECT_EQ(draw(device, work), without) << "ERT " << ert;
+    for (const technique::Skip skip : {technique::Skip::bricks, technique::Skip::distance}) {
+      options.skip = skip;
+      EXPECT_EQ(draw(device, work), without)
+          << "ERT " << ert << ", skip " << technique::name_of(skip);
+    }
   }
 }
 
@@ -23,12 +26,16 @@ TEST(Skipping, GeneratedVolumesHaveTheSameBits) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const std::string_view function : scene::transfer_function_presets()) {
         for (const bool shaded : {false, true}) {
-          SCOPED_TRACE(std::string(generator.name) + " " + std::string(function));
-          scene::VolumeScene scene = small_scene(function);
-          scene.shading.enabled = shaded;
-          expect_same_bits(
-              device, default_work(device, scene::generate_volume(generator.name, {37, 41, 23}),
-                                   std::move(scene)));
+          for (const auto quadrature :
+               {scene::Quadrature::midpoint, scene::Quadrature::preintegrated}) {
+            SCOPED_TRACE(std::string(generator.name) + " " + std::string(function));
+            scene::VolumeScene scene = small_scene(function);
+            scene.shading.enabled = shaded;
+            scene.quadrature = quadrature;
+            expect_same_bits(
+                device, default_work(device, scene::generate_volume(generator.name, {37, 41, 23}),
+                                     std::move(scene)));
+          }
         }
       }
     }

@@ -8,3 +8,5 @@ layout(constant_id = 2) const int TRI_SPEED_OF_LIGHT = 0;
 layout(constant_id = 3) const int TRI_FAULT = 0;
 layout(constant_id = 4) const int opacity_form = 0;
 #define TRI_OPACITY_FORM opacity_form
+layout(constant_id = 5) const int TRI_PREINTEGRATED = 0;
+layout(constant_id = 6) const int TRI_LEAPS = 0;

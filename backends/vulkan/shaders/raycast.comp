@@ -4,7 +4,9 @@
 #include "prelude.glsl"
 #include "portable/prelude.glsl"
 #include "portable/volume_math.h"
+#include "portable/volume_preintegration.h"
 #include "volume/raycast/parameters.glsl"
+#include "volume/raycast/preintegrated.glsl"
 #include "volume/raycast/raycast.glsl"
 
 // A group takes a tile of 8×8 pixels, in an order that gives every 8, 16 or 32 consecutive invocations,

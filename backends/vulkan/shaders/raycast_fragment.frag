@@ -3,7 +3,9 @@
 #include "prelude.glsl"
 #include "portable/prelude.glsl"
 #include "portable/volume_math.h"
+#include "portable/volume_preintegration.h"
 #include "volume/raycast/parameters.glsl"
+#include "volume/raycast/preintegrated.glsl"
 #include "volume/raycast/raycast.glsl"
 
 layout(location = 0) out vec4 colour;

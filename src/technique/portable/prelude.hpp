@@ -22,4 +22,5 @@
 namespace triptych::technique::portable {
 #include "technique/portable/sphere_math.h"
 #include "technique/portable/volume_math.h"
+#include "technique/portable/volume_preintegration.h"
 }  // namespace triptych::technique::portable

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "technique/volume/brick_reach.hpp"
+
 namespace triptych::technique {
 namespace {
 
@@ -12,22 +14,34 @@ struct Span {
   int end;
 };
 
-// Voxels of brick b along an axis of n voxels, with the one-voxel border.
-Span with_border(int b, int n) {
-  return {std::max(0, b * brick_edge - 1), std::min(n, (b + 1) * brick_edge + 1)};
+// Voxels of brick b along an axis of n voxels, with the border.
+Span with_border(int b, int n, const BrickLayout& layout) {
+  return {std::max(0, b * layout.edge - layout.border),
+          std::min(n, (b + 1) * layout.edge + layout.border)};
 }
 
 }  // namespace
 
-std::array<int, 3> brick_counts(const std::array<int, 3>& size) {
+BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip) {
+  BrickLayout layout;
+  if (skip == Skip::distance) layout.edge /= 2;
+  if (scene.quadrature == scene::Quadrature::preintegrated) {
+    const int longest = std::max({scene.grid->size[0], scene.grid->size[1], scene.grid->size[2]});
+    // No border need be wider than the volume.
+    layout.border += static_cast<int>(
+        std::min(std::floor(scene.step_voxels / 2 + 0.75), static_cast<double>(longest)));
+  }
+  return layout;
+}
+
+std::array<int, 3> brick_counts(const std::array<int, 3>& size, int edge) {
   std::array<int, 3> counts{};
-  std::ranges::transform(size, counts.begin(),
-                         [](int n) { return (n + brick_edge - 1) / brick_edge; });
+  std::ranges::transform(size, counts.begin(), [edge](int n) { return (n + edge - 1) / edge; });
   return counts;
 }
 
-BrickRanges brick_ranges(const scene::VoxelGrid& grid) {
-  BrickRanges ranges{.counts = brick_counts(grid.size), .minimum = {}, .maximum = {}};
+BrickRanges brick_ranges(const scene::VoxelGrid& grid, const BrickLayout& layout) {
+  BrickRanges ranges{.counts = brick_counts(grid.size, layout.edge), .minimum = {}, .maximum = {}};
   const auto [bx, by, bz] = ranges.counts;
   const std::size_t count =
       static_cast<std::size_t>(bx) * static_cast<std::size_t>(by) * static_cast<std::size_t>(bz);
@@ -40,9 +54,9 @@ BrickRanges brick_ranges(const scene::VoxelGrid& grid) {
       for (int x = 0; x < bx; ++x) {
         double lo = std::numeric_limits<double>::infinity();
         double hi = -lo;
-        const Span xs = with_border(x, grid.size[0]);
-        const Span ys = with_border(y, grid.size[1]);
-        const Span zs = with_border(z, grid.size[2]);
+        const Span xs = with_border(x, grid.size[0], layout);
+        const Span ys = with_border(y, grid.size[1], layout);
+        const Span zs = with_border(z, grid.size[2], layout);
         for (int k = zs.begin; k < zs.end; ++k) {
           for (int j = ys.begin; j < ys.end; ++j) {
             const std::size_t row =
@@ -84,6 +98,14 @@ std::vector<std::uint32_t> brick_visibility(const BrickRanges& ranges,
                      : 0U;
   }
   return visible;
+}
+
+std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip) {
+  if (skip == Skip::none) return {1};
+  const BrickRanges ranges = brick_ranges(*scene.grid, brick_layout(scene, skip));
+  const auto visible = brick_visibility(ranges, scene.transfer_function);
+  if (skip == Skip::distance) return brick_reach(ranges.counts, visible);
+  return {visible.begin(), visible.end()};
 }
 
 }  // namespace triptych::technique

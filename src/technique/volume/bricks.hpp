@@ -6,29 +6,44 @@
 #include <vector>
 
 #include "scene/transfer_function.hpp"
-#include "scene/volume.hpp"
+#include "scene/volume_scene.hpp"
+#include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::technique {
 
-// Edge of a brick in voxels. Every lattice sample inside a brick reads voxels of the brick and at
-// most one voxel beyond its faces.
-inline constexpr int brick_edge = 8;
+// How a volume is cut into bricks, in voxels.
+struct BrickLayout {
+  int edge = 8;
+  int border = 1;  // beyond a brick's faces, what samples inside it may read
 
-[[nodiscard]] std::array<int, 3> brick_counts(const std::array<int, 3>& size);
+  bool operator==(const BrickLayout&) const = default;
+};
 
-// Minimum and maximum normalised value per brick, x fastest, over the brick and a border of one
-// voxel: no sample in the brick can leave that range, whatever its rounding (up to half a voxel).
+// The layout that keeps skipping from changing the picture. A midpoint sample inside a brick reads
+// at most one voxel beyond its faces, rounding of up to half a voxel included. A preintegrated
+// segment whose middle lies inside reads s/2 farther, s the step in voxels: at most
+// ⌊s/2 + ½ + ¼⌋ + 1 voxels beyond, a quarter of a voxel for rounding. Leaps make small bricks
+// affordable: Skip::distance halves their edge.
+[[nodiscard]] BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip);
+
+[[nodiscard]] std::array<int, 3> brick_counts(const std::array<int, 3>& size, int edge);
+
+// Minimum and maximum normalised value per brick, x fastest, over the brick and its border.
 struct BrickRanges {
   std::array<int, 3> counts{};
   std::vector<float> minimum;
   std::vector<float> maximum;
 };
-[[nodiscard]] BrickRanges brick_ranges(const scene::VoxelGrid& grid);
+[[nodiscard]] BrickRanges brick_ranges(const scene::VoxelGrid& grid, const BrickLayout& layout);
 
 // 1 where the transfer function gives any opacity to a value of the brick's range, widened by one
 // table entry on each side; 0 where every sample is fully transparent. O(1) per brick by a prefix
 // sum over the table, so a new transfer function needs only this.
 [[nodiscard]] std::vector<std::uint32_t> brick_visibility(const BrickRanges& ranges,
                                                           const scene::TransferFunction& function);
+
+// What the kernels are given: 1 or 0 per brick for Skip::bricks, brick_reach for Skip::distance;
+// one word that nothing reads for Skip::none.
+[[nodiscard]] std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip);
 
 }  // namespace triptych::technique

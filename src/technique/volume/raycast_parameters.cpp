@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -23,7 +26,15 @@ std::string_view name_of(Sampler sampler) {
   return sampler == Sampler::hardware ? "hardware" : "manual";
 }
 std::string_view name_of(Skip skip) {
-  return skip == Skip::none ? "none" : "bricks";
+  switch (skip) {
+    case Skip::none:
+      return "none";
+    case Skip::bricks:
+      return "bricks";
+    case Skip::distance:
+      return "distance";
+  }
+  return {};
 }
 
 Sampler sampler(std::string_view name) {
@@ -35,7 +46,29 @@ Sampler sampler(std::string_view name) {
 Skip skip(std::string_view name) {
   if (name == "none") return Skip::none;
   if (name == "bricks") return Skip::bricks;
-  throw core::InputError(fmt::format("skip '{}': expected none or bricks", name));
+  if (name == "distance") return Skip::distance;
+  throw core::InputError(fmt::format("skip '{}': expected none, bricks or distance", name));
+}
+
+std::optional<std::string> quadrature_reason(std::string_view technique,
+                                             scene::Quadrature quadrature) {
+  if (technique != "speed_of_light" || quadrature == scene::Quadrature::midpoint) {
+    return std::nullopt;
+  }
+  return "speed_of_light bounds the midpoint rule: its fetches and look-ups are not those of "
+         "quadrature preintegrated";
+}
+
+double ray_plane(const scene::VolumeScene& scene) {
+  const scene::Box box = scene.box();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 at((corner & 1) == 0 ? box.lo.x : box.hi.x,
+                        (corner & 2) == 0 ? box.lo.y : box.hi.y,
+                        (corner & 4) == 0 ? box.lo.z : box.hi.z);
+    nearest = std::min(nearest, glm::dot(at - scene.camera.eye, scene.camera.forward));
+  }
+  return nearest > far_in_diagonals * glm::length(box.hi - box.lo) ? nearest : 0;
 }
 
 RaycastParameters raycast_parameters(const scene::VolumeScene& scene, const RaycastOptions& options,
@@ -44,23 +77,24 @@ RaycastParameters raycast_parameters(const scene::VolumeScene& scene, const Rayc
   const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
   const double half = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360);
   const double aspect = static_cast<double>(scene.width) / scene.height;
-  const auto bricks = brick_counts(grid.size);
+  const BrickLayout layout = brick_layout(scene, options.skip);
+  const auto bricks = brick_counts(grid.size, layout.edge);
+  const double plane = ray_plane(scene);
   const scene::Shading& light = scene.shading;
   return {
-      .eye = pack(scene.camera.eye / spacing, scene.step_world()),
+      .eye = pack((scene.camera.eye + plane * scene.camera.forward) / spacing, scene.step_world()),
       .ray_centre = pack(scene.camera.forward, scene.step_voxels),
       .ray_right = pack(scene.camera.right() * (half * aspect), options.ert),
       .ray_up = pack(scene.camera.up * half, light.gradient_floor),
       .inverse_spacing = pack(1.0 / spacing, scene.smallest_spacing()),
       .value_map = {static_cast<float>(grid.scale * stored_maximum),
-                    static_cast<float>(grid.offset), 0, 0},
+                    static_cast<float>(grid.offset), static_cast<float>(plane), 0},
       .shading = {static_cast<float>(light.ambient), static_cast<float>(light.diffuse),
                   static_cast<float>(light.specular), 0},
       .background = scene.background,
       .volume_size = {grid.size[0], grid.size[1], grid.size[2],
                       std::countr_zero(static_cast<unsigned>(light.exponent))},
-      .brick_grid = {bricks[0], bricks[1], bricks[2],
-                     options.skip == Skip::bricks ? brick_edge : 0},
+      .brick_grid = {bricks[0], bricks[1], bricks[2], options.skip == Skip::none ? 0 : layout.edge},
       .viewport = {scene.width, scene.height, 1, 0},
   };
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "scene/volume_scene.hpp"
@@ -11,11 +13,17 @@
 namespace triptych::technique {
 
 enum class Sampler : std::uint8_t { hardware, manual };  // who interpolates between voxels
-enum class Skip : std::uint8_t { none, bricks };         // what empty space is skipped by
+// What empty space is skipped by: nothing; a walk from brick to brick; leaps over whole cubes of
+// bricks of one kind, as far as the next brick of the other kind allows (brick_reach.hpp).
+enum class Skip : std::uint8_t { none, bricks, distance };
 [[nodiscard]] std::string_view name_of(Sampler sampler);
 [[nodiscard]] std::string_view name_of(Skip skip);
 [[nodiscard]] Sampler sampler(std::string_view name);  // throws InputError
 [[nodiscard]] Skip skip(std::string_view name);        // throws InputError
+
+// Why the technique cannot take the quadrature; empty where it can.
+[[nodiscard]] std::optional<std::string> quadrature_reason(std::string_view technique,
+                                                           scene::Quadrature quadrature);
 
 // Faults that can be planted to prove that the gate catches them. Kernels take the number as a
 // compile-time constant, so that an unplanted kernel holds no trace of them.
@@ -48,7 +56,8 @@ struct RaycastParameters {
   std::array<float, 4> ray_right;           // xyz: right · aspect · tan(fov/2); w: ERT ε
   std::array<float, 4> ray_up;              // xyz: up · tan(fov/2); w: gradient floor
   std::array<float, 4> inverse_spacing;     // xyz: 1/spacing; w: smallest spacing
-  std::array<float, 4> value_map;           // x, y: normalised = stored·x + y; z, w: 0
+  // x, y: normalised = stored·x + y; z: ray_plane; w: 0
+  std::array<float, 4> value_map;
   std::array<float, 4> shading;             // ambient, diffuse, specular, 0
   std::array<float, 4> background;          // premultiplied RGBA
   std::array<std::int32_t, 4> volume_size;  // voxels; w: log2 of the specular exponent
@@ -58,6 +67,13 @@ struct RaycastParameters {
 };
 static_assert(sizeof(RaycastParameters) == std::size_t{11} * 16);
 static_assert(offsetof(RaycastParameters, volume_size) == std::size_t{8} * 16);
+
+// Distance from the eye along the view axis, in world units, of the plane on which rays begin: the box's
+// nearest corner, where that is far away. Float coordinates of a far eye would be off by voxels; those
+// of a point on the plane are as exact as the box's own. 0: they begin at the eye.
+[[nodiscard]] double ray_plane(const scene::VolumeScene& scene);
+// Of the box: nearer, an eye costs less than 1e-4 of its size.
+inline constexpr double far_in_diagonals = 16;
 
 // The stored integer of a u8 or u16 grid arrives in a shader as itself (buffer) or over its maximum
 // (UNORM texture): `stored_maximum` is 1 or 255 or 65535 accordingly.

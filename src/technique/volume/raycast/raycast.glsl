@@ -102,15 +102,18 @@ Ray make_ray(ivec2 pixel) {
   d = d / sqrt(dot(d, d));
   vec3 v = d * u.inverse_spacing.xyz;
   vec3 size = vec3(u.volume_size.xyz);
-  vec2 x = tri_slab(u.eye.x, v.x, size.x);
-  vec2 y = tri_slab(u.eye.y, v.y, size.y);
-  vec2 z = tri_slab(u.eye.z, v.z, size.z);
+  // Where the ray begins: on a plane between eye and box where that is far away, else at the eye.
+  vec3 origin = u.eye.xyz +
+                (u.value_map.z * (ndc.x * u.ray_right.xyz - ndc.y * u.ray_up.xyz)) * u.inverse_spacing.xyz;
+  vec2 x = tri_slab(origin.x, v.x, size.x);
+  vec2 y = tri_slab(origin.y, v.y, size.y);
+  vec2 z = tri_slab(origin.z, v.z, size.z);
   float t0 = max(max(x.x, y.x), max(z.x, 0.0));
   float t1 = min(min(x.y, y.y), z.y);
   Ray ray;
   ray.d = d;
   ray.g = v * u.eye.w;
-  ray.p0 = u.eye.xyz + t0 * v;
+  ray.p0 = origin + t0 * v;
   ray.steps = t1 > t0 ? (t1 - t0) / u.eye.w : 0.0;
   return ray;
 }
@@ -137,7 +140,7 @@ void enter(inout Walk walk) {
   // As unsigned numbers, negative indices are beyond the end too.
   walk.outside = any(greaterThanEqual(uvec3(walk.brick), uvec3(size)));
   int index = walk.brick.x + size.x * (walk.brick.y + size.y * walk.brick.z);
-  walk.visible = walk.outside || brick_visible[walk.outside ? 0 : index] != 0u;
+  walk.visible = walk.outside || brick_visible[walk.outside ? 0 : index] != 0;
 }
 
 Walk start_walk(Ray ray) {
@@ -185,6 +188,75 @@ ivec2 next_run(inout Walk walk, int begin, int end) {
   return ivec2(begin, stop);
 }
 
+// Leaps over whole cubes of bricks of one kind (technique::Skip::distance). Each starts from its sample's
+// own position, so nothing drifts.
+struct Leaps {
+  vec3 inverse_g;
+  float edge;         // of a brick, voxels
+  float inverse_edge;
+  ivec3 size;         // bricks per axis
+};
+
+Leaps make_leaps(Ray ray) {
+  Leaps leaps;
+  // A ray that runs along a face takes 10²⁰ steps to the next: never, without dividing by zero.
+  leaps.inverse_g = 1.0 / mix(ray.g, vec3(1.0e-20), lessThan(abs(ray.g), vec3(1.0e-20)));
+  leaps.edge = float(u.brick_grid.w);
+  leaps.inverse_edge = 1.0 / leaps.edge;
+  leaps.size = u.brick_grid.xyz;
+  return leaps;
+}
+
+// brick_reach of the brick that holds sample i, and the first sample behind it that lies beyond the cube of
+// bricks that are like that one; `end` at most. A sample within rounding of a face may be counted to
+// either side, as by a walk.
+struct Leap {
+  bool visible;
+  int next;
+};
+
+Leap leap(Leaps leaps, Ray ray, int i, int end) {
+  vec3 p = ray.p0 + (float(i) + 0.5) * ray.g;
+  ivec3 brick = clamp(ivec3(p * leaps.inverse_edge), ivec3(0), leaps.size - 1);
+  int signed_reach = brick_visible[brick.x + leaps.size.x * (brick.y + leaps.size.y * brick.z)];
+  int reach = abs(signed_reach);
+  ivec3 face = brick + mix(ivec3(reach), ivec3(1 - reach), lessThan(leaps.inverse_g, vec3(0.0)));
+  vec3 at = (vec3(face) * leaps.edge - ray.p0) * leaps.inverse_g;
+  float leave = min(at.x, min(at.y, at.z));
+  int next = leave < float(end) ? int(ceil(leave - 0.5)) : end;
+  return Leap(signed_reach > 0, clamp(next, i + 1, end));
+}
+
+// As next_run.
+ivec2 next_run_by_leaps(Leaps leaps, Ray ray, int begin, int end) {
+  Leap ahead = Leap(false, begin);
+  while (begin < end && !ahead.visible) {
+    begin = ahead.next;
+    if (begin < end) {
+      ahead = leap(leaps, ray, begin, end);
+      if (TRI_COUNT == 1) {
+        count_bricks_visited++;
+        if (!ahead.visible) count_bricks_skipped++;
+      }
+    }
+  }
+  int stop = begin;
+  while (stop < end && ahead.visible) {
+    stop = ahead.next;
+    if (stop < end) {
+      ahead = leap(leaps, ray, stop, end);
+      if (TRI_COUNT == 1 && ahead.visible) count_bricks_visited++;
+    }
+  }
+  return ivec2(begin, stop);
+}
+
+// Whether there is anything to skip; leaps see at a glance that a volume is full.
+bool skips() {
+  int longest = max(u.brick_grid.x, max(u.brick_grid.y, u.brick_grid.z));
+  return u.brick_grid.w > 0 && (TRI_LEAPS == 0 || brick_visible[0] < longest);
+}
+
 struct Light {
   vec3 colour;          // premultiplied
   float transmittance;
@@ -207,6 +279,23 @@ void add_sample(inout Light light, Grid grid, Ray ray, vec3 p, bool whole, float
   }
 }
 
+// The step of the ray from `begin` to `end`, in steps, between whose values the field runs straight; it is
+// `length` voxels long, which is not always what `begin` and `end` say (a planted fault).
+void add_segment(inout Light light, Grid grid, Ray ray, float begin, float end, float front, float back,
+                 float length) {
+  vec4 segment = preintegrated(front, back, length);
+  if (TRI_COUNT == 1) count_samples++;
+  if (segment.a > 0.0) {
+    if (TRI_COUNT == 1) count_nonzero++;
+    if (TRI_SHADING == 1) {
+      vec3 middle = ray.p0 + (0.5 * (begin + end)) * ray.g;
+      segment.rgb = segment.a * shade(grid, segment.rgb / segment.a, middle, ray.d);
+    }
+    light.colour += light.transmittance * segment.rgb;
+    light.transmittance -= light.transmittance * segment.a;
+  }
+}
+
 // Premultiplied RGBA of the pixel. Two habits of compilers for CPUs shape these loops. They run a block of
 // rays through both sides of a condition, so the opacity of the partial last step must not stand beside
 // that of a whole one: the last sample is taken behind the loops. And Mesa 22.3's llvmpipe goes on
@@ -221,22 +310,35 @@ vec4 raycast(ivec2 pixel) {
   float step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
   float enough = u.ray_right.w;
   Light light = Light(vec3(0.0), 1.0);
-  bool skipping = u.brick_grid.w > 0;
+  bool skipping = skips();
   Walk walk;
-  if (skipping) walk = start_walk(ray);
+  Leaps leaps;
+  if (skipping && TRI_LEAPS == 0) walk = start_walk(ray);
+  if (skipping && TRI_LEAPS == 1) leaps = make_leaps(ray);
   bool last_visible = false;
   int i = 0;
   while (i < count) {
     int stop = count;
     if (skipping) {
-      ivec2 run = next_run(walk, i, count);
+      ivec2 run = TRI_LEAPS == 1 ? next_run_by_leaps(leaps, ray, i, count) : next_run(walk, i, count);
       i = run.x;
       stop = run.y;
     }
     last_visible = stop == count && i < stop;
-    stop = min(stop, last);
+    // A partial step of a straight line is no other work than a whole one: it needs no special place.
+    if (TRI_PREINTEGRATED == 0) stop = min(stop, last);
+    float front = 0.0;
+    if (TRI_PREINTEGRATED == 1) front = field(grid, ray.p0 + float(i) * ray.g);
     for (; i < stop; ++i) {
-      add_sample(light, grid, ray, ray.p0 + (float(i) + 0.5) * ray.g, true, step_voxels);
+      if (TRI_PREINTEGRATED == 1) {
+        float end = min(float(i + 1), ray.steps);
+        float back = field(grid, ray.p0 + end * ray.g);
+        float length = step_voxels * tri_step_share(ray.steps, i);
+        add_segment(light, grid, ray, float(i), end, front, back, length);
+        front = back;
+      } else {
+        add_sample(light, grid, ray, ray.p0 + (float(i) + 0.5) * ray.g, true, step_voxels);
+      }
       if (TRI_SPEED_OF_LIGHT == 0 && light.transmittance < enough) {
         if (TRI_COUNT == 1) count_terminated = 1u;
         last_visible = false;
@@ -244,9 +346,9 @@ vec4 raycast(ivec2 pixel) {
         count = 0;
       }
     }
-    if (last_visible) count = 0;
+    if (TRI_PREINTEGRATED == 0 && last_visible) count = 0;
   }
-  if (last_visible) {
+  if (TRI_PREINTEGRATED == 0 && last_visible) {
     float steps = step_voxels * tri_step_share(ray.steps, last);
     add_sample(light, grid, ray, ray.p0 + (float(last) + 0.5) * ray.g, false, steps);
     if (TRI_COUNT == 1 && TRI_SPEED_OF_LIGHT == 0 && light.transmittance < enough) count_terminated = 1u;

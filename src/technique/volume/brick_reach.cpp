@@ -1,10 +1,10 @@
-#include "backends/opencl/brick_reach.hpp"
+#include "technique/volume/brick_reach.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-namespace triptych::opencl_backend {
+namespace triptych::technique {
 namespace {
 
 class ReachGrid {
@@ -70,4 +70,4 @@ std::vector<std::int32_t> brick_reach(const std::array<int, 3>& counts,
   return std::move(grid).signed_reach();
 }
 
-}  // namespace triptych::opencl_backend
+}  // namespace triptych::technique

@@ -1,12 +1,12 @@
 #pragma once
-// How far a ray may leap from a brick without looking at the next (ray.cl).
+// How far a ray may leap from a brick without looking at the next.
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace triptych::opencl_backend {
+namespace triptych::technique {
 
 // Per brick, x fastest: its distance from the nearest brick of the other kind, positive for a
 // visible brick, negative for an invisible one; the distance is the greatest of those along the
@@ -15,4 +15,4 @@ namespace triptych::opencl_backend {
 [[nodiscard]] std::vector<std::int32_t> brick_reach(const std::array<int, 3>& counts,
                                                     std::span<const std::uint32_t> visible);
 
-}  // namespace triptych::opencl_backend
+}  // namespace triptych::technique

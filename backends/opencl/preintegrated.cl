@@ -1,0 +1,61 @@
+// Quadrature preintegrated: one step along which the value runs straight from front to back
+// (portable/volume_preintegration.h, technique::preintegrated_pairs); the algorithm of
+// src/technique/volume/raycast/preintegrated.glsl.
+
+// `gathered`, premultiplied colour and opacity, with a piece of the step behind it. `depth` is the piece's
+// optical depth in powers of two, a0 … a2 its colour over the share of that depth passed.
+TRI_FN float4 with_piece(float4 gathered, float depth, float3 a0, float3 a1, float3 a2) {
+  float opacity = tri_1m_exp2(-depth);
+  float z = 0.3465735903f * depth;
+  float w = tri_attenuation(z, opacity);
+  float inverse = 1.0f / (3.0f + w);
+  float3 colour = a0 - (z * inverse) * a1 + (w * inverse) * a2;
+  colour.x = clamp(colour.x, 0.0f, 1.0f);
+  colour.y = clamp(colour.y, 0.0f, 1.0f);
+  colour.z = clamp(colour.z, 0.0f, 1.0f);
+  float weight = depth > 0.0f ? (1.0f - gathered.w) * opacity : 0.0f;
+  return depth > 0.0f ? gathered + weight * (float4)(colour, 1.0f) : gathered;
+}
+
+// The same with the piece from position a to b among the entries, within the cell that begins with entry
+// `cell`. Beyond the first and the last entry the function is constant.
+TRI_FN float4 with_part_of_cell(__constant float4* table, float4 gathered, int cell, float a, float b,
+                                float length) {
+  float4 lower = table[cell > 0 ? cell : 0];
+  float4 rise = table[cell < 255 ? cell + 1 : 255] - lower;
+  float4 first = lower + (a - (float)cell) * rise;
+  float3 change = (b - a) * rise.xyz;
+  float last_alpha = lower.w + (b - (float)cell) * rise.w;
+  float mean = tri_mean_log2_1m(first.w, last_alpha);
+  float tilt = tri_tilt(first.w, last_alpha, mean);
+  float square = tilt * tilt;
+  return with_piece(gathered, -length * mean, first.xyz + (0.5f + 0.16666667f * tilt) * change,
+                    (0.5f - 0.1f * square) * change,
+                    (tilt * (0.071428571f * square - 0.16666667f)) * change);
+}
+
+// Premultiplied colour and opacity of a step of `length` voxels.
+TRI_FN float4 preintegrated(__constant float4* table, __global const float4* pairs, float front,
+                            float back, float length) {
+  // Not-a-number is the lowest value, as for the midpoint rule.
+  float from = front * 256.0f - 0.5f;
+  float to = back * 256.0f - 0.5f;
+  from = from > -0.75f ? (from < 255.75f ? from : 255.75f) : -0.75f;
+  to = to > -0.75f ? (to < 255.75f ? to : 255.75f) : -0.75f;
+  int first_cell = (int)tri_floor(from);
+  int last_cell = (int)tri_floor(to);
+  float4 gathered = (float4)(0.0f);
+  if (first_cell == last_cell) {
+    return with_part_of_cell(table, gathered, first_cell, from, to, length);
+  }
+  bool rising = last_cell > first_cell;
+  int first = rising ? first_cell + 1 : first_cell;  // entries passed
+  int last = rising ? last_cell : last_cell + 1;
+  float per_cell = length / fabs(to - from);
+  gathered = with_part_of_cell(table, gathered, first_cell, from, (float)first,
+                               per_cell * fabs((float)first - from));
+  __global const float4* pair = pairs + 3 * (256 * first + last);
+  gathered = with_piece(gathered, per_cell * pair[0].x, pair[0].yzw, pair[1].xyz, pair[2].xyz);
+  return with_part_of_cell(table, gathered, last_cell, (float)last, to,
+                           per_cell * fabs(to - (float)last));
+}

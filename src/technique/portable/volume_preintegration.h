@@ -1,0 +1,43 @@
+// Maths of quadrature preintegrated in the common subset of C++, GLSL and OpenCL C, as volume_math.h, on
+// which it builds.
+//
+// A step is cut where the value passes an entry of the transfer function, into at most three pieces: what
+// is left of the first entry's cell, whole cells (whose integrals are tabulated, preintegration.hpp), and
+// part of the last one's cell. Of each piece the optical depth D is known, and the colour as a function of
+// y, the share of D passed, by its first three coefficients in the Legendre polynomials on [0, 1]:
+// c(y) = a0 + a1·P1(y) + a2·P2(y). The light of the piece is then
+//   D·∫c(y)·e^(−Dy) dy = (1 − e^(−D))·(a0 − a1·L + a2·(1 − 3L/z)),   z = D/2,  L = coth z − 1/z,
+// for ∫Pn(y)·e^(−Dy) dy = (−1)ⁿ·e^(−z)·i_n(z), i_n the modified spherical Bessel functions.
+
+// log2(1 − alpha) averaged while alpha runs straight from a to b. With m what is left of 1 in the middle
+// and r = |b − a|/2m, the mean of ln(m·(1 − r·x)) over −1 ≤ x ≤ 1 is ln m − Σ r^2n/(2n(2n+1)); six terms
+// err below r^14/(210·(1 − r²)), and below 0.038 for r = 1.
+TRI_FN float tri_mean_log2_1m(float a, float b) {
+  float middle = 0.5f * (a + b);
+  if (!(middle < 1.0f)) return -1.0e30f;
+  float r = 0.5f * (b - a) / (1.0f - middle);
+  float q = r * r;
+  float sum = q * (0.2404491735f + q * (0.0721347520f + q * (0.0343498819f + q * (0.0200374311f +
+              q * (0.0131154095f + q * 0.0092480451f)))));
+  return tri_log2_1m(middle) - sum;
+}
+
+// (τb − τa)/(2·mean τ) within [−1, 1], while alpha runs straight from a to b within one cell; mean_log2 as
+// of tri_mean_log2_1m. The share by which extinction rises or falls around its mean.
+TRI_FN float tri_tilt(float a, float b, float mean_log2) {
+  float twice_mean = -1.3862943611f * mean_log2;
+  float rise = (b - a) / (1.0f - 0.5f * (a + b));
+  float size = rise < 0.0f ? 0.0f - rise : rise;
+  if (!(twice_mean > size)) return rise < 0.0f ? -1.0f : (rise > 0.0f ? 1.0f : 0.0f);
+  return rise / twice_mean;
+}
+
+// z/L − 3 for the optical depth 2z > 0 whose opacity is given: L = z/(3 + w), 1 − 3L/z = w/(3 + w). By
+// its continued fraction z²/(5 + z²/(7 + …)) where the definition cancels; five levels err below 4e-7
+// relative at z = 2.
+TRI_FN float tri_attenuation(float z, float opacity) {
+  float q = z * z;
+  float near_zero = q / (5.0f + q / (7.0f + q / (9.0f + q / (11.0f + q / 13.0f))));
+  float langevin = 2.0f / opacity - 1.0f - 1.0f / z;
+  return z < 2.0f ? near_zero : z / langevin - 3.0f;
+}

@@ -1,0 +1,155 @@
+#include "technique/volume/preintegration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace triptych::technique {
+namespace {
+
+constexpr std::size_t entries = 256;
+constexpr double most_extinction = 8192;  // per voxel length, of an entry of opacity 1
+
+// Moments of the optical depth x of a stretch, from its beginning, in natural units per cell:
+// ∫dx, and per channel ∫c dx, ∫c·x dx, ∫c·x² dx.
+struct Moments {
+  double depth = 0;
+  std::array<double, 3> c0{};
+  std::array<double, 3> c1{};
+  std::array<double, 3> c2{};
+
+  // This stretch and the next one behind it.
+  void append(const Moments& next) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      c2[i] += next.c2[i] + depth * (2 * next.c1[i] + depth * next.c0[i]);
+      c1[i] += next.c1[i] + depth * next.c0[i];
+      c0[i] += next.c0[i];
+    }
+    depth += next.depth;
+  }
+};
+
+using Entry = std::array<float, 4>;
+
+double extinction(double alpha) {
+  return std::min(-std::log1p(-alpha), most_extinction);
+}
+
+// One cell from entry a to entry b. Extinction −ln(1 − alpha) is smooth over it but where alpha
+// reaches 1, so the cell is cut into pieces that halve towards such an end, and each is integrated
+// by Gauss's rule with five points; the depth in front of a point is that of the pieces before and
+// the parabola through extinction at both ends and the middle of its own.
+class CellIntegral {
+ public:
+  CellIntegral(const Entry& a, const Entry& b) : a_(a), b_(b) {}
+
+  [[nodiscard]] Moments moments() {
+    constexpr int even_pieces = 4;
+    for (int piece = 0; piece < even_pieces; ++piece) {
+      split(static_cast<double>(piece) / even_pieces, (piece + 1.0) / even_pieces, 0);
+    }
+    return sum_;
+  }
+
+ private:
+  [[nodiscard]] double at(std::size_t channel, double f) const {
+    const auto a = static_cast<double>(a_[channel]);
+    return a + f * (static_cast<double>(b_[channel]) - a);
+  }
+  [[nodiscard]] double tau(double f) const { return extinction(at(3, f)); }
+
+  void split(double begin, double end, int level) {
+    constexpr int deepest = 40;
+    const double here = tau(begin);
+    const double there = tau(end);
+    const bool steep = std::abs(there - here) > 0.1 * std::max(1.0, std::min(here, there));
+    if (steep && level < deepest) {
+      const double middle = 0.5 * (begin + end);
+      split(begin, middle, level + 1);
+      split(middle, end, level + 1);
+      return;
+    }
+    add_piece(begin, end);
+  }
+
+  void add_piece(double begin, double end) {
+    static const std::array<double, 5> nodes{0.5 - 0.4530899229693320, 0.5 - 0.2692346550528415,
+                                             0.5, 0.5 + 0.2692346550528415,
+                                             0.5 + 0.4530899229693320};
+    static constexpr std::array<double, 5> weights{0.1184634425280945, 0.2393143352496832,
+                                                   0.2844444444444444, 0.2393143352496832,
+                                                   0.1184634425280945};
+    const double length = end - begin;
+    const double t0 = tau(begin);
+    const double tm = tau(0.5 * (begin + end));
+    const double t1 = tau(end);
+    double depth = 0;
+    Moments piece;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const double s = nodes[k];
+      const double f = begin + s * length;
+      const double weight = weights[k] * length * tau(f);
+      const double bend = 2 * (t0 - 2 * tm + t1);
+      const double x = length * s * (t0 + s * ((t1 - t0 - bend) / 2 + s * bend / 3));
+      depth += weight;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double c = at(i, f);
+        piece.c0[i] += weight * c;
+        piece.c1[i] += weight * c * x;
+        piece.c2[i] += weight * c * x * x;
+      }
+    }
+    piece.depth = depth;
+    sum_.append(piece);
+  }
+
+  const Entry& a_;
+  const Entry& b_;
+  Moments sum_;
+};
+
+// The texels of a path with these moments; `colour` where it has no depth.
+void write(const Moments& m, const Entry& colour, std::array<float, 4>* texels) {
+  texels[0] = {static_cast<float>(m.depth * std::numbers::log2e), colour[0], colour[1], colour[2]};
+  texels[1] = texels[2] = {0, 0, 0, 0};
+  if (!(m.depth > 0)) return;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double y0 = m.c0[i] / m.depth;
+    const double y1 = m.c1[i] / (m.depth * m.depth);
+    const double y2 = m.c2[i] / (m.depth * m.depth * m.depth);
+    texels[0][i + 1] = static_cast<float>(y0);
+    texels[1][i] = static_cast<float>(3 * (2 * y1 - y0));
+    texels[2][i] = static_cast<float>(5 * (6 * y2 - 6 * y1 + y0));
+  }
+}
+
+}  // namespace
+
+std::vector<std::array<float, 4>> preintegrated_pairs(const scene::TransferFunction& function) {
+  const auto& table = function.entries;
+  std::vector<Moments> up(entries - 1);    // cell k from entry k to entry k + 1
+  std::vector<Moments> down(entries - 1);  // and back
+  for (std::size_t k = 0; k + 1 < entries; ++k) {
+    up[k] = CellIntegral(table[k], table[k + 1]).moments();
+    down[k] = CellIntegral(table[k + 1], table[k]).moments();
+  }
+  std::vector<std::array<float, 4>> pairs(texels_per_pair * entries * entries);
+  for (std::size_t from = 0; from < entries; ++from) {
+    const auto at = [&](std::size_t to) { return &pairs[texels_per_pair * (entries * from + to)]; };
+    Moments path;
+    write(path, table[from], at(from));
+    for (std::size_t to = from + 1; to < entries; ++to) {
+      path.append(up[to - 1]);
+      write(path, table[from], at(to));
+    }
+    path = {};
+    for (std::size_t to = from; to-- > 0;) {
+      path.append(down[to]);
+      write(path, table[from], at(to));
+    }
+  }
+  return pairs;
+}
+
+}  // namespace triptych::technique

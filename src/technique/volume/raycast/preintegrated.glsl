@@ -1,0 +1,56 @@
+// Quadrature preintegrated: one step along which the value runs straight from front to back
+// (portable/volume_preintegration.h, technique::preintegrated_pairs).
+
+// Puts a piece of the step behind what is gathered: premultiplied colour and opacity. `depth` is its optical
+// depth in powers of two, a0 … a2 its colour over the share of that depth passed.
+void add_piece(inout vec4 gathered, float depth, vec3 a0, vec3 a1, vec3 a2) {
+  float opacity = tri_1m_exp2(-depth);
+  float z = 0.3465735903 * depth;
+  float w = tri_attenuation(z, opacity);
+  float inverse = 1.0 / (3.0 + w);
+  vec3 colour = clamp(a0 - (z * inverse) * a1 + (w * inverse) * a2, 0.0, 1.0);
+  if (depth > 0.0) {
+    float weight = (1.0 - gathered.a) * opacity;
+    gathered += weight * vec4(colour, 1.0);
+  }
+}
+
+// The piece from position a to b among the entries, within the cell that begins with entry `cell`. Beyond
+// the first and the last entry the function is constant.
+void add_part_of_cell(inout vec4 gathered, int cell, float a, float b, float length) {
+  vec4 lower = texelFetch(transfer_texture, max(cell, 0), 0);
+  vec4 rise = texelFetch(transfer_texture, min(cell + 1, 255), 0) - lower;
+  vec4 first = lower + (a - float(cell)) * rise;
+  vec4 change = (b - a) * rise;
+  float last_alpha = lower.a + (b - float(cell)) * rise.a;
+  float mean = tri_mean_log2_1m(first.a, last_alpha);
+  float tilt = tri_tilt(first.a, last_alpha, mean);
+  float square = tilt * tilt;
+  add_piece(gathered, -length * mean, first.rgb + (0.5 + 0.16666667 * tilt) * change.rgb,
+            (0.5 - 0.1 * square) * change.rgb, (tilt * (0.071428571 * square - 0.16666667)) * change.rgb);
+}
+
+// Premultiplied colour and opacity of a step of `length` voxels.
+vec4 preintegrated(float front, float back, float length) {
+  // Not-a-number is the lowest value, as for the midpoint rule.
+  float from = front * 256.0 - 0.5;
+  float to = back * 256.0 - 0.5;
+  from = from > -0.75 ? min(from, 255.75) : -0.75;
+  to = to > -0.75 ? min(to, 255.75) : -0.75;
+  int first_cell = int(floor(from));
+  int last_cell = int(floor(to));
+  bool one_cell = first_cell == last_cell;
+  bool rising = last_cell > first_cell;
+  int first = rising ? first_cell + 1 : first_cell;  // entries passed
+  int last = rising ? last_cell : last_cell + 1;
+  float per_cell = length / max(abs(to - from), 1.0e-30);
+  vec4 gathered = vec4(0.0);
+  add_part_of_cell(gathered, first_cell, from, one_cell ? to : float(first),
+                   one_cell ? length : per_cell * abs(float(first) - from));
+  if (!one_cell) {
+    int pair = 3 * (256 * first + last);
+    add_piece(gathered, per_cell * pairs[pair].x, pairs[pair].yzw, pairs[pair + 1].xyz, pairs[pair + 2].xyz);
+    add_part_of_cell(gathered, last_cell, float(last), to, per_cell * abs(to - float(last)));
+  }
+  return gathered;
+}
