@@ -68,6 +68,7 @@ core::ExitCode gate(const GateArguments& arguments) {
       .required_devices = arguments.required,
       .truth = [&](const record::Record& record) { return truths.of(record); },
       .limit = [&](const record::Record& record) { return truths.limit_of(record); },
+      .expectations = [&](const record::Record& record) { return truths.expectations_of(record); },
       .today = today(),
   };
   for (const std::string& name : arguments.checks) request.checks.insert(judge::check(name));
@@ -99,6 +100,12 @@ core::ExitCode accept(const AcceptArguments& arguments) {
   if (arguments.plan.ends_with("/accuracy")) {
     request.limit = [&](const record::Record& record) { return truths.limit_of(record); };
   }
+  if (arguments.plan.ends_with("/stress")) {
+    request.stress = {
+        .truth = [&](const record::Record& record) { return truths.of(record); },
+        .expectations =
+            [&](const record::Record& record) { return truths.expectations_of(record); }};
+  }
   const std::vector<std::string> changes = judge::accept(
       store, latest_run(store, arguments.plan, arguments.store), arguments.baselines, request);
   for (const std::string& change : changes) fmt::print("{}\n", change);
@@ -119,7 +126,8 @@ void add_gate_commands(Commands& commands) {
   command->add_option("--baselines", arguments->baselines, "Folder of the baselines");
   command
       ->add_option("--check", arguments->checks,
-                   "image,counters,statistics,timing,correlation,accuracy (default: all)")
+                   "image,counters,statistics,timing,correlation,accuracy,stress (default: "
+                   "those made for the plan)")
       ->delimiter(',');
   command->add_option("--device", arguments->devices, "Glob: judge only these (repeatable)");
   command->add_option("--require", arguments->required,

@@ -43,6 +43,8 @@ core::ExitCode write_report(const ReportArguments& arguments) {
               .required_devices = {},
               .truth = request.truth,
               .limit = [&](const record::Record& record) { return truths.limit_of(record); },
+              .expectations =
+                  [&](const record::Record& record) { return truths.expectations_of(record); },
               .today = today()})});
   }
   if (request.plans.empty()) {

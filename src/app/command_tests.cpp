@@ -71,6 +71,8 @@ struct PlanTests {
 // times are of the kinds that the other plans judge.
 std::vector<std::string_view> checks_of(const PlanTests& plan, bool pictures) {
   if (plan.plan.ends_with("/correlation")) return {"correlation"};
+  // One frame each: no times, no statistics; a stress case's picture is judged by its score.
+  if (plan.plan.ends_with("/stress")) return {"counters", "stress"};
   std::vector<std::string_view> result(checks.begin(), checks.end());
   if (!pictures) std::erase(result, "image");
   if (plan.plan.ends_with("/accuracy")) result.push_back("accuracy");
@@ -93,9 +95,9 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
                    .sets_up = plan.stem});
   const std::vector<std::string_view> own_checks = checks_of(plan, has_pictures(plan.suite));
   std::vector<std::string> measured;
+  for (const record::Device& device : devices) measured.push_back(plan.stem + "." + device.id);
   for (const record::Device& device : devices) {
     const std::string fixture = plan.stem + "." + device.id;
-    measured.push_back(fixture);
     tests.push_back(
         {.name = plan.stem + ".measure." + device.id,
          .command = {"test-measure", plan.plan, "--device", device.id, "--store", store},
@@ -104,13 +106,15 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
          .sets_up = fixture,
          .lock = device.id});
     for (const std::string_view check : own_checks) {
-      tests.push_back({.name = fmt::format("{}.{}.{}", plan.stem, check, device.id),
-                       .command = {"test-check", plan.plan, "--check", std::string(check),
-                                   "--device", device.id, "--store", store},
-                       .labels = {plan.suite, std::string(check), "device", device.api, device.id},
-                       .requires_fixtures = {fixture},
-                       .sets_up = {},
-                       .lock = check == "correlation" ? device.id : std::string()});
+      tests.push_back(
+          {.name = fmt::format("{}.{}.{}", plan.stem, check, device.id),
+           .command = {"test-check", plan.plan, "--check", std::string(check), "--device",
+                       device.id, "--store", store},
+           .labels = {plan.suite, std::string(check), "device", device.api, device.id},
+           // A score says how a device agrees with the others.
+           .requires_fixtures = check == "stress" ? measured : std::vector<std::string>{fixture},
+           .sets_up = {},
+           .lock = check == "correlation" ? device.id : std::string()});
     }
   }
   if (std::ranges::find(own_checks, "image") == own_checks.end()) return;
@@ -217,6 +221,7 @@ Checked judge_store(const CheckArguments& arguments, const record::Store& store,
       .required_devices = {},
       .truth = [&](const record::Record& record) { return truths.of(record); },
       .limit = [&](const record::Record& record) { return truths.limit_of(record); },
+      .expectations = [&](const record::Record& record) { return truths.expectations_of(record); },
       .today = today()};
   if (!arguments.device.empty()) request.devices = {arguments.device};
   return {run->id,

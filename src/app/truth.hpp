@@ -14,6 +14,10 @@ class Truths {
   Truths(const Registry& registry, record::Store& store) : registry_(registry), store_(store) {}
 
   [[nodiscard]] const judge::TruthPair& of(const record::Record& record);
+  // What must hold of the record beside its truth.
+  [[nodiscard]] std::vector<record::Expectation> expectations_of(const record::Record& record) {
+    return registry_.suite(record.suite).expectations(record.factors);
+  }
   // nullptr where the record's scene has none.
   [[nodiscard]] const judge::LimitPicture* limit_of(const record::Record& record);
 

@@ -146,6 +146,18 @@ void update_errors(const record::Store& store, const Accepted& accepted,
   }
 }
 
+// What each configuration scored on each device of the run; one that failed has a score too.
+void update_scores(const record::Store& store, const std::vector<record::Record>& records,
+                   const Accepted& accepted, const AcceptRequest& request, Update& update) {
+  Json& table = update.object();
+  if (accepted.replaces_all) drop_all_but(table, accepted.configurations);
+  for (const StressScored& scored : score_stress(store, records, *request.stress)) {
+    const std::string& configuration = scored.record->configuration;
+    if (!request.only.empty() && !glob_matches(request.only, configuration)) continue;
+    table[configuration][scored.record->device] = scored.score.points();
+  }
+}
+
 void update_bits(const record::Record& record, Json& table) {
   if (record.image.empty()) {
     table.erase(record.configuration);
@@ -303,6 +315,7 @@ void check_stored(const Accepted& accepted, const Baselines& stored) {
   const std::string& any = accepted.measured.front().configuration;
   (void)stored.counters(any);
   (void)stored.errors(any);
+  (void)stored.scores(any);
   for (const auto& [id, device] : accepted.devices) {
     (void)stored.bits(device, any);
     (void)stored.statistics(device, any);
@@ -328,6 +341,11 @@ std::vector<std::string> accept(const record::Store& store, const std::string& r
     Update errors(layout.errors(), layout.folder);
     update_errors(store, accepted, request, errors);
     errors.write(2, lines);
+  }
+  if (request.stress) {
+    Update scores(layout.scores(), layout.folder);
+    update_scores(store, store.records(run), accepted, request, scores);
+    scores.write(2, lines);
   }
   for (const auto& [id, device] : accepted.devices) {
     write_device_files(accepted, device, layout, lines);

@@ -10,6 +10,9 @@
 
 namespace triptych::judge {
 
+// Root mean square between any two devices' pictures on default paths, in full scale.
+inline constexpr double device_agreement = 1e-4;
+
 // Relative. A threshold on floats may fall the other way on another device for a few samples.
 inline constexpr double counters_across_devices = 1e-4;
 

@@ -137,6 +137,7 @@ struct Baselines::Cache {
   std::optional<ByName<StoredImage>> images;
   std::optional<ByName<StoredCounters>> counters;
   std::optional<ByName<std::map<std::string, StoredError>>> errors;
+  std::optional<ByName<ByName<std::uint64_t>>> scores;
   std::map<std::filesystem::path, ByName<StoredBits>> bits;
   std::map<std::filesystem::path, ByName<record::Counts>> statistics;
   std::map<std::filesystem::path, ByName<std::string>> dialects;
@@ -204,6 +205,14 @@ std::map<std::string, StoredError> Baselines::errors(const std::string& configur
   }
   return find_optional(*cache_->errors, configuration)
       .value_or(std::map<std::string, StoredError>{});
+}
+
+std::map<std::string, std::uint64_t> Baselines::scores(const std::string& configuration) const {
+  if (!cache_->scores) {
+    // The same shape as counts: names and whole numbers.
+    cache_->scores = read_table<record::Counts>(cache_->layout.scores(), read_counts);
+  }
+  return find_optional(*cache_->scores, configuration).value_or(record::Counts{});
 }
 
 std::optional<StoredBits> Baselines::bits(const record::Device& device,

@@ -13,6 +13,7 @@
 //   history.json                   every accept: date, reason, run, device keys, what changed
 //   accuracy.json                  {configuration: {device id: {rmse, arithmetic}}}, of plans
 //   SUITE/accuracy
+//   score.json                     {configuration: {device id: 0…3}}, of plans SUITE/stress
 // and baselines/waivers.json: [{device, test, reason, expiry}, …].
 
 #include <cstdint>
@@ -27,6 +28,7 @@
 
 #include "core/image.hpp"
 #include "judge/accuracy_cases.hpp"
+#include "judge/stress.hpp"
 #include "record/store.hpp"
 
 namespace triptych::judge {
@@ -88,6 +90,8 @@ class Baselines {
   [[nodiscard]] std::optional<StoredCounters> counters(const std::string& configuration) const;
   // By device id; empty: never accepted.
   [[nodiscard]] std::map<std::string, StoredError> errors(const std::string& configuration) const;
+  // Likewise: what a stress case scored.
+  [[nodiscard]] std::map<std::string, std::uint64_t> scores(const std::string& configuration) const;
   [[nodiscard]] std::optional<StoredBits> bits(const record::Device& device,
                                                const std::string& configuration) const;
   // nullopt: nothing stored for this driver version at all, or not for this configuration.
@@ -129,6 +133,8 @@ struct AcceptRequest {
   std::function<core::Image(const record::Record&)> truth;
   // The limit of a record's scene, nullptr where it has none; nothing: no errors are stored.
   std::function<const LimitPicture*(const record::Record&)> limit = {};
+  // Scores every record of the run by both; nothing: no scores are stored.
+  std::optional<StressTruths> stress = {};
 };
 
 // Writes what a run measured as the new baselines; returns one line per changed file, each followed

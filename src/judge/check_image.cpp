@@ -15,8 +15,6 @@ namespace {
 
 // Two renderings of one truth differ only by rounding to float.
 constexpr double truth_tolerance = 1e-5;
-// Root mean square between any two devices on default paths, in full scale.
-constexpr double device_agreement = 1e-4;
 
 // A device's picture that can be held against another device's.
 struct Picture {

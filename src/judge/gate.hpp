@@ -17,11 +17,20 @@
 #include "judge/accuracy_cases.hpp"
 #include "judge/baselines.hpp"
 #include "judge/correlation_model.hpp"
+#include "judge/stress.hpp"
 #include "record/store.hpp"
 
 namespace triptych::judge {
 
-enum class Check : std::uint8_t { image, counters, statistics, timing, correlation, accuracy };
+enum class Check : std::uint8_t {
+  image,
+  counters,
+  statistics,
+  timing,
+  correlation,
+  accuracy,
+  stress
+};
 [[nodiscard]] std::string_view name_of(Check check);
 [[nodiscard]] Check check(std::string_view name);  // throws InputError
 
@@ -79,24 +88,22 @@ struct GateResult {
 // "levels", "global"}; what is no number is null.
 [[nodiscard]] nlohmann::json to_json(const CorrelationPair& pair);
 
-struct TruthPair {
-  core::Image truth;
-  core::Image bound;  // per pixel, same value in all channels
-};
-
 struct GateRequest {
   std::string plan;
   std::set<Check> checks;            // empty: all; the correlation only where a device measured
                                      // CorrelationModel::least_configurations,
-                                     // accuracy only of a plan SUITE/accuracy
+                                     // accuracy only of a plan SUITE/accuracy; of a plan
+                                     // SUITE/stress image, counters and stress
   std::vector<std::string> devices;  // globs; empty: all in the run
   std::vector<std::string>
       required_devices;  // globs; each must match a device that measured something
   // The truth for a record's scene with the bound that holds for the record's path. Computed by the
   // suite, cached in the store by the caller.
-  std::function<TruthPair(const record::Record&)> truth;
+  FindTruth truth;
   // The limit of a record's scene, nullptr where it has none; it lives as long as the request.
   std::function<const LimitPicture*(const record::Record&)> limit = {};
+  // What must hold of a record beside its truth; nothing: no record has any.
+  FindExpectations expectations = {};
   std::string today;  // ISO date, for the expiry of waivers
 };
 

@@ -19,6 +19,7 @@ struct Layout {
   }
   [[nodiscard]] std::filesystem::path counters() const { return folder / "counters.json"; }
   [[nodiscard]] std::filesystem::path errors() const { return folder / "accuracy.json"; }
+  [[nodiscard]] std::filesystem::path scores() const { return folder / "score.json"; }
   [[nodiscard]] std::filesystem::path bits(const record::Device& device) const {
     return folder / "bits" / (device.key_hash() + ".json");
   }

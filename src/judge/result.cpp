@@ -13,13 +13,14 @@
 namespace triptych::judge {
 namespace {
 
-constexpr std::array<std::pair<Check, std::string_view>, 6> check_names{{
+constexpr std::array<std::pair<Check, std::string_view>, 7> check_names{{
     {Check::image, "image"},
     {Check::counters, "counters"},
     {Check::statistics, "statistics"},
     {Check::timing, "timing"},
     {Check::correlation, "correlation"},
     {Check::accuracy, "accuracy"},
+    {Check::stress, "stress"},
 }};
 
 constexpr std::array<std::pair<Verdict, std::string_view>, 7> verdict_names{{
@@ -92,7 +93,8 @@ Check check(std::string_view name) {
     if (text == name) return known;
   }
   throw core::InputError(fmt::format(
-      "unknown check '{}'; expected image, counters, statistics, timing, correlation or accuracy",
+      "unknown check '{}'; expected image, counters, statistics, timing, correlation, accuracy or "
+      "stress",
       name));
 }
 

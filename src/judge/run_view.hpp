@@ -65,6 +65,9 @@ struct AccuracyFindings {
 // Without baselines there are no findings, yet scenes.
 [[nodiscard]] AccuracyFindings check_accuracies(const RunView& view);
 
+// A finding per record that has a score, those that failed among them.
+[[nodiscard]] std::vector<Finding> check_stress(const RunView& view);
+
 // Turns regressions that waivers.json excuses into waived ones; says where a waiver has expired.
 void apply_waivers(const RunView& view, std::vector<Finding>& findings);
 

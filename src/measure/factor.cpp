@@ -23,10 +23,10 @@ Factor choice(std::string name, std::vector<std::string> levels, std::string sta
 }
 
 Factor number(std::string name, double minimum, double maximum, std::string standard,
-              Decides decides, std::string summary) {
+              Decides decides, std::string summary, std::vector<std::string> words) {
   return {.name = std::move(name),
           .kind = FactorKind::number,
-          .levels = {},
+          .levels = std::move(words),
           .minimum = minimum,
           .maximum = maximum,
           .standard = std::move(standard),

@@ -14,8 +14,10 @@ enum class Decides : std::uint8_t { the_picture, how_it_is_made };
 
 [[nodiscard]] Factor choice(std::string name, std::vector<std::string> levels, std::string standard,
                             Decides decides, std::string summary);
+// `words`: values that stand for a number which the suite knows.
 [[nodiscard]] Factor number(std::string name, double minimum, double maximum, std::string standard,
-                            Decides decides, std::string summary);
+                            Decides decides, std::string summary,
+                            std::vector<std::string> words = {});
 // Its values are checked by Suite::check. It decides the picture.
 [[nodiscard]] Factor text(std::string name, std::string standard, std::string summary);
 

@@ -65,6 +65,7 @@ std::optional<double> parse_number(std::string_view text) {
 }
 
 std::string canonical_number(const Factor& factor, const PlacedText& value) {
+  if (std::ranges::find(factor.levels, value.text) != factor.levels.end()) return value.text;
   const std::optional<double> number = parse_number(value.text);
   if (!number) {
     throw core::InputError(
@@ -305,7 +306,8 @@ Plan make_plan(const std::string& name, const Suite& suite, const ValuesByFactor
   Plan plan{.name = name,
             .suite = std::string(suite.name()),
             .configurations = combine(axes),
-            .varied = {}};
+            .varied = {},
+            .timed = true};
   for (const Axis& axis : axes) {
     if (axis.values.size() > 1) plan.varied.push_back(axis.factor->name);
   }
@@ -321,7 +323,9 @@ Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
   const Suite& suite = suite_of(source, text, find_suite);
   ValuesByFactor values = values_of_plan(suite, text);
   apply(overrides, suite, values);
-  return make_plan(source.name, suite, values);
+  Plan plan = make_plan(source.name, suite, values);
+  plan.timed = text.timed;
+  return plan;
 }
 
 Plan default_plan(const Suite& suite, const Overrides& overrides) {

@@ -17,6 +17,8 @@ struct Plan {
   std::vector<Configuration>
       configurations;               // in order: data varies slowest, then pipelines, then views
   std::vector<std::string> varied;  // factors with more than one value
+  // Of `timed: false` only pictures and counters are wanted: one frame each, no clocks.
+  bool timed = true;
 };
 
 // Overrides from the command line: "--set factor=a,b".

@@ -57,6 +57,13 @@ std::vector<PlacedText> values_of(const YAML::Node& node, const std::string& fil
   return values;
 }
 
+bool truth_value(const PlacedText& value) {
+  if (value.text == "true") return true;
+  if (value.text == "false") return false;
+  throw core::InputError(value.place,
+                         fmt::format("'timed': expected true or false, found '{}'", value.text));
+}
+
 }  // namespace
 
 PlanText parse_plan(std::string_view yaml, const std::string& file) {
@@ -74,6 +81,8 @@ PlanText parse_plan(std::string_view yaml, const std::string& file) {
       plan.suite = scalar(pair.second, file, key.text);
     } else if (key.text == "summary") {
       static_cast<void>(scalar(pair.second, file, key.text));
+    } else if (key.text == "timed") {
+      plan.timed = truth_value(scalar(pair.second, file, key.text));
     } else {
       std::vector<PlacedText> values = values_of(pair.second, file, key.text);
       plan.entries.push_back({.factor = std::move(key), .values = std::move(values)});

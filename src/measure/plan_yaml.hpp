@@ -22,11 +22,13 @@ struct PlanEntry {
 
 struct PlanText {
   PlacedText suite;
+  bool timed = true;
   std::vector<PlanEntry> entries;  // in the order of the file, no factor twice
 };
 
 // `file` is what errors call the text. Throws InputError for what is not YAML, not one mapping, has
-// no `suite`, a key twice, an empty list, a value that is not a scalar or has none.
+// no `suite`, a key twice, an empty list, a value that is not a scalar or has none, a `timed` that
+// is neither true nor false.
 [[nodiscard]] PlanText parse_plan(std::string_view yaml, const std::string& file);
 
 }  // namespace triptych::measure

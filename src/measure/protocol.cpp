@@ -118,8 +118,33 @@ std::string image_hash(const core::Image& image) {
   return core::content_hash(bytes);
 }
 
+namespace {
+
+Measurement picture_alone(Prepared& prepared, const Protocol& protocol) {
+  const Stopwatch whole;
+  Measurement result;
+  record::Record& record = result.record;
+  const Stopwatch drawing;
+  static_cast<void>(prepared.frame(Purpose::timing));
+  double work_ns = drawing.ns();
+  result.image = prepared.image();
+  if (protocol.counters) {
+    const Stopwatch counting;
+    record.counters = prepared.frame(Purpose::counters).counts;
+    work_ns += counting.ns();
+  }
+  record.image = image_hash(result.image);
+  record.kernel_hash = prepared.kernel_hash();
+  record.outcome = record::Outcome::measured;
+  record.overhead_ns = whole.ns() - work_ns;
+  return result;
+}
+
+}  // namespace
+
 Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Work work_kind,
                     const std::vector<record::ClockTrust>& clocks, const std::string& name) {
+  if (!protocol.timed) return picture_alone(prepared, protocol);
   const Stopwatch whole;
   initialize_benchmarks();
   Measurement result;

@@ -23,6 +23,9 @@ struct Protocol {
   int most_loop_frames = 1000;
   bool statistics = true;
   bool counters = true;
+  // Else one frame for its picture and one for our counters: nothing is warmed up, and no time,
+  // statistic or benchmark is told.
+  bool timed = true;
 };
 
 struct Measurement {

@@ -40,8 +40,10 @@ record::Run new_run(const Plan& plan) {
           .system = system_facts()};
 }
 
+// The kinds of work whose clocks are needed.
 std::vector<std::string> kinds_of(const Plan& plan) {
   std::set<std::string> kinds;
+  if (!plan.timed) return {};
   for (const Configuration& configuration : plan.configurations) {
     kinds.emplace(technique::name_of(technique::technique(configuration.at("technique")).work));
   }
@@ -94,7 +96,7 @@ class DeviceRun {
                              const OnLoading& on_loading) {
     Job job{.name = device_ + "/" + key,
             .configuration = configuration,
-            .protocol = context_.options.protocol,
+            .protocol = protocol(),
             .plants = context_.plants_for(key, device_)};
     Done done =
         ensure_worker() ? ask(job, on_loading) : Done{ended(record::Outcome::failed, no_worker_)};
@@ -135,6 +137,12 @@ class DeviceRun {
       known_ = std::move(entry.device);
       clocks_ = std::move(entry.clocks);
     }
+  }
+
+  [[nodiscard]] Protocol protocol() const {
+    Protocol protocol = context_.options.protocol;
+    protocol.timed = protocol.timed && context_.plan.timed;
+    return protocol;
   }
 
   // False when no worker can be had, now or later; the reason is then in no_worker_.

@@ -15,19 +15,20 @@
 #include "core/image.hpp"
 #include "measure/backend.hpp"
 #include "measure/loading.hpp"
+#include "record/expectation.hpp"
 
 namespace triptych::measure {
 
 enum class FactorKind : std::uint8_t {
   choice,  // one of `levels`
-  number,  // a finite real number within [minimum, maximum]
+  number,  // a finite real number within [minimum, maximum], or one of `levels`
   text     // checked by Suite::check
 };
 
 struct Factor {
   std::string name;
   FactorKind kind = FactorKind::text;
-  std::vector<std::string> levels;  // choice only
+  std::vector<std::string> levels;  // of a number, words that stand for one
   double minimum = 0;               // number only
   double maximum = 0;
   std::string standard;  // its value when a plan leaves it out; "auto": the device's default path
@@ -112,6 +113,11 @@ class SuiteWithTruth : public Suite {
   // grid and tables cannot represent.
   [[nodiscard]] virtual std::optional<core::Image> closed_form(const Configuration&) {
     return std::nullopt;
+  }
+
+  // What must hold of a stress case beside its truth.
+  [[nodiscard]] virtual std::vector<record::Expectation> expectations(const Configuration&) {
+    return {};
   }
 };
 

@@ -99,10 +99,13 @@ auto reading(std::string_view type, Read read) {
 }
 
 Json to_json(const Protocol& protocol) {
-  return {
-      {"warm_up_frames", protocol.warm_up_frames}, {"timed_frames", protocol.timed_frames},
-      {"least_loop_ns", protocol.least_loop_ns},   {"most_loop_frames", protocol.most_loop_frames},
-      {"statistics", protocol.statistics},         {"counters", protocol.counters}};
+  return {{"warm_up_frames", protocol.warm_up_frames},
+          {"timed_frames", protocol.timed_frames},
+          {"least_loop_ns", protocol.least_loop_ns},
+          {"most_loop_frames", protocol.most_loop_frames},
+          {"statistics", protocol.statistics},
+          {"counters", protocol.counters},
+          {"timed", protocol.timed}};
 }
 
 Protocol protocol_from(const Json& json) {
@@ -111,7 +114,8 @@ Protocol protocol_from(const Json& json) {
           .least_loop_ns = json.at("least_loop_ns"),
           .most_loop_frames = json.at("most_loop_frames"),
           .statistics = json.at("statistics"),
-          .counters = json.at("counters")};
+          .counters = json.at("counters"),
+          .timed = json.at("timed")};
 }
 
 }  // namespace

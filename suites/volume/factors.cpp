@@ -5,6 +5,7 @@
 #include "scene/generators.hpp"
 #include "scene/transfer_function.hpp"
 #include "suites/volume/analytic_data.hpp"
+#include "suites/volume/stress_cases.hpp"
 
 namespace triptych::volume_suite {
 namespace {
@@ -28,35 +29,39 @@ const std::vector<Factor>& volume_factors() {
       choice("technique", measure::technique_ids("volume"), "raycast", Decides::how_it_is_made,
              "how the picture is made"),
       text("data", "generate:mandelbulb:96",
-           "a volume file (.nrrd, .nhdr, .dat), generate:NAME:SIZE, generate:NAME:NXxNYxNZ, or "
-           "analytic:PROBLEM:SIZE, known by a formula"),
+           "a volume file (.nrrd, .nhdr, .dat), generate:NAME:SIZE, generate:NAME:NXxNYxNZ, "
+           "analytic:PROBLEM:SIZE, known by a formula, or stress:CASE:VARIANT"),
       choice("voxel", {"auto", "u8", "u16", "f32"}, "auto", Decides::how_it_is_made,
              "how voxels are stored on the device; auto: the device's fastest exact path"),
       choice("sampler", {"auto", "hardware", "manual"}, "auto", Decides::how_it_is_made,
              "who interpolates between voxels; auto: as for voxel"),
-      text(
-          "transfer_function", "haze",
-          "haze, surfaces, a file of 256 RGBA entries, or own: an analytic problem's own, surfaces "
-          "for all other data"),
+      text("transfer_function", "haze",
+           "haze, surfaces, a file of 256 RGBA entries, or own: an analytic problem's or stress "
+           "case's "
+           "own, surfaces for all other data"),
       number("step", 1.0 / 64, 4096, "1", Decides::the_picture,
-             "distance of samples in smallest voxel spacings"),
+             "distance of samples in smallest voxel spacings; own, here and below: a stress case's "
+             "own, the default for all other data",
+             {std::string(own_level)}),
       choice("quadrature", {"midpoint", "preintegrated"}, "midpoint", Decides::the_picture,
              "rule for the ray integral: one sample for a step, or the transfer function "
              "integrated between the values at its ends"),
-      choice("shading", {"none", "gradient"}, "none", Decides::the_picture,
+      choice("shading", {"none", "gradient", std::string(own_level)}, "none", Decides::the_picture,
              "headlight from central differences"),
       choice("skip", {"none", "bricks", "distance"}, "bricks", Decides::how_it_is_made,
              "how empty space is skipped"),
       number("ert", 0, 0.5, "0.001953125", Decides::how_it_is_made,
-             "transmittance below which a ray ends; 0: never. The default is half an 8-bit step"),
-      text("camera", "orbit_y:1/8", "PATH:i/n (orbit_y:1/8, path_z:3/36, …) or random:SEED"),
-      text("viewport", "256", "N for NxN, or WxH, in pixels"),
+             "transmittance below which a ray ends; 0: never. The default is half an 8-bit step",
+             {std::string(own_level)}),
+      text("camera", "orbit_y:1/8", "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED, or own"),
+      text("viewport", "256", "N for NxN, or WxH, in pixels, or own"),
   };
   return factors;
 }
 
 void check_value(const Factor& factor, std::string_view value,
                  const std::vector<std::filesystem::path>& folders) {
+  if (value == own_level && factor.name != "data") return;  // no other factor would take it
   if (factor.name == "viewport") {
     static_cast<void>(measure::parse_viewport(value));
   } else if (factor.name == "camera") {
@@ -64,7 +69,8 @@ void check_value(const Factor& factor, std::string_view value,
   } else if (factor.name == "data") {
     if (value.starts_with("generate:")) measure::check_generator(value, generator_names());
     static_cast<void>(analytic_data(value));
-  } else if (factor.name == "transfer_function" && value != own_transfer_function) {
+    static_cast<void>(stress_data(value));
+  } else if (factor.name == "transfer_function") {
     static_cast<void>(scene::load_transfer_function(value, folders));
   }
 }

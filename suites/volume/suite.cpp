@@ -6,6 +6,7 @@
 #include <functional>
 #include <utility>
 
+#include "core/hash.hpp"
 #include "core/json.hpp"
 #include "measure/factor.hpp"
 #include "reference/volume.hpp"
@@ -13,13 +14,14 @@
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/factors.hpp"
 #include "suites/volume/frame_description.hpp"
+#include "suites/volume/own_levels.hpp"
+#include "suites/volume/stress_cases.hpp"
 #include "suites/volume/tolerance.hpp"
 #include "triptych_suite_volume_embedded.hpp"
 
 namespace triptych::volume_suite {
 namespace {
 
-using measure::as_number;
 using measure::Configuration;
 
 class VolumeSuite final : public measure::SuiteWithTruth {
@@ -45,20 +47,28 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   std::string limit_key(const Configuration& configuration) override;
   measure::Limit limit(const Configuration& configuration) override;
   std::optional<core::Image> closed_form(const Configuration& configuration) override;
+  std::vector<record::Expectation> expectations(const Configuration& configuration) override;
 
  private:
   // The last data set loaded: neighbours in a plan share it.
   struct Loaded {
     std::string data;
+    std::optional<StressScene> stress;  // without its voxels
     scene::VoxelFormat native = scene::VoxelFormat::f32;
     std::shared_ptr<const scene::VoxelGrid> grid;
   };
   using ChooseFormat = std::function<scene::VoxelFormat(scene::VoxelFormat native)>;
 
+  // What the truth is rendered of: the scene, and the errors that a device's path may make in it.
+  struct Judged {
+    scene::VolumeScene scene;
+    reference::ErrorModel model;
+  };
+
   const Loaded& load(const std::string& data, const ChooseFormat& choose);
   const Loaded& load_as_it_is(const Configuration& configuration);
-  scene::VolumeScene scene(const Configuration& configuration,
-                           const std::shared_ptr<const scene::VoxelGrid>& grid) const;
+  scene::VolumeScene scene(const Configuration& configuration, const Loaded& loaded) const;
+  Judged judged(const Configuration& configuration, const std::map<std::string, double>& precision);
 
   std::vector<std::filesystem::path> folders_;
   Loaded loaded_;
@@ -77,7 +87,7 @@ std::string_view VolumeSuite::plan_text(std::string_view plan) const {
 
 std::string VolumeSuite::missing_data(const Configuration& configuration) const {
   const std::string& data = configuration.at("data");
-  if (analytic_data(data) || scene::is_present(data, folders_)) return {};
+  if (analytic_data(data) || stress_data(data) || scene::is_present(data, folders_)) return {};
   return fmt::format(
       "data file '{}' is not here; set TRIPTYCH_DATA to the folder that holds volumes/", data);
 }
@@ -87,10 +97,18 @@ const VolumeSuite::Loaded& VolumeSuite::load(const std::string& data, const Choo
     return loaded_;
   }
   loaded_ = {};  // frees the old one before the new one is loaded
-  const auto analytic = analytic_data(data);
-  scene::Volume volume = analytic ? analytic_volume(*analytic) : scene::load_volume(data, folders_);
+  std::optional<StressScene> stress;
+  scene::Volume volume;
+  if (const auto known = stress_data(data)) {
+    stress = stress_scene(*known);
+    volume = std::move(stress->volume);
+  } else {
+    const auto analytic = analytic_data(data);
+    volume = analytic ? analytic_volume(*analytic) : scene::load_volume(data, folders_);
+  }
   const scene::VoxelFormat native = scene::lossless_format(volume.type);
   loaded_ = {.data = data,
+             .stress = std::move(stress),
              .native = native,
              .grid = std::make_shared<const scene::VoxelGrid>(
                  scene::encode(std::move(volume), choose(native)))};
@@ -101,30 +119,27 @@ const VolumeSuite::Loaded& VolumeSuite::load_as_it_is(const Configuration& confi
   return load(configuration.at("data"), [](scene::VoxelFormat native) { return native; });
 }
 
-scene::TransferFunction transfer_function(const Configuration& configuration,
-                                          const std::vector<std::filesystem::path>& folders) {
-  const std::string& name = configuration.at("transfer_function");
-  if (name != own_transfer_function) return scene::load_transfer_function(name, folders);
-  const auto analytic = analytic_data(configuration.at("data"));
-  return analytic ? analytic_transfer_function(*analytic)
-                  : scene::load_transfer_function("surfaces");
+// What may be `own` in a configuration of the data loaded.
+OwnLevels levels_of(const Configuration& configuration, const std::optional<StressScene>& stress) {
+  return {configuration, stress ? &*stress : nullptr};
 }
 
 scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
-                                      const std::shared_ptr<const scene::VoxelGrid>& grid) const {
-  const auto [width, height] = measure::parse_viewport(configuration.at("viewport"));
+                                      const Loaded& loaded) const {
+  const OwnLevels levels = levels_of(configuration, loaded.stress);
+  const auto [width, height] = levels.viewport();
   return {
-      .grid = grid,
-      .transfer_function = transfer_function(configuration, folders_),
-      .camera =
-          scene::camera_at(configuration.at("camera"), scene::bounding_box(*grid), field_of_view),
+      .grid = loaded.grid,
+      .transfer_function = levels.transfer_function(folders_),
+      .camera = levels.camera(scene::bounding_box(*loaded.grid)),
       .width = width,
       .height = height,
-      .step_voxels = as_number(configuration, "step"),
+      .step_voxels = levels.step(),
       .quadrature = configuration.at("quadrature") == "preintegrated"
                         ? scene::Quadrature::preintegrated
                         : scene::Quadrature::midpoint,
-      .shading = {.enabled = configuration.at("shading") == "gradient"},
+      .shading = {.enabled = levels.shaded()},
+      .background = levels.background(),
   };
 }
 
@@ -143,12 +158,12 @@ measure::Work VolumeSuite::work(Configuration& configuration, const measure::Dev
   }
   configuration["voxel"] = scene::name_of(path.voxel);
   configuration["sampler"] = technique::name_of(path.sampler);
-  return {
-      .technique = configuration.at("technique"),
-      .scene = measure::VolumeWork{.scene = scene(configuration, loaded.grid),
-                                   .options = {.sampler = path.sampler,
-                                               .skip = technique::skip(configuration.at("skip")),
-                                               .ert = as_number(configuration, "ert")}}};
+  return {.technique = configuration.at("technique"),
+          .scene = measure::VolumeWork{
+              .scene = scene(configuration, loaded),
+              .options = {.sampler = path.sampler,
+                          .skip = technique::skip(configuration.at("skip")),
+                          .ert = levels_of(configuration, loaded.stress).ert()}}};
 }
 
 measure::Work VolumeSuite::calibration(technique::Work kind) {
@@ -180,42 +195,61 @@ double storage_step(const Configuration& configuration, scene::VoxelFormat nativ
   return format == scene::VoxelFormat::u8 ? 1.0 / 255 : 1.0 / 65535;
 }
 
-reference::ErrorModel model_of(const Configuration& configuration, const scene::VolumeScene& scene,
-                               const std::map<std::string, double>& precision,
-                               scene::VoxelFormat native) {
+VolumeSuite::Judged VolumeSuite::judged(const Configuration& configuration,
+                                        const std::map<std::string, double>& precision) {
+  const Loaded& loaded = load_as_it_is(configuration);
+  scene::VolumeScene pictured = scene(configuration, loaded);
   const auto probed = precision.find("filter_weight_error");
-  return error_model(scene, {.ert = as_number(configuration, "ert"),
+  const reference::ErrorModel model =
+      error_model(pictured, {.ert = levels_of(configuration, loaded.stress).ert(),
                              .filter_weight_error = probed == precision.end() ? 0 : probed->second,
-                             .storage_step = storage_step(configuration, native)});
+                             .storage_step = storage_step(configuration, loaded.native)});
+  return {std::move(pictured), model};
 }
 
 measure::Truth VolumeSuite::truth(const Configuration& configuration,
                                   const std::map<std::string, double>& precision) {
-  const Loaded& loaded = load_as_it_is(configuration);
-  const scene::VolumeScene pictured = scene(configuration, loaded.grid);
-  const reference::Truth truth = reference::render_volume(
-      pictured, model_of(configuration, pictured, precision, loaded.native));
+  const auto [pictured, model] = judged(configuration, precision);
+  const reference::Truth truth = reference::render_volume(pictured, model);
   return {.image = truth.image(), .bound = truth.bound_image()};
 }
 
 std::string VolumeSuite::truth_key(const Configuration& configuration,
                                    const std::map<std::string, double>& precision) {
-  const Loaded& loaded = load_as_it_is(configuration);
-  const scene::VolumeScene pictured = scene(configuration, loaded.grid);
-  const reference::ErrorModel model = model_of(configuration, pictured, precision, loaded.native);
-  return fmt::format("reference {} data {} model {:a} {:a} {:a} {:a} {:a} {:a} {:a}",
-                     reference::volume_version, loaded.grid->hash, model.position_error_voxels,
-                     model.value_error, model.filter_weight_error, model.table_error,
-                     model.opacity_error, model.compositing_error, model.ert);
+  const auto [pictured, model] = judged(configuration, precision);
+  std::string key =
+      fmt::format("reference {} data {} model {:a} {:a} {:a} {:a} {:a} {:a} {:a}",
+                  reference::volume_version, pictured.grid->hash, model.position_error_voxels,
+                  model.value_error, model.filter_weight_error, model.table_error,
+                  model.opacity_error, model.compositing_error, model.ert);
+  // What a stress case brings besides is not among the factors.
+  if (stress_data(configuration.at("data"))) {
+    key += " frame " + core::content_hash(describe_frame(pictured, model.ert).dump());
+  }
+  return key;
 }
 
 nlohmann::json VolumeSuite::describe(const Configuration& configuration) {
   const Loaded& loaded = load_as_it_is(configuration);
-  return describe_frame(scene(configuration, loaded.grid), as_number(configuration, "ert"));
+  return describe_frame(scene(configuration, loaded),
+                        levels_of(configuration, loaded.stress).ert());
+}
+
+std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& configuration) {
+  std::vector<record::Expectation> result;
+  const auto& stress = load_as_it_is(configuration).stress;
+  if (!stress) return result;
+  result = stress->expectations;
+  if (configuration.at("skip") == "none") return result;
+  result.insert(result.end(), stress->when_skipping.begin(), stress->when_skipping.end());
+  result.push_back({"the bits of the picture without skipping",
+                    record::SamePicture{.changed = {{"skip", "none"}}}});
+  return result;
 }
 
 // The step is no part of it: it is what tends to zero.
 std::string VolumeSuite::limit_key(const Configuration& configuration) {
+  if (stress_data(configuration.at("data"))) return {};
   return fmt::format(
       "converged {} data {} {}, transfer_function {}, shading {}, camera {}, "
       "viewport {}",
@@ -228,7 +262,7 @@ measure::Limit VolumeSuite::limit(const Configuration& configuration) {
   // Below the rounding of a float picture's whole range.
   constexpr double tolerance = 0x1.0p-24;
   const reference::Truth truth = reference::render_volume_converged(
-      scene(configuration, load_as_it_is(configuration).grid), tolerance);
+      scene(configuration, load_as_it_is(configuration)), tolerance);
   return {.image = truth.image(), .uncertainty = truth.bound_image()};
 }
 
@@ -236,7 +270,7 @@ std::optional<core::Image> VolumeSuite::closed_form(const Configuration& configu
   const auto analytic = analytic_data(configuration.at("data"));
   const bool own = configuration.at("transfer_function") == own_transfer_function;
   if (!analytic || !own || configuration.at("shading") != "none") return std::nullopt;
-  return analytic_picture(*analytic, scene(configuration, load_as_it_is(configuration).grid));
+  return analytic_picture(*analytic, scene(configuration, load_as_it_is(configuration)));
 }
 
 }  // namespace

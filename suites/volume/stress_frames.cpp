@@ -1,0 +1,71 @@
+// Cases 51 … 54: what is special about the frame.
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "suites/volume/stress_parts.hpp"
+#include "suites/volume/stress_scenes.hpp"
+
+namespace triptych::volume_suite {
+namespace {
+
+// The field of view of a picture of so many rows whose pixels are as large as those of `rows` rows
+// at 50°.
+double fov_of_rows(int height, int rows) {
+  const double half = std::tan(50 * std::numbers::pi / 360);
+  return std::atan(half * height / rows) * 360 / std::numbers::pi;
+}
+
+}  // namespace
+
+// Pictures of fewer pixels around the same middle are parts of the whole.
+StressScene stress_shape(std::string_view variant) {
+  constexpr int columns = 17;
+  constexpr int rows = 13;
+  StressScene scene = lopsided_scene();
+  scene.width = variant.starts_with("17x") ? columns : 1;
+  scene.height = variant.ends_with("x13") ? rows : 1;
+  scene.camera.fov_y_deg = fov_of_rows(scene.height, rows);
+  if (variant != "17x13") {
+    scene.expectations = {
+        {"the part of 17x13 pixels that it is, within both bounds",
+         record::SamePicture{.changed = {{"data", "stress:shape:17x13"}},
+                             .at = {(columns - scene.width) / 2, (rows - scene.height) / 2},
+                             .to_the_bit = false}}};
+  }
+  return scene;
+}
+
+// A row as wide as pictures of today's devices may be, and one pixel more.
+StressScene stress_widest(std::string_view variant) {
+  StressScene scene = lopsided_scene();
+  scene.width = variant == "16384" ? 16384 : 16385;
+  scene.height = 1;
+  scene.camera.fov_y_deg = fov_of_rows(1, scene.width);
+  if (variant != "16384") {
+    scene.expectations = {{"drawn, or refused with the limit it exceeds", record::MayBeRefused{}}};
+  }
+  return scene;
+}
+
+StressScene stress_field_of_view(std::string_view variant) {
+  StressScene scene = lopsided_scene();
+  if (variant == "widest") {
+    scene.camera = looking({12, 11, 60}, {11.5, 11, 0}, 179);
+    return scene;
+  }
+  // A thousandth of a voxel across, where the field is steep.
+  scene.camera = looking({31, 33, 41}, {9.25, 16.5, 12.75}, 0.001);
+  return scene;
+}
+
+StressScene stress_asymmetric(std::string_view /*variant*/) {
+  StressScene scene = lopsided_scene();
+  scene.camera = looking({12, 14, 62}, {12, 12, 12}, 34);
+  scene.width = 40;
+  scene.height = 32;
+  return scene;
+}
+
+}  // namespace triptych::volume_suite

@@ -1,0 +1,131 @@
+// Cases 1 … 7 and 14: where the eye is and where rays go.
+
+#include <charconv>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <string>
+
+#include "suites/volume/stress_parts.hpp"
+#include "suites/volume/stress_scenes.hpp"
+
+namespace triptych::volume_suite {
+namespace {
+
+constexpr int edge = 24;  // voxels, of lopsided_scene
+
+StressScene seen_from(const scene::Camera& camera) {
+  StressScene scene = lopsided_scene();
+  scene.camera = camera;
+  return scene;
+}
+
+// Columns and rows are odd in number, so that the middle ones look exactly ahead.
+StressScene with_middle_ray(StressScene scene) {
+  scene.width = scene.height = 25;
+  return scene;
+}
+
+// 2·atan(half/distance) in degrees: the picture shows `half` to either side at that distance.
+double fov_of(double half, double distance) {
+  return 2 * std::atan2(half, distance) * 180 / std::numbers::pi;
+}
+
+}  // namespace
+
+StressScene stress_inside(std::string_view variant) {
+  const glm::dvec3 middle(edge / 2.0);
+  if (variant == "voxel") return seen_from(looking({7.5, 15.5, 9.5}, {20, 3, 17}, 90));
+  return seen_from(looking(middle, middle + glm::dvec3(-1, 0.4, -0.7), 100));
+}
+
+StressScene stress_boundary(std::string_view variant) {
+  if (variant == "face") return seen_from(looking({0, 9.25, 13.5}, {12, 12, 12}, 90));
+  if (variant == "edge") return seen_from(looking({edge, edge, 10.25}, {12, 12, 12}, 90));
+  if (variant == "corner") return seen_from(looking({0, edge, edge}, {12, 12, 12}, 90));
+  // From a face outward, at an angle that leaves no ray inside.
+  StressScene scene = seen_from(looking({edge, 9.25, 13.5}, {40, 12, 12}, 60));
+  scene.expectations = {
+      {"background to the bit, for no ray enters the box", record::OneColour{scene.background}}};
+  return scene;
+}
+
+StressScene stress_parallel(std::string_view variant) {
+  // The middle column has directions with x = ±0 and begins in the plane x = 0 or x = 24.
+  if (variant == "lower") {
+    return with_middle_ray(seen_from(along({0, 11, 40}, {0, 0, -1}, {0, 1, 0}, 45)));
+  }
+  if (variant == "upper") {
+    return with_middle_ray(seen_from(along({edge, 11, 40}, {0, 0, -1}, {0, 1, 0}, 45)));
+  }
+  return with_middle_ray(seen_from(along({0, 0, -16}, {-0.0, -0.0, 1}, {-0.0, 1, 0}, 45)));
+}
+
+StressScene stress_within_face(std::string_view variant) {
+  const double y = edge;
+  if (variant == "face") {
+    return with_middle_ray(seen_from(along({-9, y, 10.5}, {1, 0, 0}, {0, 1, 0}, 70)));
+  }
+  return with_middle_ray(seen_from(along({-9, y, edge}, {1, 0, 0}, {0, 1, 0}, 70)));
+}
+
+// The picture is 0.04 voxels wide; along a ray through it the chord falls to 0 as its distance from
+// the edge or corner does. A field without zeros makes the shortest of them visible.
+StressScene stress_chord(std::string_view variant) {
+  StressScene scene = lopsided_scene();
+  scene.function = uniform({0.75F, 0.5F, 0.25F, 0.9999F});
+  scene.step_voxels = 0.25;
+  const bool at_edge = variant == "edge";
+  const glm::dvec3 target = at_edge ? glm::dvec3(0, 0, 11.25) : glm::dvec3(0, 0, 0);
+  // Across the outer side of the edge: the rays graze the box there.
+  const glm::dvec3 from = at_edge ? glm::dvec3(40, -40, 3) : glm::dvec3(30, -33, 4);
+  scene.camera = looking(target + from, target, fov_of(0.02, glm::length(from)));
+  return scene;
+}
+
+// Field and camera are mirrored along the axes marked `m`. A mirror exchanges left and right of a
+// camera, whose axes are right-handed; two of them do not.
+StressScene stress_octant(std::string_view variant) {
+  const glm::dvec3 sign(variant[0] == 'm' ? -1 : 1, variant[1] == 'm' ? -1 : 1,
+                        variant[2] == 'm' ? -1 : 1);
+  const Size size{edge, edge, edge};
+  const auto at = [&](int index, int axis) { return sign[axis] < 0 ? edge - 1 - index : index; };
+  StressScene scene = seen_from_outside(volume_of(
+      size, [&](int i, int j, int k) { return lopsided(size, at(i, 0), at(j, 1), at(k, 2)); }));
+  // Coordinates of few bits: the mirrored eye is exact.
+  const scene::Camera plain = looking(glm::dvec3(20, 13, 27), {0, 0, 0}, 50);
+  scene.camera = along(glm::dvec3(edge / 2.0) + sign * plain.eye, sign * plain.forward,
+                       sign * plain.up, plain.fov_y_deg);
+  if (variant != "ppp") {
+    scene.expectations = {{"the mirror image of the first octant, within both bounds",
+                           record::SamePicture{.changed = {{"data", "stress:octant:ppp"}},
+                                               .mirrored_x = sign.x * sign.y * sign.z < 0,
+                                               .to_the_bit = false}}};
+  }
+  return scene;
+}
+
+// A picture as from near by, by a lens as long as the way is far.
+StressScene stress_far(std::string_view variant) {
+  double distance = 0;
+  std::from_chars(variant.data(), variant.data() + variant.size(), distance);
+  StressScene scene = lopsided_scene();
+  const glm::dvec3 middle(edge / 2.0);
+  scene.camera = looking(middle + distance * glm::dvec3(0.48, 0.36, 0.8), middle,
+                         fov_of(0.9 * edge, distance));
+  return scene;
+}
+
+StressScene stress_unseen(std::string_view variant) {
+  const glm::dvec3 eye(60, 12, 70);
+  StressScene scene = seen_from(variant == "behind" ? looking(eye, eye + eye, 60)
+                                                    : looking(eye, {140, 12, 70}, 60));
+  const record::Expectation none{"no sample, for no ray meets the box",
+                                 record::CountAtMost{.counter = "samples", .factor = 0}};
+  const record::Expectation background{"background to the bit",
+                                       record::OneColour{scene.background}};
+  scene.expectations = {none, background};
+  return scene;
+}
+
+}  // namespace triptych::volume_suite

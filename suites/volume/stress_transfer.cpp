@@ -1,0 +1,153 @@
+// Cases 20 … 30: what transfer functions and steps may do.
+
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "core/random.hpp"
+#include "suites/volume/stress_parts.hpp"
+#include "suites/volume/stress_scenes.hpp"
+
+namespace triptych::volume_suite {
+namespace {
+
+constexpr std::array<float, 4> orange{0.875F, 0.5F, 0.125F, 1};
+
+std::array<float, 4> orange_of(double opacity) {
+  return {orange[0], orange[1], orange[2], static_cast<float>(opacity)};
+}
+
+StressScene from_within(const scene::TransferFunction& function) {
+  StressScene scene = lopsided_scene();
+  scene.camera = looking({11.5, 12.25, 13}, {20, 15, 2}, 90);
+  scene.function = function;
+  return scene;
+}
+
+// A cube of 4³ voxels, seen from within one of its ends to the other, by few rays and many samples.
+StressScene marched(double step_voxels, int pixels) {
+  StressScene scene = lopsided_scene();
+  scene.volume = volume_of(
+      {4, 4, 4}, [](int i, int j, int k) { return 0.25 + 0.125 * i + 0.0625 * j + 0.03125 * k; });
+  scene.camera = looking({2, 2.25, 3.875}, {2.125, 1.875, 0}, 30);
+  scene.width = scene.height = pixels;
+  scene.step_voxels = step_voxels;
+  return scene;
+}
+
+}  // namespace
+
+// From within, every ray's first sample covers all that is behind it, however long it is.
+StressScene stress_solid(std::string_view /*variant*/) {
+  StressScene scene = from_within(uniform(orange));
+  scene.expectations = {{"the function's colour to the bit, for 1 − (1 − 1)^s is exactly 1",
+                         record::OneColour{orange}}};
+  return scene;
+}
+
+// 2⁻²⁴ is left of each voxel length: by roots, by squares, and by logarithm and exponential.
+StressScene stress_nearly_solid(std::string_view variant) {
+  StressScene scene = lopsided_scene();
+  scene.function = uniform(orange_of(0x1.fffffep-1));
+  scene.step_voxels = variant == "root" ? 0.125 : variant == "square" ? 2 : 0.7;
+  return scene;
+}
+
+// Each of 10⁵ samples has opacity 2⁻²⁰: 1 − (1 − 2⁻²⁰)^100000 = 0.0910 for a ray along the cube.
+StressScene stress_faint(std::string_view /*variant*/) {
+  constexpr double step = 4e-5;
+  StressScene scene = marched(step, 4);
+  scene.function = uniform(orange_of(-std::expm1(std::log1p(-0x1.0p-20) / step)));
+  return scene;
+}
+
+StressScene stress_march(std::string_view variant) {
+  StressScene scene = variant == "1e5" ? marched(4e-5, 6) : marched(4e-6, 2);
+  scene.function = ramp(0, 0.5);
+  return scene;
+}
+
+// One sample at most, for what is left of the ray; it stands where half of the step would end, and
+// the field is constant outside the box.
+StressScene stress_stride(std::string_view variant) {
+  StressScene scene = lopsided_scene();
+  scene.function = ramp(0, 0.1);
+  scene.function.entries[0][3] = 0.05F;
+  scene.step_voxels = variant == "twice" ? 96 : 30000;
+  scene.expectations = {{"one sample per ray",
+                         record::CountAtMost{.counter = "samples", .factor = 1, .of = "rays_hit"}}};
+  return scene;
+}
+
+// One entry of 256 is visible: 0.4 of a step wide where the field is steep.
+StressScene stress_spike(std::string_view variant) {
+  StressScene scene = lopsided_scene();
+  scene.function = uniform(orange_of(0));
+  scene.function.entries[variant == "low" ? 30 : 128][3] = 0.9F;
+  scene.step_voxels = 2;
+  return scene;
+}
+
+// Values beyond the outermost entries' centres have their colour: half an entry on either side.
+StressScene stress_end_spike(std::string_view variant) {
+  const bool first = variant == "first";
+  StressScene scene = seen_from_outside(volume_of({16, 16, 16}, [first](int i, int j, int k) {
+    const double v = lopsided({16, 16, 16}, i, j, k) / 0.95;
+    return first ? 1 - v : v;
+  }));
+  scene.function = uniform(orange_of(0));
+  scene.function.entries[first ? 0 : 255][3] = 0.9F;
+  return scene;
+}
+
+// Opacity linear along the ray with a slope that tends to 0: the closed form of such a segment
+// (V3) divides by its root.
+StressScene stress_slope(std::string_view variant) {
+  double slope = 0;
+  std::from_chars(variant.data(), variant.data() + variant.size(), slope);
+  StressScene scene = seen_from_outside(
+      volume_of({16, 16, 16}, [slope](int i, int, int) { return 0.5 + slope * (i - 7.5); }));
+  scene.function = ramp(0, 0.4);
+  return scene;
+}
+
+// Some entries of a random function are visible, in runs as short as one entry.
+StressScene stress_edit(std::string_view variant) {
+  std::uint64_t seed = 0;
+  std::from_chars(variant.data(), variant.data() + variant.size(), seed);
+  core::Random random(seed);
+  StressScene scene = lopsided_scene();
+  scene.function = uniform({0, 0, 0, 0});
+  const int runs = 1 + static_cast<int>(random.uniform() * 4);
+  for (int run = 0; run < runs; ++run) {
+    const auto first = static_cast<std::size_t>(random.uniform() * 256);
+    const auto length = static_cast<std::size_t>(1 + random.uniform() * 40);
+    std::array<float, 4> entry{};
+    for (float& channel : entry) channel = static_cast<float>(random.uniform());
+    for (std::size_t k = first; k < std::min<std::size_t>(first + length, 256); ++k) {
+      scene.function.entries[k] = entry;
+    }
+  }
+  return scene;
+}
+
+StressScene stress_transparent(std::string_view /*variant*/) {
+  StressScene scene = lopsided_scene();
+  scene.function = uniform({1, 1, 1, 0});
+  scene.expectations = {
+      {"background to the bit, for nothing is added to 0", record::OneColour{scene.background}}};
+  scene.when_skipping = {{"no sample, for no brick is visible",
+                          record::CountAtMost{.counter = "samples", .factor = 0}}};
+  return scene;
+}
+
+StressScene stress_opaque(std::string_view /*variant*/) {
+  StressScene scene = lopsided_scene();
+  scene.function = uniform(orange);
+  scene.ert = 1.0 / 512;
+  scene.expectations = {{"at most two samples per ray, for the first leaves nothing",
+                         record::CountAtMost{.counter = "samples", .factor = 2, .of = "rays_hit"}}};
+  return scene;
+}
+
+}  // namespace triptych::volume_suite

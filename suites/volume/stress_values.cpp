@@ -1,0 +1,167 @@
+// Cases 15 … 19, 31 and 32: what voxels may hold.
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "suites/volume/stress_parts.hpp"
+#include "suites/volume/stress_scenes.hpp"
+
+namespace triptych::volume_suite {
+namespace {
+
+template <typename Scalar>
+void store(scene::Volume& volume, scene::ScalarType type, double scale) {
+  const scene::Volume floats = volume;
+  volume.type = type;
+  volume.voxels.resize(volume.voxel_count() * sizeof(Scalar));
+  for (std::size_t i = 0; i < volume.voxel_count(); ++i) {
+    const auto value = static_cast<Scalar>(floats.value(i) * scale);
+    std::memcpy(volume.voxels.data() + i * sizeof(Scalar), &value, sizeof value);
+  }
+}
+
+// A block of voxels in the bright blob of the lopsided field holds `value` instead.
+StressScene with_block(double value, int extent) {
+  const Size size{24, 24, 24};
+  return seen_from_outside(volume_of(size, [&](int i, int j, int k) {
+    const bool inside =
+        i >= 7 && i < 7 + extent && j >= 14 && j < 14 + extent && k >= 9 && k < 9 + extent;
+    return inside ? value : lopsided(size, i, j, k);
+  }));
+}
+
+// Every second voxel holds `value`.
+StressScene with_every_second(double value) {
+  const Size size{24, 24, 24};
+  return seen_from_outside(volume_of(size, [&](int i, int j, int k) {
+    return (i + j + k) % 2 == 1 ? value : lopsided(size, i, j, k);
+  }));
+}
+
+}  // namespace
+
+// Bytes, twice as many bits, and floats of the same 256 values: v/255 = 257·v/65535.
+StressScene stress_format(std::string_view variant) {
+  const Size size{24, 24, 24};
+  const auto byte = [&](int i, int j, int k) {
+    return std::floor(lopsided(size, i, j, k) * 255 + 0.5);
+  };
+  StressScene scene = seen_from_outside(volume_of(size, byte));
+  scene.volume.range_hi = 255;
+  if (variant == "u8") store<std::uint8_t>(scene.volume, scene::ScalarType::u8, 1);
+  if (variant == "u16") {
+    store<std::uint16_t>(scene.volume, scene::ScalarType::u16, 257);
+    scene.volume.range_hi = 65535;
+  }
+  if (variant != "f32") {
+    scene.expectations = {
+        same_within_bounds_as("stress:format:f32", "the picture of the same values in floats")};
+  }
+  return scene;
+}
+
+// NaN is kept as the lower end of the range, where the function is transparent. What stands beside
+// it is interpolated towards that, one voxel far, and two in the gradients of shading.
+StressScene stress_nan(std::string_view variant) {
+  const bool missing = variant.starts_with("nan");
+  const double value = missing ? std::numeric_limits<double>::quiet_NaN() : 0;
+  const std::string_view kind = variant.substr(variant.find('_') + 1);
+  StressScene scene = kind == "mesh"    ? with_every_second(value)
+                      : kind == "block" ? with_block(value, 4)
+                                        : with_block(value, 1);
+  scene.shaded = kind == "shaded";
+  if (missing) {
+    scene.expectations = {same_bits_as("stress:nan:zero_" + std::string(kind),
+                                       "the bits of a field with 0 in their place")};
+  }
+  return scene;
+}
+
+StressScene stress_infinite(std::string_view variant) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  if (variant == "upper") return with_block(1, 3);
+  if (variant == "lower") return with_block(0, 3);
+  const bool plus = variant == "plus";
+  StressScene scene = with_block(plus ? infinite : -infinite, 3);
+  scene.expectations = {
+      same_bits_as(plus ? "stress:infinite:upper" : "stress:infinite:lower",
+                   "the bits of a field with that end of the range in its place")};
+  return scene;
+}
+
+// Whether a device keeps denormals or takes them for 0 changes no picture by more than 2⁻¹²⁶.
+StressScene stress_denormal(std::string_view variant) {
+  constexpr double tiny = 1e-40;
+  if (variant == "voxels") {
+    const Size size{24, 24, 24};
+    StressScene scene = seen_from_outside(volume_of(size, [&](int i, int j, int k) {
+      return i < 12 ? tiny * (1 + j) : lopsided(size, i, j, k);
+    }));
+    scene.function = uniform({0.75F, 0.5F, 0.25F, 0.03F});
+    return scene;
+  }
+  StressScene scene = lopsided_scene();
+  if (variant == "opacity") {
+    scene.function = ramp(20, 0.4);
+    for (std::size_t entry = 0; entry < 60; ++entry) scene.function.entries[entry][3] = 1e-40F;
+  } else if (variant == "colour") {
+    scene.function = uniform({1e-40F, 0.5F, 1e-42F, 0.05F});
+  } else {
+    // The transmittance passes through the denormals: 1e-4 of it is left by each voxel, and nothing
+    // ends the ray.
+    scene.function = uniform({0.75F, 0.5F, 0.25F, 0.9999F});
+  }
+  return scene;
+}
+
+// An empty range maps every voxel to 0; a constant field has no gradient to divide by.
+StressScene stress_flat(std::string_view variant) {
+  const Size size{12, 12, 12};
+  const bool bytes = variant == "range_u8";
+  StressScene scene =
+      seen_from_outside(volume_of(size, [&](int, int, int) { return bytes ? 7 : 0.5; }));
+  scene.function = uniform({0.75F, 0.5F, 0.25F, 0.1F});
+  scene.function.entries[0] = {0.125F, 0.5F, 0.875F, 0.2F};
+  if (bytes) store<std::uint8_t>(scene.volume, scene::ScalarType::u8, 1);
+  if (variant.starts_with("range")) {
+    scene.volume.range_lo = scene.volume.range_hi = scene.volume.value(0);
+  }
+  scene.shaded = variant == "shaded";
+  return scene;
+}
+
+// One voxel, of bricks of 8 voxels. The samples that see it may lie in the neighbours of its brick.
+StressScene stress_lit(std::string_view variant) {
+  const Size size{24, 24, 24};
+  Size lit{8, 12, 12};  // on a face
+  if (variant == "edge") lit = {8, 8, 12};
+  if (variant == "corner") lit = {15, 8, 15};
+  if (variant == "first") lit = {0, 12, 12};
+  if (variant == "last") lit = {23, 23, 23};
+  StressScene scene = seen_from_outside(volume_of(size, [&](int i, int j, int k) {
+    return Size{i, j, k} == lit ? 1.0 : 0.0;
+  }));
+  scene.function = ramp(1, 0.99);
+  const glm::dvec3 target(lit[0] + 0.5, lit[1] + 0.5, lit[2] + 0.5);
+  scene.camera = looking(target + glm::dvec3(9, 14, 22), target, 12);
+  return scene;
+}
+
+// Nothing can be skipped: the walk through the bricks may cost no samples, and hardly any time.
+StressScene stress_lit_everywhere(std::string_view /*variant*/) {
+  const Size size{32, 32, 32};
+  StressScene scene = seen_from_outside(volume_of(size, [](int i, int j, int k) {
+    return i % 8 == 4 && j % 8 == 4 && k % 8 == 4 ? 1.0 : 0.0;
+  }));
+  scene.function = ramp(1, 0.9);
+  scene.when_skipping = {
+      {"at most 1.1 of the samples without skipping",
+       record::CountAtMost{
+           .counter = "samples", .factor = 1.1, .of = "samples", .changed = {{"skip", "none"}}}}};
+  return scene;
+}
+
+}  // namespace triptych::volume_suite
