@@ -1,6 +1,7 @@
 #include "scene/particle_generators.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -245,17 +246,56 @@ void coincident(Maker& maker) {
   }
 }
 
+// A wall across the front of the cube, seen from +z, and behind it what nobody sees: in the plane
+// of the wall its spheres leave no gap, as each reaches beyond the corners of its square, so that
+// no ray gets past it. About `seen` spheres are in the wall, in whole rows. The last of all touches
+// the cube's back, so that sets with equal walls have equal boxes and are seen by the same cameras.
+void walled(Maker& maker, std::uint64_t seen) {
+  static constexpr double reach = 0.75;  // of a square's edge; its corner is at √½
+  maker.colour_along(2, cube);
+  const auto rows =
+      seen > 1 ? static_cast<std::uint64_t>(std::sqrt(static_cast<double>(seen - 1))) : 0;
+  const double spacing = cube.hi.x / static_cast<double>(std::max<std::uint64_t>(rows, 1));
+  const double radius = reach * spacing;
+  for (std::uint64_t j = 0; j < rows; ++j) {
+    for (std::uint64_t i = 0; i < rows; ++i) {
+      maker.add({(static_cast<double>(i) + 0.5) * spacing, (static_cast<double>(j) + 0.5) * spacing,
+                 cube.hi.z - radius},
+                radius);
+    }
+  }
+  const auto rest = static_cast<double>(maker.left());
+  const double small = rest > 1 ? filling_radius(paper_filling, cube_volume, rest) : radius;
+  // Behind the wall's plane and within its sides. A few large ones may not fit into that: smaller.
+  const double hidden_radius = std::min(small, 0.05 * cube.hi.x);
+  const Box behind{
+      cube.lo + hidden_radius,
+      {cube.hi.x - hidden_radius, cube.hi.y - hidden_radius, cube.hi.z - radius - hidden_radius}};
+  while (maker.left() > 1) maker.add(place_in_box(maker.random(), behind), hidden_radius);
+  maker.add({5, 5, std::min(radius, 5.0)}, std::min(radius, 5.0));
+}
+
+void wall(Maker& maker) {
+  walled(maker, maker.count());
+}
+
+void hidden(Maker& maker) {
+  walled(maker, maker.count() / 10);
+}
+
 struct Generator {
   GeneratorInfo info;
   void (*make)(Maker&);
 };
 
-constexpr std::array<Generator, 5> generators{{
+constexpr std::array<Generator, 7> generators{{
     {{"uniform", "uniformly in a box, equal radii that fill a tenth of it"}, uniform},
     {{"droplets", "three dense droplets in thin vapour"}, droplets},
     {{"layer", "a liquid layer across a long box, vapour on both sides"}, layer},
     {{"plume", "a lattice slab with a crater and an expanding cone of clusters above it"}, plume},
     {{"coincident", "every position eight times, in different colours: ties"}, coincident},
+    {{"wall", "a wall without a gap, seen whole from +z"}, wall},
+    {{"hidden", "the wall of a tenth as many, the others behind it"}, hidden},
 }};
 
 }  // namespace
@@ -272,9 +312,10 @@ ParticleSet generate_particles(std::string_view name, std::uint64_t count, Colou
   const auto found = std::ranges::find(
       generators, name, [](const Generator& generator) { return generator.info.name; });
   if (found == generators.end()) {
-    throw core::InputError(fmt::format(
-        "unknown particle generator '{}'; there are: uniform, droplets, layer, plume, coincident",
-        name));
+    std::vector<std::string_view> names;
+    for (const Generator& each : generators) names.push_back(each.info.name);
+    throw core::InputError(fmt::format("unknown particle generator '{}'; there are: {}", name,
+                                       fmt::join(names, ", ")));
   }
   if (count < 1 || count > largest_count) {
     throw core::InputError(

@@ -11,8 +11,12 @@
 //   plume      an ablation plume: a slab of lattice sites with a crater, and above it an expanding cone of
 //              clusters and single particles whose density falls with height
 //   coincident every position eight times, with the same radius and different colours: ties
+//   wall       a lattice in the front face of the cube, without a gap, all of it seen from +z
+//   hidden     the wall of a tenth of COUNT and the others behind it, where nobody sees them; the
+//              same box as `wall:COUNT/10`
 // clang-format on
-// Radii are equal within a set but for `plume`, whose clusters are up to twice as large. Colours:
+// Radii are equal within a set but for `plume`, whose clusters are up to twice as large, and behind
+// a wall. Colours:
 // rgba8 and rgba32 random hues (rgba32 not rounded to bytes), intensity from the position.
 
 #include <cstdint>
@@ -24,7 +28,7 @@
 
 namespace triptych::scene {
 
-// The five above, in that order.
+// Those above, in that order.
 [[nodiscard]] std::vector<GeneratorInfo> particle_generators();
 
 // Throws InputError for an unknown name or a count out of range. The set's name is

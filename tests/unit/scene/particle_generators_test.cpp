@@ -42,7 +42,9 @@ TEST(ParticleGenerators, GiveTheSameBitsEverywhere) {
       {"droplets", "28ead8a8d75fd475a4538dc91eaafc55"},
       {"layer", "632ecdf1950747eff6c590d632149511"},
       {"plume", "9f3512fcd78e0b56657f786f37db3c85"},
-      {"coincident", "67845e4cbdd6f8cc7128430f105167a2"}};
+      {"coincident", "67845e4cbdd6f8cc7128430f105167a2"},
+      {"wall", "e4d8ce5d11eba1c8885f233812271d46"},
+      {"hidden", "9135dfe332b92410a028ed1ab08c23da"}};
   for (const GeneratorInfo& info : particle_generators()) {
     const std::string name(info.name);
     EXPECT_EQ(generate_particles(name, 1000, ColourKind::rgba8).hash, hashes.at(name)) << name;
@@ -205,6 +207,26 @@ TEST(ParticleHash, SeesEveryArray) {
   EXPECT_TRUE(changed([](ParticleSet& other) { other.colour = ColourKind::rgba32; }));
   EXPECT_TRUE(changed([](ParticleSet& other) { other.dropped = 1; }));
   EXPECT_FALSE(changed([](ParticleSet& other) { other.name = "another"; }));
+}
+
+// The same wall in the same box, so that equal cameras see equal pictures of it.
+TEST(ParticleGenerators, WhatIsHiddenStandsBehindAnEqualWall) {
+  const ParticleSet wall = generate_particles("wall", 2000, ColourKind::rgba8);
+  const ParticleSet hidden = generate_particles("hidden", 20000, ColourKind::rgba8);
+  constexpr std::size_t in_wall = 44 * 44;
+  for (std::size_t i = 0; i < in_wall; ++i) ASSERT_EQ(wall.spheres[i], hidden.spheres[i]);
+  const float plane = wall.spheres[0][2];
+  for (std::size_t i = in_wall; i < hidden.count(); ++i) {
+    const auto& [x, y, z, r] = hidden.spheres[i];
+    ASSERT_LE(z + r, plane);
+    ASSERT_GE(std::min(x, y) - r, 0);
+    ASSERT_LE(std::max(x, y) + r, 10.0001);
+  }
+  const Box one = bounding_box(wall);
+  const Box other = bounding_box(hidden);
+  EXPECT_EQ(one.lo, other.lo);
+  EXPECT_EQ(one.hi, other.hi);
+  EXPECT_EQ(one.lo.z, 0);
 }
 
 }  // namespace
