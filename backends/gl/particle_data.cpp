@@ -82,6 +82,15 @@ ParticleData::ParticleData(const Api& gl, const measure::ParticleWork& work,
   describe_vertices(gl, work.scene.particles->colour);
 }
 
+void ParticleData::look_from(const Api& gl, const measure::ParticleWork& work,
+                             const technique::Arrangement& arrangement) const {
+  const technique::ParticleParameters parameters =
+      technique::particle_parameters(work.scene, work.options, arrangement);
+  gl.BindBuffer(GL_COPY_WRITE_BUFFER, parameters_.get());
+  gl.BufferSubData(GL_COPY_WRITE_BUFFER, 0, sizeof parameters, &parameters);
+  gl.check("glBufferSubData");
+}
+
 void ParticleData::describe_vertices(const Api& gl, scene::ColourKind colour) {
   gl.BindVertexArray(vertices_.get());
   gl.BindBuffer(GL_ARRAY_BUFFER, spheres_.get());

@@ -19,6 +19,10 @@ class ParticleData {
   // devices whose shaders are not told the base.
   void bind(const Api& gl) const;
 
+  // Frames from now on are seen from this scene's camera.
+  void look_from(const Api& gl, const measure::ParticleWork& work,
+                 const technique::Arrangement& arrangement) const;
+
  private:
   void describe_vertices(const Api& gl, scene::ColourKind colour);
 

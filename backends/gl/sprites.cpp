@@ -98,9 +98,7 @@ class SpriteDrawing final : public Drawing {
     if (options_.culling == Culling::occlusion && cells_ > 0) {
       occlusion_.emplace(gl, work, cells_);
       programs_.sources.push_back(occlusion_->source());
-      // A frame that no one is shown, so that in every other one the last frame is known.
-      prepare_state(gl);
-      submit(gl, Purpose::statistics);
+      draw_before(gl, work, arrangement);
     }
     kernel_hash_ = hash_of(gl, programs_.sources);
   }
@@ -145,6 +143,15 @@ class SpriteDrawing final : public Drawing {
     Programs programs;
     ParticleCounters counters;
   };
+
+  // A frame that no one is shown, so that in every other one the last frame is known.
+  void draw_before(const Api& gl, const measure::ParticleWork& work,
+                   const technique::Arrangement& arrangement) {
+    if (work.camera_before) data_.look_from(gl, work.before(), arrangement);
+    prepare_state(gl);
+    submit(gl, Purpose::statistics);
+    if (work.camera_before) data_.look_from(gl, work, arrangement);
+  }
 
   void prepare_state(const Api& gl) const {
     data_.bind(gl);

@@ -29,6 +29,15 @@ cl::Buffer upload_property(const Session& session, const technique::Arrangement&
 
 }  // namespace
 
+void look_from(const Session& session, const ParticleData& data,
+               const measure::ParticleWork& work) {
+  const technique::ParticleParameters parameters =
+      technique::particle_parameters(work.scene, work.options, data.count, data.cell_count);
+  checked([&] {
+    session.queue.enqueueWriteBuffer(data.parameters, CL_TRUE, 0, sizeof parameters, &parameters);
+  });
+}
+
 ParticleData upload(const Session& session, const measure::ParticleWork& work) {
   const technique::Arrangement arrangement = technique::arrange(work.scene);
   const technique::ParticleParameters parameters =

@@ -20,6 +20,9 @@ struct ParticleData {
   cl::Buffer table;  // of the transfer function
 };
 
+// What is drawn from now on is seen from this scene's camera; done on return.
+void look_from(const Session& session, const ParticleData& data, const measure::ParticleWork& work);
+
 // Arranges and uploads; done on return.
 [[nodiscard]] ParticleData upload(const Session& session, const measure::ParticleWork& work);
 

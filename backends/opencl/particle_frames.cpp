@@ -34,7 +34,17 @@ ParticleFrames::ParticleFrames(const Session& session, Programs& programs,
       const std::vector<Launch> again = stages_.again(timed, *extra_);
       timed_.insert(timed_.end(), again.begin(), again.end());
     }
+    if (work.camera_before) draw_before(timed, work);
   });
+}
+
+// By a pass of its own, for there may be more to draw from there.
+void ParticleFrames::draw_before(const ParticlePrograms& programs,
+                                 const measure::ParticleWork& work) {
+  look_from(session_, stages_.data(), work.before());
+  const Pass unseen = stages_.make_pass(programs, 1);
+  run(session_, stages_.picture(programs, unseen), events_);
+  look_from(session_, stages_.data(), work);
 }
 
 measure::Frame ParticleFrames::frame(measure::Purpose purpose) {

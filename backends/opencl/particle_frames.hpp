@@ -24,6 +24,7 @@ class ParticleFrames final : public measure::Prepared {
   [[nodiscard]] std::string kernel_hash() const override { return particle_hash(constants_); }
 
  private:
+  void draw_before(const ParticlePrograms& programs, const measure::ParticleWork& work);
   void prepare_counting();
   [[nodiscard]] record::Counts read_counters();
 

@@ -140,6 +140,14 @@ void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texel
   }
 }
 
+void upload(const Gpu& gpu, const Buffer& to, std::span<const std::byte> bytes) {
+  const Buffer staging(gpu, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc, Place::upload);
+  std::ranges::copy(bytes, staging.mapped().begin());
+  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
+    commands.copyBuffer(staging.get(), to.get(), vk::BufferCopy{.size = bytes.size()});
+  });
+}
+
 void download(const Gpu& gpu, const Buffer& from, std::span<std::byte> to) {
   const Buffer staging(gpu, to.size(), vk::BufferUsageFlagBits::eTransferDst, Place::read_back);
   run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {

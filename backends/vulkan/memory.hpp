@@ -75,6 +75,9 @@ using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
 // staging buffer slice by slice, so that the device never holds a second copy.
 void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texels);
 
+// Writes the first bytes of a buffer that make_buffer made.
+void upload(const Gpu& gpu, const Buffer& to, std::span<const std::byte> bytes);
+
 // Copies the buffer's first bytes to the host.
 void download(const Gpu& gpu, const Buffer& from, std::span<std::byte> to);
 

@@ -117,6 +117,12 @@ void ParticleData::bind(vk::DescriptorSet set) const {
   storage(cells_binding, cell_boxes_);
 }
 
+void ParticleData::look_from(const measure::ParticleWork& work) const {
+  const technique::ParticleParameters parameters =
+      technique::particle_parameters(work.scene, work.options, particles_, cells_);
+  upload(gpu_, parameters_, std::as_bytes(std::span(&parameters, 1)));
+}
+
 void ParticleData::clear_counters(const vk::raii::CommandBuffer& commands) const {
   commands.fillBuffer(counters_.get(), 0, VK_WHOLE_SIZE, 0);
   barrier(commands);

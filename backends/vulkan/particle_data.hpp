@@ -68,6 +68,9 @@ class ParticleData {
   // Binds everything above first_free_binding.
   void bind(vk::DescriptorSet set) const;
 
+  // Frames from now on are seen from this scene's camera.
+  void look_from(const measure::ParticleWork& work) const;
+
   void clear_counters(const vk::raii::CommandBuffer& commands) const;
   [[nodiscard]] std::uint64_t counter(ParticleCounter which) const;
   // What every technique tells: cells, particles, sprites. Without culling all are submitted.

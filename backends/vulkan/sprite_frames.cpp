@@ -67,9 +67,15 @@ SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
               [this](const vk::raii::CommandBuffer& commands) {
                 record(commands, pipelines_, false);
               }) {
-  // A frame that no one is shown, so that for every other one the last frame is known.
-  if (occlusion_) static_cast<void>(frames_.submit(measure::Purpose::timing));
+  if (occlusion_) draw_before(work);
   instance_.check_validation();
+}
+
+// A frame that no one is shown, so that for every other one the last frame is known.
+void SpriteFrames::draw_before(const measure::ParticleWork& work) const {
+  if (work.camera_before) data_.look_from(work.before());
+  static_cast<void>(frames_.submit(measure::Purpose::timing));
+  if (work.camera_before) data_.look_from(work);
 }
 
 void SpriteFrames::bind() {

@@ -72,6 +72,7 @@ class SpriteFrames final : public measure::Prepared {
                        bool counting) const;
   void bind_vertices(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines) const;
   void bind();
+  void draw_before(const measure::ParticleWork& work) const;
   void draw_run(const vk::raii::CommandBuffer& commands, bool instanced, ParticleRun run) const;
   void draw_again(const vk::raii::CommandBuffer& commands) const;
   [[nodiscard]] record::Counts read_counts() const;

@@ -30,6 +30,16 @@ struct VolumeWork {
 struct ParticleWork {
   scene::ParticleScene scene;
   technique::ParticleOptions options;
+  // From where the frame before the first was drawn, which Culling::occlusion remembers; nothing:
+  // from where the others are.
+  std::optional<scene::Camera> camera_before = {};
+
+  // The work of that frame.
+  [[nodiscard]] ParticleWork before() const {
+    ParticleWork work = *this;
+    if (camera_before) work.scene.camera = *camera_before;
+    return work;
+  }
 };
 
 // A frozen piece of work that measures the device and not our program; the suite is "anchors". Its

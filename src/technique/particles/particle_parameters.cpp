@@ -27,8 +27,8 @@ std::array<float, 4> rest(const glm::dvec3& v, float w = 0) {
 }  // namespace
 
 ParticleParameters particle_parameters(const scene::ParticleScene& scene,
-                                       const ParticleOptions& options,
-                                       const Arrangement& arrangement) {
+                                       const ParticleOptions& options, std::size_t particles,
+                                       std::size_t cells) {
   const scene::Camera& camera = scene.camera;
   const double half_y = std::tan(glm::radians(camera.fov_y_deg) / 2);
   const double half_x = half_y * scene.width / scene.height;
@@ -49,9 +49,14 @@ ParticleParameters particle_parameters(const scene::ParticleScene& scene,
       .background = scene.background,
       .viewport = {scene.width, scene.height, options.corners,
                    static_cast<std::int32_t>(scene.particles->colour)},
-      .counts = {static_cast<std::uint32_t>(arrangement.count()),
-                 static_cast<std::uint32_t>(arrangement.cells.size()), 0, 0},
+      .counts = {static_cast<std::uint32_t>(particles), static_cast<std::uint32_t>(cells), 0, 0},
   };
+}
+
+ParticleParameters particle_parameters(const scene::ParticleScene& scene,
+                                       const ParticleOptions& options,
+                                       const Arrangement& arrangement) {
+  return particle_parameters(scene, options, arrangement.count(), arrangement.cells.size());
 }
 
 }  // namespace triptych::technique

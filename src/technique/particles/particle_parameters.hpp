@@ -33,6 +33,10 @@ struct ParticleParameters {
 static_assert(sizeof(ParticleParameters) == std::size_t{13} * 16);
 static_assert(offsetof(ParticleParameters, plane) == std::size_t{8} * 16);
 
+// Of an arrangement with so many particles and cells.
+[[nodiscard]] ParticleParameters particle_parameters(const scene::ParticleScene& scene,
+                                                     const ParticleOptions& options,
+                                                     std::size_t particles, std::size_t cells);
 [[nodiscard]] ParticleParameters particle_parameters(const scene::ParticleScene& scene,
                                                      const ParticleOptions& options,
                                                      const Arrangement& arrangement);
