@@ -4,6 +4,7 @@
 #include "scene/camera.hpp"
 #include "scene/particle_generators.hpp"
 #include "scene/transfer_function.hpp"
+#include "suites/particles/stress_cases.hpp"
 
 namespace triptych::particles_suite {
 namespace {
@@ -28,9 +29,11 @@ const std::vector<Factor>& particle_factors() {
   static const std::vector<Factor> factors{
       choice("technique", measure::technique_ids("particles"), "quad_instanced",
              Decides::how_it_is_made, "how the spheres are drawn"),
-      text("data", "generate:uniform:10000",
-           "a particle file (.pdb, .cif, .gro, .xyz, .lammpstrj, .dump, .data, .lmp, .mmpld, plain "
-           "or .gz; FILE@K: its K-th frame) or generate:NAME:COUNT"),
+      text(
+          "data", "generate:uniform:10000",
+          "a particle file (.pdb, .cif, .gro, .xyz, .lammpstrj, .dump, .data, .lmp, .mmpld, plain "
+          "or .gz; FILE@K: its K-th frame), generate:NAME:COUNT, or stress:CASE:VARIANT, a hostile "
+          "scene"),
       choice("colour", {"rgba8", "rgba32", "intensity"}, "rgba8", Decides::the_picture,
              "what colours a particle"),
       text("transfer_function", "haze",
@@ -46,9 +49,12 @@ const std::vector<Factor>& particle_factors() {
       choice("culling", {"none", "frustum", "occlusion"}, "frustum", Decides::how_it_is_made,
              "which cells of particles are left out"),
       number("radius_scale", 1e-6, 1e6, "1", Decides::the_picture, "factor of every radius"),
-      text("camera", "orbit_y:1/8", "PATH:i/n (orbit_y:1/8, path_z:3/36, …) or random:SEED"),
-      number("fov", 0.0005, 179, "60", Decides::the_picture, "vertical field of view in degrees"),
-      text("viewport", "256", "N for NxN, or WxH, in pixels"),
+      text("camera", "orbit_y:1/8",
+           "PATH:i/n (orbit_y:1/8, path_z:3/36, …) or random:SEED; own: a stress case's"),
+      number("fov", 0.0005, 179, "60", Decides::the_picture,
+             "vertical field of view in degrees; own: that of its own camera",
+             {std::string(own_level)}),
+      text("viewport", "256", "N for NxN, or WxH, in pixels; own: a stress case's"),
   };
   return factors;
 }
@@ -56,11 +62,14 @@ const std::vector<Factor>& particle_factors() {
 void check_value(const Factor& factor, std::string_view value,
                  const std::vector<std::filesystem::path>& folders) {
   if (factor.name == "viewport") {
-    static_cast<void>(measure::parse_viewport(value));
+    if (value != own_level) static_cast<void>(measure::parse_viewport(value));
   } else if (factor.name == "camera") {
-    static_cast<void>(scene::camera_at(value, scene::Box{}, any_field_of_view));
+    if (value != own_level) {
+      static_cast<void>(scene::camera_at(value, scene::Box{}, any_field_of_view));
+    }
   } else if (factor.name == "data") {
     if (value.starts_with("generate:")) measure::check_generator(value, generator_names());
+    static_cast<void>(stress_data(value));
   } else if (factor.name == "transfer_function") {
     static_cast<void>(scene::load_transfer_function(value, folders));
   }

@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <optional>
 #include <utility>
 
+#include "core/error.hpp"
 #include "core/json.hpp"
 #include "measure/factor.hpp"
 #include "reference/spheres.hpp"
 #include "suites/particles/factors.hpp"
+#include "suites/particles/stress_cases.hpp"
 #include "suites/particles/tolerance.hpp"
 #include "triptych_suite_particles_embedded.hpp"
 
@@ -40,14 +44,24 @@ class ParticleSuite final : public measure::SuiteWithTruth {
   nlohmann::json describe(const Configuration& configuration) override;
   std::string limit_key(const Configuration& configuration) override;
   measure::Limit limit(const Configuration& configuration) override;
+  std::vector<record::Expectation> expectations(const Configuration& configuration) override;
 
  private:
+  // The last set loaded, which neighbours in a plan share, and what belongs to it.
+  struct Loaded {
+    std::string what;
+    std::shared_ptr<const scene::ParticleSet> particles;
+    std::optional<StressScene> own;  // its particles have moved to the above
+  };
+
+  void load(const Configuration& configuration);
+  // Throws InputError where the loaded data have no camera and viewport of their own.
+  [[nodiscard]] const StressScene& own(std::string_view factor) const;
+  [[nodiscard]] scene::Camera camera(const Configuration& configuration) const;
   [[nodiscard]] scene::ParticleScene scene(const Configuration& configuration);
 
   std::vector<std::filesystem::path> folders_;
-  // The last set loaded: neighbours in a plan share it.
-  std::string loaded_;
-  std::shared_ptr<const scene::ParticleSet> particles_;
+  Loaded loaded_;
 };
 
 std::vector<std::string_view> ParticleSuite::plan_names() const {
@@ -63,30 +77,60 @@ std::string_view ParticleSuite::plan_text(std::string_view plan) const {
 
 std::string ParticleSuite::missing_data(const Configuration& configuration) const {
   const std::string& data = configuration.at("data");
-  if (scene::particles_present(data, folders_)) return {};
+  if (stress_data(data) || scene::particles_present(data, folders_)) return {};
   return fmt::format(
       "data file '{}' is not here; set TRIPTYCH_DATA to the folder that holds particles/", data);
 }
 
-scene::ParticleScene ParticleSuite::scene(const Configuration& configuration) {
+void ParticleSuite::load(const Configuration& configuration) {
   const std::string wanted = configuration.at("colour") + " " + configuration.at("data");
-  if (loaded_ != wanted) {
-    particles_.reset();  // frees the old set before the new one is loaded
-    const std::string& data = configuration.at("data");
-    tell({.what = data, .share = 0});
-    particles_ = std::make_shared<const scene::ParticleSet>(
-        scene::load_particles(data, scene::colour_kind(configuration.at("colour")), folders_,
-                              [&](double share) { tell({.what = data, .share = share}); }));
-    tell({.what = data, .share = 1});
-    loaded_ = wanted;
+  if (loaded_.what == wanted) return;
+  loaded_ = {};  // frees the old set before the new one is loaded
+  const std::string& data = configuration.at("data");
+  const scene::ColourKind colour = scene::colour_kind(configuration.at("colour"));
+  tell({.what = data, .share = 0});
+  if (const auto stress = stress_data(data)) {
+    loaded_.own = stress_scene(*stress, colour);
+    loaded_.particles =
+        std::make_shared<const scene::ParticleSet>(std::move(loaded_.own->particles));
+  } else {
+    loaded_.particles = std::make_shared<const scene::ParticleSet>(scene::load_particles(
+        data, colour, folders_, [&](double share) { tell({.what = data, .share = share}); }));
   }
-  const auto [width, height] = measure::parse_viewport(configuration.at("viewport"));
+  tell({.what = data, .share = 1});
+  loaded_.what = wanted;
+}
+
+const StressScene& ParticleSuite::own(std::string_view factor) const {
+  if (loaded_.own) return *loaded_.own;
+  throw core::InputError(
+      fmt::format("{}: own: only data stress:CASE have one of their own, {} does not", factor,
+                  loaded_.particles->name));
+}
+
+scene::Camera ParticleSuite::camera(const Configuration& configuration) const {
+  const bool own_fov = configuration.at("fov") == own_level;
+  if (configuration.at("camera") != own_level) {
+    return scene::particle_camera(
+        configuration.at("camera"), *loaded_.particles,
+        own_fov ? own("fov").camera.fov_y_deg : as_number(configuration, "fov"));
+  }
+  scene::Camera camera = own("camera").camera;
+  if (!own_fov) camera.fov_y_deg = as_number(configuration, "fov");
+  return camera;
+}
+
+scene::ParticleScene ParticleSuite::scene(const Configuration& configuration) {
+  load(configuration);
+  const bool own_viewport = configuration.at("viewport") == own_level;
+  const auto [width, height] = own_viewport
+                                   ? std::array{own("viewport").width, own("viewport").height}
+                                   : measure::parse_viewport(configuration.at("viewport"));
   return {
-      .particles = particles_,
+      .particles = loaded_.particles,
       .intensity_colours =
           scene::load_transfer_function(configuration.at("transfer_function"), folders_),
-      .camera = scene::particle_camera(configuration.at("camera"), *particles_,
-                                       as_number(configuration, "fov")),
+      .camera = camera(configuration),
       .width = width,
       .height = height,
       .radius_scale = as_number(configuration, "radius_scale"),
@@ -94,16 +138,19 @@ scene::ParticleScene ParticleSuite::scene(const Configuration& configuration) {
 }
 
 measure::Work ParticleSuite::work(Configuration& configuration, const measure::Device&) {
-  return {.technique = configuration.at("technique"),
-          .scene = measure::ParticleWork{
-              .scene = scene(configuration),
-              .options = {
-                  .transfer = technique::computed_at(configuration.at("transfer")),
-                  .ray = technique::computed_at(configuration.at("ray")),
-                  .conservative_depth = configuration.at("conservative_depth") == "on",
-                  .corners = static_cast<int>(as_number(configuration, "corners")),
-                  .culling = technique::culling(configuration.at("culling")),
-              }}};
+  measure::ParticleWork work{
+      .scene = scene(configuration),
+      .options = {
+          .transfer = technique::computed_at(configuration.at("transfer")),
+          .ray = technique::computed_at(configuration.at("ray")),
+          .conservative_depth = configuration.at("conservative_depth") == "on",
+          .corners = static_cast<int>(as_number(configuration, "corners")),
+          .culling = technique::culling(configuration.at("culling")),
+      }};
+  if (loaded_.own && configuration.at("camera") == own_level) {
+    work.camera_before = loaded_.own->camera_before;
+  }
+  return {.technique = configuration.at("technique"), .scene = std::move(work)};
 }
 
 measure::Work ParticleSuite::calibration(technique::Work kind) {
@@ -169,6 +216,11 @@ measure::Limit ParticleSuite::limit(const Configuration& configuration) {
   core::Image image = reference::render_spheres(scene(configuration)).image();
   core::Image none(image.width, image.height);
   return {.image = std::move(image), .uncertainty = std::move(none)};
+}
+
+std::vector<record::Expectation> ParticleSuite::expectations(const Configuration& configuration) {
+  const auto stress = stress_data(configuration.at("data"));
+  return stress ? stress_expectations(*stress) : std::vector<record::Expectation>{};
 }
 
 }  // namespace

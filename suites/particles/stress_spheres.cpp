@@ -1,0 +1,158 @@
+// Stress scenes about the geometry of one or a few spheres.
+
+#include <charconv>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "suites/particles/stress_maker.hpp"
+#include "suites/particles/stress_scenes.hpp"
+
+namespace triptych::particles_suite {
+namespace {
+
+constexpr int side = 96;  // of a picture, in pixels
+
+double number_in(std::string_view variant) {
+  double number = 0;
+  std::from_chars(variant.data(), variant.data() + variant.size(), number);
+  return number;
+}
+
+// The field of view that a height takes at a distance.
+double fov_of(double height, double distance) {
+  return 2 * std::atan(height / (2 * distance)) * 180 / std::numbers::pi;
+}
+
+// A sphere of radius 1 at the origin and a small one that sticks out of it.
+void add_pair(StressMaker& maker) {
+  maker.add({0, 0, 0}, 1);
+  maker.add({1.2, 0.3, 0.1}, 0.2);
+}
+
+}  // namespace
+
+// Everything times one power of two, in world units; rounding commutes with that.
+StressScene stress_scale(std::string_view variant, scene::ColourKind colour) {
+  const double scale = variant == "small" ? 0x1.0p-20 : variant == "large" ? 0x1.0p20 : 1.0;
+  StressMaker maker(colour, looking(scale * 5.0 * oblique(), {0, 0, 0}, 40), side, side);
+  maker.add({0, 0, 0}, scale);
+  maker.add(scale * glm::dvec3{1.2, 0.3, 0.1}, 0.2 * scale);
+  maker.add(scale * glm::dvec3{-0.9, 0.8, 0.7}, 0.6 * scale);
+  maker.add(scale * glm::dvec3{0.4, -1.1, 1.3}, 0.01 * scale);
+  return maker.take();
+}
+
+// Both silhouettes are whole and apart: what is seen where does not depend on depths, which a float
+// cannot resolve here.
+StressScene stress_far(std::string_view variant, scene::ColourKind colour) {
+  constexpr int larger_side = 160;
+  const double distance = number_in(variant);
+  const scene::Camera camera = looking(distance * oblique(), {0, 0, 0}, fov_of(5, distance));
+  StressMaker maker(colour, camera, larger_side, larger_side);
+  maker.add({0, 0, 0}, 1);
+  maker.add(1.7 * camera.right() + 1.1 * camera.up, 0.6);
+  return maker.take();
+}
+
+StressScene stress_giant(std::string_view, scene::ColourKind colour) {
+  StressMaker maker(colour, looking({1, 2, 7}, {0, 0, 0}, 60), side, side);
+  maker.add({0, 0, 0}, 1);
+  maker.add({0, -10001, 0}, 10000);
+  maker.add({2.5, 0, -1}, 1);
+  return maker.take();
+}
+
+StressScene stress_inside(std::string_view variant, scene::ColourKind colour) {
+  glm::dvec3 eye{0, 0, 0};
+  if (variant == "off_centre") eye = {0.3, 0.2, 0.1};
+  if (variant == "under_surface") eye = 0.9999 * oblique();
+  StressMaker maker(colour, looking(eye, eye + glm::dvec3{0.7, 0.2, -2.1}, 90), side, side);
+  add_pair(maker);
+  maker.add({0.5, 0.15, -0.6}, 0.15);  // inside as well, before the shell
+  maker.add({0.9, 0.3, -2.5}, 0.8);    // outside: hidden by the shell
+  return maker.take();
+}
+
+// Along the tangent, so that the horizon crosses the picture.
+StressScene stress_skimming(std::string_view variant, scene::ColourKind colour) {
+  const double distance = number_in(variant);
+  const glm::dvec3 up = oblique();
+  const glm::dvec3 ahead = glm::normalize(glm::cross(up, glm::dvec3{0, 1, 0}));
+  scene::Camera camera = looking(distance * up, distance * up + ahead, 100);
+  camera.up = up;
+  StressMaker maker(colour, camera, side, side);
+  maker.add({0, 0, 0}, 1);
+  // Half sunk into the ground, before, on and behind the horizon.
+  for (const double angle : {0.004, 0.014, 0.1, 0.5}) {
+    const glm::dvec3 foot = std::cos(angle) * up + std::sin(angle) * ahead;
+    maker.add(foot + 0.3 * angle * camera.right(), 0.2 * angle);
+  }
+  return maker.take();
+}
+
+StressScene stress_near_plane(std::string_view, scene::ColourKind colour) {
+  StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, 110), side, side);
+  maker.add({1.3, 0.2, -0.1}, 1);
+  maker.add({-0.9, -0.5, -0.3}, 0.7);
+  maker.add({0.1, 1.2, -0.4}, 0.8);
+  maker.add({0.02, -0.03, -0.05}, 0.04);  // nearly touches the eye
+  maker.add({0, 0, -6}, 2);
+  return maker.take();
+}
+
+StressScene stress_behind(std::string_view, scene::ColourKind colour) {
+  StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, 150), side, side);
+  maker.add({1.5, 0.1, 0.3}, 1.4);
+  maker.add({-0.5, -1.2, 0.2}, 1.1);
+  maker.add({0.2, 0.1, 3}, 2.5);  // wholly behind
+  maker.add({0, 0.3, -3}, 1);
+  return maker.take();
+}
+
+StressScene stress_wide(std::string_view, scene::ColourKind colour) {
+  StressMaker maker(colour, looking({0.3, 0.2, 0.1}, {-1, 0.4, -2}, 150), side, side);
+  for (const double x : {7.0, side - 5.0}) {
+    for (const double y : {6.0, side - 8.0}) maker.add_at(x, y, 1, 6);
+  }
+  maker.add_at(side / 2.0, side / 2.0, 1.5, 5);
+  return maker.take();
+}
+
+// Centres on the edges and corners of the picture; and outside it, one that reaches a pixel into it
+// and one that ends a pixel before it.
+StressScene stress_edges(std::string_view, scene::ColourKind colour) {
+  StressMaker maker(colour, looking({2, 1, 4}, {0, 0, 0}, 50), side, side);
+  for (const double x : {0.0, side / 2.0, 1.0 * side}) {
+    for (const double y : {0.0, side / 2.0, 1.0 * side}) maker.add_at(x, y, 3 + 0.01 * x, 9);
+  }
+  maker.add_at(-11, 25, 4, 12);
+  maker.add_at(side + 9, 25, 4, 8);
+  return maker.take();
+}
+
+// A hundredth of a pixel: on the centre of every eighth pixel of every eighth row, where it shows,
+// and on a corner of the pixel four further, where no ray meets it.
+StressScene stress_subpixel(std::string_view, scene::ColourKind colour) {
+  StressMaker maker(colour, looking(oblique(), {0, 0, 0}, 60), side, side);
+  for (int y = 4; y < side; y += 8) {
+    for (int x = 4; x < side; x += 8) {
+      maker.add_at(x + 0.5, y + 0.5, 1, 0.01);
+      maker.add_at(x + 4.0, y + 4.0, 1, 0.01);
+    }
+  }
+  return maker.take();
+}
+
+// Seven spheres as large as their distance makes them look equal, each overlapping the next one,
+// which is ten times as far away.
+StressScene stress_depth_range(std::string_view, scene::ColourKind colour) {
+  StressMaker maker(colour, looking({0, 0, 0}, {0.3, -0.1, -1}, 60), side, side);
+  double depth = 1e-3;
+  for (int i = 0; i < 7; ++i, depth *= 10) {
+    maker.add_at(14 + 11.3 * i, 46 + (i % 2 == 0 ? 3.7 : -2.9), depth, 12);
+  }
+  return maker.take();
+}
+
+}  // namespace triptych::particles_suite

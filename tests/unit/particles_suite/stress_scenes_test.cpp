@@ -1,0 +1,222 @@
+// Do the hostile scenes show what they are about? Their truth against closed forms and against what
+// was put into them.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "reference/sphere_closed_forms.hpp"
+#include "reference/spheres.hpp"
+#include "suites/particles/stress_cases.hpp"
+#include "suites/particles/tolerance.hpp"
+
+namespace triptych::particles_suite {
+namespace {
+
+constexpr std::uint32_t none = core::Image::no_particle;
+
+struct Seen {
+  scene::ParticleScene scene;
+  reference::SphereTruth truth;
+
+  [[nodiscard]] std::set<std::uint32_t> ids() const {
+    std::set<std::uint32_t> shown(truth.ids.begin(), truth.ids.end());
+    shown.erase(none);
+    return shown;
+  }
+  [[nodiscard]] std::ptrdiff_t covered() const {
+    return std::ranges::count_if(truth.ids, [](std::uint32_t id) { return id != none; });
+  }
+  [[nodiscard]] std::ptrdiff_t uncertain() const { return std::ranges::count(truth.certain, 0); }
+};
+
+Seen see(const std::string& data, bool before = false) {
+  StressScene made = stress_scene(*stress_data(data), scene::ColourKind::rgba8);
+  Seen seen;
+  seen.scene.particles = std::make_shared<const scene::ParticleSet>(std::move(made.particles));
+  seen.scene.camera = before ? *made.camera_before : made.camera;
+  seen.scene.width = made.width;
+  seen.scene.height = made.height;
+  seen.truth =
+      reference::render_spheres(seen.scene, error_model(seen.scene, technique::ComputedAt::pixel));
+  return seen;
+}
+
+// A picture that is mostly uncertain would ask for nothing.
+TEST(StressScenes, AreCertainNearlyEverywhere) {
+  for (const StressCase& each : stress_cases()) {
+    for (std::size_t i = 0; i < std::max<std::size_t>(each.variants.size(), 1); ++i) {
+      const StressData data{&each, each.variants.empty() ? std::string_view() : each.variants[i]};
+      if (data.variant == "10000000") continue;  // as 200000 in all but size
+      SCOPED_TRACE(name_of(data));
+      const Seen seen = see(name_of(data));
+      const auto pixels = static_cast<double>(seen.truth.ids.size());
+      EXPECT_LE(static_cast<double>(seen.uncertain()), 0.03 * pixels + 1);
+      EXPECT_EQ(seen.covered() == 0, name_of(data) == "stress:count:0");
+    }
+  }
+}
+
+TEST(StressScenes, OfAnyScaleAreOnePicture) {
+  const Seen unit = see("stress:scale:unit");
+  for (const auto& [variant, scale] :
+       {std::pair("small", 0x1.0p-20), std::pair("large", 0x1.0p20)}) {
+    const Seen other = see(fmt::format("stress:scale:{}", variant));
+    EXPECT_EQ(other.truth.ids, unit.truth.ids);
+    EXPECT_EQ(other.scene.camera.near, scale * unit.scene.camera.near);
+    for (std::size_t i = 0; i < unit.truth.depth.size(); ++i) {
+      if (unit.truth.ids[i] == none) continue;
+      ASSERT_NEAR(other.truth.depth[i] / scale, unit.truth.depth[i], 1e-12);
+    }
+  }
+}
+
+// From so far both silhouettes are discs, 32 pixels to a unit of length; a disc of radius R covers
+// πR² pixels to within a few times √R (the lattice problem of Gauss).
+TEST(StressScenes, FarSilhouettesAreDiscs) {
+  for (const char* distance : {"1e3", "1e4", "1e5", "2e5"}) {
+    SCOPED_TRACE(distance);
+    const Seen seen = see(fmt::format("stress:far:{}", distance));
+    const auto area = [](double radius) { return std::numbers::pi * radius * radius; };
+    EXPECT_NEAR(static_cast<double>(seen.covered()), area(32) + area(0.6 * 32), 25);
+    // A ring of 1/256 pixel to each side of both.
+    EXPECT_LE(seen.uncertain(), 10);
+  }
+}
+
+TEST(StressScenes, InsideThereIsNoWayPast) {
+  for (const char* eye : {"centre", "off_centre", "under_surface"}) {
+    const Seen seen = see(fmt::format("stress:inside:{}", eye));
+    EXPECT_EQ(seen.truth.coverage, 1);
+    EXPECT_FALSE(seen.ids().contains(3)) << "what lies outside is hidden";
+    EXPECT_TRUE(seen.ids().contains(0));
+  }
+}
+
+TEST(StressScenes, TheHorizonCrossesThePicture) {
+  for (const char* distance : {"1.0001", "1.0006"}) {
+    const Seen seen = see(fmt::format("stress:skimming:{}", distance));
+    EXPECT_GT(seen.truth.coverage, 0.3);
+    EXPECT_LT(seen.truth.coverage, 0.7);
+    EXPECT_GE(seen.ids().size(), 3U);
+  }
+}
+
+TEST(StressScenes, OnlyHundredthsOfAPixelOnCentresAreSeen) {
+  const Seen seen = see("stress:subpixel");
+  EXPECT_EQ(seen.covered(), 144);
+  EXPECT_EQ(seen.uncertain(), 0);
+  for (const std::uint32_t id : seen.ids()) EXPECT_EQ(id % 2, 0U);
+}
+
+TEST(StressScenes, WhatIsNoSphereIsCounted) {
+  const Seen with = see("stress:no_sphere:with");
+  const Seen without = see("stress:no_sphere:without");
+  EXPECT_EQ(with.scene.particles->dropped, 10U);
+  EXPECT_EQ(with.scene.particles->ids, without.scene.particles->ids);
+  EXPECT_EQ(with.truth.ids, without.truth.ids);
+  const Seen vanishing = see("stress:no_sphere:vanishing");
+  EXPECT_EQ(vanishing.scene.particles->count(), 5U);
+  EXPECT_EQ(vanishing.uncertain() - without.uncertain(), 3);
+}
+
+TEST(StressScenes, EqualSpheresShowTheLowestId) {
+  const Seen seen = see("stress:coincident");
+  EXPECT_EQ(seen.ids(), (std::set<std::uint32_t>{0, 1, 2, 3, 4}));
+}
+
+// S4: what is seen of a sphere lies on its side of every bisecting plane.
+TEST(StressScenes, InterpenetratingSpheresMeetInBisectingPlanes) {
+  const Seen seen = see("stress:interpenetrating");
+  const scene::ParticleSet& set = *seen.scene.particles;
+  const auto centre = [&](std::size_t i) {
+    return glm::dvec3(set.spheres[i][0], set.spheres[i][1], set.spheres[i][2]);
+  };
+  const scene::Camera& camera = seen.scene.camera;
+  for (int y = 0; y < seen.scene.height; ++y) {
+    for (int x = 0; x < seen.scene.width; ++x) {
+      const auto at = static_cast<std::size_t>(y * seen.scene.width + x);
+      const std::uint32_t id = seen.truth.ids[at];
+      if (id == none) continue;
+      const glm::dvec3 ray = camera.ray_direction(x, y, seen.scene.width, seen.scene.height);
+      const glm::dvec3 hit =
+          camera.eye + seen.truth.depth[at] / glm::dot(ray, camera.forward) * ray;
+      for (std::size_t other = 0; other < set.count(); ++other) {
+        if (other == id) continue;
+        ASSERT_GE(reference::s4_bisector(hit, centre(id), centre(other)), -1e-9) << x << ' ' << y;
+      }
+    }
+  }
+}
+
+TEST(StressScenes, AllDepthsOfTheRangeAreSeenAndTheNearerOneHides) {
+  const Seen seen = see("stress:depth_range");
+  ASSERT_EQ(seen.ids().size(), 7U);
+  double nearest = 1e9;
+  double farthest = 0;
+  for (const double depth : seen.truth.depth) {
+    if (!std::isfinite(depth)) continue;
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  EXPECT_GT(farthest / nearest, 1e6);
+}
+
+TEST(StressScenes, ThePileShowsItsLastAlone) {
+  const Seen seen = see("stress:pile:200000");
+  EXPECT_EQ(seen.ids(), (std::set<std::uint32_t>{199999}));
+  EXPECT_EQ(seen.covered(), 1);
+  EXPECT_EQ(seen.truth.certain[16 * 33 + 16], 1);
+}
+
+// Nothing but the wall is seen from both sides.
+TEST(StressScenes, AfterTheJumpOtherSpheresAreSeen) {
+  const Seen after = see("stress:jump");
+  const Seen before = see("stress:jump", true);
+  static constexpr std::uint32_t in_wall = 441;
+  const auto in_crowd = [](const std::set<std::uint32_t>& ids) {
+    return std::set<std::uint32_t>(ids.lower_bound(in_wall), ids.end());
+  };
+  const auto now = in_crowd(after.ids());
+  EXPECT_GT(now.size(), 1000U);
+  EXPECT_GT(in_crowd(before.ids()).size(), 1000U);
+  std::size_t both = 0;
+  for (const std::uint32_t id : in_crowd(before.ids())) both += now.count(id);
+  EXPECT_EQ(both, 0U);
+}
+
+TEST(StressScenes, TheLetterIsNoneOfItsFlips) {
+  const Seen seen = see("stress:asymmetric");
+  const auto differing = [&](auto other) {
+    int different = 0;
+    for (int y = 0; y < 96; ++y) {
+      for (int x = 0; x < 96; ++x) {
+        const auto [u, v] = other(x, y);
+        const auto mine = static_cast<std::size_t>(y * 96 + x);
+        different += seen.truth.ids[mine] != seen.truth.ids[static_cast<std::size_t>(v * 96 + u)];
+      }
+    }
+    return different;
+  };
+  const int covered = static_cast<int>(seen.covered());
+  EXPECT_GT(differing([](int x, int y) { return std::pair(95 - x, y); }), covered / 2);
+  EXPECT_GT(differing([](int x, int y) { return std::pair(x, 95 - y); }), covered / 2);
+  EXPECT_GT(differing([](int x, int y) { return std::pair(95 - x, 95 - y); }), covered / 2);
+  EXPECT_GT(differing([](int x, int y) { return std::pair(y, x); }), covered / 2);
+}
+
+TEST(StressScenes, WhatEndsAPixelBeforeTheEdgeIsNotSeen) {
+  const Seen seen = see("stress:edges");
+  EXPECT_TRUE(seen.ids().contains(9));
+  EXPECT_FALSE(seen.ids().contains(10));
+  for (std::uint32_t id = 0; id < 9; ++id) EXPECT_TRUE(seen.ids().contains(id)) << id;
+}
+
+}  // namespace
+}  // namespace triptych::particles_suite
