@@ -16,6 +16,8 @@
 //     "base_ns": 100000,          a frame takes base_ns + ns_per_sample · samples, where
 //     "ns_per_sample": 1,           samples = width · height · longest edge in voxels / step
 //     "warm_up_factor": 1,        on the first frame after a prepare
+//     "prepare_factors": [],      factors on all frames after the first, second, … prepare of one
+//                                 work; those after the last: 1
 //     "noise": 0,                 relative standard deviation of every time
 //     "outlier_share": 0,         share of frames that take outlier_factor as long
 //     "outlier_factor": 3,
@@ -31,7 +33,8 @@
 // Kinds of failure: crash (abort), exit (the process ends with code 0), hang (never returns),
 // device_lost, api_error, not_supported (thrown; at "supports": the reason given), wrong_image (the
 // picture is off by 0.25), nan_image. Places ("at"): open, supports, prepare, frame, image. "frame"
-// counts a Prepared's frames from 0 and is any when left out. GLOBs, as fnmatch(3) has them, match
+// counts a Prepared's frames from 0, at "prepare" the prepares of one work, and is any when left
+// out. GLOBs, as fnmatch(3) has them, match
 // describe(work); at "open" they match the device id.
 
 #include <cstdint>
@@ -80,6 +83,7 @@ struct Script {
   double base_ns = 1e5;
   double ns_per_sample = 1;
   double warm_up_factor = 1;
+  std::vector<double> prepare_factors;
   double noise = 0;
   double outlier_share = 0;
   double outlier_factor = 3;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <thread>
 #include <utility>
 
@@ -137,14 +138,18 @@ class NullDevice final : public measure::Device {
     log_call(*script_, "prepare " + work.technique);
     if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
     std::string subject = describe(work);
-    play_failure(*script_, Place::prepare, subject);
-    return std::make_unique<NullPrepared>(script_, work, std::move(subject), factor_);
+    const std::size_t earlier = prepares_[subject]++;
+    play_failure(*script_, Place::prepare, subject, static_cast<int>(earlier));
+    const auto& factors = script_->prepare_factors;
+    const double factor = factor_ * (earlier < factors.size() ? factors[earlier] : 1.0);
+    return std::make_unique<NullPrepared>(script_, work, std::move(subject), factor);
   }
 
  private:
   std::shared_ptr<const Script> script_;
   record::Device info_;
   double factor_;
+  std::map<std::string, std::size_t> prepares_;  // of each work so far
 };
 
 }  // namespace

@@ -16,9 +16,9 @@ namespace triptych::null_backend {
                                                            std::size_t index);
 
 // Does what the script's first failure for this place says, if there is one: throws, ends the
-// process or never returns. `subject` is what globs are matched against, `frame` the frame's
-// number.
-void play_failure(const Script& script, Place at, const std::string& subject, int frame = 0);
+// process or never returns. `subject` is what globs are matched against, `number` the
+// frame's or, at prepare, that of the work's prepare.
+void play_failure(const Script& script, Place at, const std::string& subject, int number = 0);
 
 // The first failure of this kind of picture: Place::image, wrong_image or nan_image.
 [[nodiscard]] std::optional<FailureKind> image_failure(const Script& script,

@@ -75,11 +75,11 @@ Failure parse_failure(const Json& json) {
   return failure;
 }
 
-std::vector<double> parse_devices(const Json& value) {
-  if (!value.is_array() || value.empty()) refuse("devices", "a list of factors on time");
-  std::vector<double> devices;
-  for (const Json& each : value) devices.push_back(number(each, "devices", 0));
-  return devices;
+std::vector<double> parse_factors(const std::string& key, const Json& value) {
+  if (!value.is_array() || value.empty()) refuse(key, "a list of factors on time");
+  std::vector<double> factors;
+  for (const Json& each : value) factors.push_back(number(each, key, 0));
+  return factors;
 }
 
 // False where there is no such key.
@@ -107,7 +107,9 @@ void parse_key(const std::string& key, const Json& value, Script& script) {
     if (!value.is_number_unsigned()) refuse(key, "a whole number, 0 or more");
     script.seed = value.get<std::uint64_t>();
   } else if (key == "devices") {
-    script.devices = parse_devices(value);
+    script.devices = parse_factors(key, value);
+  } else if (key == "prepare_factors") {
+    script.prepare_factors = parse_factors(key, value);
   } else if (key == "driver_version") {
     script.driver_version = text(value, key);
   } else if (key == "device_over_wall") {
@@ -206,10 +208,11 @@ bool matches(const std::string& glob, const std::string& subject) {
   return fnmatch(glob.c_str(), subject.c_str(), 0) == 0;
 }
 
-void play_failure(const Script& script, Place at, const std::string& subject, int frame) {
+void play_failure(const Script& script, Place at, const std::string& subject, int number) {
   for (const Failure& failure : script.failures) {
     if (failure.at != at || !matches(failure.only, subject)) continue;
-    if (at == Place::frame && failure.frame && *failure.frame != frame) continue;
+    const bool counted = at == Place::frame || at == Place::prepare;
+    if (counted && failure.frame && *failure.frame != number) continue;
     play(failure.kind);
     return;
   }

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <memory>
+#include <optional>
 
 #include "app/arguments.hpp"
 #include "app/listing.hpp"
@@ -20,6 +22,8 @@ struct RunArguments {
   std::string store = "triptych.sqlite";
   bool resume = false;
   int limit_s = 60;
+  std::optional<int> rounds;
+  std::optional<int> budget_s;
   std::vector<std::string> plants;
 };
 
@@ -36,13 +40,16 @@ std::string outcome_text(const record::Record& record) {
 void show(const measure::Progress& progress) {
   if (progress.loading) return show_loading(*progress.loading);
   static const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  const std::string round =
+      progress.round > 1 ? fmt::format("round {}: ", progress.round) : std::string{};
   const std::string what = progress.record != nullptr ? outcome_text(*progress.record) : "";
   if (terminal) {
-    fmt::print(stderr, "\r\033[K{}/{} {} {} {} left {} s", progress.done, progress.total,
-               progress.device, progress.configuration, what, progress.left.count());
+    fmt::print(stderr, "\r\033[K{}{}/{} {} {} {} left {} s", round, progress.done,
+               progress.total, progress.device, progress.configuration, what,
+               progress.left.count());
     if (progress.done == progress.total) fmt::print(stderr, "\n");
   } else if (progress.record != nullptr) {
-    fmt::print(stderr, "{}/{} {} {}: {}\n", progress.done, progress.total, progress.device,
+    fmt::print(stderr, "{}{}/{} {} {}: {}\n", round, progress.done, progress.total, progress.device,
                progress.configuration, what);
   }
 }
@@ -58,6 +65,9 @@ measure::RunResult run_and_tell(const RunArguments& arguments) {
   const measure::RunOptions options{
       .limit = std::chrono::seconds(arguments.limit_s),
       .resume = arguments.resume,
+      .rounds = arguments.rounds,
+      .budget = arguments.budget_s ? std::optional(std::chrono::seconds(*arguments.budget_s))
+                                   : std::nullopt,
       .plants = parse_plants(arguments.plants),
       .worker_command = {own_program(), "worker", "--device"},
   };
@@ -67,6 +77,11 @@ measure::RunResult run_and_tell(const RunArguments& arguments) {
       "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
       plan.name, result.run, arguments.store, result.measured, result.skipped, result.failed,
       result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
+  if (result.unsettled > 0) {
+    fmt::print("{} not settled: their quietest round was not seen again; --rounds N or --budget "
+               "SECONDS --resume goes on with them\n",
+               result.unsettled);
+  }
   return result;
 }
 
@@ -75,8 +90,9 @@ core::ExitCode run(const RunArguments& arguments) {
   return result.measured + result.failed > 0 ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
-// As a CTest fixture: a configuration that failed fails the test, nothing but skips skips it. A
-// correlation between devices is drawn from one store, anchors and plan.
+// As a CTest fixture: a configuration that failed fails the test – but for a stress case, whose
+// score tells of it – and nothing but skips skips it. A correlation between devices is drawn from
+// one store, anchors and plan.
 core::ExitCode run_as_test(const RunArguments& arguments) {
   if (arguments.plan.plan.ends_with("/correlation")) {
     RunArguments anchors = arguments;
@@ -124,6 +140,14 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                   "Seconds after which a configuration counts as hung")
       ->capture_default_str()
       ->check(CLI::Range(1, 86400));
+  command
+      .add_option("--rounds", arguments.rounds,
+                  "Passes over the plan at most (default: the plan's); what is settled is left out")
+      ->check(CLI::Range(1, 99));
+  command
+      .add_option("--budget", arguments.budget_s,
+                  "Seconds for the run: rounds until then, the most doubtful first")
+      ->check(CLI::Range(1, 1000000));
   command.add_option(
       "--plant", arguments.plants,
       "Plant a fault to prove that the gate catches it: half_voxel_shift, flipped_axis, "

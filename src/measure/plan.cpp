@@ -307,7 +307,8 @@ Plan make_plan(const std::string& name, const Suite& suite, const ValuesByFactor
             .suite = std::string(suite.name()),
             .configurations = combine(axes),
             .varied = {},
-            .timed = true};
+            .timed = true,
+            .rounds = 1};
   for (const Axis& axis : axes) {
     if (axis.values.size() > 1) plan.varied.push_back(axis.factor->name);
   }
@@ -325,6 +326,7 @@ Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
   apply(overrides, suite, values);
   Plan plan = make_plan(source.name, suite, values);
   plan.timed = text.timed;
+  plan.rounds = text.rounds;
   return plan;
 }
 

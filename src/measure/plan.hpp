@@ -19,6 +19,8 @@ struct Plan {
   std::vector<std::string> varied;  // factors with more than one value
   // Of `timed: false` only pictures and counters are wanted: one frame each, no clocks.
   bool timed = true;
+  // Passes over the plan, most of all; what is settled earlier is left out (measure/rounds.hpp).
+  int rounds = 1;
 };
 
 // Overrides from the command line: "--set factor=a,b".

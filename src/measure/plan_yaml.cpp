@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <charconv>
 #include <map>
 
 namespace triptych::measure {
@@ -64,6 +65,15 @@ bool truth_value(const PlacedText& value) {
                          fmt::format("'timed': expected true or false, found '{}'", value.text));
 }
 
+int number_of_rounds(const PlacedText& value) {
+  int rounds = 0;
+  const char* end = value.text.data() + value.text.size();
+  const auto [stop, error] = std::from_chars(value.text.data(), end, rounds);
+  if (error == std::errc{} && stop == end && rounds >= 1 && rounds <= 99) return rounds;
+  throw core::InputError(
+      value.place, fmt::format("'rounds': expected a number from 1 to 99, found '{}'", value.text));
+}
+
 }  // namespace
 
 PlanText parse_plan(std::string_view yaml, const std::string& file) {
@@ -83,6 +93,8 @@ PlanText parse_plan(std::string_view yaml, const std::string& file) {
       static_cast<void>(scalar(pair.second, file, key.text));
     } else if (key.text == "timed") {
       plan.timed = truth_value(scalar(pair.second, file, key.text));
+    } else if (key.text == "rounds") {
+      plan.rounds = number_of_rounds(scalar(pair.second, file, key.text));
     } else {
       std::vector<PlacedText> values = values_of(pair.second, file, key.text);
       plan.entries.push_back({.factor = std::move(key), .values = std::move(values)});

@@ -2,20 +2,21 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <ctime>
+#include <map>
 #include <memory>
 #include <optional>
 #include <random>
 #include <set>
 #include <utility>
 
+#include "measure/device_run.hpp"
 #include "measure/environment.hpp"
 #include "measure/interrupt.hpp"
 #include "measure/plant.hpp"
-#include "measure/worker_link.hpp"
+#include "measure/rounds.hpp"
 #include "technique/catalogue.hpp"
 
 namespace triptych::measure {
@@ -50,184 +51,6 @@ std::vector<std::string> kinds_of(const Plan& plan) {
   return {kinds.begin(), kinds.end()};
 }
 
-// What every part of one run shares.
-struct Context {
-  const Plan& plan;
-  const Suite& suite;
-  record::Store& store;
-  const RunOptions& options;
-  InterruptGuard& interrupts;
-  std::string run;
-  std::vector<std::string> kinds;
-
-  [[nodiscard]] std::vector<std::string> plants_for(const std::string& key,
-                                                    const std::string& device) const {
-    std::vector<std::string> plants;
-    for (const Plant& plant : options.plants) {
-      const auto matches = [&plant](const std::string& text) {
-        return ::fnmatch(plant.only.c_str(), text.c_str(), 0) == 0;
-      };
-      if (plant.only.empty() || matches(key) || matches(device)) plants.push_back(plant.fault);
-    }
-    return plants;
-  }
-};
-
-// One configuration on one device: what came of it, and the share of its time that was the
-// device's.
-struct Done {
-  record::Record record;
-  std::vector<std::byte> exr;
-  double work_ns = 0;
-};
-
-// A device with the worker that serves it just now.
-class DeviceRun {
- public:
-  DeviceRun(const Context& context, std::string device)
-      : context_(context),
-        device_(std::move(device)),
-        cache_(device_),
-        environment_(worker_environment(device_, cache_)) {
-    remember();
-  }
-
-  [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key,
-                             const OnLoading& on_loading) {
-    Job job{.name = device_ + "/" + key,
-            .configuration = configuration,
-            .protocol = protocol(),
-            .plants = context_.plants_for(key, device_)};
-    Done done =
-        ensure_worker() ? ask(job, on_loading) : Done{ended(record::Outcome::failed, no_worker_)};
-    record::Record& record = done.record;
-    record.run = context_.run;
-    record.suite = context_.plan.suite;
-    record.plan = context_.plan.name;
-    record.configuration = key;
-    record.scene = scene_key(context_.suite, configuration);
-    record.technique = configuration.at("technique");
-    record.device = device_;
-    record.planted = fmt::format("{}", fmt::join(job.plants, "+"));
-    if (record.factors.empty()) record.factors = configuration;
-    return done;
-  }
-
-  // Lets the worker leave in peace.
-  void finish() {
-    if (worker_) worker_->finish();
-    worker_.reset();
-  }
-
-  // Opening the driver and calibrating its clocks is the device's work, not ours.
-  [[nodiscard]] double opening_ns() const { return opening_ns_; }
-
- private:
-  static record::Record ended(record::Outcome outcome, std::string reason) {
-    record::Record record;
-    record.outcome = outcome;
-    record.reason = std::move(reason);
-    return record;
-  }
-
-  // A resumed run goes on with the clocks it began with: records of one run rest on one verdict.
-  void remember() {
-    for (auto& entry : context_.store.devices(context_.run)) {
-      if (entry.device.id != device_) continue;
-      known_ = std::move(entry.device);
-      clocks_ = std::move(entry.clocks);
-    }
-  }
-
-  [[nodiscard]] Protocol protocol() const {
-    Protocol protocol = context_.options.protocol;
-    protocol.timed = protocol.timed && context_.plan.timed;
-    return protocol;
-  }
-
-  // False when no worker can be had, now or later; the reason is then in no_worker_.
-  bool ensure_worker() {
-    constexpr int most_attempts = 2;
-    for (int attempt = 0; !worker_ && no_worker_.empty(); ++attempt) {
-      std::string reason = start_worker();
-      if (!reason.empty() && attempt + 1 >= most_attempts) no_worker_ = std::move(reason);
-    }
-    return worker_ != nullptr;
-  }
-
-  // Empty when a worker has said hello, else why not.
-  std::string start_worker() {
-    std::vector<std::string> command = context_.options.worker_command;
-    command.push_back(device_);
-    std::unique_ptr<WorkerLink> worker;
-    try {
-      worker = std::make_unique<WorkerLink>(command, environment_, context_.interrupts);
-    } catch (const core::IoError& error) {
-      return fmt::format("{} cannot be opened: {}", device_, error.what());
-    }
-    const Start start{.suite = context_.plan.suite, .kinds = context_.kinds, .clocks = clocks_};
-    const auto asked = Clock::now();
-    const auto greeting = worker->greet(start, context_.options.start_limit);
-    opening_ns_ += ns_since(asked);
-    if (const auto* reason = std::get_if<std::string>(&greeting)) {
-      return fmt::format("{} cannot be opened: {}", device_, *reason);
-    }
-    greet(std::get<Hello>(greeting));
-    worker_ = std::move(worker);
-    return {};
-  }
-
-  void greet(const Hello& hello) {
-    if (known_ && known_->key() != hello.device.key()) {
-      throw core::InputError(
-          fmt::format("{} has changed since run {} began (then {}; now {}): begin a new run "
-                      "instead of resuming",
-                      device_, context_.run, known_->key(), hello.device.key()));
-    }
-    if (known_ && clocks_ == hello.clocks) return;
-    known_ = hello.device;
-    clocks_ = hello.clocks;
-    context_.store.add_device(context_.run, *known_, clocks_);
-  }
-
-  Done ask(const Job& job, const OnLoading& on_loading) {
-    const auto start = Clock::now();
-    WorkerLink::Reply reply = worker_->ask(to_message(job), context_.options.limit, on_loading);
-    if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
-      worker_.reset();
-      return {ended(record::Outcome::crashed, std::move(died->reason))};
-    }
-    if (auto* late = std::get_if<WorkerLink::Late>(&reply)) {
-      worker_.reset();
-      return {ended(record::Outcome::hung, std::move(late->reason))};
-    }
-    std::optional<Answer> answer;
-    try {
-      answer = as_answer(std::move(std::get<Message>(reply)));
-      if (!answer) throw core::InputError("the worker said something other than its answer");
-    } catch (const core::InputError& error) {
-      worker_.reset();
-      return {ended(record::Outcome::failed, error.what())};
-    }
-    if (answer->record.outcome == record::Outcome::lost) worker_.reset();
-    Done done{.record = std::move(answer->record),
-              .exr = std::move(answer->exr),
-              .work_ns = answer->worker_ns - answer->record.overhead_ns};
-    done.record.overhead_ns = ns_since(start) - done.work_ns;
-    return done;
-  }
-
-  const Context& context_;
-  std::string device_;
-  CacheFolder cache_;
-  std::vector<std::string> environment_;
-  std::optional<record::Device> known_;
-  std::vector<record::ClockTrust> clocks_;
-  double opening_ns_ = 0;
-  std::unique_ptr<WorkerLink> worker_;
-  std::string no_worker_;
-};
-
 void count(const record::Record& record, RunResult& result) {
   switch (record.outcome) {
     case record::Outcome::measured:
@@ -248,8 +71,8 @@ void count(const record::Record& record, RunResult& result) {
 // Tells how far the run is, with the time left as the mean of what was done foretells it.
 class Report {
  public:
-  Report(int total, const std::function<void(const Progress&)>& tell)
-      : total_(total), tell_(tell), start_(Clock::now()) {}
+  Report(int round, std::size_t total, const std::function<void(const Progress&)>& tell)
+      : round_(round), total_(static_cast<int>(total)), tell_(tell), start_(Clock::now()) {}
 
   void already_done() { --total_; }
 
@@ -260,6 +83,7 @@ class Report {
     const auto left = spent / done_ * (total_ - done_);
     tell_({.device = record.device,
            .configuration = record.configuration,
+           .round = round_,
            .done = done_,
            .total = total_,
            .left = std::chrono::round<std::chrono::seconds>(left),
@@ -271,6 +95,7 @@ class Report {
     if (!tell_) return;
     tell_({.device = device,
            .configuration = key,
+           .round = round_,
            .done = done_,
            .total = total_,
            .left = {},
@@ -279,6 +104,7 @@ class Report {
   }
 
  private:
+  int round_;
   int total_;
   int done_ = 0;
   const std::function<void(const Progress&)>& tell_;
@@ -286,7 +112,7 @@ class Report {
 };
 
 // The work of a device that a resumed run has not done yet.
-std::vector<const Configuration*> pending(const Context& context, const std::string& device,
+std::vector<const Configuration*> pending(const RunContext& context, const std::string& device,
                                           Report& report) {
   std::vector<const Configuration*> result;
   for (const Configuration& configuration : context.plan.configurations) {
@@ -317,6 +143,146 @@ void refuse_bad_options(const RunOptions& options) {
   for (const Plant& plant : options.plants) check_plant(plant.fault);
 }
 
+// One run, from the first configuration to the last round.
+class Measuring {
+ public:
+  Measuring(const RunContext& context, const std::vector<std::string>& devices,
+            const std::function<void(const Progress&)>& tell)
+      : context_(context), devices_(devices), tell_(tell) {
+    result_.run = context.run;
+  }
+
+  // Everything once, by the whole protocol.
+  void first_round() {
+    Report report(1, context_.plan.configurations.size() * devices_.size(), tell_);
+    std::vector<std::pair<std::string, std::vector<const Configuration*>>> work;
+    work.reserve(devices_.size());
+    for (const std::string& device : devices_) {
+      work.emplace_back(device, pending(context_, device, report));
+    }
+    for (const auto& [device, configurations] : work) {
+      for (const Configuration* configuration : configurations) {
+        measure(device, *configuration, report);
+      }
+      if (!goes_on()) leave(device);
+    }
+  }
+
+  // The timed frames again, of what is not settled.
+  void further_rounds(Clock::time_point start) {
+    if (!goes_on()) return;
+    remember_records();
+    const auto order =
+        context_.options.budget ? RoundOrder::doubtful_first : RoundOrder::as_measured;
+    const auto spent = [&] {
+      return context_.options.budget && Clock::now() - start >= *context_.options.budget;
+    };
+    for (std::size_t round = 2; round <= most_rounds(); ++round) {
+      const std::vector<std::size_t> chosen = next_round(records_, most_rounds(), order);
+      Report report(static_cast<int>(round), chosen.size(), tell_);
+      for (const std::size_t each : chosen) {
+        if (spent()) return;
+        once_more(records_[each], report);
+      }
+    }
+  }
+
+  [[nodiscard]] RunResult conclude(double wall_ns) {
+    while (!open_.empty()) leave(open_.begin()->first);
+    result_.unsettled =
+        static_cast<int>(std::ranges::count_if(records_, [](const record::Record& record) {
+          return record.outcome == record::Outcome::measured && !is_settled(record);
+        }));
+    result_.wall_ns = wall_ns;
+    result_.overhead_ns = wall_ns - work_ns_;
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t most_rounds() const {
+    constexpr std::size_t most_within_budget = 32;
+    if (!context_.plan.timed || !context_.options.protocol.timed) return 1;
+    if (context_.options.rounds) return static_cast<std::size_t>(*context_.options.rounds);
+    return context_.options.budget ? most_within_budget
+                                   : static_cast<std::size_t>(context_.plan.rounds);
+  }
+  [[nodiscard]] bool goes_on() const { return most_rounds() > 1; }
+
+  DeviceRun& on(const std::string& device) {
+    auto& entry = open_[device];
+    if (!entry) entry = std::make_unique<DeviceRun>(context_, device);
+    return *entry;
+  }
+
+  void leave(const std::string& device) {
+    const auto entry = open_.find(device);
+    if (entry == open_.end()) return;
+    entry->second->finish();
+    work_ns_ += entry->second->opening_ns();
+    open_.erase(entry);
+  }
+
+  void stop_if_asked() {
+    if (const auto signal = context_.interrupts.take()) throw Interrupted(*signal);
+  }
+
+  void measure(const std::string& device, const Configuration& configuration, Report& report) {
+    stop_if_asked();
+    const std::string key = configuration_key(context_.suite, configuration);
+    const Done done = on(device).perform(
+        configuration, key, [&](const Loading& loading) { report.loading(device, key, loading); });
+    // The image first: a record must never name one that is not there.
+    if (!done.record.image.empty()) context_.store.add_image(done.record.image, done.exr);
+    context_.store.add_record(done.record);
+    work_ns_ += done.work_ns;
+    count(done.record, result_);
+    report.done(done.record);
+  }
+
+  // What the store knows of this run's devices: with --resume, rounds of before too.
+  void remember_records() {
+    for (const Configuration& configuration : context_.plan.configurations) {
+      by_key_[configuration_key(context_.suite, configuration)] = &configuration;
+    }
+    for (record::Record& record : context_.store.records(context_.run)) {
+      const bool ours = std::ranges::find(devices_, record.device) != devices_.end() &&
+                        by_key_.contains(record.configuration);
+      if (ours) records_.push_back(std::move(record));
+    }
+  }
+
+  // A configuration that fails now was measured by luck: its record says so.
+  void once_more(record::Record& record, Report& report) {
+    stop_if_asked();
+    const auto [turn, work_ns] =
+        on(record.device)
+            .round(*by_key_.at(record.configuration), record.configuration, record.warm_up_frames,
+                   [&](const Loading& loading) {
+                     report.loading(record.device, record.configuration, loading);
+                   });
+    work_ns_ += work_ns;
+    if (turn.outcome != record::Outcome::measured) {
+      --result_.measured;
+      record.outcome = turn.outcome;
+      record.reason = fmt::format("in round {}: {}", record.rounds_ns.size() + 1, turn.reason);
+      count(record, result_);
+      context_.store.add_record(record);
+    } else if (add_round(record, turn)) {
+      context_.store.update_times(record);
+    }
+    report.done(record);
+  }
+
+  const RunContext& context_;
+  const std::vector<std::string>& devices_;
+  const std::function<void(const Progress&)>& tell_;
+  RunResult result_;
+  double work_ns_ = 0;
+  std::map<std::string, std::unique_ptr<DeviceRun>> open_;
+  std::vector<record::Record> records_;
+  std::map<std::string, const Configuration*> by_key_;
+};
+
 }  // namespace
 
 RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices, const Suite& suite,
@@ -325,41 +291,13 @@ RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices, co
   const auto start = Clock::now();
   refuse_bad_options(options);
   InterruptGuard interrupts;
-  RunResult result;
-  const Context context{plan,          suite,      store,
-                        options,       interrupts, open_run(plan, store, options.resume),
-                        kinds_of(plan)};
-  result.run = context.run;
-  Report report(static_cast<int>(plan.configurations.size() * devices.size()), on_progress);
-  std::vector<std::pair<std::string, std::vector<const Configuration*>>> work;
-  work.reserve(devices.size());
-  for (const std::string& device : devices) {
-    work.emplace_back(device, pending(context, device, report));
-  }
-
-  double work_ns = 0;
-  for (const auto& [device, configurations] : work) {
-    if (configurations.empty()) continue;
-    DeviceRun device_run(context, device);
-    for (const Configuration* configuration : configurations) {
-      if (const auto signal = interrupts.take()) throw Interrupted(*signal);
-      const std::string key = configuration_key(suite, *configuration);
-      const Done done = device_run.perform(
-          *configuration, key,
-          [&, &on = device](const Loading& loading) { report.loading(on, key, loading); });
-      // The image first: a record must never name one that is not there.
-      if (!done.record.image.empty()) store.add_image(done.record.image, done.exr);
-      store.add_record(done.record);
-      work_ns += done.work_ns;
-      count(done.record, result);
-      report.done(done.record);
-    }
-    device_run.finish();
-    work_ns += device_run.opening_ns();
-  }
-  result.wall_ns = ns_since(start);
-  result.overhead_ns = result.wall_ns - work_ns;
-  return result;
+  const RunContext context{plan,          suite,      store,
+                           options,       interrupts, open_run(plan, store, options.resume),
+                           kinds_of(plan)};
+  Measuring measuring(context, devices, on_progress);
+  measuring.first_round();
+  measuring.further_rounds(start);
+  return measuring.conclude(ns_since(start));
 }
 
 }  // namespace triptych::measure

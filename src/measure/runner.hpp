@@ -29,6 +29,11 @@ struct RunOptions {
   std::chrono::seconds limit{60};  // of one configuration; a worker past it is killed and replaced
   std::chrono::seconds start_limit{60};  // of opening a device and calibrating its clocks
   bool resume = false;  // continue the plan's latest run: what has a record is left alone
+  // Rounds over the plan at most, instead of the plan's own number.
+  std::optional<int> rounds;
+  // Of the whole run: rounds go on until then, of the most doubtful configurations first. The first
+  // round is made whatever the budget.
+  std::optional<std::chrono::seconds> budget;
   std::vector<Plant> plants;
   // Command that starts a worker for a device; the device id is appended. It must call
   // serve_worker with Process::child_request_fd and child_answer_fd (measure/process.hpp).
@@ -51,6 +56,7 @@ class Interrupted : public core::Error {
 struct Progress {
   std::string device;
   std::string configuration;
+  int round = 1;  // `done`, `total` and `left` are of this round
   int done = 0;
   int total = 0;
   std::chrono::seconds left{0};
@@ -62,17 +68,19 @@ struct RunResult {
   std::string run;  // id in the store
   int measured = 0;
   int skipped = 0;
-  int failed = 0;  // failed, crashed, hung or lost
+  int failed = 0;     // failed, crashed, hung or lost
+  int unsettled = 0;  // of several rounds: measured, but the quietest was not seen again
   double wall_ns = 0;
   double overhead_ns = 0;  // of wall_ns, what was neither opening devices, preparing nor frames
 };
 
 // Every configuration of the plan on every device, devices one after the other so that none
-// disturbs another's timing. A crash, a hang or a lost device costs one configuration; a device
-// whose worker cannot be started twice in a row costs the device, each of its configurations failed
-// with the reason. Throws InputError for an unknown fault, for an environment that forbids
-// measuring, and for a resumed run whose device has changed; IoError when the store cannot be
-// written; Interrupted.
+// disturbs another's timing; then, as the plan or the options ask, further rounds of timed frames
+// over what is not settled (measure/rounds.hpp). A crash, a hang or a lost device costs one
+// configuration; a device whose worker cannot be started twice in a row costs the device, each of
+// its configurations failed with the reason. Throws InputError for an unknown fault, for an
+// environment that forbids measuring, and for a resumed run whose device has changed; IoError when
+// the store cannot be written; Interrupted.
 [[nodiscard]] RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices,
                                  const Suite& suite, record::Store& store,
                                  const RunOptions& options,

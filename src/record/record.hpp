@@ -93,7 +93,10 @@ struct Record {
   bool device_clock_trusted = false;
   int warm_up_frames = 0;
   int frames_per_100ms = 0;  // as the warm-up found
-  double loop_wall_ns = 0;   // the closing wall-clock loop, whole
+  // Medians of the clock that counts, one per round of timed frames, as made; the times above are
+  // of the round with the least of them. Where a plan has one round, that one.
+  std::vector<double> rounds_ns;
+  double loop_wall_ns = 0;  // the closing wall-clock loop, whole
   int loop_frames = 0;
   double prepare_ns = 0;   // data, pipelines, upload
   double overhead_ns = 0;  // wall clock of this configuration outside device work and warm-up
@@ -110,6 +113,9 @@ struct Record {
   // The samples that count, and the name of their clock: "device" or "wall".
   [[nodiscard]] const std::vector<double>& time_ns() const;
   [[nodiscard]] std::string_view clock() const;
+  // ln of the second least of the rounds' medians over the least: how well the quietest round was
+  // seen again. Empty below two rounds.
+  [[nodiscard]] std::optional<double> round_gap() const;
   // "<suite>.<plan's last part>.<check>.<device>", e.g. volume.quick.image.vulkan:lavapipe.
   [[nodiscard]] std::string test_id(std::string_view check) const;
 };

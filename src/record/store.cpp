@@ -98,6 +98,28 @@ void insert_samples(const SQLite::Database& database, std::int64_t record, std::
   }
 }
 
+void insert_times(const SQLite::Database& database, std::int64_t seq, const Record& r) {
+  insert_samples(database, seq, "wall", r.wall_ns);
+  insert_samples(database, seq, "device", r.device_ns);
+  SQLite::Statement insert(database, "INSERT INTO round VALUES (?, ?, ?)");
+  for (std::size_t round = 0; round < r.rounds_ns.size(); ++round) {
+    Binder(insert) << seq << round << r.rounds_ns[round];
+    insert.exec();
+    insert.reset();
+  }
+}
+
+std::int64_t seq_of(const SQLite::Database& database, const Record& r) {
+  SQLite::Statement row = prepared(
+      database, "SELECT seq FROM record WHERE run = ? AND configuration = ? AND device = ?", r.run,
+      r.configuration, r.device);
+  if (!row.executeStep()) {
+    throw core::InputError(fmt::format("run {} has no record of {} on {} whose times could change",
+                                       r.run, r.configuration, r.device));
+  }
+  return row.getColumn(0).getInt64();
+}
+
 using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
 
 template <typename Value>
@@ -132,6 +154,23 @@ void read_samples(const SQLite::Database& database, std::string_view run,
     Reader(rows) >> seq >> clock >> ns;
     Record& record = *records.at(static_cast<std::int64_t>(seq));
     (clock == "device" ? record.device_ns : record.wall_ns).push_back(ns);
+  }
+}
+
+// A store that was read but never written since lacks the table: its records know no rounds.
+void read_rounds(const SQLite::Database& database, std::string_view run,
+                 const RecordsBySeq& records) {
+  if (!database.tableExists("round")) return;
+  SQLite::Statement rows =
+      prepared(database,
+               "SELECT t.record, t.ns FROM record r JOIN round t ON t.record = r.seq "
+               "WHERE r.run = ? ORDER BY t.record, t.round",
+               run);
+  while (rows.executeStep()) {
+    std::uint64_t seq = 0;
+    double ns = 0;
+    Reader(rows) >> seq >> ns;
+    records.at(static_cast<std::int64_t>(seq))->rounds_ns.push_back(ns);
   }
 }
 
@@ -254,12 +293,25 @@ void Store::add_record(const Record& r) {
     execute(database, "DELETE FROM record WHERE run = ? AND configuration = ? AND device = ?",
             r.run, r.configuration, r.device);
     const std::int64_t seq = insert_row(database, r);
-    insert_samples(database, seq, "wall", r.wall_ns);
-    insert_samples(database, seq, "device", r.device_ns);
+    insert_times(database, seq, r);
     insert_map(database, "factor", seq, r.factors);
     insert_map(database, "counter", seq, r.counters);
     insert_map(database, "statistic", seq, r.statistics);
     insert_map(database, "precision", seq, r.precision);
+  });
+}
+
+void Store::update_times(const Record& r) {
+  state_->write([&] {
+    const SQLite::Database& database = state_->database;
+    const std::int64_t seq = seq_of(database, r);
+    execute(database, "DELETE FROM sample WHERE record = ?", seq);
+    execute(database, "DELETE FROM round WHERE record = ?", seq);
+    execute(database,
+            "UPDATE record SET frames = ?, median_ns = ?, median_wall_ns = ?, median_device_ns = ? "
+            "WHERE seq = ?",
+            r.time_ns().size(), median(r.time_ns()), median(r.wall_ns), median(r.device_ns), seq);
+    insert_times(database, seq, r);
   });
 }
 
@@ -331,6 +383,7 @@ std::vector<Record> Store::records(std::string_view run) const {
     RecordsBySeq by_seq;
     for (std::size_t i = 0; i < records.size(); ++i) by_seq[seqs[i]] = &records[i];
     read_samples(database, run, by_seq);
+    read_rounds(database, run, by_seq);
     read_map(database, "factor", run, by_seq, &Record::factors);
     read_map(database, "counter", run, by_seq, &Record::counters);
     read_map(database, "statistic", run, by_seq, &Record::statistics);

@@ -52,6 +52,9 @@ class Store {
                  std::span<const std::byte> exr);  // known hashes are left alone
   void add_record(
       const Record& record);  // replaces the one of the same run, configuration and device
+  // The times and rounds of a record that is there, after a further round; all else of it is left.
+  // Throws InputError when there is none of the same run, configuration and device.
+  void update_times(const Record& record);
   void set_truth(const TruthImage& truth);
 
   [[nodiscard]] std::vector<Run> runs() const;  // oldest first

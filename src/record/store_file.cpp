@@ -135,13 +135,20 @@ CREATE TABLE truth (
 )sql";
 
 // Came after version 1 had been in use. It only adds to it: a store without it is one whose devices
-// have no dialect known, and a program that does not know it reads the rest as before.
+// have no dialect known and whose records no rounds, and a program that does not know it reads the
+// rest as before.
 constexpr const char* later_schema = R"sql(
 CREATE TABLE IF NOT EXISTS dialect (
   device INTEGER NOT NULL REFERENCES device (seq) ON DELETE CASCADE,
   statistic TEXT NOT NULL,
   verdict TEXT NOT NULL,
   PRIMARY KEY (device, statistic)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS round (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  round INTEGER NOT NULL,
+  ns REAL,
+  PRIMARY KEY (record, round)
 ) STRICT, WITHOUT ROWID;
 )sql";
 

@@ -103,7 +103,7 @@ TEST_F(NullEnvironment, ScriptThatCannotBeReadIsBroken) {
 TEST(NullScript, AllKeys) {
   const Script script = parse_script(
       R"({"seed": 3, "devices": [1, 1.5], "driver_version": "2", "base_ns": 10,
-          "ns_per_sample": 0, "warm_up_factor": 2, "noise": 0.1, "outlier_share": 0.2,
+          "ns_per_sample": 0, "warm_up_factor": 2, "prepare_factors": [3, 2], "noise": 0.1, "outlier_share": 0.2,
           "outlier_factor": 4, "device_over_wall": null, "counts": false, "sleep": true,
           "filter_weight_error": 0.5, "images": {"*": "x.exr"},
           "failures": [{"kind": "hang", "at": "prepare", "only": "*ball*"},
@@ -112,6 +112,7 @@ TEST(NullScript, AllKeys) {
   EXPECT_THAT(script.devices, ElementsAre(1, 1.5));
   EXPECT_EQ(script.base_ns, 10);
   EXPECT_EQ(script.ns_per_sample, 0);
+  EXPECT_THAT(script.prepare_factors, ElementsAre(3, 2));
   EXPECT_EQ(script.outlier_factor, 4);
   EXPECT_FALSE(script.device_over_wall);
   EXPECT_FALSE(script.counts);
@@ -165,6 +166,21 @@ TEST(NullTime, IsComputedFromTheWork) {
 TEST(NullTime, WarmUpFactorIsOfTheFirstFrame) {
   const Script script{.base_ns = 100, .ns_per_sample = 0, .warm_up_factor = 5};
   EXPECT_THAT(times(script, 3), ElementsAre(500, 100, 100));
+}
+
+TEST(NullTime, PrepareFactorsAreOfOneWork) {
+  const auto backend =
+      make_backend(Script{.base_ns = 100, .ns_per_sample = 0, .prepare_factors = {3, 2}});
+  const auto device = backend->open("null:scripted");
+  const auto next_ns = [&device](const measure::Work& what) {
+    return device->prepare(what)->frame(measure::Purpose::timing).wall_ns;
+  };
+  EXPECT_EQ(next_ns(work()), 300);
+  EXPECT_EQ(next_ns(work()), 200);
+  measure::VolumeWork other = volume();
+  other.options.extra_work_stride = 10;
+  EXPECT_NEAR(next_ns(work(other)), 330, 1e-9);
+  EXPECT_EQ(next_ns(work()), 100);
 }
 
 TEST(NullTime, NoiseIsPlantedAndSeeded) {

@@ -68,6 +68,20 @@ TEST_F(StoreTest, WhatIsNotThere) {
   EXPECT_THROW(store.add_device("run-1", sample_device(), {}), core::InputError);
 }
 
+TEST_F(StoreTest, TimesOfALaterRoundLeaveAllElse) {
+  Store store(file_, Mode::append);
+  store.add_run(sample_run());
+  store.add_record(sample_record("first"));
+  store.add_record(sample_record("second"));
+  Record better = sample_record("first");
+  better.wall_ns = {2, 3};
+  better.device_ns = {1, 2};
+  better.rounds_ns.push_back(1.5);
+  store.update_times(better);
+  EXPECT_EQ(Json(store.records("run-1")), Json(std::vector{better, sample_record("second")}));
+  EXPECT_THROW(store.update_times(sample_record("third")), core::InputError);
+}
+
 TEST_F(StoreTest, NumbersThatAreNone) {
   Store store(file_, Mode::append);
   store.add_run(sample_run());

@@ -1,0 +1,207 @@
+#include "measure/device_run.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
+
+#include <array>
+#include <utility>
+#include <variant>
+
+namespace triptych::measure {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ns_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+}
+
+record::Record ended(record::Outcome outcome, std::string reason) {
+  record::Record record;
+  record.outcome = outcome;
+  record.reason = std::move(reason);
+  return record;
+}
+
+Turn ended_turn(record::Outcome outcome, std::string reason) {
+  return {.outcome = outcome, .reason = std::move(reason), .wall_ns = {}, .device_ns = {}};
+}
+
+}  // namespace
+
+std::vector<std::string> RunContext::plants_for(const std::string& key,
+                                                const std::string& device) const {
+  std::vector<std::string> plants;
+  for (const Plant& plant : options.plants) {
+    const auto matches = [&plant](const std::string& text) {
+      return ::fnmatch(plant.only.c_str(), text.c_str(), 0) == 0;
+    };
+    if (plant.only.empty() || matches(key) || matches(device)) plants.push_back(plant.fault);
+  }
+  return plants;
+}
+
+DeviceRun::DeviceRun(const RunContext& context, std::string device)
+    : context_(context),
+      device_(std::move(device)),
+      cache_(device_),
+      environment_(worker_environment(device_, cache_)) {
+  remember();
+}
+
+Done DeviceRun::perform(const Configuration& configuration, const std::string& key,
+                        const OnLoading& on_loading) {
+  Job job{.name = device_ + "/" + key,
+          .configuration = configuration,
+          .protocol = protocol(),
+          .plants = context_.plants_for(key, device_)};
+  Done done =
+      ensure_worker() ? ask(job, on_loading) : Done{ended(record::Outcome::failed, no_worker_)};
+  record::Record& record = done.record;
+  record.run = context_.run;
+  record.suite = context_.plan.suite;
+  record.plan = context_.plan.name;
+  record.configuration = key;
+  record.scene = scene_key(context_.suite, configuration);
+  record.technique = configuration.at("technique");
+  record.device = device_;
+  record.planted = fmt::format("{}", fmt::join(job.plants, "+"));
+  if (record.factors.empty()) record.factors = configuration;
+  return done;
+}
+
+DeviceRun::Round DeviceRun::round(const Configuration& configuration, const std::string& key,
+                                  int warm_up_frames, const OnLoading& on_loading) {
+  if (!ensure_worker()) {
+    return {.turn = ended_turn(record::Outcome::failed, no_worker_), .work_ns = 0};
+  }
+  const auto start = Clock::now();
+  const std::array requests{
+      to_message(Hold{.configuration = configuration, .plants = context_.plants_for(key, device_)}),
+      to_message(Frames{.count = warm_up_frames}),
+      to_message(Frames{.count = protocol().timed_frames}),
+  };
+  Turn last;
+  for (const Message& request : requests) {
+    last = turn(request, on_loading);
+    if (last.outcome != record::Outcome::measured) return {std::move(last), ns_since(start)};
+  }
+  Turn released = turn(to_message(Release{}), on_loading);
+  if (released.outcome != record::Outcome::measured) last = std::move(released);
+  return {std::move(last), ns_since(start)};
+}
+
+void DeviceRun::finish() {
+  if (worker_) worker_->finish();
+  worker_.reset();
+}
+
+// A resumed run goes on with the clocks it began with: records of one run rest on one verdict.
+void DeviceRun::remember() {
+  for (auto& entry : context_.store.devices(context_.run)) {
+    if (entry.device.id != device_) continue;
+    known_ = std::move(entry.device);
+    clocks_ = std::move(entry.clocks);
+  }
+}
+
+Protocol DeviceRun::protocol() const {
+  Protocol protocol = context_.options.protocol;
+  protocol.timed = protocol.timed && context_.plan.timed;
+  return protocol;
+}
+
+bool DeviceRun::ensure_worker() {
+  constexpr int most_attempts = 2;
+  for (int attempt = 0; !worker_ && no_worker_.empty(); ++attempt) {
+    std::string reason = start_worker();
+    if (!reason.empty() && attempt + 1 >= most_attempts) no_worker_ = std::move(reason);
+  }
+  return worker_ != nullptr;
+}
+
+std::string DeviceRun::start_worker() {
+  std::vector<std::string> command = context_.options.worker_command;
+  command.push_back(device_);
+  std::unique_ptr<WorkerLink> worker;
+  try {
+    worker = std::make_unique<WorkerLink>(command, environment_, context_.interrupts);
+  } catch (const core::IoError& error) {
+    return fmt::format("{} cannot be opened: {}", device_, error.what());
+  }
+  const Start start{.suite = context_.plan.suite, .kinds = context_.kinds, .clocks = clocks_};
+  const auto asked = Clock::now();
+  const auto greeting = worker->greet(start, context_.options.start_limit);
+  opening_ns_ += ns_since(asked);
+  if (const auto* reason = std::get_if<std::string>(&greeting)) {
+    return fmt::format("{} cannot be opened: {}", device_, *reason);
+  }
+  greet(std::get<Hello>(greeting));
+  worker_ = std::move(worker);
+  return {};
+}
+
+void DeviceRun::greet(const Hello& hello) {
+  if (known_ && known_->key() != hello.device.key()) {
+    throw core::InputError(
+        fmt::format("{} has changed since run {} began (then {}; now {}): begin a new run "
+                    "instead of resuming",
+                    device_, context_.run, known_->key(), hello.device.key()));
+  }
+  if (known_ && clocks_ == hello.clocks) return;
+  known_ = hello.device;
+  clocks_ = hello.clocks;
+  context_.store.add_device(context_.run, *known_, clocks_);
+}
+
+Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
+  const auto start = Clock::now();
+  WorkerLink::Reply reply = worker_->ask(to_message(job), context_.options.limit, on_loading);
+  if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
+    worker_.reset();
+    return {ended(record::Outcome::crashed, std::move(died->reason))};
+  }
+  if (auto* late = std::get_if<WorkerLink::Late>(&reply)) {
+    worker_.reset();
+    return {ended(record::Outcome::hung, std::move(late->reason))};
+  }
+  std::optional<Answer> answer;
+  try {
+    answer = as_answer(std::move(std::get<Message>(reply)));
+    if (!answer) throw core::InputError("the worker said something other than its answer");
+  } catch (const core::InputError& error) {
+    worker_.reset();
+    return {ended(record::Outcome::failed, error.what())};
+  }
+  if (answer->record.outcome == record::Outcome::lost) worker_.reset();
+  Done done{.record = std::move(answer->record),
+            .exr = std::move(answer->exr),
+            .work_ns = answer->worker_ns - answer->record.overhead_ns};
+  done.record.overhead_ns = ns_since(start) - done.work_ns;
+  return done;
+}
+
+Turn DeviceRun::turn(const Message& message, const OnLoading& on_loading) {
+  WorkerLink::Reply reply = worker_->ask(message, context_.options.limit, on_loading);
+  if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
+    worker_.reset();
+    return ended_turn(record::Outcome::crashed, std::move(died->reason));
+  }
+  if (auto* late = std::get_if<WorkerLink::Late>(&reply)) {
+    worker_.reset();
+    return ended_turn(record::Outcome::hung, std::move(late->reason));
+  }
+  try {
+    if (std::optional<Turn> answer = as_turn(std::get<Message>(reply))) {
+      if (answer->outcome == record::Outcome::lost) worker_.reset();
+      return std::move(*answer);
+    }
+    throw core::InputError("the worker said something other than its turn");
+  } catch (const core::InputError& error) {
+    worker_.reset();
+    return ended_turn(record::Outcome::failed, error.what());
+  }
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,89 @@
+#pragma once
+// One device of a run, with the worker that serves it.
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/environment.hpp"
+#include "measure/interrupt.hpp"
+#include "measure/runner.hpp"
+#include "measure/worker_link.hpp"
+
+namespace triptych::measure {
+
+// What every part of one run shares.
+struct RunContext {
+  const Plan& plan;
+  const Suite& suite;
+  record::Store& store;
+  const RunOptions& options;
+  InterruptGuard& interrupts;
+  std::string run;
+  std::vector<std::string> kinds;  // of work whose clocks are needed
+
+  [[nodiscard]] std::vector<std::string> plants_for(const std::string& key,
+                                                    const std::string& device) const;
+};
+
+// One configuration on one device: what came of it, and the share of its time that was the
+// device's.
+struct Done {
+  record::Record record;
+  std::vector<std::byte> exr;
+  double work_ns = 0;
+};
+
+// A worker that died is replaced by another for the next configuration; one that cannot be started
+// twice in a row is not tried again.
+class DeviceRun {
+ public:
+  DeviceRun(const RunContext& context, std::string device);
+
+  // All throw Interrupted, and InputError when the device is no longer the one that the run began
+  // with.
+
+  // The whole protocol.
+  [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key,
+                             const OnLoading& on_loading);
+
+  // Only the timed frames, after as many to warm up as its first round took.
+  struct Round {
+    Turn turn;
+    double work_ns = 0;
+  };
+  [[nodiscard]] Round round(const Configuration& configuration, const std::string& key,
+                            int warm_up_frames, const OnLoading& on_loading);
+
+  // Lets the worker leave in peace.
+  void finish();
+
+  // Opening the driver and calibrating its clocks is the device's work, not ours.
+  [[nodiscard]] double opening_ns() const { return opening_ns_; }
+
+ private:
+  void remember();
+  [[nodiscard]] Protocol protocol() const;
+  // False when no worker can be had, now or later; the reason is then in no_worker_.
+  bool ensure_worker();
+  // Empty when a worker has said hello, else why not.
+  [[nodiscard]] std::string start_worker();
+  void greet(const Hello& hello);
+  [[nodiscard]] Done ask(const Job& job, const OnLoading& on_loading);
+  [[nodiscard]] Turn turn(const Message& message, const OnLoading& on_loading);
+
+  const RunContext& context_;
+  std::string device_;
+  CacheFolder cache_;
+  std::vector<std::string> environment_;
+  std::optional<record::Device> known_;
+  std::vector<record::ClockTrust> clocks_;
+  double opening_ns_ = 0;
+  std::unique_ptr<WorkerLink> worker_;
+  std::string no_worker_;
+};
+
+}  // namespace triptych::measure

@@ -1,0 +1,109 @@
+// Runs of several rounds: a machine that was busy during the first shows in no record.
+
+#include "tests/unit/measure_run/run_fixture.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using record::Outcome;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+class RunRounds : public RunTest {
+ protected:
+  static double median_ns(const record::Record& record) {
+    return record::summarise(record.wall_ns)->median;
+  }
+
+  Variable busy{"TRIPTYCH_NULL_SCRIPT",
+                R"({"base_ns": 3e6, "ns_per_sample": 0, "prepare_factors": [3]})"};
+};
+
+TEST_F(RunRounds, OneRoundBelievesWhatItSaw) {
+  const RunResult result = run(small_plan());
+  for (const record::Record& record : records(result.run)) {
+    EXPECT_THAT(record.rounds_ns, SizeIs(1));
+    EXPECT_EQ(median_ns(record), 9e6);
+  }
+}
+
+TEST_F(RunRounds, SeveralFindTheQuietTimeAndStopWhenItWasSeenAgain) {
+  Plan what = small_plan();
+  what.rounds = 6;
+  const RunResult result = run(what);
+  EXPECT_EQ(result.measured, 4);
+  EXPECT_EQ(result.unsettled, 0);
+  EXPECT_THAT(told, SizeIs(3 * 4));
+  EXPECT_THAT(started_workers(), SizeIs(1));
+  const auto all = records(result.run);
+  ASSERT_THAT(all, SizeIs(4));
+  for (const record::Record& record : all) {
+    EXPECT_EQ(median_ns(record), 3e6);
+    EXPECT_THAT(record.wall_ns, SizeIs(8));
+    EXPECT_THAT(record.rounds_ns, ElementsAre(9e6 * 0.98, 3e6 * 0.98, 3e6 * 0.98));
+    EXPECT_FALSE(record.counters.empty() || record.image.empty());
+  }
+}
+
+TEST_F(RunRounds, TheOptionGoesOverThePlanAndTellsWhatIsNotSettled) {
+  Plan what = small_plan();
+  what.rounds = 6;
+  options.rounds = 2;
+  const RunResult result = run(what);
+  EXPECT_THAT(told, SizeIs(2 * 4));
+  EXPECT_EQ(result.unsettled, 4);
+}
+
+TEST_F(RunRounds, ASpentBudgetMakesTheFirstRoundAlone) {
+  options.budget = std::chrono::seconds(0);
+  const RunResult result = run(small_plan());
+  EXPECT_EQ(result.measured, 4);
+  EXPECT_THAT(told, SizeIs(4));
+}
+
+TEST_F(RunRounds, ABudgetGoesOnUntilAllIsSettled) {
+  options.budget = std::chrono::seconds(60);
+  EXPECT_EQ(run(small_plan()).unsettled, 0);
+  EXPECT_THAT(told, SizeIs(3 * 4));
+}
+
+TEST_F(RunRounds, AResumedRunGoesOnWithItsRounds) {
+  const RunResult first = run(small_plan());
+  options.resume = true;
+  options.rounds = 3;
+  const RunResult second = run(small_plan());
+  EXPECT_EQ(second.run, first.run);
+  for (const record::Record& record : records(first.run)) {
+    EXPECT_THAT(record.rounds_ns, SizeIs(3));
+  }
+}
+
+TEST_F(RunRounds, OneThatFailsLaterWasMeasuredByLuck) {
+  const Variable failing("TRIPTYCH_NULL_SCRIPT",
+                         R"({"base_ns": 3e6, "failures":
+                             [{"kind": "crash", "at": "prepare", "frame": 1, "only": "*step=0.5*"}]})");
+  options.rounds = 3;
+  const RunResult result =
+      run(plan({{"technique", {"raycast"}}, {"data", {"cube"}}, {"camera", {"random:7"}}}));
+  EXPECT_EQ(result.measured, 1);
+  EXPECT_EQ(result.failed, 1);
+  for (const record::Record& record : records(result.run)) {
+    if (record.outcome == Outcome::measured) continue;
+    EXPECT_EQ(record.outcome, Outcome::crashed);
+    EXPECT_THAT(record.reason, AllOf(HasSubstr("in round 2: "), HasSubstr("SIGABRT")));
+  }
+}
+
+TEST_F(RunRounds, PicturesAloneHaveNoRounds) {
+  Plan what = small_plan();
+  what.timed = false;
+  what.rounds = 3;
+  const RunResult result = run(what);
+  EXPECT_THAT(told, SizeIs(4));
+  EXPECT_EQ(result.unsettled, 0);
+}
+
+}  // namespace
+}  // namespace triptych::measure
