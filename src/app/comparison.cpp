@@ -170,7 +170,13 @@ class Comparer {
     judge::Comparison found = judge::find_differences(side_a, side_b, same_setup_);
     entry.compared.differences = std::move(found.differences);
     entry.compared.reason = std::move(found.void_time);
-    entry.compared.split = judge::split_time(0, a.record.counters, b.record.counters);
+    entry.compared.work = judge::work_change(b.record.counters,
+                                             [&](const std::string& unit) -> std::optional<double> {
+                                               const auto count = a.record.counters.find(unit);
+                                               if (count == a.record.counters.end())
+                                                 return std::nullopt;
+                                               return static_cast<double>(count->second);
+                                             });
     choose_clock(entry.compared, a.record, b.record);
   }
 
@@ -356,9 +362,7 @@ class Comparer {
 
   void conclude(Entry& entry) {
     Compared& compared = entry.compared;
-    if (compared.split)
-      compared.split->ln_time_per_work = compared.shift.estimate - compared.split->ln_work;
-    if (compared.blocks == 0) compared.split.reset();
+    if (compared.blocks == 0) compared.work.reset();
     const bool unexplained = !compared.ended && compared.reason.empty();
     if (unexplained && compared.verdict == PairVerdict::undecided) {
       const bool all = options_.design.next_look(compared.blocks) == 0;

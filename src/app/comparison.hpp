@@ -47,7 +47,7 @@ struct Compared {
   measure::TurnClock clock = measure::TurnClock::wall;
   std::string why_wall;  // why not the device's clocks
   double seconds = 0;    // spent on it
-  std::optional<judge::TimeSplit> split;
+  std::optional<judge::WorkChange> work;
   std::vector<judge::Difference> differences;
 
   [[nodiscard]] bool is_regression() const;

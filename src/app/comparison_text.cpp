@@ -44,11 +44,11 @@ std::string line_of(const Compared& compared, const ComparisonCommand& command) 
   if (!compared.reason.empty()) line += "\n              " + compared.reason;
   const bool undecided = !compared.ended && compared.verdict == judge::PairVerdict::undecided;
   if (undecided && compared.blocks > 0) line += "; settle it: " + settle(compared, command);
-  const auto& split = compared.split;
-  if (split && split->ln_work != 0) {
+  const auto& work = compared.work;
+  if (work && work->log_ratio != 0) {
     line += fmt::format("\n              {:+.2f} % {}, {:+.2f} % time for each",
-                        100 * std::expm1(split->ln_work), split->counter,
-                        100 * std::expm1(split->ln_time_per_work));
+                        100 * std::expm1(work->log_ratio), work->unit,
+                        100 * std::expm1(compared.shift.estimate - work->log_ratio));
   }
   return line + "\n";
 }
@@ -145,10 +145,10 @@ core::Json to_json(const Compared& compared, const ComparisonCommand& command) {
       json["settle"] = settle(compared, command);
     }
   }
-  if (compared.split) {
-    json["work"] = {{"counter", compared.split->counter},
-                    {"ln_work", compared.split->ln_work},
-                    {"ln_time_per_work", compared.split->ln_time_per_work}};
+  if (compared.work) {
+    json["work"] = {{"counter", compared.work->unit},
+                    {"ln_work", compared.work->log_ratio},
+                    {"ln_time_per_work", compared.shift.estimate - compared.work->log_ratio}};
   }
   json["differences"] = core::Json::array();
   for (const Difference& each : compared.differences) {

@@ -246,6 +246,7 @@ void write_images(const Accepted& accepted, const AcceptRequest& request, const 
           fmt::format("images/{}: {} ({})", name, exists ? "replaced" : "new", record.scene));
     }
     table[record.scene] = {{"file", name}, {"hash", hash}};
+    if (!record.data_hash.empty()) table[record.scene]["data"] = record.data_hash;
   }
   index.write(1, lines);
   remove_unlisted_images(table, layout, lines);

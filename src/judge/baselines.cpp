@@ -18,6 +18,7 @@ namespace {
 struct StoredImage {
   std::string file;
   std::string hash;
+  std::string data;  // content hash of the scene's data; empty in baselines from before it was kept
 };
 
 template <typename Value>
@@ -54,7 +55,8 @@ record::Counts read_counts(const JsonNode& node) {
 }
 
 StoredImage read_stored_image(const JsonNode& node) {
-  return {node.at("file").text(), node.at("hash").text()};
+  return {node.at("file").text(), node.at("hash").text(),
+          node.has("data") ? node.at("data").text() : std::string{}};
 }
 
 StoredCounters read_counters(const JsonNode& node) {
@@ -160,6 +162,10 @@ struct Baselines::Cache {
     }
     return dialects.emplace(path, std::move(dialect)).first->second;
   }
+  const ByName<StoredImage>& stored_images() {
+    if (!images) images = read_table<StoredImage>(layout.images(), read_stored_image);
+    return *images;
+  }
   const ByName<record::Counts>& statistics_of(const std::filesystem::path& path) {
     const auto known = statistics.find(path);
     if (known != statistics.end()) return known->second;
@@ -178,11 +184,12 @@ bool Baselines::present() const {
   return std::filesystem::is_directory(folder_);
 }
 
+std::string Baselines::data_hash(const std::string& scene) const {
+  return find_optional(cache_->stored_images(), scene).value_or(StoredImage{}).data;
+}
+
 std::optional<core::Image> Baselines::image(const std::string& scene) const {
-  if (!cache_->images) {
-    cache_->images = read_table<StoredImage>(cache_->layout.images(), read_stored_image);
-  }
-  const auto stored = find_optional(*cache_->images, scene);
+  const auto stored = find_optional(cache_->stored_images(), scene);
   if (!stored) return std::nullopt;
   const auto path = cache_->layout.image_folder() / stored->file;
   if (!std::filesystem::exists(path)) return std::nullopt;

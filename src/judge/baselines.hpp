@@ -2,7 +2,7 @@
 // baselines/<suite>/<plan>/ : what was accepted. Text, sorted, one line per value, so that a change
 // can be reviewed. `accept` is the only writer.
 //   images/<scene hash>.exr        the truth of each scene as it was accepted, device-independent
-//   images.json                    {scene: {file, content hash}}
+//   images.json                    {scene: {file, content hash, content hash of its data}}
 //   counters.json                  {configuration: {counter: {device id: value}}}; one line per
 //   counter bits/<device key>.json         {device, configurations: {configuration: {image hash,
 //   kernel hash}}} statistics/<driver>.json       {device, dialect: {statistic: verdict} where it
@@ -86,6 +86,8 @@ class Baselines {
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   // nullopt also when the file that images.json names is gone; InputError when it is another one.
   [[nodiscard]] std::optional<core::Image> image(const std::string& scene) const;
+  // Content hash of the data that the scene was accepted with; empty where that is not known.
+  [[nodiscard]] std::string data_hash(const std::string& scene) const;
   // Of every device; nullopt: the configuration was never accepted.
   [[nodiscard]] std::optional<StoredCounters> counters(const std::string& configuration) const;
   // By device id; empty: never accepted.

@@ -6,6 +6,7 @@
 
 #include "judge/correlation_pairs.hpp"
 #include "judge/run_view.hpp"
+#include "judge/timing_model.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -24,13 +25,6 @@ std::string level_name(const LevelEffect& level) {
   std::string name = fmt::format("{}={}", level.factor, level.level);
   if (!level.aliases.empty()) name += fmt::format(" (= {})", fmt::join(level.aliases, ", "));
   return name;
-}
-
-// "work (samples) +20.0 %, time per unit of work +2.1 %"
-std::string decomposition(const CorrelationCase& each, double residual) {
-  if (!each.log_work) return "no counter of both devices tells whether it is more work";
-  return fmt::format("work ({}) {:+.1f} %, time per unit of work {:+.1f} %", each.work_unit,
-                     percent(*each.log_work), percent(residual - *each.log_work));
 }
 
 // The id and the driver: what a person calls a device. Its key goes on with what else it depends
@@ -58,7 +52,7 @@ class PairReport {
     for (std::size_t i = 0; i < pair_.cases.size(); ++i) report_configuration(i);
     for (const LevelEffect& level : result_.levels) report_level(level);
     report_global();
-    if (regressions_ > 0) return;
+    if (slower_) return;
     add(Verdict::pass, fmt::format("as {} lets expect: {}", other_, fit_text()));
     add_numbers();
   }
@@ -67,7 +61,18 @@ class PairReport {
   void add(Verdict verdict, std::string message) {
     findings_.push_back(finding_about(view_, view_.devices.at(pair_.device), Check::correlation,
                                       verdict, std::move(message)));
-    if (verdict == Verdict::regression) ++regressions_;
+  }
+
+  // What is slower. As with a device's own history, few stored runs advise only: they do not tell
+  // how the other device's times scatter from day to day.
+  void add_slower(bool decides, std::string message) {
+    slower_ = slower_ || decides;
+    const bool few = pair_.stored_runs < TimingModel::least_runs;
+    if (decides && few) {
+      message += fmt::format("; advice only: {} of {} stored runs that a verdict needs",
+                             pair_.stored_runs, TimingModel::least_runs);
+    }
+    add(decides && !few ? Verdict::regression : Verdict::advisory, std::move(message));
   }
 
   [[nodiscard]] std::string fit_text() const {
@@ -111,12 +116,13 @@ class PairReport {
     const ConfigurationJudgement& judgement = result_.judgements[index];
     if (!judgement.slower) return;
     const CorrelationCase& each = pair_.cases[index];
-    add(judgement.standing ? Verdict::advisory : Verdict::regression,
+    add_slower(
+        !judgement.standing,
         fmt::format("{:.4g} ms, {:+.1f} % against what {} lets expect, z = {:.1f}, q = {:.2g}, "
                     "{:.0f} % of all deviation; {}",
                     1e-6 * std::exp(each.log_time_b), percent(judgement.residual), other_,
                     judgement.z, judgement.q, 100 * judgement.share,
-                    decomposition(each, judgement.residual)));
+                    why_text(each.work, judgement.residual)));
     Finding& finding = findings_.back();
     finding.configuration = each.configuration;
     if (judgement.standing) finding.message += "; as when this device was accepted";
@@ -126,7 +132,7 @@ class PairReport {
     set_number(finding, "p", judgement.p);
     set_number(finding, "q", judgement.q);
     set_number(finding, "share", judgement.share);
-    if (each.log_work) set_number(finding, "work_ratio", std::exp(*each.log_work));
+    if (each.work) set_number(finding, "work_ratio", std::exp(each.work->log_ratio));
   }
 
   // A few percent on a level may be how the other device is made: only what is also large decides.
@@ -145,7 +151,7 @@ class PairReport {
           "; less than {:.0f} % may be the devices' character: settle it with triptych compare {}",
           100 * (Model::least_effect - 1), view_.request.plan);
     }
-    add(decides ? Verdict::regression : Verdict::advisory, std::move(message));
+    add_slower(decides, std::move(message));
     set_number(findings_.back(), "ratio", std::exp(level.effect));
     set_number(findings_.back(), "standard_error", level.standard_error);
     set_number(findings_.back(), "q", level.q);
@@ -156,7 +162,8 @@ class PairReport {
   void report_global() {
     const GlobalShift& global = result_.global;
     if (!global.slower) return;
-    add(global.standing ? Verdict::advisory : Verdict::regression,
+    add_slower(
+        !global.standing,
         fmt::format("the whole program is {:+.1f} % ± {:.1f} % slower than {} lets expect, by {} "
                     "groups of anchors, p = {:.2g}: the program, not the device{}",
                     percent(global.delta), percent(global.standard_error), other_, global.groups,
@@ -188,7 +195,7 @@ class PairReport {
   const Correlation& result_;
   std::string other_;
   std::vector<Finding>& findings_;
-  int regressions_ = 0;
+  bool slower_ = false;
 };
 
 }  // namespace

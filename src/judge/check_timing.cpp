@@ -5,9 +5,11 @@
 #include <limits>
 
 #include "judge/anchor.hpp"
+#include "judge/drift.hpp"
 #include "judge/run_view.hpp"
 #include "judge/statistics.hpp"
 #include "judge/timing_model.hpp"
+#include "judge/work.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -75,6 +77,7 @@ class TimingCheck {
     const std::vector<TimingJudgement> judgements = judge_timings(cases_);
     for (std::size_t i = 0; i < judgements.size(); ++i) report(i, judgements[i]);
     report_shifts(judgements);
+    report_drift();
     return std::move(findings_);
   }
 
@@ -174,6 +177,11 @@ class TimingCheck {
     message += judgement.anchors > 0 ? fmt::format(", after {:+.1f} % of the anchors",
                                                    100 * std::expm1(judgement.shift))
                                      : ", without anchors";
+    const auto work =
+        work_change(record.counters, view_.baselines, record.configuration, record.device);
+    if (judgement.slower || judgement.faster) {
+      message += "; " + why_text(work, judgement.log_ratio);
+    }
     if (judged_[index].other_code) message += "; the device code changed since";
     if (noisy) {
       message +=
@@ -183,6 +191,7 @@ class TimingCheck {
     if (judgement.faster) message += "; keep it with " + view_.accept_command();
     add(record, verdict, std::move(message));
     add_numbers(findings_.back(), timing, judgement);
+    if (work) set_number(findings_.back(), "work_ratio", std::exp(work->log_ratio));
   }
 
   static void add_numbers(Finding& finding, const TimingCase& timing,
@@ -215,6 +224,52 @@ class TimingCheck {
               100 * std::expm1(shift), judgements[i].anchors)));
       set_number(findings_.back(), "shift", shift);
     }
+  }
+
+  // Every accepted run may have been within the tolerance of those before it.
+  void report_drift() {
+    std::vector<DriftSeries> series;
+    std::map<std::string, std::vector<std::string>> runs;  // of a device, oldest first
+    for (const TimingCase& timing : cases_) {
+      for (const auto& [run, ns] : timing.stored_ns) runs[timing.device].push_back(run);
+    }
+    for (auto& [device, ids] : runs) {
+      std::ranges::sort(ids);
+      ids.erase(std::ranges::unique(ids).begin(), ids.end());
+    }
+    for (const TimingCase& timing : cases_) {
+      DriftSeries& each =
+          series.emplace_back(DriftSeries{.device = timing.device, .log_times = {}});
+      for (const std::string& run : runs[timing.device]) {
+        const auto stored = timing.stored_ns.find(run);
+        each.log_times.push_back(stored == timing.stored_ns.end()
+                                     ? std::numeric_limits<double>::quiet_NaN()
+                                     : std::log(stored->second));
+      }
+      each.log_times.push_back(std::log(timing.median_ns));
+    }
+    for (const Drift& drift : find_drift(series)) report(drift, runs.at(drift.device));
+  }
+
+  // `runs`: the stored ones; the series ends with the one that is judged.
+  void report(const Drift& drift, const std::vector<std::string>& runs) {
+    const std::size_t at = drift.change.at;
+    std::string message = fmt::format(
+        "drift: {:+.1f} % since the {}. of {} runs ({}), p = {:.2g}, {}; no single run told it: "
+        "look at "
+        "what was accepted there, and at {}",
+        100 * std::expm1(drift.change.effect), at + 1, runs.size() + 1,
+        at < runs.size() ? runs[at] : "this one", drift.change.p,
+        drift.series ? "against the device's other configurations" : "in all its configurations",
+        view_.baselines.folder().string());
+    findings_.push_back(drift.series
+                            ? finding_about(*judged_[*drift.series].record, Check::timing,
+                                            Verdict::advisory, std::move(message))
+                            : finding_about(view_, view_.devices.at(drift.device), Check::timing,
+                                            Verdict::advisory, std::move(message)));
+    set_number(findings_.back(), "ratio", std::exp(drift.change.effect));
+    set_number(findings_.back(), "p", drift.change.p);
+    set_number(findings_.back(), "since", static_cast<double>(at + 1));
   }
 
   const RunView& view_;

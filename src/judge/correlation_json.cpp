@@ -28,10 +28,10 @@ Json configuration(const CorrelationCase& each, const ConfigurationJudgement& ju
             {"faster", judgement.faster},
             {"standing", judgement.standing},
             {"share", number(judgement.share)}};
-  if (each.log_work) {
-    json["work_unit"] = each.work_unit;
-    json["log_work"] = number(*each.log_work);
-    json["log_time_per_work"] = number(judgement.residual - *each.log_work);
+  if (each.work) {
+    json["work_unit"] = each.work->unit;
+    json["log_work"] = number(each.work->log_ratio);
+    json["log_time_per_work"] = number(judgement.residual - each.work->log_ratio);
   }
   return json;
 }
@@ -78,6 +78,7 @@ Json to_json(const CorrelationPair& pair) {
           {"within_run", pair.within_run},
           {"unlike_clocks", pair.unlike_clocks},
           {"unlike_anchors", pair.unlike_anchors},
+          {"stored_runs", pair.stored_runs},
           {"refusals", result.refusals},
           {"r", number(result.r)},
           {"rho", number(result.rho)},

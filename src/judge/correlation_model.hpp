@@ -34,6 +34,7 @@
 #include <vector>
 
 #include "judge/regression.hpp"
+#include "judge/work.hpp"
 
 namespace triptych::judge {
 
@@ -63,8 +64,7 @@ struct CorrelationCase {
   double variance_b = 0;
   // ln t that B itself had when it was accepted: what differed then is the device's character.
   std::optional<double> known_log_time_b = {};
-  std::optional<double> log_work = {};  // ln(work on B/work on A), in units of `work_unit`
-  std::string work_unit = {};
+  std::optional<WorkChange> work = {};  // from A to B
 };
 
 struct ConfigurationJudgement {

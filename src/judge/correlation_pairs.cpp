@@ -77,20 +77,6 @@ double log_median(const record::Record& record, std::string_view clock) {
   return std::log(median(samples_by(clock, record)));
 }
 
-// ln(work of `record`/work on A) by the first counter that both have.
-void set_work(CorrelationCase& each, const record::Counts& counters_b,
-              const std::function<std::optional<double>(const std::string&)>& work_a) {
-  for (const std::string_view unit : work_units) {
-    const auto b = counters_b.find(std::string(unit));
-    if (b == counters_b.end() || b->second == 0) continue;
-    const auto a = work_a(b->first);
-    if (!a || !(*a > 0)) continue;
-    each.log_work = std::log(static_cast<double>(b->second) / *a);
-    each.work_unit = b->first;
-    return;
-  }
-}
-
 bool has_time(const record::Record& record) {
   if (record.outcome != record::Outcome::measured || record.time_ns().empty()) return false;
   const double time = median(record.time_ns());
@@ -105,6 +91,8 @@ CorrelationCase case_of(const record::Record& record, std::string_view clock) {
   each.anchor = is_anchor(record);
   each.log_time_b = log_median(record, clock);
   each.variance_b = variance_within(samples_by(clock, record));
+  // The quietest round that was not seen again may not be the quietest there is.
+  if (const auto gap = record.round_gap()) each.variance_b = std::max(each.variance_b, *gap * *gap);
   return each;
 }
 
@@ -190,6 +178,10 @@ class Pairs {
       CorrelationCase each = case_of(*record, clock);
       each.log_time_a = mean(runs_a);
       each.variance_a = variance_of_a_run(scatter_a, runs_a) / static_cast<double>(runs_a.size());
+      if (!each.anchor) {
+        pair.stored_runs =
+            pair.stored_runs == 0 ? runs_a.size() : std::min(pair.stored_runs, runs_a.size());
+      }
       // A run that was accepted is what was accepted, but others are better witnesses of it.
       auto runs_b = runs_by(clock, of_b, record->configuration, record->run);
       if (runs_b.empty()) runs_b = runs_by(clock, of_b, record->configuration);
@@ -198,9 +190,7 @@ class Pairs {
       each.variance_b =
           std::max(each.variance_b, scatter_b.variance > 0 ? variance_of_a_run(scatter_b, runs_b)
                                                            : variance_of_a_run(scatter_a, runs_a));
-      set_work(each, record->counters, [&](const std::string& unit) {
-        return stored_work(record->configuration, unit, other.id);
-      });
+      each.work = work_change(record->counters, view_.baselines, record->configuration, other.id);
       pair.cases.push_back(std::move(each));
     }
     pair.result = correlate(pair.cases);
@@ -229,7 +219,7 @@ class Pairs {
       CorrelationCase each = case_of(*record, clock);
       each.log_time_a = log_median(*a->second, clock);
       each.variance_a = variance_within(samples_by(clock, *a->second));
-      set_work(each, record->counters, [&](const std::string& unit) {
+      each.work = work_change(record->counters, [&](const std::string& unit) {
         const auto found = a->second->counters.find(unit);
         return found == a->second->counters.end()
                    ? std::nullopt
@@ -239,18 +229,6 @@ class Pairs {
     }
     pair.result = correlate(pair.cases);
     return pair;
-  }
-
-  [[nodiscard]] std::optional<double> stored_work(const std::string& configuration,
-                                                  const std::string& unit,
-                                                  const std::string& device) const {
-    const auto counters = view_.baselines.counters(configuration);
-    if (!counters) return std::nullopt;
-    const auto counter = counters->find(unit);
-    if (counter == counters->end()) return std::nullopt;
-    const auto value = counter->second.find(device);
-    if (value == counter->second.end()) return std::nullopt;
-    return static_cast<double>(value->second);
   }
 
   const RunView& view_;

@@ -1,7 +1,6 @@
 #pragma once
 // From records and baselines to the cases of the correlation model.
 
-#include <array>
 #include <string_view>
 #include <vector>
 
@@ -10,10 +9,6 @@
 namespace triptych::judge {
 
 inline constexpr std::string_view anchors_plan = "anchors/frozen";
-
-// Counters to which the time of a technique is proportional; the first that both devices have tells
-// how much work a configuration is.
-inline constexpr std::array<std::string_view, 2> work_units{"samples", "fragments"};
 
 // Every device of the run against every stored device with another key, and against every other
 // device of the run (once each). Configurations whose picture is wrong are left out, and those that

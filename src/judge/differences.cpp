@@ -192,16 +192,4 @@ Comparison find_differences(const ComparedSide& a, const ComparedSide& b, bool s
   return Finder(a, b, same_setup).find();
 }
 
-std::optional<TimeSplit> split_time(double ln_ratio, const record::Counts& a,
-                                    const record::Counts& b) {
-  for (const char* counter : {"samples", "fragments"}) {
-    const auto on_a = value_in(a, counter);
-    const auto on_b = value_in(b, counter);
-    if (!on_a || !on_b || *on_a == 0 || *on_b == 0) continue;
-    const double work = std::log(static_cast<double>(*on_b) / static_cast<double>(*on_a));
-    return TimeSplit{counter, work, ln_ratio - work};
-  }
-  return std::nullopt;
-}
-
 }  // namespace triptych::judge

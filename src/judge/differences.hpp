@@ -47,14 +47,4 @@ struct Comparison {
 [[nodiscard]] Comparison find_differences(const ComparedSide& a, const ComparedSide& b,
                                           bool same_setup);
 
-// Δln t = Δln(work) + Δln(time per unit of work), work being the counter that time follows:
-// samples of a ray caster, fragments of sprites. Absent where a side did not count it.
-struct TimeSplit {
-  std::string counter;
-  double ln_work = 0;
-  double ln_time_per_work = 0;
-};
-[[nodiscard]] std::optional<TimeSplit> split_time(double ln_ratio, const record::Counts& a,
-                                                  const record::Counts& b);
-
 }  // namespace triptych::judge

@@ -64,8 +64,9 @@ class PairCount {
   }
 
   void split(const CorrelationCase& each, double residual) {
-    if (!each.log_work) return;
-    const bool says_work = std::abs(*each.log_work) > std::abs(residual - *each.log_work);
+    if (!each.work) return;
+    const bool says_work =
+        std::abs(each.work->log_ratio) > std::abs(residual - each.work->log_ratio);
     tally_.split.count(says_work == trial_.more_work);
   }
 

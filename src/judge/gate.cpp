@@ -17,9 +17,16 @@ bool asked_for(const GateRequest& request, const std::string& device) {
   return request.devices.empty() || any_glob_matches(request.devices, device);
 }
 
+// Of other data than was accepted, under the same name: no number of it can be held against any.
+bool other_data(const Baselines& baselines, const record::Record& record) {
+  if (record.data_hash.empty()) return false;
+  const std::string accepted = baselines.data_hash(record.scene);
+  return !accepted.empty() && accepted != record.data_hash;
+}
+
 RunView view_of(const record::Store& store, const std::string& run, const Baselines& baselines,
                 const GateRequest& request) {
-  RunView view{store, baselines, request, request.checks, {}, {}, {}};
+  RunView view{store, baselines, request, request.checks, {}, {}, {}, {}};
   if (view.checks.empty()) {
     view.checks = {Check::image,  Check::counters,    Check::statistics,
                    Check::timing, Check::correlation, Check::accuracy};
@@ -40,7 +47,8 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
     view.records.push_back(std::move(record));
   }
   for (const record::Record& record : view.records) {
-    if (record.outcome == record::Outcome::measured) view.measured.push_back(&record);
+    if (record.outcome != record::Outcome::measured) continue;
+    (other_data(baselines, record) ? view.of_other_data : view.measured).push_back(&record);
   }
   // Plans made for it; of another, one launch and another device's times say too little to fail by.
   if (request.checks.empty() && !request.plan.ends_with("/correlation")) {
@@ -66,6 +74,7 @@ void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
   const bool scored = view.checks.contains(Check::stress);
   for (const record::Record& record : view.records) {
     if (record.outcome == record::Outcome::measured) continue;
+    if (scored && record.outcome != record::Outcome::skipped) continue;
     Verdict verdict = Verdict::regression;
     std::string message = fmt::format("{}: {}", name_of(record.outcome), record.reason);
     if (record.outcome == record::Outcome::skipped) {
@@ -80,7 +89,7 @@ void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
 void report_nothing_measured(const RunView& view, const std::string& run,
                              std::vector<Finding>& findings) {
   const Check check = *view.checks.begin();
-  if (view.measured.empty()) {
+  if (view.measured.empty() && view.of_other_data.empty()) {
     findings.push_back(finding_about(
         view, check, Verdict::cannot_judge,
         fmt::format("nothing was measured: run {} holds {} records of {} on the devices asked for",
@@ -118,6 +127,17 @@ void report_missing_rows(const RunView& view, std::vector<Finding>& findings) {
             missing.size(), accepted.size(), fmt::join(examples, "; "),
             missing.size() > named ? "; …" : "", view.request.plan)));
     set_number(findings.back(), "missing", static_cast<double>(missing.size()));
+  }
+}
+
+void report_other_data(const RunView& view, std::vector<Finding>& findings) {
+  for (const record::Record* record : view.of_other_data) {
+    findings.push_back(finding_about(
+        *record, *view.checks.begin(), Verdict::cannot_judge,
+        fmt::format("its data is not what was accepted under this name (content hash {}, accepted "
+                    "{}): restore the file and run again, or {}",
+                    record->data_hash, view.baselines.data_hash(record->scene),
+                    view.accept_command())));
   }
 }
 
@@ -199,6 +219,7 @@ GateResult judge_run(const record::Store& store, const std::string& run, const B
   report_outcomes(view, result.findings);
   if (baselines.present()) {
     report_missing_rows(view, result.findings);
+    report_other_data(view, result.findings);
   } else {
     report_no_baselines(view, result.findings);
   }

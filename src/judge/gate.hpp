@@ -66,6 +66,7 @@ struct CorrelationPair {
   bool within_run = false;         // A was measured in the same run; else it is a stored baseline
   std::size_t unlike_clocks = 0;   // configurations left out: other clocks timed them on A
   std::size_t unlike_anchors = 0;  // and anchors
+  std::size_t stored_runs = 0;     // of A, of the configuration with the fewest
   std::vector<CorrelationCase> cases;
   Correlation result;  // judgements in the order of the cases
 };

@@ -12,7 +12,7 @@ namespace triptych::judge {
 
 struct TimingModel {
   static constexpr double share_of_false_alarms = 0.05;  // q of Benjamini–Hochberg
-  static constexpr int least_runs = 5;                   // fewer stored runs decide nothing
+  static constexpr std::size_t least_runs = 5;           // fewer stored runs decide nothing
   static constexpr double tolerated = 1.02;  // slower by this factor is not worth a finding
   // A configuration passes only where a slowdown by this factor can be excluded; where noise or a
   // coarse clock leave it possible, nothing is decided.

@@ -54,9 +54,9 @@ std::string admission(const CorrelationPair& pair) {
 }
 
 std::string work_text(const judge::CorrelationCase& each, double residual) {
-  if (!each.log_work) return "";
-  return fmt::format("{} {}, time per unit {}", escape(each.work_unit), percent(*each.log_work),
-                     percent(residual - *each.log_work));
+  if (!each.work) return "";
+  return fmt::format("{} {}, time per unit {}", escape(each.work->unit),
+                     percent(each.work->log_ratio), percent(residual - each.work->log_ratio));
 }
 
 std::string outlier_table(const CorrelationPair& pair) {

@@ -10,6 +10,7 @@
 #include "core/image_io.hpp"
 #include "core/json.hpp"
 #include "fixture.hpp"
+#include "judge/timing_model.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -104,8 +105,8 @@ class CorrelationGateTest : public JudgeTest {
     (void)accept(store_, run, folder_.path() / "baselines", request);
   }
 
-  void accept_known() {
-    for (int i = 1; i <= 3; ++i) {
+  void accept_known(std::size_t runs = TimingModel::least_runs) {
+    for (std::size_t i = 1; i <= runs; ++i) {
       measure_anchors(fmt::format("anchors{}", i), "a:known");
       accept_plan(fmt::format("anchors{}", i), anchors);
       measure(fmt::format("known{}", i), "a:known");
@@ -152,6 +153,21 @@ TEST_F(CorrelationGateTest, OneConfigurationIsNamedWithItsWork) {
   ASSERT_EQ(slower.size(), 1U) << text(result);
   EXPECT_EQ(slower[0].configuration, planted);
   EXPECT_THAT(slower[0].message, HasSubstr("work (samples) +0.0 %, time per unit of work +2"));
+}
+
+TEST_F(CorrelationGateTest, FewStoredRunsAdvise) {
+  accept_known(TimingModel::least_runs - 1);
+  measure_anchors("anchors", "b:new");
+  const std::string planted = "data=d2,step=3,technique=raycast_fragment";
+  measure("b", "b:new",
+          [&](const record::Record& r) { return r.configuration == planted ? 1.25 : 1; });
+  const GateResult result = judge("b");
+  EXPECT_NE(result.exit_code(), ExitCode::regression);
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_EQ(advice.size(), 1U) << text(result);
+  EXPECT_EQ(advice[0].configuration, planted);
+  EXPECT_THAT(advice[0].message, HasSubstr("advice only: 4 of 5 stored runs"));
+  EXPECT_TRUE(with(result, Verdict::pass).empty());
 }
 
 TEST_F(CorrelationGateTest, AWholeLevelIsNamed) {

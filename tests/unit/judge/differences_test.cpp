@@ -146,15 +146,5 @@ TEST_F(Differences, TheWorstComesFirst) {
   EXPECT_EQ(found.differences[0].about, "statistic compute_invocations");
 }
 
-TEST(TimeSplit, WorkAndTimePerWorkAddUp) {
-  const auto split = split_time(std::log(1.2), {{"samples", 100}}, {{"samples", 110}});
-  ASSERT_TRUE(split);
-  EXPECT_NEAR(split->ln_work, std::log(1.1), 1e-12);
-  EXPECT_NEAR(split->ln_work + split->ln_time_per_work, std::log(1.2), 1e-12);
-  EXPECT_EQ(split_time(0, {{"fragments", 2}}, {{"fragments", 2}})->counter, "fragments");
-  EXPECT_FALSE(split_time(0, {}, {{"samples", 1}}));
-  EXPECT_FALSE(split_time(0, {{"samples", 0}}, {{"samples", 0}}));
-}
-
 }  // namespace
 }  // namespace triptych::judge

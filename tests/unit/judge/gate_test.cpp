@@ -512,5 +512,21 @@ TEST(GateResultTest, NamesReadBack) {
   EXPECT_THROW((void)check("colour"), core::InputError);
 }
 
+// A file that was replaced under its name: no regression of the driver, and never a pass.
+TEST_F(GateTest, OtherDataUnderTheSameNameIsNamed) {
+  const auto with_data = [](const std::string& hash) {
+    return [hash](record::Record& record, core::Image&) { record.data_hash = hash; };
+  };
+  accept_history(with_data("0a0a"));
+  add_run("b", with_data("0a0a"));
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
+  add_run("c", with_data("1b1b"));
+  const GateResult result = gate("c");
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
+  const auto findings = with(result, Verdict::cannot_judge);
+  ASSERT_EQ(findings.size(), 12U);
+  EXPECT_THAT(findings[0].message, HasSubstr("content hash 1b1b, accepted 0a0a"));
+}
+
 }  // namespace
 }  // namespace triptych::judge

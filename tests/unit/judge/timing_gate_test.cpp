@@ -1,5 +1,6 @@
 // What the gate says of times, from records to verdict.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -53,6 +54,38 @@ TEST_F(TimingGateTest, AFifthSlowerIsARegression) {
   EXPECT_EQ(slower[0].configuration, bricks_);
   EXPECT_NEAR(slower[0].numbers.at("ratio"), 1.2, 0.02);
   EXPECT_THAT(slower[0].message, HasSubstr("8 stored runs"));
+  EXPECT_THAT(slower[0].message, HasSubstr("work (samples) +0.0 %, time per unit of work +"));
+}
+
+TEST_F(TimingGateTest, MoreWorkIsToldFromSlowerWork) {
+  accept_history();
+  add_run("b", [&](record::Record& record, core::Image&) {
+    if (record.configuration != bricks_) return;
+    for (double& ns : record.wall_ns) ns *= 1.2;
+    record.counters["samples"] = record.counters.at("samples") * 6 / 5;
+  });
+  const auto slower = with(gate("b"), Verdict::regression, Check::timing);
+  ASSERT_EQ(slower.size(), 3U);
+  EXPECT_THAT(slower[0].message, HasSubstr("work (samples) +20.0 %, time per unit of work "));
+  EXPECT_NEAR(slower[0].numbers.at("work_ratio"), 1.2, 1e-3);
+}
+
+// Each run 1 % slower than the one before it: the gate against the mean finds the last runs, the
+// drift finds when it began.
+TEST_F(TimingGateTest, DriftOverAcceptedRunsIsTold) {
+  for (int i = 0; i < 16; ++i) {
+    const std::string run = fmt::format("r{:02}", i);
+    add_run(run, times(std::pow(1.004, i), bricks_));
+    (void)accept_run(run);
+  }
+  add_run("s", times(std::pow(1.004, 16), bricks_));
+  const GateResult result = gate("s");
+  const auto advice = with(result, Verdict::advisory, Check::timing);
+  ASSERT_EQ(advice.size(), 3U) << text(result);
+  for (const Finding& each : advice) {
+    EXPECT_EQ(each.configuration, bricks_);
+    EXPECT_THAT(each.message, HasSubstr("drift: +"));
+  }
 }
 
 TEST_F(TimingGateTest, AFifthFasterIsListedAndPasses) {

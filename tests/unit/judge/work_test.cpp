@@ -1,0 +1,41 @@
+#include "judge/work.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+
+namespace triptych::judge {
+namespace {
+
+std::optional<WorkChange> change(const record::Counts& now, const record::Counts& then) {
+  return work_change(now, [&](const std::string& unit) -> std::optional<double> {
+    const auto count = then.find(unit);
+    if (count == then.end()) return std::nullopt;
+    return static_cast<double>(count->second);
+  });
+}
+
+TEST(Work, IsOfTheFirstUnitThatBothHave) {
+  const auto samples = change({{"samples", 110}, {"fragments", 5}}, {{"samples", 100}});
+  ASSERT_TRUE(samples);
+  EXPECT_EQ(samples->unit, "samples");
+  EXPECT_NEAR(samples->log_ratio, std::log(1.1), 1e-12);
+  EXPECT_EQ(change({{"samples", 1}, {"fragments", 2}}, {{"fragments", 2}})->unit, "fragments");
+}
+
+TEST(Work, OfWhatIsMissingOrNothingIsUnknown) {
+  EXPECT_FALSE(change({}, {{"samples", 1}}));
+  EXPECT_FALSE(change({{"samples", 1}}, {}));
+  EXPECT_FALSE(change({{"samples", 0}}, {{"samples", 1}}));
+  EXPECT_FALSE(change({{"samples", 1}}, {{"samples", 0}}));
+}
+
+TEST(Work, TheReasonSplitsTheTime) {
+  EXPECT_EQ(why_text(WorkChange{.log_ratio = std::log(1.2), .unit = "samples"}, std::log(1.32)),
+            "work (samples) +20.0 %, time per unit of work +10.0 %");
+  EXPECT_EQ(why_text(std::nullopt, 0.1), "no counter tells whether it is more work");
+}
+
+}  // namespace
+}  // namespace triptych::judge
