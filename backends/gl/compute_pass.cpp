@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "technique/volume/extra_work.hpp"
+
 namespace triptych::gl_backend {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr GLuint groups(int size) {
 ComputePass::ComputePass(const Api& gl, int width, int height, int extra_work_stride)
     : width_(width),
       height_(height),
-      extra_rows_(extra_rows(height, extra_work_stride)),
+      extra_rows_(technique::extra_rows(height, extra_work_stride)),
       pixels_(device_buffer(gl, 4 * sizeof(float) * static_cast<std::size_t>(width) *
                                     static_cast<std::size_t>(height))) {}
 

@@ -34,9 +34,4 @@ class Pass {
   [[nodiscard]] virtual core::Image read(const Api& gl) const = 0;
 };
 
-// Rows that are drawn a second time: every stride-th, from the first on; none for stride 0.
-[[nodiscard]] constexpr int extra_rows(int height, int stride) {
-  return stride == 0 ? 0 : (height + stride - 1) / stride;
-}
-
 }  // namespace triptych::gl_backend

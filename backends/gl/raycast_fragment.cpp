@@ -8,6 +8,7 @@
 #include "backends/gl/pass.hpp"
 #include "backends/gl/techniques.hpp"
 #include "backends/gl/volume_prepared.hpp"
+#include "technique/volume/extra_work.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -35,7 +36,7 @@ class FragmentPass final : public Pass {
   FragmentPass(const Api& gl, int width, int height, int extra_work_stride)
       : width_(width),
         height_(height),
-        extra_rows_(extra_rows(height, extra_work_stride)),
+        extra_rows_(technique::extra_rows(height, extra_work_stride)),
         no_vertices_(gl),
         target_(gl, width, height) {
     // A target of its own: drawn over in the picture's, a driver may leave the extra work out.

@@ -178,11 +178,13 @@ TRI_FN void store_counts(__global uint* to, const Counts* counts, int total) {
   to[6] = (uint)total - counts->samples;
 }
 
-// Image: premultiplied RGBA, top row first. Work items cover every viewport.z-th row.
+// Image: premultiplied RGBA, top row first. Row y of the grid is image row
+// tri_drawn_row(y): y itself for the picture, others for planted extra work.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const int* brick_reach, __global float4* image,
                       __global uint* counters, __global const float4* pairs) {
-  int2 pixel = (int2)((int)get_global_id(0), (int)get_global_id(1) * u->viewport.z);
+  int x = (int)get_global_id(0);
+  int2 pixel = (int2)(x, tri_drawn_row(x, (int)get_global_id(1), u->viewport.z));
   if (pixel.x >= u->viewport.x || pixel.y >= u->viewport.y) return;
   Ray ray = make_ray(u, pixel);
   int count = tri_sample_count(ray.steps);

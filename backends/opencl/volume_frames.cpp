@@ -6,6 +6,7 @@
 
 #include "technique/volume/brick_reach.hpp"
 #include "technique/volume/bricks.hpp"
+#include "technique/volume/extra_work.hpp"
 #include "technique/volume/preintegration.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 
 const std::vector<std::string_view> source_files{
     "volume_preintegration.h", "parameters.cl", "volume.cl", "ray.cl",
-    "preintegrated.cl",      "raycast.cl"};
+    "preintegrated.cl",        "raycast.cl"};
 
 // Pixels of a work-group: wide enough for a GPU's waves; a CPU is indifferent.
 constexpr std::size_t group_width = 16;
@@ -72,7 +73,7 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
     if (const int stride = work.options.extra_work_stride; stride > 0) {
       parameters.viewport[2] = stride;
       parameters_.push_back(upload_parameters());
-      timed_.push_back(launch(timed, parameters_.back(), (height_ + stride - 1) / stride));
+      timed_.push_back(launch(timed, parameters_.back(), technique::extra_rows(height_, stride)));
     }
   });
 }

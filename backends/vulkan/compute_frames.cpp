@@ -3,6 +3,7 @@
 #include <span>
 
 #include "backends/vulkan/errors.hpp"
+#include "technique/volume/extra_work.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -46,7 +47,7 @@ void ComputeFrames::record_timed(const vk::raii::CommandBuffer& commands) const 
   dispatch(commands, Pass::whole, height_);
   if (extra_work_stride_ == 0) return;
   barrier(commands);
-  dispatch(commands, Pass::strided, (height_ + extra_work_stride_ - 1) / extra_work_stride_);
+  dispatch(commands, Pass::strided, technique::extra_rows(height_, extra_work_stride_));
 }
 
 void ComputeFrames::dispatch(const vk::raii::CommandBuffer& commands, Pass pass, int rows) const {

@@ -28,7 +28,7 @@ enum Binding : std::uint32_t {
 // A pass over the picture.
 enum class Pass : std::uint8_t {
   whole,
-  strided,  // every n-th row, n from the options' extra_work_stride
+  strided,  // a share of 1/n of the rows, n from the options' extra_work_stride
   counting  // all rows, with the counters bound
 };
 

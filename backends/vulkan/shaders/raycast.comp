@@ -21,6 +21,6 @@ layout(std430) TRI_BINDING(4) writeonly buffer Output { vec4 image[]; };  // top
 
 void main() {
   ivec2 pixel = 8 * ivec2(gl_WorkGroupID.xy) + pixel_in_tile(int(gl_LocalInvocationIndex));
-  pixel.y *= u.viewport.z;
+  pixel.y = tri_drawn_row(pixel.x, pixel.y, u.viewport.z);
   if (pixel.x < u.viewport.x && pixel.y < u.viewport.y) image[pixel.y * u.viewport.x + pixel.x] = raycast(pixel);
 }

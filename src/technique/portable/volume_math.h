@@ -13,6 +13,15 @@ TRI_FN TRI_FLOAT2 tri_slab(float o, float d, float extent) {
   return (a < b) ? TRI_MAKE_FLOAT2(a, b) : TRI_MAKE_FLOAT2(b, a);
 }
 
+// The image row that row y of a grid draws: y itself at stride 1; of a planted slowdown's grid a share
+// of 1/stride of the image, spread over it in tiles of 16×8, since rays that lie apart walk apart and
+// cost more than their share. Columns of tiles are staggered by the golden ratio. May lie beyond the
+// image: nothing is drawn there.
+TRI_FN int tri_drawn_row(int x, int y, int stride) {
+  int stagger = ((x / 16 * 40503) & 65535) * stride / 65536;
+  return (y / 8 * stride + stagger) * 8 + y % 8;
+}
+
 // Number of samples of a ray whose length is `steps` steps, the last one partial: ⌈steps⌉, 0 for an
 // empty or invalid range.
 TRI_FN int tri_sample_count(float steps) {
