@@ -42,8 +42,8 @@ struct RaycastOptions {
   Skip skip = Skip::bricks;
   double ert = 1.0 / 512;  // stop below this transmittance; 0: never
   Fault fault = Fault::none;
-  // Every extra_work_stride-th row is drawn a second time: a planted slowdown of 1/stride by real
-  // work; 0: none.
+  // 1/extra_work_stride of the image is drawn a second time (volume/extra_work.hpp): a planted
+  // slowdown of as much by real work; 0: none.
   int extra_work_stride = 0;
 };
 
@@ -53,9 +53,9 @@ struct RaycastParameters {
   std::array<float, 4> eye;  // xyz: eye/spacing; w: h, the step in world units
   std::array<float, 4>
       ray_centre;  // xyz: forward, world; w: h / smallest spacing, the step in voxels
-  std::array<float, 4> ray_right;           // xyz: right · aspect · tan(fov/2); w: ERT ε
-  std::array<float, 4> ray_up;              // xyz: up · tan(fov/2); w: gradient floor
-  std::array<float, 4> inverse_spacing;     // xyz: 1/spacing; w: smallest spacing
+  std::array<float, 4> ray_right;        // xyz: right · aspect · tan(fov/2); w: ERT ε
+  std::array<float, 4> ray_up;           // xyz: up · tan(fov/2); w: gradient floor
+  std::array<float, 4> inverse_spacing;  // xyz: 1/spacing; w: smallest spacing
   // x, y: normalised = stored·x + y; z: ray_plane; w: 0
   std::array<float, 4> value_map;
   std::array<float, 4> shading;             // ambient, diffuse, specular, 0
@@ -68,9 +68,9 @@ struct RaycastParameters {
 static_assert(sizeof(RaycastParameters) == std::size_t{11} * 16);
 static_assert(offsetof(RaycastParameters, volume_size) == std::size_t{8} * 16);
 
-// Distance from the eye along the view axis, in world units, of the plane on which rays begin: the box's
-// nearest corner, where that is far away. Float coordinates of a far eye would be off by voxels; those
-// of a point on the plane are as exact as the box's own. 0: they begin at the eye.
+// Distance from the eye along the view axis, in world units, of the plane on which rays begin: the
+// box's nearest corner, where that is far away. Float coordinates of a far eye would be off by
+// voxels; those of a point on the plane are as exact as the box's own. 0: they begin at the eye.
 [[nodiscard]] double ray_plane(const scene::VolumeScene& scene);
 // Of the box: nearer, an eye costs less than 1e-4 of its size.
 inline constexpr double far_in_diagonals = 16;
