@@ -7,6 +7,7 @@
 #include "core/random.hpp"
 #include "data_folder.hpp"
 #include "particle_scenes.hpp"
+#include "suites/particles/stress_cases.hpp"
 
 namespace triptych::contract {
 namespace {
@@ -182,16 +183,47 @@ TEST(Particles, EveryShapeOfAPictureIsDrawn) {
 
 TEST(Particles, RepeatsAreTheSameBits) {
   on_every_device([](measure::Device& device) {
-    const ParticleWork work = generated_work("plume", 5000, "orbit_y:1/8", 96);
+    const ParticleWork work = generated_work("plume", 5000, "orbit_y:1/8", 64);
     with_every_technique(device, work, [&](const measure::Work& whole) {
       const auto prepared = device.prepare(whole);
       static_cast<void>(prepared->frame(measure::Purpose::timing));
       const core::Image first = prepared->image();
-      for (int i = 0; i < 20; ++i) {
+      for (int i = 0; i < 99; ++i) {
         static_cast<void>(prepared->frame(measure::Purpose::timing));
         ASSERT_EQ(prepared->image(), first) << "frame " << i;
       }
     });
+  });
+}
+
+// The first frame from another place, when all that is known of what is hidden is wrong.
+TEST(Particles, AfterAJumpOfTheEyeNothingIsStale) {
+  using namespace particles_suite;
+  StressScene jump = stress_scene(*stress_data("stress:jump"), scene::ColourKind::rgba8);
+  ParticleWork work =
+      particle_work(std::move(jump.particles), jump.camera, jump.width, jump.height);
+  work.options.culling = Culling::occlusion;
+  work.camera_before = jump.camera_before;
+  on_every_device([&](measure::Device& device) { expect_all_true(device, work); });
+}
+
+// Wider than textures and points may be: drawn, or refused with the size that was asked for.
+TEST(Particles, APictureOverADevicesLimitIsRefusedOrDrawn) {
+  on_every_device([](measure::Device& device) {
+    const scene::Camera camera = looking({0, 0, 3}, {0, 0, 0}, 0.005);
+    const ParticleWork work =
+        particle_work(particles_of({{0, 0, 0, 1}, {1.1, 0, 0.1, 0.3}}), camera, 131072, 8);
+    const reference::SphereTruth truth = truth_of(work);
+    for (const std::string& technique : particle_techniques()) {
+      SCOPED_TRACE(technique);
+      const measure::Work whole{.technique = technique, .scene = work};
+      const auto reason = device.unsupported(whole);
+      if (!reason) {
+        expect_true(draw(device, whole), truth);
+      } else if (technique != "point" || device.info().api != "opencl") {
+        EXPECT_NE(reason->find("131072x8"), std::string::npos) << *reason;
+      }
+    }
   });
 }
 

@@ -1,0 +1,157 @@
+// What is known of spheres in closed form (reference/sphere_closed_forms.hpp), asked of every
+// technique on every device without the renderer in between.
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/random.hpp"
+#include "particle_scenes.hpp"
+#include "reference/sphere_closed_forms.hpp"
+
+namespace triptych::contract {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int side = 160;
+
+ParticleWork white_spheres(const std::vector<std::array<double, 4>>& spheres,
+                           const scene::Camera& camera) {
+  scene::ParticleSet set;
+  set.name = "white";
+  set.colour = scene::ColourKind::rgba32;
+  for (std::uint32_t i = 0; i < spheres.size(); ++i) {
+    if (scene::append(set, spheres[i], i)) set.rgba32.push_back({1, 1, 1, 1});
+  }
+  return particle_work(std::move(set), camera, side, side);
+}
+
+double covered(const core::Image& image) {
+  return static_cast<double>(std::ranges::count_if(
+      image.ids, [](std::uint32_t id) { return id != core::Image::no_particle; }));
+}
+
+// Pixel centres within a convex outline differ from its area by a few times the root of its length
+// (what a lattice leaves at random edges).
+double lattice_error(double length) {
+  return 2 * std::sqrt(length) + 2;
+}
+
+TEST(SphereForms, S1TheSilhouetteIsTheEllipse) {
+  on_every_device([](measure::Device& device) {
+    const double focal = 0.5 * side / std::tan(80 * pi / 360);  // in pixels
+    for (const double theta : {0.0, 0.25, 0.5}) {
+      SCOPED_TRACE(theta);
+      const double sine = 0.2;
+      const glm::dvec3 centre{5 * std::sin(theta), 0, -5 * std::cos(theta)};
+      const ParticleWork work = white_spheres({{centre.x, centre.y, centre.z, 5 * sine}},
+                                              looking({0, 0, 0}, {0, 0, -1}, 80));
+      const auto ellipse = reference::s1_silhouette(sine, theta, focal);
+      ASSERT_TRUE(ellipse);
+      with_every_technique(device, work, [&](const measure::Work& whole) {
+        EXPECT_NEAR(covered(draw(device, whole)), ellipse->area,
+                    lattice_error(2 * pi * ellipse->semi_major));
+      });
+    }
+  });
+}
+
+// From 200,000 radii rays are parallel to 1e-5. The integrand falls to 0 as a root at the rim:
+// pixels there, R^½ wide in value, err by less than R^−3/2 of the mean.
+TEST(SphereForms, S3TheMeanCosineOfADiscIsTwoThirds) {
+  on_every_device([](measure::Device& device) {
+    const double radius_px = 60;
+    const double fov = 2 * std::atan(side / (2 * radius_px) / 2e5) * 180 / pi;
+    const ParticleWork work = white_spheres({{0, 0, 0, 1}}, looking({0, 0, 2e5}, {0, 0, 0}, fov));
+    const scene::SphereShading shading;
+    with_every_technique(device, work, [&](const measure::Work& whole) {
+      const core::Image image = draw(device, whole);
+      double sum = 0;
+      for (std::size_t i = 0; i < image.ids.size(); ++i) {
+        if (image.ids[i] == 0) sum += static_cast<double>(image.rgba[4 * i]);
+      }
+      const double cosine = (sum / covered(image) - shading.ambient) / shading.diffuse;
+      EXPECT_NEAR(cosine, reference::s3_mean_cosine, std::pow(radius_px, -1.5));
+    });
+  });
+}
+
+// The boundary of two equal spheres: what shows one lies on its side of the bisecting plane, by no
+// less than depth may be off.
+TEST(SphereForms, S4EqualSpheresMeetInTheBisectingPlane) {
+  on_every_device([](measure::Device& device) {
+    const std::array<glm::dvec3, 2> centres{glm::dvec3{-0.3, 0.1, 0.2}, glm::dvec3{0.4, 0, -0.1}};
+    const scene::Camera camera = looking({1, 2, 5}, {0, 0, 0}, 30);
+    const ParticleWork work = white_spheres({{centres[0].x, centres[0].y, centres[0].z, 0.8},
+                                             {centres[1].x, centres[1].y, centres[1].z, 0.8}},
+                                            camera);
+    const double rounding = 24 * 0x1.0p-24 * 7;  // of depth: tolerance.hpp
+    with_every_technique(device, work, [&](const measure::Work& whole) {
+      const core::Image image = draw(device, whole);
+      for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+          const auto at = static_cast<std::size_t>(y * side + x);
+          const std::uint32_t id = image.ids[at];
+          if (id == core::Image::no_particle) continue;
+          const glm::dvec3 ray = camera.ray_direction(x, y, side, side);
+          const double t = static_cast<double>(image.depth[at]) / glm::dot(ray, camera.forward);
+          ASSERT_GE(
+              reference::s4_bisector(camera.eye + t * ray, centres.at(id), centres.at(1 - id)),
+              -rounding)
+              << x << ' ' << y;
+        }
+      }
+    });
+  });
+}
+
+// Centres all over a square whose middle is looked at, so that discs reach in from its outside as
+// they would from the other side of a torus. The share that is left free has a standard deviation
+// of its own: below √(s·(1−s)·4πr²/A), as points within 2r of each other are free together.
+TEST(SphereForms, S5RandomDiscsLeaveTheirShare) {
+  on_every_device([](measure::Device& device) {
+    constexpr int discs = 400;
+    constexpr double distance = 1e4;
+    constexpr double radius = 0.05;
+    const double fov = 2 * std::atan(0.9 / distance) * 180 / pi;  // of the square [−1, 1]²
+    core::Random random(21);
+    std::vector<std::array<double, 4>> spheres;
+    for (int i = 0; i < discs; ++i) {
+      spheres.push_back({random.uniform(-1, 1), random.uniform(-1, 1), 0, radius});
+    }
+    const ParticleWork work = white_spheres(spheres, looking({0, 0, distance}, {0, 0, 0}, fov));
+    const double free = reference::s5_uncovered(discs, radius, 4);
+    const double deviation = std::sqrt(free * (1 - free) * 4 * pi * radius * radius / 3.24);
+    with_every_technique(device, work, [&](const measure::Work& whole) {
+      EXPECT_NEAR(1 - covered(draw(device, whole)) / (side * side), free, 3 * deviation);
+    });
+  });
+}
+
+// Fragments of an N-gon over those of its disc. The polygon is larger than needed by 1/64 pixel and
+// by perspective, both below a thousandth here; its edges are level, upright or at 45°, where all
+// of an edge may fall to one side of the pixel centres: half a pixel for each of its outline's, 8R
+// at the most.
+TEST(SphereForms, S6PolygonsWasteWhatTheirTightnessSays) {
+  on_every_device([](measure::Device& device) {
+    const double radius_px = 60;
+    const double fov = 2 * std::atan(side / (2 * radius_px) / 1e3) * 180 / pi;
+    ParticleWork work = white_spheres({{0, 0, 0, 1}}, looking({0, 0, 1e3}, {0, 0, 0}, fov));
+    for (const int corners : {4, 8, 16}) {
+      SCOPED_TRACE(corners);
+      work.options.corners = corners;
+      const measure::Work whole{.technique = "polygon_tess", .scene = work};
+      if (device.unsupported(whole)) return;
+      const auto prepared = device.prepare(whole);
+      static_cast<void>(prepared->frame(measure::Purpose::timing));
+      const record::Counts counts = prepared->frame(measure::Purpose::counters).counts;
+      const double area = pi * radius_px * radius_px / reference::s6_tightness(corners);
+      EXPECT_NEAR(static_cast<double>(counts.at("fragments")), area, 0.002 * area + 4 * radius_px);
+      EXPECT_NEAR(static_cast<double>(counts.at("fragments_kept")), pi * radius_px * radius_px,
+                  lattice_error(2 * pi * radius_px));
+    }
+  });
+}
+
+}  // namespace
+}  // namespace triptych::contract
