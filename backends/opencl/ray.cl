@@ -133,6 +133,7 @@ TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_reach, 
 
 // What leaps need to know of a ray.
 typedef struct {
+  float3 p0;  // where the ray enters, from where the bricks begin (technique::BrickLayout::of_cells)
   float3 inverse_g;
   float edge;  // of a brick, voxels
   float inverse_edge;
@@ -147,6 +148,7 @@ TRI_FN Walk start_walk(__constant Parameters* u, const Ray* ray) {
   Walk walk;
   walk.inverse_g =
       (float3)(inverse_step(ray->g.x), inverse_step(ray->g.y), inverse_step(ray->g.z));
+  walk.p0 = TRI_LEAPS ? ray->p0 - 0.5f : ray->p0;
   walk.edge = (float)u->brick_grid.w;
   walk.inverse_edge = 1.0f / walk.edge;
   return walk;
@@ -169,15 +171,15 @@ TRI_FN int leap(__constant Parameters* u, __global const int* brick_reach, const
                 const Ray* ray, int i, int end, int* visible) {
   float along = (float)i + 0.5f;
   int4 grid = u->brick_grid;
-  int x = brick_at(ray->p0.x + along * ray->g.x, walk->inverse_edge, grid.x);
-  int y = brick_at(ray->p0.y + along * ray->g.y, walk->inverse_edge, grid.y);
-  int z = brick_at(ray->p0.z + along * ray->g.z, walk->inverse_edge, grid.z);
+  int x = brick_at(walk->p0.x + along * ray->g.x, walk->inverse_edge, grid.x);
+  int y = brick_at(walk->p0.y + along * ray->g.y, walk->inverse_edge, grid.y);
+  int z = brick_at(walk->p0.z + along * ray->g.z, walk->inverse_edge, grid.z);
   int signed_reach = brick_reach[x + grid.x * (y + grid.y * z)];
   *visible = signed_reach > 0;
   int reach = *visible ? signed_reach : -signed_reach;
-  float at_x = crossing(ray->p0.x, walk->inverse_g.x, walk->edge, x, reach);
-  float at_y = crossing(ray->p0.y, walk->inverse_g.y, walk->edge, y, reach);
-  float at_z = crossing(ray->p0.z, walk->inverse_g.z, walk->edge, z, reach);
+  float at_x = crossing(walk->p0.x, walk->inverse_g.x, walk->edge, x, reach);
+  float at_y = crossing(walk->p0.y, walk->inverse_g.y, walk->edge, y, reach);
+  float at_z = crossing(walk->p0.z, walk->inverse_g.z, walk->edge, z, reach);
   float leave = at_x < at_y ? at_x : at_y;
   leave = at_z < leave ? at_z : leave;
   if (!(leave < (float)end)) return end;

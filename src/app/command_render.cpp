@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include "app/arguments.hpp"
+#include "app/error_request.hpp"
 #include "app/listing.hpp"
 #include "app/loading.hpp"
 #include "app/paths.hpp"
@@ -22,6 +24,7 @@ struct RenderArguments {
   std::string device;
   std::vector<std::string> set;
   std::string out;
+  std::optional<double> error;
 };
 
 // The store of the one run that a picture is; gone when the picture is written.
@@ -66,7 +69,7 @@ core::Json frame_json(measure::SuiteWithTruth& suite, const record::Record& reco
 core::ExitCode render(const RenderArguments& arguments) {
   const Registry registry = make_registry();
   measure::SuiteWithTruth& suite = registry.suite(arguments.suite);
-  const measure::Plan plan = measure::default_plan(suite, parse_overrides(arguments.set));
+  measure::Plan plan = measure::default_plan(suite, parse_overrides(arguments.set));
   if (plan.configurations.size() != 1) {
     throw core::InputError("render draws one configuration: give each factor one value");
   }
@@ -81,6 +84,9 @@ core::ExitCode render(const RenderArguments& arguments) {
     throw core::InputError(
         fmt::format("--device {} matches {} devices; name one", arguments.device, devices.size()));
   }
+  if (arguments.error) {
+    plan = plan_within_error(plan, suite, *arguments.error, [](const std::string&) {});
+  }
   const ScratchFile file(out / ".render.sqlite");
   record::Store store(file.path(), record::Store::Mode::append);
   const measure::RunResult result = measure::run_plan(
@@ -88,7 +94,19 @@ core::ExitCode render(const RenderArguments& arguments) {
       [](const measure::Progress& progress) {
         if (progress.loading) show_loading(*progress.loading);
       });
-  const record::Record record = store.records(result.run).at(0);
+  const std::vector<record::Record> records = store.records(result.run);
+  record::Record record = records.at(0);
+  if (arguments.error) {
+    Truths truths(registry, store);
+    const auto answers = answer_error(records, suite, truths, *arguments.error);
+    if (!answers.empty() && answers.front().record == nullptr) {
+      throw core::NotSupported(describe(answers.front(), *arguments.error));
+    }
+    if (!answers.empty()) {
+      record = *answers.front().record;
+      fmt::print("{}\n", describe(answers.front(), *arguments.error));
+    }
+  }
   if (record.outcome == record::Outcome::skipped) throw core::NotSupported(record.reason);
   if (record.outcome != record::Outcome::measured) throw core::InputError(record.reason);
   if (record.image.empty()) throw core::InputError(record.technique + " draws no picture");
@@ -112,6 +130,9 @@ void add_render_command(Commands& commands) {
   command->add_option("--device", arguments->device, "Device id or a glob for one")->required();
   command->add_option("--set", arguments->set, "factor=value (repeatable)");
   command->add_option("--out", arguments->out, "Folder to write into")->required();
+  command->add_option("--error", arguments->error,
+                      "Root mean square error against the scene's limit: chooses the fastest step, "
+                      "quadrature, ert and skip that keep it");
 }
 
 }  // namespace triptych::app

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/arguments.hpp"
+#include "app/error_request.hpp"
 #include "app/listing.hpp"
 #include "app/loading.hpp"
 #include "app/measuring.hpp"
@@ -25,6 +26,7 @@ struct RunArguments {
   std::optional<int> rounds;
   std::optional<int> budget_s;
   std::vector<std::string> plants;
+  std::optional<double> error;
 };
 
 std::string outcome_text(const record::Record& record) {
@@ -44,9 +46,8 @@ void show(const measure::Progress& progress) {
       progress.round > 1 ? fmt::format("round {}: ", progress.round) : std::string{};
   const std::string what = progress.record != nullptr ? outcome_text(*progress.record) : "";
   if (terminal) {
-    fmt::print(stderr, "\r\033[K{}{}/{} {} {} {} left {} s", round, progress.done,
-               progress.total, progress.device, progress.configuration, what,
-               progress.left.count());
+    fmt::print(stderr, "\r\033[K{}{}/{} {} {} {} left {} s", round, progress.done, progress.total,
+               progress.device, progress.configuration, what, progress.left.count());
     if (progress.done == progress.total) fmt::print(stderr, "\n");
   } else if (progress.record != nullptr) {
     fmt::print(stderr, "{}{}/{} {} {}: {}\n", round, progress.done, progress.total, progress.device,
@@ -54,10 +55,32 @@ void show(const measure::Progress& progress) {
   }
 }
 
+// The cheapest within the requested error per scene and device; false where one has none.
+bool tell_cheapest(const Registry& registry, const measure::Suite& suite, record::Store& store,
+                   const std::string& run, double error) {
+  Truths truths(registry, store);
+  const std::vector<record::Record> records = store.records(run);
+  bool all = true;
+  for (const ErrorAnswer& answer : answer_error(records, suite, truths, error)) {
+    fmt::print("{}\n", describe(answer, error));
+    all = all && answer.record != nullptr;
+  }
+  return all;
+}
+
+struct Told {
+  measure::RunResult result;
+  bool error_kept = true;  // a requested error, by every device in every scene
+};
+
 // Measures as the arguments say and says in one line how it went.
-measure::RunResult run_and_tell(const RunArguments& arguments) {
+Told run_and_tell(const RunArguments& arguments) {
   const Registry registry = make_registry();
-  const measure::Plan plan = arguments.plan.load(registry.find_suite());
+  measure::Plan plan = arguments.plan.load(registry.find_suite());
+  if (arguments.error) {
+    plan = plan_within_error(plan, registry.suite(plan.suite), *arguments.error,
+                             [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
+  }
   const std::vector<std::string> devices =
       choose_devices(list_devices(registry), arguments.devices);
   require_writable(std::filesystem::path(arguments.store).parent_path());
@@ -71,23 +94,30 @@ measure::RunResult run_and_tell(const RunArguments& arguments) {
       .plants = parse_plants(arguments.plants),
       .worker_command = {own_program(), "worker", "--device"},
   };
-  measure::RunResult result =
-      measure::run_plan(plan, devices, registry.suite(plan.suite), store, options, show);
+  Told told;
+  measure::RunResult& result = told.result;
+  result = measure::run_plan(plan, devices, registry.suite(plan.suite), store, options, show);
   fmt::print(
       "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
       plan.name, result.run, arguments.store, result.measured, result.skipped, result.failed,
       result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
   if (result.unsettled > 0) {
-    fmt::print("{} not settled: their quietest round was not seen again; --rounds N or --budget "
-               "SECONDS --resume goes on with them\n",
-               result.unsettled);
+    fmt::print(
+        "{} not settled: their quietest round was not seen again; --rounds N or --budget "
+        "SECONDS --resume goes on with them\n",
+        result.unsettled);
   }
-  return result;
+  if (arguments.error) {
+    told.error_kept =
+        tell_cheapest(registry, registry.suite(plan.suite), store, result.run, *arguments.error);
+  }
+  return told;
 }
 
 core::ExitCode run(const RunArguments& arguments) {
-  const measure::RunResult result = run_and_tell(arguments);
-  return result.measured + result.failed > 0 ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+  const auto [result, error_kept] = run_and_tell(arguments);
+  const bool told = result.measured + result.failed > 0 && error_kept;
+  return told ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
 // As a CTest fixture: a configuration that failed fails the test – but for a stress case, whose
@@ -99,7 +129,7 @@ core::ExitCode run_as_test(const RunArguments& arguments) {
     anchors.plan = {.plan = "anchors/frozen"};
     if (const auto code = run_as_test(anchors); code != core::ExitCode::pass) return code;
   }
-  const measure::RunResult result = run_and_tell(arguments);
+  const measure::RunResult result = run_and_tell(arguments).result;
   const bool scored = arguments.plan.plan.ends_with("/stress");
   if (result.failed > 0 && !scored) return core::ExitCode::regression;
   return result.measured + result.failed > 0 ? core::ExitCode::pass : core::ExitCode::skip;
@@ -173,6 +203,9 @@ void add_run_commands(Commands& commands) {
                                    [arguments] { return run(*arguments); });
   add_run_options(*command, *arguments);
   command->add_flag("--resume", arguments->resume, "Go on with the plan's latest run in the store");
+  command->add_option("--error", arguments->error,
+                      "Root mean square error against the limit of each scene: measures only what "
+                      "keeps it, chooses step, quadrature, ert and skip, and tells the fastest");
 
   auto tested = std::make_shared<RunArguments>();
   tested->resume = true;  // every device adds its part to the run that test-start began

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "app/registry.hpp"
+#include "core/image_io.hpp"
 #include "judge/gate.hpp"
 #include "record/store.hpp"
 
@@ -17,6 +18,10 @@ class Truths {
   // What must hold of the record beside its truth.
   [[nodiscard]] std::vector<record::Expectation> expectations_of(const record::Record& record) {
     return registry_.suite(record.suite).expectations(record.factors);
+  }
+  // The picture that a record names.
+  [[nodiscard]] core::Image picture_of(const record::Record& record) const {
+    return core::decode_exr(store_.image(record.image));
   }
   // nullptr where the record's scene has none.
   [[nodiscard]] const judge::LimitPicture* limit_of(const record::Record& record);

@@ -58,5 +58,34 @@ TEST(Skipping, RealVolumesHaveTheSameBits) {
   });
 }
 
+// An oracle takes the samples that have any opacity and no other. Every mode of skipping must take
+// all of those, and leaps over smaller bricks no more of the others than a walk.
+TEST(Skipping, TakesWhatAnOracleDoesAndLittleMore) {
+  const auto files = real_volumes();
+  if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
+  on_every_device([&](measure::Device& device) {
+    for (const auto& file : files) {
+      for (const std::string_view function : scene::transfer_function_presets()) {
+        SCOPED_TRACE(file.filename().string() + " " + std::string(function));
+        measure::Work work =
+            default_work(device, scene::load_volume(file.string()), small_scene(function));
+        auto& options = std::get<measure::VolumeWork>(work.scene).options;
+        options.ert = 0;
+        const auto counts = [&](technique::Skip skip) {
+          options.skip = skip;
+          return device.prepare(work)->frame(measure::Purpose::counters).counts;
+        };
+        const auto brute = counts(technique::Skip::none);
+        const auto walk = counts(technique::Skip::bricks);
+        const auto leaps = counts(technique::Skip::distance);
+        EXPECT_EQ(walk.at("samples_nonzero"), brute.at("samples_nonzero"));
+        EXPECT_EQ(leaps.at("samples_nonzero"), brute.at("samples_nonzero"));
+        EXPECT_LE(leaps.at("samples"), walk.at("samples"));
+        EXPECT_LE(walk.at("samples"), brute.at("samples"));
+      }
+    }
+  });
+}
+
 }  // namespace
 }  // namespace triptych::contract

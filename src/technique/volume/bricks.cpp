@@ -17,31 +17,35 @@ struct Span {
 // Voxels of brick b along an axis of n voxels, with the border.
 Span with_border(int b, int n, const BrickLayout& layout) {
   return {std::max(0, b * layout.edge - layout.border),
-          std::min(n, (b + 1) * layout.edge + layout.border)};
+          std::min(n, (b + 1) * layout.edge + layout.border + (layout.of_cells ? 1 : 0))};
 }
 
 }  // namespace
 
 BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip) {
   BrickLayout layout;
-  if (skip == Skip::distance) layout.edge /= 2;
+  if (skip == Skip::distance) layout = {.edge = 2, .border = 0, .of_cells = true};
   if (scene.quadrature == scene::Quadrature::preintegrated) {
-    const int longest = std::max({scene.grid->size[0], scene.grid->size[1], scene.grid->size[2]});
+    const double half = scene.step_voxels / 2;
+    const double farther = layout.of_cells ? std::ceil(half) : std::floor(half + 0.75);
     // No border need be wider than the volume.
-    layout.border += static_cast<int>(
-        std::min(std::floor(scene.step_voxels / 2 + 0.75), static_cast<double>(longest)));
+    const int longest = std::max({scene.grid->size[0], scene.grid->size[1], scene.grid->size[2]});
+    layout.border += static_cast<int>(std::min(farther, static_cast<double>(longest)));
   }
   return layout;
 }
 
-std::array<int, 3> brick_counts(const std::array<int, 3>& size, int edge) {
+std::array<int, 3> brick_counts(const std::array<int, 3>& size, const BrickLayout& layout) {
   std::array<int, 3> counts{};
-  std::ranges::transform(size, counts.begin(), [edge](int n) { return (n + edge - 1) / edge; });
+  std::ranges::transform(size, counts.begin(), [&](int n) {
+    const int length = layout.of_cells ? std::max(n - 1, 1) : n;
+    return (length + layout.edge - 1) / layout.edge;
+  });
   return counts;
 }
 
 BrickRanges brick_ranges(const scene::VoxelGrid& grid, const BrickLayout& layout) {
-  BrickRanges ranges{.counts = brick_counts(grid.size, layout.edge), .minimum = {}, .maximum = {}};
+  BrickRanges ranges{.counts = brick_counts(grid.size, layout), .minimum = {}, .maximum = {}};
   const auto [bx, by, bz] = ranges.counts;
   const std::size_t count =
       static_cast<std::size_t>(bx) * static_cast<std::size_t>(by) * static_cast<std::size_t>(bz);

@@ -14,19 +14,27 @@ namespace triptych::technique {
 // How a volume is cut into bricks, in voxels.
 struct BrickLayout {
   int edge = 8;
-  int border = 1;  // beyond a brick's faces, what samples inside it may read
+  int border = 1;  // voxels beyond a brick's own, which samples inside it may read
+  // Bricks begin at voxel centres and not half a voxel before: a brick is edge³ cells of trilinear
+  // interpolation, whose own voxels are (edge + 1)³.
+  bool of_cells = false;
 
   bool operator==(const BrickLayout&) const = default;
 };
 
-// The layout that keeps skipping from changing the picture. A midpoint sample inside a brick reads
-// at most one voxel beyond its faces, rounding of up to half a voxel included. A preintegrated
-// segment whose middle lies inside reads s/2 farther, s the step in voxels: at most
-// ⌊s/2 + ½ + ¼⌋ + 1 voxels beyond, a quarter of a voxel for rounding. Leaps make small bricks
-// affordable: Skip::distance halves their edge.
+// The layout that keeps skipping from changing the picture, s the step in voxels.
+// Skip::bricks: a midpoint sample inside a brick reads at most one voxel beyond its faces, rounding
+//   of up to half a voxel included; a preintegrated step whose middle lies inside reads s/2
+//   farther: ⌊s/2 + ¾⌋ voxels more, a quarter of a voxel for rounding.
+// Skip::distance: leaps make small bricks affordable, and bricks of cells are as tight as bricks
+// can
+//   be: a midpoint sample reads their own voxels alone, a preintegrated step ⌈s/2⌉ beyond. A sample
+//   that rounding takes across a face reads others with a weight of that rounding, at most 1e-3,
+//   which is less than the table entry by which visibility is widened.
 [[nodiscard]] BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip);
 
-[[nodiscard]] std::array<int, 3> brick_counts(const std::array<int, 3>& size, int edge);
+[[nodiscard]] std::array<int, 3> brick_counts(const std::array<int, 3>& size,
+                                              const BrickLayout& layout);
 
 // Minimum and maximum normalised value per brick, x fastest, over the brick and its border.
 struct BrickRanges {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -78,7 +78,7 @@ RaycastParameters raycast_parameters(const scene::VolumeScene& scene, const Rayc
   const double half = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360);
   const double aspect = static_cast<double>(scene.width) / scene.height;
   const BrickLayout layout = brick_layout(scene, options.skip);
-  const auto bricks = brick_counts(grid.size, layout.edge);
+  const auto bricks = brick_counts(grid.size, layout);
   const double plane = ray_plane(scene);
   const scene::Shading& light = scene.shading;
   return {

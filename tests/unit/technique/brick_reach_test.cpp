@@ -60,12 +60,15 @@ TEST(BrickLayout, CoversWhatASampleInABrickMayRead) {
   scene.grid = std::make_shared<const scene::VoxelGrid>(
       scene::encode(scene::generate_volume("uniform_box", {40, 40, 40}), scene::VoxelFormat::u8));
   EXPECT_EQ(brick_layout(scene, Skip::bricks), (BrickLayout{.edge = 8, .border = 1}));
-  EXPECT_EQ(brick_layout(scene, Skip::distance), (BrickLayout{.edge = 4, .border = 1}));
+  EXPECT_EQ(brick_layout(scene, Skip::distance),
+            (BrickLayout{.edge = 2, .border = 0, .of_cells = true}));
   scene.quadrature = scene::Quadrature::preintegrated;
   scene.step_voxels = 0.25;  // reads up to 5/8 of a voxel and rounding beyond a face
   EXPECT_EQ(brick_layout(scene, Skip::bricks).border, 1);
+  EXPECT_EQ(brick_layout(scene, Skip::distance).border, 1);
   scene.step_voxels = 1;
   EXPECT_EQ(brick_layout(scene, Skip::bricks).border, 2);
+  EXPECT_EQ(brick_layout(scene, Skip::distance).border, 1);
   scene.step_voxels = 1e6;
   EXPECT_GE(brick_layout(scene, Skip::bricks).border, 40);
 }
@@ -81,7 +84,7 @@ TEST(BrickMap, IsVisibilityOrReach) {
   EXPECT_TRUE(std::ranges::any_of(visible, [](int v) { return v == 1; }));
   EXPECT_TRUE(std::ranges::any_of(visible, [](int v) { return v == 0; }));
   const auto reach = brick_map(scene, Skip::distance);
-  EXPECT_EQ(reach.size(), 10U * 9U * 6U);
+  EXPECT_EQ(reach.size(), 20U * 16U * 10U);
   EXPECT_TRUE(std::ranges::any_of(reach, [](int r) { return r < -1; }));
 }
 

@@ -191,6 +191,7 @@ ivec2 next_run(inout Walk walk, int begin, int end) {
 // Leaps over whole cubes of bricks of one kind (technique::Skip::distance). Each starts from its sample's
 // own position, so nothing drifts.
 struct Leaps {
+  vec3 p0;            // where the ray enters, from where the bricks begin: the first voxel's centre
   vec3 inverse_g;
   float edge;         // of a brick, voxels
   float inverse_edge;
@@ -199,6 +200,7 @@ struct Leaps {
 
 Leaps make_leaps(Ray ray) {
   Leaps leaps;
+  leaps.p0 = ray.p0 - 0.5;
   // A ray that runs along a face takes 10²⁰ steps to the next: never, without dividing by zero.
   leaps.inverse_g = 1.0 / mix(ray.g, vec3(1.0e-20), lessThan(abs(ray.g), vec3(1.0e-20)));
   leaps.edge = float(u.brick_grid.w);
@@ -216,12 +218,12 @@ struct Leap {
 };
 
 Leap leap(Leaps leaps, Ray ray, int i, int end) {
-  vec3 p = ray.p0 + (float(i) + 0.5) * ray.g;
+  vec3 p = leaps.p0 + (float(i) + 0.5) * ray.g;
   ivec3 brick = clamp(ivec3(p * leaps.inverse_edge), ivec3(0), leaps.size - 1);
   int signed_reach = brick_visible[brick.x + leaps.size.x * (brick.y + leaps.size.y * brick.z)];
   int reach = abs(signed_reach);
   ivec3 face = brick + mix(ivec3(reach), ivec3(1 - reach), lessThan(leaps.inverse_g, vec3(0.0)));
-  vec3 at = (vec3(face) * leaps.edge - ray.p0) * leaps.inverse_g;
+  vec3 at = (vec3(face) * leaps.edge - leaps.p0) * leaps.inverse_g;
   float leave = min(at.x, min(at.y, at.z));
   int next = leave < float(end) ? int(ceil(leave - 0.5)) : end;
   return Leap(signed_reach > 0, clamp(next, i + 1, end));
