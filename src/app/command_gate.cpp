@@ -8,6 +8,7 @@
 #include "app/truth.hpp"
 #include "core/json.hpp"
 #include "judge/gate.hpp"
+#include "measure/plan.hpp"
 #include "report/junit.hpp"
 #include "report/markdown.hpp"
 
@@ -114,6 +115,15 @@ core::ExitCode accept(const AcceptArguments& arguments) {
   return core::ExitCode::pass;
 }
 
+// Whose latest run is meant.
+void add_run_plan(CLI::App& command, std::string& plan) {
+  command
+      .add_option_function<std::string>(
+          "PLAN", [&plan](const std::string& text) { plan = measure::plan_name(text); },
+          "SUITE/PLAN or the YAML file, as it was run")
+      ->required();
+}
+
 }  // namespace
 
 void add_gate_commands(Commands& commands) {
@@ -121,7 +131,7 @@ void add_gate_commands(Commands& commands) {
   CLI::App* command =
       commands.add("gate", "Judge a plan's latest run: truth, baselines, statistics",
                    [arguments] { return gate(*arguments); });
-  command->add_option("PLAN", arguments->plan, "SUITE/PLAN as it was run")->required();
+  add_run_plan(*command, arguments->plan);
   command->add_option("--store", arguments->store)->capture_default_str();
   command->add_option("--baselines", arguments->baselines, "Folder of the baselines");
   command
@@ -139,7 +149,7 @@ void add_gate_commands(Commands& commands) {
   auto accepted = std::make_shared<AcceptArguments>();
   CLI::App* accepting = commands.add("accept", "Make a plan's latest run the baseline",
                                      [accepted] { return accept(*accepted); });
-  accepting->add_option("PLAN", accepted->plan)->required();
+  add_run_plan(*accepting, accepted->plan);
   accepting->add_option("--reason", accepted->reason, "Why; kept in history.json")->required();
   accepting->add_option("--only", accepted->only, "Glob over configurations");
   accepting->add_option("--store", accepted->store)->capture_default_str();

@@ -1,6 +1,7 @@
 #pragma once
 // The cases of a run that accuracy is told of: each picture against its limit and its truth.
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,5 +55,10 @@ struct AccuracyScene {
 // A scene without cases, and what follows from its cases once they are there.
 [[nodiscard]] AccuracyScene accuracy_scene(const record::Record& record, const LimitPicture& limit);
 void evaluate(AccuracyScene& scene);
+
+// {"device", "scene", "data", "uncertainty", "representation", "eight_bits", "configurations":
+// [{"configuration", "time_ns", "samples", "rmse", "largest", "error_99", "lattice", "arithmetic",
+// "front"}], "families": [{"name", "order", "half_width", "configurations"}]}
+[[nodiscard]] nlohmann::json to_json(const AccuracyScene& scene);
 
 }  // namespace triptych::judge

@@ -83,7 +83,8 @@ struct GateResult {
 };
 
 // {"plan", "run", "exit_code", "headline", "findings": [{"check", "verdict", "test", "device",
-// "configuration", "message", "numbers"}], "correlations": [as of the pair]}
+// "configuration", "message", "numbers"}], "correlations": [as of the pair], "accuracies": [as of
+// the scene]}
 [[nodiscard]] nlohmann::json to_json(const GateResult& result);
 // {"device", "other", "other_key", "within_run", "unlike_clocks", "refusals", …, "configurations",
 // "levels", "global"}; what is no number is null.

@@ -257,7 +257,7 @@ PlanSource read_plan_file(const std::filesystem::path& file) {
     throw core::InputError({.file = file.string()},
                            "cannot be read; a plan is a YAML file or a short name SUITE/PLAN");
   }
-  return {.name = file.stem().string(),
+  return {.name = plan_name(file.string()),
           .file = file.string(),
           .suite = "",
           .yaml = std::string(std::istreambuf_iterator<char>(stream), {})};
@@ -316,6 +316,11 @@ Plan make_plan(const std::string& name, const Suite& suite, const ValuesByFactor
 }
 
 }  // namespace
+
+std::string plan_name(std::string_view name_or_file) {
+  return is_short_name(name_or_file) ? std::string(name_or_file)
+                                     : std::filesystem::path(name_or_file).stem().string();
+}
 
 Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
                const FindSuite& find_suite) {

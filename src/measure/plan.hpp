@@ -33,6 +33,10 @@ using FindSuite = std::function<Suite&(std::string_view name)>;  // throws Input
 [[nodiscard]] Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
                              const FindSuite& find_suite);
 
+// The name under which a plan's runs are stored: of a short name itself, of a file its name without
+// the ending. Reads nothing.
+[[nodiscard]] std::string plan_name(std::string_view name_or_file);
+
 // The suite's defaults with the overrides, as a plan of its own. Throws as load_plan does.
 [[nodiscard]] Plan default_plan(const Suite& suite, const Overrides& overrides);
 

@@ -9,6 +9,7 @@
 
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
+#include "core/json.hpp"
 #include "fixture.hpp"
 #include "judge/accuracy_cases.hpp"
 
@@ -115,6 +116,10 @@ TEST_F(AccuracyGateTest, AcceptedErrorsPass) {
   EXPECT_EQ(with(result, Verdict::pass, Check::accuracy).size(), 12U);
   ASSERT_EQ(result.accuracies.size(), 6U);  // two scenes, three devices
   EXPECT_EQ(result.accuracies[0].cases.size(), 2U);
+  const core::Json json = to_json(result).at("accuracies").at(0);
+  EXPECT_EQ(json.at("device"), result.accuracies[0].device);
+  ASSERT_EQ(json.at("configurations").size(), 2U);
+  EXPECT_EQ(json.at("configurations")[1].at("rmse"), result.accuracies[0].cases[1].rmse);
 }
 
 // Farther from the limit than rounding explains, though within the bound on the picture.

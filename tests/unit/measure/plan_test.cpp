@@ -307,5 +307,12 @@ TEST_F(PlanTest, ShardOutOfRange) {
   }
 }
 
+TEST(PlanName, IsWhatRunsAreStoredUnder) {
+  EXPECT_EQ(plan_name("volume/quick"), "volume/quick");
+  EXPECT_EQ(plan_name("some/where/mine.yaml"), "mine");
+  EXPECT_EQ(plan_name("./volume/quick"), "quick");
+  EXPECT_EQ(plan_name("mine"), "mine");
+}
+
 }  // namespace
 }  // namespace triptych::measure
