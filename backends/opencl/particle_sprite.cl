@@ -193,29 +193,33 @@ TRI_FN void clip_outline(Outline* outline, float near) {
 }
 
 // Rays interpolated between corners: with perspective, (x, y, z)/w is linear on the screen, and z
-// is w, so that the place on the image plane is linear too. One plane for each triangle of the fan,
-// through its corners as snapped to the grid: within a triangle the snapping moves a ray by no more
-// than it moved a corner, which a plane that reaches beyond its triangle would not keep.
+// is w, so that the place on the image plane is linear too. One plane for each triangle of the fan.
+// A corner's ray is that of the corner as snapped to the grid, so that what is interpolated between
+// them is a pixel's own ray: of the unsnapped corner it would be off by up to 1/256 pixel.
 #if TRI_RAY_AT_VERTEX
-TRI_FN float2 place_of_corner(const Particles* u, const Outline* outline, int k) {
-  float2 half_size = (float2)(u->plane.x, 0.0f - u->plane.y);
-  return (float2)(outline->x[k], outline->y[k]) / outline->w[k] * half_size;
+// a·b − c·d to the rounding of the result: long, thin triangles have small areas of large products.
+TRI_FN float difference_of_products(float a, float b, float c, float d) {
+  float first = a * b;
+  float second = c * d;
+  return (first - second) + (tri_product_error(a, b, first) - tri_product_error(c, d, second));
 }
 
-TRI_FN RayPlane fit_rays(const Particles* u, const Outline* outline, const Polygon* polygon,
-                         int b, int c) {
-  float2 at_a = place_of_corner(u, outline, 0);
-  float2 to_b = place_of_corner(u, outline, b) - at_a;
-  float2 to_c = place_of_corner(u, outline, c) - at_a;
+TRI_FN RayPlane fit_rays(const Particles* u, const Polygon* polygon, int b, int c) {
   float bx = (float)(polygon->x[b] - polygon->x[0]), by = (float)(polygon->y[b] - polygon->y[0]);
   float cx = (float)(polygon->x[c] - polygon->x[0]), cy = (float)(polygon->y[c] - polygon->y[0]);
-  float area = bx * cy - by * cx;
+  float2 unit = (float2)(u->plane.z, 0.0f - u->plane.w) / (float)TRI_SUBPIXELS;
+  float2 to_b = (float2)(bx, by) * unit;
+  float2 to_c = (float2)(cx, cy) * unit;
+  float area = difference_of_products(bx, cy, by, cx);
   float scale = area != 0.0f ? 1.0f / area : 0.0f;
   RayPlane rays;
-  rays.right = (to_b * cy - to_c * by) * scale;
-  rays.down = (to_c * bx - to_b * cx) * scale;
-  rays.origin =
-      at_a - (float)polygon->x[0] * rays.right - (float)polygon->y[0] * rays.down;
+  rays.right = (float2)(difference_of_products(to_b.x, cy, to_c.x, by),
+                        difference_of_products(to_b.y, cy, to_c.y, by)) * scale;
+  rays.down = (float2)(difference_of_products(to_c.x, bx, to_b.x, cx),
+                       difference_of_products(to_c.y, bx, to_b.y, cx)) * scale;
+  float2 at_a = (float2)((float)polygon->x[0] * unit.x - u->plane.x,
+                         (float)polygon->y[0] * unit.y + u->plane.y);
+  rays.origin = at_a - (float)polygon->x[0] * rays.right - (float)polygon->y[0] * rays.down;
   return rays;
 }
 
@@ -256,7 +260,7 @@ TRI_FN int make_polygon(const Particles* u, float4 sphere, Polygon* polygon) {
   polygon->n = outline.n;
 #if TRI_RAY_AT_VERTEX
   for (int k = 0; k + 2 < polygon->n; ++k) {
-    polygon->rays[k] = fit_rays(u, &outline, polygon, k + 1, k + 2);
+    polygon->rays[k] = fit_rays(u, polygon, k + 1, k + 2);
   }
 #endif
 #if TRI_SPRITE == TRI_SCREEN_QUAD
