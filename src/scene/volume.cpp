@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "scene/denormals.hpp"
 #include "scene/scalar_dispatch.hpp"
 
 namespace triptych::scene {
@@ -90,7 +91,7 @@ void encode_float(Volume& volume, VoxelGrid& grid) {
   grid.scale = 1;
   grid.offset = 0;
   grid.data = convert<From, float>(std::move(volume.voxels), [&](From value) {
-    return static_cast<float>(normalise(static_cast<double>(value)));
+    return without_denormal(static_cast<float>(normalise(static_cast<double>(value))));
   });
 }
 

@@ -43,7 +43,8 @@ const std::vector<Factor>& volume_factors() {
              "distance of samples in smallest voxel spacings; own, here and below: a stress case's "
              "own, the default for all other data",
              {std::string(own_level)}),
-      choice("quadrature", {"midpoint", "preintegrated"}, "midpoint", Decides::the_picture,
+      choice("quadrature", {"midpoint", "preintegrated", std::string(own_level)}, "midpoint",
+             Decides::the_picture,
              "rule for the ray integral: one sample for a step, or the transfer function "
              "integrated between the values at its ends"),
       choice("shading", {"none", "gradient", std::string(own_level)}, "none", Decides::the_picture,

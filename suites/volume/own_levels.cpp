@@ -28,6 +28,12 @@ bool OwnLevels::shaded() const {
   return is_stress("shading") ? stress_->shaded : value("shading") == "gradient";
 }
 
+scene::Quadrature OwnLevels::quadrature() const {
+  if (is_stress("quadrature")) return stress_->quadrature;
+  return value("quadrature") == "preintegrated" ? scene::Quadrature::preintegrated
+                                                : scene::Quadrature::midpoint;
+}
+
 std::array<int, 2> OwnLevels::viewport() const {
   if (is_stress("viewport")) return {stress_->width, stress_->height};
   return measure::parse_viewport(value("viewport"));

@@ -22,6 +22,7 @@ class OwnLevels {
   [[nodiscard]] double step() const;
   [[nodiscard]] double ert() const;
   [[nodiscard]] bool shaded() const;
+  [[nodiscard]] scene::Quadrature quadrature() const;
   [[nodiscard]] std::array<int, 2> viewport() const;
   [[nodiscard]] scene::Camera camera(const scene::Box& box) const;
   [[nodiscard]] scene::TransferFunction transfer_function(

@@ -142,8 +142,9 @@ std::vector<StressCase> cases_of_voxels() {
       {18,
        "denormal",
        "denormal voxels, opacities, colours, transmittances",
-       "kept or taken for 0, they change nothing by more than 2⁻¹²⁶; in at most 1.2 of the time "
-       "(tests/contract/stress_test.cpp)",
+       "0 before they reach a device; those that a ray makes are kept or taken for 0, which "
+       "changes "
+       "nothing by more than 2⁻¹²⁶; in at most 1.2 of the time (tests/contract/stress_test.cpp)",
        {"voxels", "opacity", "colour", "transmittance"},
        stress_denormal},
       {19,
@@ -192,8 +193,9 @@ std::vector<StressCase> cases_of_transfer() {
       {25,
        "spike",
        "one visible entry of 256, at a step that can miss it",
-       "the truth's samples hit and miss alike; where rounding may decide, the bound holds both",
-       {"low", "middle"},
+       "the truth's samples hit and miss alike; where rounding may decide, the bound holds both; "
+       "pre-integrated, no step misses it",
+       {"low", "middle", "preintegrated"},
        stress_spike},
       {26,
        "end_spike",
@@ -204,7 +206,7 @@ std::vector<StressCase> cases_of_transfer() {
       {27,
        "slope",
        "opacity linear along rays, its slope down to ±1e-7 and 0",
-       "no cancellation as the slope vanishes",
+       "pre-integrated steps without cancellation as the slope vanishes",
        {"0.03", "1e-4", "1e-7", "0", "-1e-7", "-0.03"},
        stress_slope},
       {28,
@@ -217,7 +219,7 @@ std::vector<StressCase> cases_of_transfer() {
       {29,
        "transparent",
        "a function without any opacity",
-       "background to the bit; where empty space is skipped, no sample",
+       "background to the bit; no sample where space is leapt over, one per ray at most by a walk",
        {},
        stress_transparent},
       {30,

@@ -1,7 +1,7 @@
 #pragma once
 // Volumes that break renderers, each with what has to come out of it: data "stress:CASE" or
-// "stress:CASE:VARIANT". They bring a transfer function, camera, viewport, step, shading and early
-// termination of their own, which the factors take by the level `own`.
+// "stress:CASE:VARIANT". They bring a transfer function, camera, viewport, step, quadrature,
+// shading and early termination of their own, which the factors take by the level `own`.
 //
 // What is asked of every picture: that it lies within its bound of the truth (tolerance.hpp), and
 // that skipping empty space changes no bit of it. A case says why single precision can do that, and
@@ -17,6 +17,7 @@
 #include "scene/camera.hpp"
 #include "scene/transfer_function.hpp"
 #include "scene/volume.hpp"
+#include "scene/volume_scene.hpp"
 
 namespace triptych::volume_suite {
 
@@ -33,9 +34,11 @@ struct StressScene {
   double step_voxels = 0.5;
   double ert = 0;
   bool shaded = false;
+  scene::Quadrature quadrature = scene::Quadrature::midpoint;
   std::array<float, 4> background{0.25F, 0.125F, 0.0625F, 1};
   std::vector<record::Expectation> expectations = {};
-  std::vector<record::Expectation> when_skipping = {};  // only where empty space is skipped
+  std::vector<record::Expectation> when_skipping = {};  // only where empty space is skipped …
+  std::vector<record::Expectation> when_leaping = {};   // … and by leaps (skip: distance)
 };
 
 struct StressCase {

@@ -1,5 +1,6 @@
 // Cases 20 … 30: what transfer functions and steps may do.
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -85,6 +86,7 @@ StressScene stress_spike(std::string_view variant) {
   scene.function = uniform(orange_of(0));
   scene.function.entries[variant == "low" ? 30 : 128][3] = 0.9F;
   scene.step_voxels = 2;
+  if (variant == "preintegrated") scene.quadrature = scene::Quadrature::preintegrated;
   return scene;
 }
 
@@ -92,7 +94,7 @@ StressScene stress_spike(std::string_view variant) {
 StressScene stress_end_spike(std::string_view variant) {
   const bool first = variant == "first";
   StressScene scene = seen_from_outside(volume_of({16, 16, 16}, [first](int i, int j, int k) {
-    const double v = lopsided({16, 16, 16}, i, j, k) / 0.95;
+    const double v = std::min(1.5 * lopsided({16, 16, 16}, i, j, k), 1.0);
     return first ? 1 - v : v;
   }));
   scene.function = uniform(orange_of(0));
@@ -101,13 +103,14 @@ StressScene stress_end_spike(std::string_view variant) {
 }
 
 // Opacity linear along the ray with a slope that tends to 0: the closed form of such a segment
-// (V3) divides by its root.
+// (V3), which pre-integration takes for each step, divides by its root.
 StressScene stress_slope(std::string_view variant) {
   double slope = 0;
   std::from_chars(variant.data(), variant.data() + variant.size(), slope);
   StressScene scene = seen_from_outside(
       volume_of({16, 16, 16}, [slope](int i, int, int) { return 0.5 + slope * (i - 7.5); }));
   scene.function = ramp(0, 0.4);
+  scene.quadrature = scene::Quadrature::preintegrated;
   return scene;
 }
 
@@ -136,8 +139,12 @@ StressScene stress_transparent(std::string_view /*variant*/) {
   scene.function = uniform({1, 1, 1, 0});
   scene.expectations = {
       {"background to the bit, for nothing is added to 0", record::OneColour{scene.background}}};
-  scene.when_skipping = {{"no sample, for no brick is visible",
-                          record::CountAtMost{.counter = "samples", .factor = 0}}};
+  scene.when_skipping = {
+      {"one sample per ray at most: the last may lie beyond the last brick, where a walk knows no "
+       "brick that would say it is transparent",
+       record::CountAtMost{.counter = "samples", .factor = 1, .of = "rays_hit"}}};
+  scene.when_leaping = {{"no sample, for no brick is visible",
+                         record::CountAtMost{.counter = "samples", .factor = 0}}};
   return scene;
 }
 

@@ -92,7 +92,8 @@ StressScene stress_infinite(std::string_view variant) {
   return scene;
 }
 
-// Whether a device keeps denormals or takes them for 0 changes no picture by more than 2⁻¹²⁶.
+// Of data and function they are 0 before they reach a device; those that a ray makes itself may be
+// kept or be taken for 0, which changes no picture by more than 2⁻¹²⁶.
 StressScene stress_denormal(std::string_view variant) {
   constexpr double tiny = 1e-40;
   if (variant == "voxels") {

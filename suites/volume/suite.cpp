@@ -10,6 +10,7 @@
 #include "core/json.hpp"
 #include "measure/factor.hpp"
 #include "reference/volume.hpp"
+#include "scene/denormals.hpp"
 #include "scene/generators.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/factors.hpp"
@@ -130,14 +131,12 @@ scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
   const auto [width, height] = levels.viewport();
   return {
       .grid = loaded.grid,
-      .transfer_function = levels.transfer_function(folders_),
+      .transfer_function = scene::without_denormals(levels.transfer_function(folders_)),
       .camera = levels.camera(scene::bounding_box(*loaded.grid)),
       .width = width,
       .height = height,
       .step_voxels = levels.step(),
-      .quadrature = configuration.at("quadrature") == "preintegrated"
-                        ? scene::Quadrature::preintegrated
-                        : scene::Quadrature::midpoint,
+      .quadrature = levels.quadrature(),
       .shading = {.enabled = levels.shaded()},
       .background = levels.background(),
   };
@@ -242,6 +241,9 @@ std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& 
   result = stress->expectations;
   if (configuration.at("skip") == "none") return result;
   result.insert(result.end(), stress->when_skipping.begin(), stress->when_skipping.end());
+  if (configuration.at("skip") == "distance") {
+    result.insert(result.end(), stress->when_leaping.begin(), stress->when_leaping.end());
+  }
   result.push_back({"the bits of the picture without skipping",
                     record::SamePicture{.changed = {{"skip", "none"}}}});
   return result;

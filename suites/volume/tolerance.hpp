@@ -23,10 +23,15 @@ struct PathPrecision {
 //   halved, division 5u), then scaled by 1/spacing (2u): ≤ 20u of its length. The entry t₀ = (face
 //   − e)/v inherits that, one subtraction and one division: ≤ 26u; e + t₀·v adds two: the entry
 //   point is off by at most 48u·t₀|v|. A sample adds (i+½)·g, g = v·h: ≤ 24u of the way inside.
-//   With D the distance of the eye to the farthest corner of the box, L the box's diagonal, all in
-//   voxels:
+//   With D the distance of the eye to the farthest corner of the box, L the box's diagonal, both in
+//   the smallest spacing, as the error of a direction is one of its whole length, whatever the
+//   spacing along the axis that it moves a sample on:
 //       u·(|e| + 48·max(D − L, 0) + 24·L + L)
 //   (t₀|v| ≤ D; the part of D inside the box is counted with L.)
+//   Of a far eye rays begin on a plane at the distance s (technique::ray_plane): e and D are then
+//   those of the plane's point on the view axis, found in double precision. A ray's own point adds
+//   ndc, which rounds by 3u whatever it is, times the picture's half diagonal E on the plane, and
+//   six more operations on a length ≤ D: u·(4·E + 6·D).
 // value, normalised. Three nested interpolations a + f·(b − a), 3u each of the largest stored
 // value, then
 //   stored·scale + offset, 2u: 11u·M, M = |scale|·stored_max + |offset|; a u of the table position

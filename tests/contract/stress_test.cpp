@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "scene/denormals.hpp"
 #include "suites/volume/stress_cases.hpp"
 #include "technique/catalogue.hpp"
 #include "under_test.hpp"
@@ -21,7 +22,7 @@ measure::Work work_of(const measure::Device& device, StressScene stress) {
   const measure::VolumePath path = device.default_path(scene::lossless_format(stress.volume.type));
   scene::VolumeScene scene{.grid = std::make_shared<const scene::VoxelGrid>(
                                scene::encode(std::move(stress.volume), path.voxel)),
-                           .transfer_function = stress.function,
+                           .transfer_function = scene::without_denormals(stress.function),
                            .camera = stress.camera,
                            .width = stress.width,
                            .height = stress.height,
