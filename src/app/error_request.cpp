@@ -30,6 +30,13 @@ const measure::Factor& factor_of(const measure::Suite& suite, std::string_view n
   return *found;
 }
 
+// Its levels but for the one by which data bring their own: it stands for another of them.
+std::vector<std::string> levels_of(const measure::Suite& suite, std::string_view name) {
+  std::vector<std::string> levels = factor_of(suite, name).levels;
+  std::erase(levels, "own");
+  return levels;
+}
+
 // "camera=…,data=…" of all that the request leaves as it is.
 std::string scene_of(const measure::Suite& suite, measure::Configuration configuration) {
   for (const char* name : chosen_factors) configuration[name] = factor_of(suite, name).standard;
@@ -78,7 +85,7 @@ measure::Plan plan_within_error(const measure::Plan& plan, measure::SuiteWithTru
     coarse["ert"] = "0";
     const core::Image limit = suite.limit(coarse).image;
     bool any = false;
-    for (const std::string& quadrature : factor_of(suite, "quadrature").levels) {
+    for (const std::string& quadrature : levels_of(suite, "quadrature")) {
       coarse["quadrature"] = quadrature;
       const auto found = judge::longest_step(
           judge::step_share * error, {steps.minimum, steps.maximum}, [&](double step) {
@@ -95,7 +102,7 @@ measure::Plan plan_within_error(const measure::Plan& plan, measure::SuiteWithTru
       candidate["ert"] = fmt::format("{}", enough);
       tell(fmt::format("{}: {} keeps it with step {}, which errs by {:.2g}",
                        scene_of(suite, candidate), quadrature, candidate.at("step"), found->error));
-      for (const std::string& skip : factor_of(suite, "skip").levels) {
+      for (const std::string& skip : levels_of(suite, "skip")) {
         candidate["skip"] = skip;
         request.configurations.push_back(candidate);
       }
