@@ -46,6 +46,7 @@ void add_gate_commands(Commands& commands);  // gate, accept
 void add_compare_command(Commands& commands);
 void add_evaluate_command(Commands& commands);
 void add_report_command(Commands& commands);
+void add_validate_command(Commands& commands);
 void add_analyze_command(Commands& commands);
 void add_test_commands(Commands& commands);  // what CTest calls
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/arguments.hpp"
+#include "app/judging.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/truth.hpp"
@@ -35,47 +36,18 @@ struct AcceptArguments {
   std::string only;
 };
 
-// Id of the plan's latest run; throws NotSupported (nothing to judge) when there is none.
-std::string latest_run(const record::Store& store, const std::string& plan,
-                       const std::string& file) {
-  const std::optional<record::Run> run = store.latest_run(plan);
-  if (run) return run->id;
-  throw core::NotSupported(
-      fmt::format("{} holds no run of {}: measure first with `triptych run {} --store {}`", file,
-                  plan, plan, file));
-}
-
-void print_text(const judge::GateResult& result) {
-  std::map<judge::Verdict, int> counts;
-  for (const judge::Finding& finding : result.findings) {
-    ++counts[finding.verdict];
-    if (finding.verdict == judge::Verdict::pass) continue;
-    fmt::print("{:<12} {} {}: {}\n", judge::name_of(finding.verdict), finding.test,
-               finding.configuration, finding.message);
-  }
-  for (const auto& [verdict, count] : counts) fmt::print("{} {}  ", count, judge::name_of(verdict));
-  fmt::print("\n{}\n", result.headline());
-}
-
 core::ExitCode gate(const GateArguments& arguments) {
   const Registry registry = make_registry();
   require_store(arguments.store);
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
-  judge::GateRequest request{
-      .plan = arguments.plan,
-      .checks = {},
-      .devices = arguments.devices,
-      .required_devices = arguments.required,
-      .truth = [&](const record::Record& record) { return truths.of(record); },
-      .limit = [&](const record::Record& record) { return truths.limit_of(record); },
-      .expectations = [&](const record::Record& record) { return truths.expectations_of(record); },
-      .today = today(),
-  };
+  judge::GateRequest request = request_of(truths, arguments.plan);
+  request.devices = arguments.devices;
+  request.required_devices = arguments.required;
   for (const std::string& name : arguments.checks) request.checks.insert(judge::check(name));
   const judge::Baselines baselines(arguments.baselines, arguments.plan);
   const judge::GateResult result = judge::judge_run(
-      store, latest_run(store, arguments.plan, arguments.store), baselines, request);
+      store, latest_run_of(store, arguments.plan, arguments.store), baselines, request);
   if (!arguments.junit.empty()) write_text(arguments.junit, report::junit(result));
   if (!arguments.markdown.empty()) write_text(arguments.markdown, report::markdown(result));
   if (arguments.json) {
@@ -108,7 +80,7 @@ core::ExitCode accept(const AcceptArguments& arguments) {
             [&](const record::Record& record) { return truths.expectations_of(record); }};
   }
   const std::vector<std::string> changes = judge::accept(
-      store, latest_run(store, arguments.plan, arguments.store), arguments.baselines, request);
+      store, latest_run_of(store, arguments.plan, arguments.store), arguments.baselines, request);
   for (const std::string& change : changes) fmt::print("{}\n", change);
   fmt::print("{} changes under {}; review them before you commit\n", changes.size(),
              arguments.baselines);

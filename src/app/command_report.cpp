@@ -1,15 +1,13 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <set>
 
 #include "app/arguments.hpp"
+#include "app/judging.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/truth.hpp"
-#include "judge/gate.hpp"
 #include "report/benchmark_json.hpp"
-#include "report/page.hpp"
 
 namespace triptych::app {
 namespace {
@@ -27,33 +25,13 @@ core::ExitCode write_report(const ReportArguments& arguments) {
   require_store(arguments.store);
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
-  report::PageRequest request{
-      .plans = {}, .truth = [&](const record::Record& record) { return truths.of(record); }};
-  std::set<std::string> plans;
-  for (const record::Run& run : store.runs()) plans.insert(run.plan);
-  for (const std::string& plan : plans) {
-    const record::Run run = *store.latest_run(plan);
-    request.plans.push_back(
-        {.run = run,
-         .verdict = judge::judge_run(
-             store, run.id, judge::Baselines(arguments.baselines, plan),
-             {.plan = plan,
-              .checks = {},
-              .devices = {},
-              .required_devices = {},
-              .truth = request.truth,
-              .limit = [&](const record::Record& record) { return truths.limit_of(record); },
-              .expectations =
-                  [&](const record::Record& record) { return truths.expectations_of(record); },
-              .today = today()})});
-  }
-  if (request.plans.empty()) {
+  if (store.runs().empty()) {
     throw core::NotSupported(arguments.store + " holds no run: measure first with `triptych run`");
   }
-  write_text(arguments.out, report::page(store, request));
+  write_text(arguments.out, page_of(store, truths, arguments.baselines));
   if (!arguments.benchmark_json.empty()) {
     write_text(arguments.benchmark_json,
-               report::benchmark_json(store, request.plans.front().run.id));
+               report::benchmark_json(store, store.latest_run(plans_of(store).front())->id));
   }
   fmt::print("{}\n", arguments.out);
   return core::ExitCode::pass;

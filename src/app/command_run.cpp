@@ -187,6 +187,16 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
 
 }  // namespace
 
+int measure_plan(const std::string& plan, const std::vector<std::string>& devices,
+                 const std::string& store) {
+  RunArguments arguments;
+  arguments.plan.plan = plan;
+  arguments.devices = devices;
+  arguments.store = store;
+  const measure::RunResult result = run_and_tell(arguments).result;
+  return result.measured + result.failed;
+}
+
 core::ExitCode measure_as_test(const std::string& plan, const std::string& device,
                                const std::string& store) {
   RunArguments arguments;

@@ -214,15 +214,8 @@ struct Checked {
 Checked judge_store(const CheckArguments& arguments, const record::Store& store, Truths& truths) {
   const auto run = store.latest_run(arguments.plan);
   if (!run) throw core::NotSupported("nothing was measured");
-  judge::GateRequest request{
-      .plan = arguments.plan,
-      .checks = {judge::check(arguments.check)},
-      .devices = {},
-      .required_devices = {},
-      .truth = [&](const record::Record& record) { return truths.of(record); },
-      .limit = [&](const record::Record& record) { return truths.limit_of(record); },
-      .expectations = [&](const record::Record& record) { return truths.expectations_of(record); },
-      .today = today()};
+  judge::GateRequest request = request_of(truths, arguments.plan);
+  request.checks = {judge::check(arguments.check)};
   if (!arguments.device.empty()) request.devices = {arguments.device};
   return {run->id,
           judge::judge_run(store, run->id, judge::Baselines(default_baselines(), arguments.plan),

@@ -1,15 +1,22 @@
 #pragma once
-// Measuring as a CTest fixture does.
+// Measuring from within other commands.
 
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 
 namespace triptych::app {
 
-// Measures a plan on one device, by a worker of its own, into the store's latest run of the plan or
-// a new one; the anchors before it where a correlation will be drawn. A configuration that failed
-// makes it a regression, nothing but skips a skip. Throws as measure::run_plan does.
+// Measures a plan on the devices of some globs into a new run, as `triptych run` does and tells it.
+// The number of configurations measured or failed. Throws as measure::run_plan does.
+[[nodiscard]] int measure_plan(const std::string& plan, const std::vector<std::string>& devices,
+                               const std::string& store);
+
+// As a CTest fixture does: a plan on one device, by a worker of its own, into the store's latest
+// run of the plan or a new one; the anchors before it where a correlation will be drawn. A
+// configuration that failed makes it a regression, nothing but skips a skip. Throws as
+// measure::run_plan does.
 [[nodiscard]] core::ExitCode measure_as_test(const std::string& plan, const std::string& device,
                                              const std::string& store);
 

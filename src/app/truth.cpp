@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "app/paths.hpp"
 #include "core/image_io.hpp"
 
 namespace triptych::app {
@@ -72,6 +73,18 @@ judge::LimitPicture Truths::find_or_render_limit(const record::Record& record,
   picture.image = std::move(limit.image);
   picture.uncertainty = std::move(limit.uncertainty);
   return picture;
+}
+
+judge::GateRequest request_of(Truths& truths, const std::string& plan) {
+  return {.plan = plan,
+          .checks = {},
+          .devices = {},
+          .required_devices = {},
+          .truth = [&truths](const record::Record& record) { return truths.of(record); },
+          .limit = [&truths](const record::Record& record) { return truths.limit_of(record); },
+          .expectations =
+              [&truths](const record::Record& record) { return truths.expectations_of(record); },
+          .today = today()};
 }
 
 }  // namespace triptych::app

@@ -37,4 +37,8 @@ class Truths {
   std::map<std::string, judge::LimitPicture> limits_;  // by key
 };
 
+// A request to judge a plan on all devices by every check that is made for it, with these truths,
+// today.
+[[nodiscard]] judge::GateRequest request_of(Truths& truths, const std::string& plan);
+
 }  // namespace triptych::app

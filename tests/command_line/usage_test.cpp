@@ -56,6 +56,13 @@ TEST(Usage, ADeviceThatIsNotThere) {
   expect_refused(program.run("run volume/quick --device 'none:*'"), 2, "no device matches none:*");
 }
 
+TEST(Usage, ValidatingNothing) {
+  const Program program;
+  expect_refused(program.run("validate --device 'null:*' --out /proc/none"), 3,
+                 "cannot write into");
+  expect_refused(program.run("validate --device 'none:*'"), 2, "no device matches none:*");
+}
+
 TEST(Usage, AFolderThatCannotBeWrittenInto) {
   const Program program;
   expect_refused(program.run("run volume/quick --device 'null:*' --store /proc/none/s.sqlite"), 3,

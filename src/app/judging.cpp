@@ -1,0 +1,63 @@
+#include "app/judging.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "report/page.hpp"
+
+namespace triptych::app {
+
+std::string latest_run_of(const record::Store& store, const std::string& plan,
+                          const std::string& file) {
+  const std::optional<record::Run> run = store.latest_run(plan);
+  if (run) return run->id;
+  throw core::NotSupported(
+      fmt::format("{} holds no run of {}: measure first with `triptych run {} --store {}`", file,
+                  plan, plan, file));
+}
+
+void print_text(const judge::GateResult& result) {
+  std::map<judge::Verdict, int> counts;
+  for (const judge::Finding& finding : result.findings) {
+    ++counts[finding.verdict];
+    if (finding.verdict == judge::Verdict::pass) continue;
+    fmt::print("{:<12} {} {}: {}\n", judge::name_of(finding.verdict), finding.test,
+               finding.configuration, finding.message);
+  }
+  for (const auto& [verdict, count] : counts) fmt::print("{} {}  ", count, judge::name_of(verdict));
+  fmt::print("\n{}\n", result.headline());
+}
+
+std::vector<std::string> plans_of(const record::Store& store) {
+  std::set<std::string> plans;
+  for (const record::Run& run : store.runs()) plans.insert(run.plan);
+  return {plans.begin(), plans.end()};
+}
+
+std::string page_of(const record::Store& store, Truths& truths, const std::string& baselines) {
+  report::PageRequest request{
+      .plans = {}, .truth = [&](const record::Record& record) { return truths.of(record); }};
+  for (const std::string& plan : plans_of(store)) {
+    const record::Run run = *store.latest_run(plan);
+    request.plans.push_back(
+        {.run = run,
+         .verdict = judge::judge_run(store, run.id, judge::Baselines(baselines, plan),
+                                     request_of(truths, plan))});
+  }
+  return report::page(store, request);
+}
+
+core::ExitCode worse_of(core::ExitCode a, core::ExitCode b) {
+  using core::ExitCode;
+  constexpr std::array by_weight{ExitCode::pass, ExitCode::skip, ExitCode::cannot_judge,
+                                 ExitCode::regression, ExitCode::usage};
+  return std::max(a, b, [&](ExitCode one, ExitCode other) {
+    return std::ranges::find(by_weight, one) < std::ranges::find(by_weight, other);
+  });
+}
+
+}  // namespace triptych::app

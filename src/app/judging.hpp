@@ -1,0 +1,32 @@
+#pragma once
+// What commands that judge share.
+
+#include <string>
+#include <vector>
+
+#include "app/truth.hpp"
+#include "judge/gate.hpp"
+#include "record/store.hpp"
+
+namespace triptych::app {
+
+// Id of the plan's latest run; throws NotSupported (nothing to judge) when there is none. `file`:
+// what the message calls the store.
+[[nodiscard]] std::string latest_run_of(const record::Store& store, const std::string& plan,
+                                        const std::string& file);
+
+// Every finding but those that pass, a line each, then how many there are of each verdict and the
+// headline.
+void print_text(const judge::GateResult& result);
+
+// The plans that a store holds runs of, sorted.
+[[nodiscard]] std::vector<std::string> plans_of(const record::Store& store);
+
+// The report on the latest run of each plan in a store, which holds one.
+[[nodiscard]] std::string page_of(const record::Store& store, Truths& truths,
+                                  const std::string& baselines);
+
+// Of two verdicts the one that counts: usage over regression over could not judge over pass.
+[[nodiscard]] core::ExitCode worse_of(core::ExitCode a, core::ExitCode b);
+
+}  // namespace triptych::app
