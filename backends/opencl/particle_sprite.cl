@@ -119,12 +119,13 @@ TRI_FN int sprite_corners(const Particles* u, float4 sphere) {
 #endif
 }
 
-TRI_FN void ray_outline(const Particles* u, float4 sphere, Outline* outline) {
+// Whether planes may cut it: the whole viewport is drawn at w = 1, which `near` may exceed.
+TRI_FN bool ray_outline(const Particles* u, float4 sphere, Outline* outline) {
   Frame frame = sprite_frame(u, sphere);
   if (frame.everywhere == 1) {
     add_rectangle(u, (float2)(0.0f - u->plane.x, 0.0f - u->plane.y),
                   (float2)(u->plane.x, u->plane.y), outline);
-    return;
+    return false;
   }
 #if TRI_SPRITE == TRI_RAY_QUAD
   add_corner(u, frame.centre - frame.right - frame.up, outline);
@@ -142,6 +143,7 @@ TRI_FN void ray_outline(const Particles* u, float4 sphere, Outline* outline) {
                outline);
   }
 #endif
+  return true;
 }
 
 // How far a corner lies within one of the planes that clip: before the eye by `near`, and within a
@@ -247,9 +249,9 @@ TRI_FN int make_polygon(const Particles* u, float4 sphere, Polygon* polygon) {
 #if TRI_SPRITE == TRI_SCREEN_QUAD
   screen_outline(u, sphere, &outline);
 #else
-  ray_outline(u, sphere, &outline);
-  // A sprite that is the whole viewport has its corners at w = 1, which `near` may exceed.
-  if (outline.w[0] != 1.0f && needs_clipping(&outline, u->eye.w)) clip_outline(&outline, u->eye.w);
+  if (ray_outline(u, sphere, &outline) && needs_clipping(&outline, u->eye.w)) {
+    clip_outline(&outline, u->eye.w);
+  }
 #endif
   float across = (float)(u->viewport.x * (TRI_SUBPIXELS / 2));
   float down = (float)(u->viewport.y * (TRI_SUBPIXELS / 2));
