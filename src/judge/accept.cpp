@@ -246,7 +246,10 @@ void write_images(const Accepted& accepted, const AcceptRequest& request, const 
           fmt::format("images/{}: {} ({})", name, exists ? "replaced" : "new", record.scene));
     }
     table[record.scene] = {{"file", name}, {"hash", hash}};
-    if (!record.data_hash.empty()) table[record.scene]["data"] = record.data_hash;
+  }
+  for (const record::Record& record : accepted.measured) {
+    if (is_anchor(record) || record.data_hash.empty()) continue;
+    table[record.scene][Layout::data_key(record)] = record.data_hash;
   }
   index.write(1, lines);
   remove_unlisted_images(table, layout, lines);

@@ -18,7 +18,9 @@ namespace {
 struct StoredImage {
   std::string file;
   std::string hash;
-  std::string data;  // content hash of the scene's data; empty in baselines from before it was kept
+  // Content hashes of the scene's data by Layout::data_key; none in baselines from before they were
+  // kept.
+  std::map<std::string, std::string> data;
 };
 
 template <typename Value>
@@ -55,8 +57,11 @@ record::Counts read_counts(const JsonNode& node) {
 }
 
 StoredImage read_stored_image(const JsonNode& node) {
-  return {node.at("file").text(), node.at("hash").text(),
-          node.has("data") ? node.at("data").text() : std::string{}};
+  StoredImage image{node.at("file").text(), node.at("hash").text(), {}};
+  for (const auto& [name, value] : node.members()) {
+    if (name.starts_with("data")) image.data.emplace(name, value.text());
+  }
+  return image;
 }
 
 StoredCounters read_counters(const JsonNode& node) {
@@ -184,8 +189,10 @@ bool Baselines::present() const {
   return std::filesystem::is_directory(folder_);
 }
 
-std::string Baselines::data_hash(const std::string& scene) const {
-  return find_optional(cache_->stored_images(), scene).value_or(StoredImage{}).data;
+std::string Baselines::data_hash(const record::Record& record) const {
+  const StoredImage stored =
+      find_optional(cache_->stored_images(), record.scene).value_or(StoredImage{});
+  return find_optional(stored.data, Layout::data_key(record)).value_or(std::string{});
 }
 
 std::optional<core::Image> Baselines::image(const std::string& scene) const {

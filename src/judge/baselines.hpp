@@ -86,8 +86,9 @@ class Baselines {
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   // nullopt also when the file that images.json names is gone; InputError when it is another one.
   [[nodiscard]] std::optional<core::Image> image(const std::string& scene) const;
-  // Content hash of the data that the scene was accepted with; empty where that is not known.
-  [[nodiscard]] std::string data_hash(const std::string& scene) const;
+  // Content hash of the data that the record's scene was accepted with, in the record's voxel
+  // format; empty where that is not known.
+  [[nodiscard]] std::string data_hash(const record::Record& record) const;
   // Of every device; nullopt: the configuration was never accepted.
   [[nodiscard]] std::optional<StoredCounters> counters(const std::string& configuration) const;
   // By device id; empty: never accepted.

@@ -20,7 +20,7 @@ bool asked_for(const GateRequest& request, const std::string& device) {
 // Of other data than was accepted, under the same name: no number of it can be held against any.
 bool other_data(const Baselines& baselines, const record::Record& record) {
   if (record.data_hash.empty()) return false;
-  const std::string accepted = baselines.data_hash(record.scene);
+  const std::string accepted = baselines.data_hash(record);
   return !accepted.empty() && accepted != record.data_hash;
 }
 
@@ -30,10 +30,8 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   if (view.checks.empty()) {
     view.checks = {Check::image,  Check::counters,    Check::statistics,
                    Check::timing, Check::correlation, Check::accuracy};
-    // Its records have no times and no statistics.
-    if (request.plan.ends_with("/stress")) {
-      view.checks = {Check::image, Check::counters, Check::stress};
-    }
+    // Its records have no times and no statistics, and their scores judge their pictures.
+    if (request.plan.ends_with("/stress")) view.checks = {Check::counters, Check::stress};
   }
   for (auto& entry : store.devices(run)) {
     if (asked_for(request, entry.device.id)) view.devices.emplace(entry.device.id, entry.device);
@@ -136,8 +134,7 @@ void report_other_data(const RunView& view, std::vector<Finding>& findings) {
         *record, *view.checks.begin(), Verdict::cannot_judge,
         fmt::format("its data is not what was accepted under this name (content hash {}, accepted "
                     "{}): restore the file and run again, or {}",
-                    record->data_hash, view.baselines.data_hash(record->scene),
-                    view.accept_command())));
+                    record->data_hash, view.baselines.data_hash(*record), view.accept_command())));
   }
 }
 

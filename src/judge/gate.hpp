@@ -95,7 +95,7 @@ struct GateRequest {
   std::set<Check> checks;            // empty: all; the correlation only where a device measured
                                      // CorrelationModel::least_configurations,
                                      // accuracy only of a plan SUITE/accuracy; of a plan
-                                     // SUITE/stress image, counters and stress
+                                     // SUITE/stress counters and stress
   std::vector<std::string> devices;  // globs; empty: all in the run
   std::vector<std::string>
       required_devices;  // globs; each must match a device that measured something

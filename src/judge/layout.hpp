@@ -17,6 +17,12 @@ struct Layout {
   [[nodiscard]] static std::string image_name(const std::string& scene) {
     return core::content_hash(scene) + ".exr";
   }
+  // What an image's entry calls the content hash of its data. The same data has one per voxel
+  // format, and devices prefer different formats.
+  [[nodiscard]] static std::string data_key(const record::Record& record) {
+    const auto voxel = record.factors.find("voxel");
+    return voxel == record.factors.end() ? "data" : "data_" + voxel->second;
+  }
   [[nodiscard]] std::filesystem::path counters() const { return folder / "counters.json"; }
   [[nodiscard]] std::filesystem::path errors() const { return folder / "accuracy.json"; }
   [[nodiscard]] std::filesystem::path scores() const { return folder / "score.json"; }
