@@ -528,5 +528,21 @@ TEST_F(GateTest, OtherDataUnderTheSameNameIsNamed) {
   EXPECT_THAT(findings[0].message, HasSubstr("content hash 1b1b, accepted 0a0a"));
 }
 
+// Devices prefer different voxel formats, in which the same data has different hashes.
+TEST_F(GateTest, DataHasAHashPerVoxelFormat) {
+  const auto with_lavapipe_as = [](const std::string& hash) {
+    return [hash](record::Record& record, core::Image&) {
+      const bool floats = record.device == "vulkan:lavapipe";
+      record.factors["voxel"] = floats ? "f32" : "u8";
+      record.data_hash = floats ? hash : "0a0a";
+    };
+  };
+  accept_history(with_lavapipe_as("1b1b"));
+  add_run("b", with_lavapipe_as("1b1b"));
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
+  add_run("c", with_lavapipe_as("0a0a"));
+  EXPECT_EQ(with(gate("c"), Verdict::cannot_judge).size(), 4U);
+}
+
 }  // namespace
 }  // namespace triptych::judge

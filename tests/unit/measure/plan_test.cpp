@@ -307,6 +307,13 @@ TEST_F(PlanTest, ShardOutOfRange) {
   }
 }
 
+TEST_F(PlanTest, TimedIsTrueOrFalse) {
+  EXPECT_TRUE(load("suite: fake\n").timed);
+  EXPECT_FALSE(load("suite: fake\ntimed: false\n").timed);
+  EXPECT_EQ(refusal("suite: fake\ntimed: no\n"),
+            at(2, 8) + "'timed': expected true or false, found 'no'");
+}
+
 TEST(PlanName, IsWhatRunsAreStoredUnder) {
   EXPECT_EQ(plan_name("volume/quick"), "volume/quick");
   EXPECT_EQ(plan_name("some/where/mine.yaml"), "mine");

@@ -114,6 +114,17 @@ TEST(Protocol, CountsComeFromTheirOwnFramesAndCanBeLeftOut) {
   EXPECT_EQ(std::ranges::count(bare.calls, "counters"), 0);
 }
 
+TEST(Protocol, UntimedIsOneFrameForThePictureAndOneForTheCounters) {
+  ScriptedPrepared prepared = steady(50 * ms);
+  const Measurement result = measured(prepared, {.timed = false});
+  EXPECT_EQ(prepared.calls, (std::vector<std::string>{"timing", "image", "counters"}));
+  EXPECT_EQ(result.record.outcome, record::Outcome::measured);
+  EXPECT_EQ(result.record.image, image_hash(result.image));
+  EXPECT_EQ(result.record.counters, (record::Counts{{"rays_hit", 64}, {"samples", 512}}));
+  EXPECT_THAT(result.record.time_ns(), IsEmpty());
+  EXPECT_THAT(result.record.statistics, IsEmpty());
+}
+
 TEST(Protocol, ADeviceThatMissesOneTimeToldNone) {
   ScriptedPrepared prepared(
       [](int n) { return n == 9 ? frame_of(50 * ms) : frame_of(50 * ms, 49 * ms); });

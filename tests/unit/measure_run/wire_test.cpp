@@ -52,15 +52,17 @@ TEST(Wire, AnAnswerArrivesAsItWasSent) {
 }
 
 TEST(Wire, AJobCarriesProtocolAndPlants) {
-  const Job job{.name = "n",
-                .configuration = {{"step", "0.5"}},
-                .protocol = {.warm_up_frames = 2, .timed_frames = 3, .counters = false},
-                .plants = {"slowdown:20"}};
+  const Job job{
+      .name = "n",
+      .configuration = {{"step", "0.5"}},
+      .protocol = {.warm_up_frames = 2, .timed_frames = 3, .counters = false, .timed = false},
+      .plants = {"slowdown:20"}};
   const auto back = as_job(to_message(job));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->configuration, job.configuration);
   EXPECT_EQ(back->protocol.timed_frames, 3);
   EXPECT_FALSE(back->protocol.counters);
+  EXPECT_FALSE(back->protocol.timed);
   EXPECT_EQ(back->plants, job.plants);
 }
 

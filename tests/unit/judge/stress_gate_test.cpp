@@ -1,0 +1,309 @@
+// Stress cases: what each point is for, scores as baselines, and what is expected beside the truth.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+
+#include "core/hash.hpp"
+#include "core/image_io.hpp"
+#include "fixture.hpp"
+#include "judge/expectation.hpp"
+#include "judge/stress.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* lavapipe = "vulkan:lavapipe";
+
+class StressGateTest : public JudgeTest {
+ protected:
+  StressGateTest() {
+    request_.checks = {Check::stress};
+    request_.expectations = [this](const record::Record& record) { return expected_(record); };
+  }
+
+  void accept_scores(const std::string& run) {
+    AcceptRequest request;
+    request.plan = plan;
+    request.reason = "a test";
+    request.date = "2026-02-01";
+    request.truth = [this](const record::Record& record) { return request_.truth(record).truth; };
+    request.stress = {.truth = request_.truth, .expectations = request_.expectations};
+    (void)accept(store_, run, folder_.path() / "baselines", request);
+  }
+
+  // Changes the plain picture of one device.
+  static Tweak on_lavapipe(const std::function<void(record::Record&, core::Image&)>& change) {
+    return [change](record::Record& record, core::Image& image) {
+      if (record.device == lavapipe && record.configuration == plain_) change(record, image);
+    };
+  }
+
+  // The one finding about it, after a first run was accepted without a tweak.
+  Finding found(const Tweak& tweak) {
+    add_run("accepted");
+    accept_scores("accepted");
+    add_run("judged", tweak);
+    Finding result;
+    for (const Finding& finding : gate("judged").findings) {
+      const bool about = finding.device == lavapipe && finding.configuration == plain_;
+      if (about && finding.check == Check::stress) result = finding;
+    }
+    return result;
+  }
+
+  std::function<std::vector<record::Expectation>(const record::Record&)> expected_ =
+      [](const record::Record&) { return std::vector<record::Expectation>{}; };
+};
+
+TEST_F(StressGateTest, AllPointsPass) {
+  add_run("a");
+  accept_scores("a");
+  const GateResult result = gate("a");
+  EXPECT_EQ(result.exit_code(), core::ExitCode::pass) << text(result);
+  const auto passed = with(result, Verdict::pass, Check::stress);
+  ASSERT_EQ(passed.size(), 12U);
+  EXPECT_EQ(passed[0].numbers.at("score"), 3);
+}
+
+TEST_F(StressGateTest, APictureOverItsBoundLosesTwoPoints) {
+  const Finding finding =
+      found(on_lavapipe([](record::Record&, core::Image& image) { image.rgba[17] += 2 * bound; }));
+  EXPECT_EQ(finding.verdict, Verdict::regression);
+  EXPECT_EQ(finding.numbers.at("score"), 1);
+  EXPECT_THAT(finding.message, HasSubstr("over the bound"));
+  EXPECT_THAT(finding.message, HasSubstr("differs from"));
+}
+
+TEST_F(StressGateTest, WithinTheBoundOnlyAgreementIsLost) {
+  const Finding finding = found(on_lavapipe([](record::Record&, core::Image& image) {
+    for (float& value : image.rgba) value += bound / 2;
+  }));
+  EXPECT_EQ(finding.verdict, Verdict::regression);
+  EXPECT_EQ(finding.numbers.at("score"), 2);
+  EXPECT_THAT(finding.message, HasSubstr("is the farther from the truth"));
+}
+
+// The other devices are nearer to the truth, so the one that strays must not cost them a point.
+TEST_F(StressGateTest, TheNearerKeepsItsPoint) {
+  (void)found(on_lavapipe([](record::Record&, core::Image& image) {
+    for (float& value : image.rgba) value += bound / 2;
+  }));
+  EXPECT_EQ(with(gate("judged"), Verdict::regression).size(), 1U);
+}
+
+TEST_F(StressGateTest, WhatIsNotFiniteHasNoPoint) {
+  const Finding finding = found(
+      on_lavapipe([](record::Record&, core::Image& image) { image.rgba[3] = std::nanf(""); }));
+  EXPECT_EQ(finding.verdict, Verdict::regression);
+  EXPECT_EQ(finding.numbers.at("score"), 0);
+}
+
+TEST_F(StressGateTest, ACrashHasNoPointAndIsToldOnce) {
+  const Finding finding = found(on_lavapipe([](record::Record& record, core::Image&) {
+    record.outcome = record::Outcome::crashed;
+    record.reason = "killed by SIGSEGV";
+  }));
+  EXPECT_EQ(finding.numbers.at("score"), 0);
+  EXPECT_THAT(finding.message, HasSubstr("killed by SIGSEGV"));
+  EXPECT_EQ(with(gate("judged"), Verdict::regression).size(), 1U);
+}
+
+TEST_F(StressGateTest, AnAcceptedLossStaysInSight) {
+  const Tweak wrong =
+      on_lavapipe([](record::Record&, core::Image& image) { image.rgba[17] += 2 * bound; });
+  add_run("a", wrong);
+  accept_scores("a");
+  add_run("b", wrong);
+  const auto known = with(gate("b"), Verdict::advisory, Check::stress);
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_EQ(known[0].numbers.at("accepted"), 1);
+  add_run("c");
+  EXPECT_EQ(with(gate("c"), Verdict::improved, Check::stress).size(), 1U);
+}
+
+TEST_F(StressGateTest, ADeviceThatWasNeverAcceptedIsHeldToTheOthers) {
+  add_run("a", [](record::Record& record, core::Image&) {
+    if (record.device == lavapipe) record.outcome = record::Outcome::skipped;
+  });
+  accept_scores("a");
+  add_run("b", on_lavapipe([](record::Record&, core::Image& image) { image.rgba[17] += 1; }));
+  EXPECT_EQ(with(gate("b"), Verdict::regression, Check::stress).size(), 1U);
+}
+
+TEST_F(StressGateTest, WithoutAStoredScoreNothingIsDecided) {
+  add_run("a");
+  (void)accept_run("a");
+  EXPECT_EQ(with(gate("a"), Verdict::cannot_judge, Check::stress).size(), 12U);
+}
+
+TEST_F(StressGateTest, OneDeviceAskedForIsHeldAgainstTheOthersOfTheRun) {
+  (void)found(on_lavapipe([](record::Record&, core::Image& image) {
+    for (float& value : image.rgba) value += bound / 2;
+  }));
+  GateRequest one = request_;
+  one.devices = {lavapipe};
+  const auto lost = with(gate("judged", one), Verdict::regression, Check::stress);
+  ASSERT_EQ(lost.size(), 1U);
+  EXPECT_EQ(lost[0].device, lavapipe);
+}
+
+TEST_F(StressGateTest, ARefusalIsRightOnlyWhereItIsAllowed) {
+  const Tweak refuse = on_lavapipe([](record::Record& record, core::Image&) {
+    record.outcome = record::Outcome::skipped;
+    record.reason = "too large";
+  });
+  const Finding finding = found(refuse);
+  EXPECT_EQ(finding.verdict, Verdict::cannot_judge);  // it drew it when it was accepted
+  EXPECT_TRUE(finding.numbers.empty());               // and has no score now
+  expected_ = [](const record::Record&) {
+    return std::vector<record::Expectation>{{"may be refused", record::MayBeRefused{}}};
+  };
+  EXPECT_EQ(with(gate("judged"), Verdict::pass, Check::stress).size(), 12U);
+}
+
+// Skipping must change no bit, though the truth's bound would allow it.
+TEST_F(StressGateTest, OtherBitsThanAnotherConfigurationLoseAPoint) {
+  expected_ = [](const record::Record& record) {
+    std::vector<record::Expectation> result;
+    if (record.configuration.find("skip=") == std::string::npos) {
+      result.push_back(
+          {"the bits with bricks", record::SamePicture{.changed = {{"skip", "bricks"}}}});
+    }
+    return result;
+  };
+  const Finding finding = found(on_lavapipe([](record::Record&, core::Image& image) {
+    image.rgba[5] = std::nextafter(image.rgba[5], 1.0F);
+  }));
+  EXPECT_EQ(finding.verdict, Verdict::regression);
+  EXPECT_EQ(finding.numbers.at("score"), 2);
+  EXPECT_THAT(finding.message, HasSubstr("1 of 48 pixels differ in their bits, first (1, 0)"));
+}
+
+TEST_F(StressGateTest, MoreSamplesThanAllowedLoseAPoint) {
+  expected_ = [](const record::Record&) {
+    return std::vector<record::Expectation>{
+        {"few", record::CountAtMost{.counter = "samples", .factor = 20834, .of = "rays"}}};
+  };
+  const Finding finding = found(on_lavapipe(
+      [](record::Record& record, core::Image&) { record.counters["samples"] = 1000033; }));
+  EXPECT_EQ(finding.verdict, Verdict::regression);
+  EXPECT_THAT(finding.message, HasSubstr("1000033 samples, at most 20834 × 48 rays allowed"));
+  EXPECT_EQ(with(gate("judged"), Verdict::regression).size(), 1U);
+}
+
+TEST_F(StressGateTest, OnlyAStressPlanIsJudgedUnasked) {
+  add_run("a");
+  accept_scores("a");
+  GateRequest unasked = request_;
+  unasked.checks.clear();
+  for (const Finding& finding : gate("a", unasked).findings) {
+    EXPECT_NE(finding.check, Check::stress);
+  }
+}
+
+// Expectations by themselves: two configurations of one device.
+class ExpectationTest : public JudgeTest {
+ protected:
+  static constexpr int width = 3;
+  static constexpr int height = 2;
+
+  const record::Record& add(const std::string& configuration, const core::Image& image) {
+    record::Record record;
+    record.device = "gl:x";
+    record.configuration = configuration;
+    const auto bytes = core::encode_exr(image);
+    record.image = core::content_hash(bytes);
+    store_.add_image(record.image, bytes);
+    records_.push_back(record);
+    return records_.back();
+  }
+
+  // Each pixel tells its place.
+  static core::Image places(int w, int h, const std::function<float(int, int)>& at) {
+    core::Image image(w, h);
+    for (int y = 0; y < h; ++y) {
+      for (int x = 0; x < w; ++x) {
+        for (int c = 0; c < 4; ++c) {
+          image.rgba[static_cast<std::size_t>(4 * (y * w + x) + c)] =
+              at(x, y) + 0.125F * static_cast<float>(c);
+        }
+      }
+    }
+    return image;
+  }
+
+  std::string judge(const record::SamePicture& rule) {
+    StressRun run(store_, records_);
+    return unmet({"a test", rule}, records_.front(), run, [](const record::Record&) {
+      TruthPair pair{core::Image(width, height), core::Image(width, height)};
+      for (float& value : pair.bound.rgba) value = 0.25F;
+      return pair;
+    });
+  }
+
+  std::vector<record::Record> records_;
+};
+
+float place(int x, int y) {
+  return static_cast<float>(x + 10 * y);
+}
+
+TEST_F(ExpectationTest, AMirrorImageIsOneOnlyAlongItsAxis) {
+  add("data=a", places(width, height, place));
+  add("data=b", places(width, height, [](int x, int y) { return place(width - 1 - x, y); }));
+  add("data=c",
+      places(width, height, [](int x, int y) { return place(width - 1 - x, height - 1 - y); }));
+  EXPECT_EQ(judge({.changed = {{"data", "b"}}, .mirrored_x = true}), "");
+  EXPECT_EQ(judge({.changed = {{"data", "c"}}, .mirrored_x = true, .mirrored_y = true}), "");
+  EXPECT_THAT(judge({.changed = {{"data", "b"}}}), HasSubstr("4 of 6 pixels differ"));
+  EXPECT_THAT(judge({.changed = {{"data", "c"}}, .mirrored_x = true}), HasSubstr("6 of 6"));
+}
+
+TEST_F(ExpectationTest, APartIsHeldAgainstItsPlace) {
+  add("data=a", places(width, height, [](int x, int y) { return place(x + 2, y + 1); }));
+  add("data=b", places(6, 5, place));
+  EXPECT_EQ(judge({.changed = {{"data", "b"}}, .at = {2, 1}}), "");
+  EXPECT_THAT(judge({.changed = {{"data", "b"}}, .at = {1, 1}}), HasSubstr("6 of 6"));
+  EXPECT_THAT(judge({.changed = {{"data", "b"}}, .at = {4, 1}}), HasSubstr("do not lie in"));
+  EXPECT_THAT(judge({.changed = {{"data", "z"}}}), HasSubstr("there is no picture with data=z"));
+}
+
+TEST_F(ExpectationTest, BoundsOfBothAddUp) {
+  add("data=a", places(width, height, place));
+  add("data=b", places(width, height, [](int x, int y) { return place(x, y) + 0.5F; }));
+  add("data=c", places(width, height, [](int x, int y) { return place(x, y) + 0.75F; }));
+  EXPECT_EQ(judge({.changed = {{"data", "b"}}, .to_the_bit = false}), "");
+  EXPECT_THAT(judge({.changed = {{"data", "c"}}, .to_the_bit = false}),
+              HasSubstr("by more than both bounds"));
+}
+
+TEST_F(ExpectationTest, ParticlesMayBeNumberedOtherwise) {
+  core::Image one = places(width, height, place);
+  one.depth.assign(6, 2.0F);
+  one.ids = {0, 1, 2, 3, 4, 5};
+  core::Image other = one;
+  other.ids = {5, 4, 3, 2, 1, 0};
+  add("data=a", one);
+  add("data=b", other);
+  EXPECT_EQ(judge({.changed = {{"data", "b"}}, .same_ids = false}), "");
+  EXPECT_THAT(judge({.changed = {{"data", "b"}}}), HasSubstr("6 of 6"));
+}
+
+TEST_F(ExpectationTest, OneColourIsMeantToTheBit) {
+  core::Image image(width, height);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = i % 4 == 3 ? 1.0F : 0.25F;
+  add("data=a", image);
+  image.rgba[21] = std::nextafter(0.25F, 1.0F);
+  add("data=b", image);
+  StressRun run(store_, records_);
+  const record::Expectation expected{"a test", record::OneColour{{0.25F, 0.25F, 0.25F, 1.0F}}};
+  EXPECT_EQ(unmet(expected, records_[0], run, {}), "");
+  EXPECT_THAT(unmet(expected, records_[1], run, {}), HasSubstr("pixel (2, 1) channel 1"));
+}
+
+}  // namespace
+}  // namespace triptych::judge
