@@ -11,6 +11,7 @@
 #include "app/listing.hpp"
 #include "app/paths.hpp"
 #include "core/json.hpp"
+#include "core/temporary_folder.hpp"
 #include "judge/evaluation_runs.hpp"
 #include "measure/plant.hpp"
 
@@ -43,28 +44,6 @@ struct EvaluateArguments {
   }
 };
 
-// For trials' own stores and baselines.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "triptych-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw core::IoError(fmt::format("cannot make a folder like {}", name));
-    }
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 void tell(const std::string& step) {
   fmt::print(stderr, "{}\n", step);
 }
@@ -94,7 +73,7 @@ judge::Tallies judge_runs(const EvaluateArguments& arguments) {
   judge::Tallies tallies;
   if (!std::filesystem::exists(arguments.runs())) return tallies;
   const record::Store store(arguments.runs(), record::Store::Mode::read);
-  const ScratchFolder scratch;
+  const core::TemporaryFolder scratch;  // for trials' own stores and baselines
   int number = 0;
   for (const judge::RunPool& pool : judge::pool_runs(store)) {
     tell(fmt::format("{}: {} unplanted runs, {} planted", pool.plan, pool.unplanted.size(),

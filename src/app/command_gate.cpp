@@ -69,16 +69,10 @@ core::ExitCode accept(const AcceptArguments& arguments) {
       .only = arguments.only,
       .date = today(),
       .truth = [&](const record::Record& record) { return truths.of(record).truth; }};
-  // Errors against the limit are baselines of the plans made for them.
-  if (arguments.plan.ends_with("/accuracy")) {
-    request.limit = [&](const record::Record& record) { return truths.limit_of(record); };
-  }
-  if (arguments.plan.ends_with("/stress")) {
-    request.stress = {
-        .truth = [&](const record::Record& record) { return truths.of(record); },
-        .expectations =
-            [&](const record::Record& record) { return truths.expectations_of(record); }};
-  }
+  const judge::GateRequest judged = request_of(truths, arguments.plan);
+  // Errors against the limit and scores are baselines of the plans made for them.
+  if (arguments.plan.ends_with("/accuracy")) request.limit = judged.limit;
+  if (arguments.plan.ends_with("/stress")) request.stress = {judged.truth, judged.expectations};
   const std::vector<std::string> changes = judge::accept(
       store, latest_run_of(store, arguments.plan, arguments.store), arguments.baselines, request);
   for (const std::string& change : changes) fmt::print("{}\n", change);

@@ -170,13 +170,7 @@ class Comparer {
     judge::Comparison found = judge::find_differences(side_a, side_b, same_setup_);
     entry.compared.differences = std::move(found.differences);
     entry.compared.reason = std::move(found.void_time);
-    entry.compared.work = judge::work_change(b.record.counters,
-                                             [&](const std::string& unit) -> std::optional<double> {
-                                               const auto count = a.record.counters.find(unit);
-                                               if (count == a.record.counters.end())
-                                                 return std::nullopt;
-                                               return static_cast<double>(count->second);
-                                             });
+    entry.compared.work = judge::work_change(b.record.counters, a.record.counters);
     choose_clock(entry.compared, a.record, b.record);
   }
 

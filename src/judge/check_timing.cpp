@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "judge/anchor.hpp"
 #include "judge/drift.hpp"
@@ -26,10 +27,6 @@ double smallest_gap(std::vector<double> samples) {
   return gap;
 }
 
-const std::vector<double>& samples_by(const record::Record& record, std::string_view clock) {
-  return clock == "wall" ? record.wall_ns : record.device_ns;
-}
-
 // What one step of the clock makes of a time, in ln t.
 double one_step(double step, double time) {
   return step < time ? -std::log1p(-step / time) : std::numeric_limits<double>::infinity();
@@ -39,7 +36,7 @@ Resolutions resolutions(const RunView& view) {
   Resolutions result;
   for (const record::Record* record : view.measured) {
     for (const std::string_view clock : {"wall", "device"}) {
-      const double gap = smallest_gap(samples_by(*record, clock));
+      const double gap = smallest_gap(record->time_ns_by(clock));
       if (!std::isfinite(gap)) continue;
       const auto [known, added] = result.try_emplace({record->device, clock}, gap);
       if (!added) known->second = std::min(known->second, gap);
@@ -96,7 +93,7 @@ class TimingCheck {
     }
     const auto stored = view_.baselines.timings(view_.device(record), record.configuration);
     const std::string_view clock = common_clock(record, stored);
-    const std::vector<double>& samples = samples_by(record, clock);
+    const std::vector<double>& samples = record.time_ns_by(clock);
     const double now = samples.empty() ? 0 : median(samples);
     if (!(now > 0) || !std::isfinite(now)) {
       add(record, Verdict::cannot_judge, "no time was measured; run the plan again");
@@ -229,13 +226,10 @@ class TimingCheck {
   // Every accepted run may have been within the tolerance of those before it.
   void report_drift() {
     std::vector<DriftSeries> series;
-    std::map<std::string, std::vector<std::string>> runs;  // of a device, oldest first
+    std::map<std::string, std::set<std::string>>
+        runs;  // of a device; by id, which begins with the time
     for (const TimingCase& timing : cases_) {
-      for (const auto& [run, ns] : timing.stored_ns) runs[timing.device].push_back(run);
-    }
-    for (auto& [device, ids] : runs) {
-      std::ranges::sort(ids);
-      ids.erase(std::ranges::unique(ids).begin(), ids.end());
+      for (const auto& [run, ns] : timing.stored_ns) runs[timing.device].insert(run);
     }
     for (const TimingCase& timing : cases_) {
       DriftSeries& each =
@@ -248,7 +242,10 @@ class TimingCheck {
       }
       each.log_times.push_back(std::log(timing.median_ns));
     }
-    for (const Drift& drift : find_drift(series)) report(drift, runs.at(drift.device));
+    for (const Drift& drift : find_drift(series)) {
+      const std::set<std::string>& stored = runs.at(drift.device);
+      report(drift, {stored.begin(), stored.end()});
+    }
   }
 
   // `runs`: the stored ones; the series ends with the one that is judged.
@@ -256,8 +253,7 @@ class TimingCheck {
     const std::size_t at = drift.change.at;
     std::string message = fmt::format(
         "drift: {:+.1f} % since the {}. of {} runs ({}), p = {:.2g}, {}; no single run told it: "
-        "look at "
-        "what was accepted there, and at {}",
+        "look at what was accepted there, and at {}",
         100 * std::expm1(drift.change.effect), at + 1, runs.size() + 1,
         at < runs.size() ? runs[at] : "this one", drift.change.p,
         drift.series ? "against the device's other configurations" : "in all its configurations",

@@ -28,10 +28,6 @@ std::vector<double> runs_by(std::string_view clock, const Stored& stored,
   return result;
 }
 
-const std::vector<double>& samples_by(std::string_view clock, const record::Record& record) {
-  return clock == "wall" ? record.wall_ns : record.device_ns;
-}
-
 // Times by different clocks are not compared: the record's own, or the wall clock, by which
 // everything is timed, where the other side has nothing by that one.
 std::string_view common_clock(const record::Record& record, const Stored& stored) {
@@ -74,7 +70,7 @@ double variance_within(const std::vector<double>& samples) {
 }
 
 double log_median(const record::Record& record, std::string_view clock) {
-  return std::log(median(samples_by(clock, record)));
+  return std::log(median(record.time_ns_by(clock)));
 }
 
 bool has_time(const record::Record& record) {
@@ -90,7 +86,7 @@ CorrelationCase case_of(const record::Record& record, std::string_view clock) {
   each.factors["technique"] = record.technique;
   each.anchor = is_anchor(record);
   each.log_time_b = log_median(record, clock);
-  each.variance_b = variance_within(samples_by(clock, record));
+  each.variance_b = variance_within(record.time_ns_by(clock));
   // The quietest round that was not seen again may not be the quietest there is.
   if (const auto gap = record.round_gap()) each.variance_b = std::max(each.variance_b, *gap * *gap);
   return each;
@@ -171,7 +167,7 @@ class Pairs {
       if (!of_a.contains(record->configuration)) continue;
       const std::string_view clock = common_clock(*record, of_a);
       const auto runs_a = runs_by(clock, of_a, record->configuration);
-      if (runs_a.empty() || samples_by(clock, *record).empty()) {
+      if (runs_a.empty() || record->time_ns_by(clock).empty()) {
         ++(is_anchor(*record) ? pair.unlike_anchors : pair.unlike_clocks);
         continue;
       }
@@ -212,19 +208,14 @@ class Pairs {
       const auto a = of_a.find(record->configuration);
       if (a == of_a.end()) continue;
       const std::string_view clock = common_clock(*record, *a->second);
-      if (samples_by(clock, *record).empty() || samples_by(clock, *a->second).empty()) {
+      if (record->time_ns_by(clock).empty() || a->second->time_ns_by(clock).empty()) {
         ++(is_anchor(*record) ? pair.unlike_anchors : pair.unlike_clocks);
         continue;
       }
       CorrelationCase each = case_of(*record, clock);
       each.log_time_a = log_median(*a->second, clock);
-      each.variance_a = variance_within(samples_by(clock, *a->second));
-      each.work = work_change(record->counters, [&](const std::string& unit) {
-        const auto found = a->second->counters.find(unit);
-        return found == a->second->counters.end()
-                   ? std::nullopt
-                   : std::optional(static_cast<double>(found->second));
-      });
+      each.variance_a = variance_within(a->second->time_ns_by(clock));
+      each.work = work_change(record->counters, a->second->counters);
       pair.cases.push_back(std::move(each));
     }
     pair.result = correlate(pair.cases);

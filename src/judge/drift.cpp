@@ -70,10 +70,6 @@ std::vector<double> splits_by_chance(std::size_t n) {
   return largest;
 }
 
-double median_of(std::span<const double> values) {
-  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : median(values);
-}
-
 // Null distributions by length, made when first asked for.
 class ChangePoints {
  public:
@@ -88,7 +84,7 @@ class ChangePoints {
     const auto as_large = chance.end() - std::ranges::lower_bound(chance, split.z - rounding);
     return ChangePoint{
         .at = split.at,
-        .effect = median_of(series.subspan(split.at)) - median_of(series.first(split.at)),
+        .effect = median(series.subspan(split.at)) - median(series.first(split.at)),
         .p = static_cast<double>(1 + as_large) / static_cast<double>(1 + chance.size())};
   }
 
@@ -114,9 +110,9 @@ std::vector<double> common_series(std::span<const DriftSeries> series,
     for (const std::size_t i : of) {
       const std::vector<double>& times = series[i].log_times;
       if (run >= times.size() || !std::isfinite(times[run])) continue;
-      deviations.push_back(times[run] - median_of(finite(times)));
+      deviations.push_back(times[run] - median(finite(times)));
     }
-    result.push_back(median_of(deviations));
+    result.push_back(median(deviations));
   }
   return result;
 }

@@ -27,6 +27,14 @@ std::optional<WorkChange> work_change(
   return std::nullopt;
 }
 
+std::optional<WorkChange> work_change(const record::Counts& now, const record::Counts& then) {
+  return work_change(now, [&](const std::string& unit) -> std::optional<double> {
+    const auto count = then.find(unit);
+    if (count == then.end()) return std::nullopt;
+    return static_cast<double>(count->second);
+  });
+}
+
 std::optional<WorkChange> work_change(const record::Counts& now, const Baselines& baselines,
                                       const std::string& configuration, const std::string& device) {
   const auto counters = baselines.counters(configuration);

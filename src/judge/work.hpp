@@ -24,6 +24,8 @@ struct WorkChange {
 [[nodiscard]] std::optional<WorkChange> work_change(
     const record::Counts& now,
     const std::function<std::optional<double>(const std::string&)>& then);
+[[nodiscard]] std::optional<WorkChange> work_change(const record::Counts& now,
+                                                    const record::Counts& then);
 // Against what is stored of the configuration on a device.
 [[nodiscard]] std::optional<WorkChange> work_change(const record::Counts& now,
                                                     const Baselines& baselines,

@@ -8,14 +8,10 @@
 #include <utility>
 #include <variant>
 
+#include "measure/stopwatch.hpp"
+
 namespace triptych::measure {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ns_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
 
 record::Record ended(record::Outcome outcome, std::string reason) {
   record::Record record;
@@ -76,7 +72,7 @@ DeviceRun::Round DeviceRun::round(const Configuration& configuration, const std:
   if (!ensure_worker()) {
     return {.turn = ended_turn(record::Outcome::failed, no_worker_), .work_ns = 0};
   }
-  const auto start = Clock::now();
+  const Stopwatch stopwatch;
   const std::array requests{
       to_message(Hold{.configuration = configuration, .plants = context_.plants_for(key, device_)}),
       to_message(Frames{.count = warm_up_frames}),
@@ -85,11 +81,11 @@ DeviceRun::Round DeviceRun::round(const Configuration& configuration, const std:
   Turn last;
   for (const Message& request : requests) {
     last = turn(request, on_loading);
-    if (last.outcome != record::Outcome::measured) return {std::move(last), ns_since(start)};
+    if (last.outcome != record::Outcome::measured) return {std::move(last), stopwatch.ns()};
   }
   Turn released = turn(to_message(Release{}), on_loading);
   if (released.outcome != record::Outcome::measured) last = std::move(released);
-  return {std::move(last), ns_since(start)};
+  return {std::move(last), stopwatch.ns()};
 }
 
 void DeviceRun::finish() {
@@ -131,9 +127,9 @@ std::string DeviceRun::start_worker() {
     return fmt::format("{} cannot be opened: {}", device_, error.what());
   }
   const Start start{.suite = context_.plan.suite, .kinds = context_.kinds, .clocks = clocks_};
-  const auto asked = Clock::now();
+  const Stopwatch opening;
   const auto greeting = worker->greet(start, context_.options.start_limit);
-  opening_ns_ += ns_since(asked);
+  opening_ns_ += opening.ns();
   if (const auto* reason = std::get_if<std::string>(&greeting)) {
     return fmt::format("{} cannot be opened: {}", device_, *reason);
   }
@@ -156,52 +152,47 @@ void DeviceRun::greet(const Hello& hello) {
 }
 
 Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
-  const auto start = Clock::now();
-  WorkerLink::Reply reply = worker_->ask(to_message(job), context_.options.limit, on_loading);
-  if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
-    worker_.reset();
-    return {ended(record::Outcome::crashed, std::move(died->reason))};
-  }
-  if (auto* late = std::get_if<WorkerLink::Late>(&reply)) {
-    worker_.reset();
-    return {ended(record::Outcome::hung, std::move(late->reason))};
-  }
-  std::optional<Answer> answer;
-  try {
-    answer = as_answer(std::move(std::get<Message>(reply)));
-    if (!answer) throw core::InputError("the worker said something other than its answer");
-  } catch (const core::InputError& error) {
-    worker_.reset();
-    return {ended(record::Outcome::failed, error.what())};
-  }
-  if (answer->record.outcome == record::Outcome::lost) worker_.reset();
-  Done done{.record = std::move(answer->record),
-            .exr = std::move(answer->exr),
-            .work_ns = answer->worker_ns - answer->record.overhead_ns};
-  done.record.overhead_ns = ns_since(start) - done.work_ns;
+  const Stopwatch stopwatch;
+  auto reply = exchange(to_message(job), as_answer, on_loading);
+  if (const auto* lost = std::get_if<Ended>(&reply)) return {ended(lost->outcome, lost->reason)};
+  Answer& answer = std::get<Answer>(reply);
+  if (answer.record.outcome == record::Outcome::lost) worker_.reset();
+  Done done{.record = std::move(answer.record),
+            .exr = std::move(answer.exr),
+            .work_ns = answer.worker_ns - answer.record.overhead_ns};
+  done.record.overhead_ns = stopwatch.ns() - done.work_ns;
   return done;
 }
 
 Turn DeviceRun::turn(const Message& message, const OnLoading& on_loading) {
+  auto reply = exchange(message, as_turn, on_loading);
+  if (const auto* lost = std::get_if<Ended>(&reply)) {
+    return ended_turn(lost->outcome, lost->reason);
+  }
+  Turn& turn = std::get<Turn>(reply);
+  if (turn.outcome == record::Outcome::lost) worker_.reset();
+  return std::move(turn);
+}
+
+template <typename As>
+auto DeviceRun::exchange(const Message& message, As as, const OnLoading& on_loading)
+    -> std::variant<typename std::invoke_result_t<As, Message>::value_type, Ended> {
   WorkerLink::Reply reply = worker_->ask(message, context_.options.limit, on_loading);
+  std::optional<Ended> ended;
   if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
-    worker_.reset();
-    return ended_turn(record::Outcome::crashed, std::move(died->reason));
-  }
-  if (auto* late = std::get_if<WorkerLink::Late>(&reply)) {
-    worker_.reset();
-    return ended_turn(record::Outcome::hung, std::move(late->reason));
-  }
-  try {
-    if (std::optional<Turn> answer = as_turn(std::get<Message>(reply))) {
-      if (answer->outcome == record::Outcome::lost) worker_.reset();
-      return std::move(*answer);
+    ended = {record::Outcome::crashed, std::move(died->reason)};
+  } else if (auto* late = std::get_if<WorkerLink::Late>(&reply)) {
+    ended = {record::Outcome::hung, std::move(late->reason)};
+  } else {
+    try {
+      if (auto answer = as(std::move(std::get<Message>(reply)))) return std::move(*answer);
+      ended = {record::Outcome::failed, "the worker said something other than its answer"};
+    } catch (const core::InputError& error) {
+      ended = {record::Outcome::failed, error.what()};
     }
-    throw core::InputError("the worker said something other than its turn");
-  } catch (const core::InputError& error) {
-    worker_.reset();
-    return ended_turn(record::Outcome::failed, error.what());
   }
+  worker_.reset();
+  return std::move(*ended);
 }
 
 }  // namespace triptych::measure

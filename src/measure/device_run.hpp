@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "measure/environment.hpp"
@@ -74,6 +76,15 @@ class DeviceRun {
   void greet(const Hello& hello);
   [[nodiscard]] Done ask(const Job& job, const OnLoading& on_loading);
   [[nodiscard]] Turn turn(const Message& message, const OnLoading& on_loading);
+  // How an exchange ended that brought no answer; the worker is then gone.
+  struct Ended {
+    record::Outcome outcome;
+    std::string reason;
+  };
+  // `as` reads the answer: as_answer, as_turn.
+  template <typename As>
+  [[nodiscard]] auto exchange(const Message& message, As as, const OnLoading& on_loading)
+      -> std::variant<typename std::invoke_result_t<As, Message>::value_type, Ended>;
 
   const RunContext& context_;
   std::string device_;

@@ -14,22 +14,10 @@
 #include "core/json.hpp"
 #include "measure/benchmark_loop.hpp"
 #include "measure/clock.hpp"
+#include "measure/stopwatch.hpp"
 
 namespace triptych::measure {
 namespace {
-
-// Wall time spent in the device's business, for telling overhead from work.
-class Stopwatch {
- public:
-  Stopwatch() : start_(std::chrono::steady_clock::now()) {}
-  [[nodiscard]] double ns() const {
-    return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start_)
-        .count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_;
-};
 
 // Frames that last at least `ns` together, one of them lasting frame_ns; a clock too coarse to see
 // a frame asks for as many as there may be.

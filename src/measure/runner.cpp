@@ -17,16 +17,11 @@
 #include "measure/interrupt.hpp"
 #include "measure/plant.hpp"
 #include "measure/rounds.hpp"
+#include "measure/stopwatch.hpp"
 #include "technique/catalogue.hpp"
 
 namespace triptych::measure {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ns_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
 
 std::string utc_now(const char* format) {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
@@ -72,14 +67,14 @@ void count(const record::Record& record, RunResult& result) {
 class Report {
  public:
   Report(int round, std::size_t total, const std::function<void(const Progress&)>& tell)
-      : round_(round), total_(static_cast<int>(total)), tell_(tell), start_(Clock::now()) {}
+      : round_(round), total_(static_cast<int>(total)), tell_(tell) {}
 
   void already_done() { --total_; }
 
   void done(const record::Record& record) {
     ++done_;
     if (!tell_) return;
-    const auto spent = Clock::now() - start_;
+    const auto spent = since_.elapsed();
     const auto left = spent / done_ * (total_ - done_);
     tell_({.device = record.device,
            .configuration = record.configuration,
@@ -108,7 +103,7 @@ class Report {
   int total_;
   int done_ = 0;
   const std::function<void(const Progress&)>& tell_;
-  Clock::time_point start_;
+  Stopwatch since_;
 };
 
 // The work of a device that a resumed run has not done yet.
@@ -169,13 +164,13 @@ class Measuring {
   }
 
   // The timed frames again, of what is not settled.
-  void further_rounds(Clock::time_point start) {
+  void further_rounds(const Stopwatch& run) {
     if (!goes_on()) return;
     remember_records();
     const auto order =
         context_.options.budget ? RoundOrder::doubtful_first : RoundOrder::as_measured;
     const auto spent = [&] {
-      return context_.options.budget && Clock::now() - start >= *context_.options.budget;
+      return context_.options.budget && run.elapsed() >= *context_.options.budget;
     };
     for (std::size_t round = 2; round <= most_rounds(); ++round) {
       const std::vector<std::size_t> chosen = next_round(records_, most_rounds(), order);
@@ -288,7 +283,7 @@ class Measuring {
 RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices, const Suite& suite,
                    record::Store& store, const RunOptions& options,
                    const std::function<void(const Progress&)>& on_progress) {
-  const auto start = Clock::now();
+  const Stopwatch run;
   refuse_bad_options(options);
   InterruptGuard interrupts;
   const RunContext context{plan,          suite,      store,
@@ -296,8 +291,8 @@ RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices, co
                            kinds_of(plan)};
   Measuring measuring(context, devices, on_progress);
   measuring.first_round();
-  measuring.further_rounds(start);
-  return measuring.conclude(ns_since(start));
+  measuring.further_rounds(run);
+  return measuring.conclude(run.ns());
 }
 
 }  // namespace triptych::measure

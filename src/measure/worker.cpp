@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <new>
@@ -18,16 +17,11 @@
 #include "measure/plant.hpp"
 #include "measure/protocol.hpp"
 #include "measure/runner.hpp"
+#include "measure/stopwatch.hpp"
 #include "measure/wire.hpp"
 
 namespace triptych::measure {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ns_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
 
 // Of this process since it began. Not ru_maxrss: that one survives exec, so that a worker would
 // start with its supervisor's peak.
@@ -97,7 +91,7 @@ class Worker {
   }
 
   [[nodiscard]] Answer answer(const Job& job) {
-    const auto start = Clock::now();
+    const Stopwatch whole;
     Answer answer;
     answer.record.factors = job.configuration;
     outcome_of([&] { perform(job, answer); },
@@ -105,7 +99,7 @@ class Worker {
                  conclude(answer, outcome, reason);
                });
     answer.record.peak_memory_bytes = peak_memory_bytes();
-    answer.worker_ns = ns_since(start);
+    answer.worker_ns = whole.ns();
     answer.record.overhead_ns =
         answer.worker_ns - answer.record.prepare_ns - measuring_ns_ + answer.record.overhead_ns;
     return answer;
@@ -181,16 +175,16 @@ class Worker {
 
   void perform(const Job& job, Answer& answer) {
     measuring_ns_ = 0;
-    const auto start = Clock::now();
+    const Stopwatch whole;
     Configuration configuration = job.configuration;
     const auto [work, prepared] = prepare(configuration, job.plants);
-    const double prepare_ns = ns_since(start);
+    const double prepare_ns = whole.ns();
     answer.record.prepare_ns = prepare_ns;
 
-    const auto measuring = Clock::now();
+    const Stopwatch measuring;
     Measurement measured = measure(*prepared, job.protocol,
                                    technique::technique(work.technique).work, clocks_, job.name);
-    measuring_ns_ = ns_since(measuring);
+    measuring_ns_ = measuring.ns();
     answer.record = std::move(measured.record);
     answer.record.prepare_ns = prepare_ns;
     answer.record.factors = std::move(configuration);

@@ -112,6 +112,9 @@ struct Record {
 
   // The samples that count, and the name of their clock: "device" or "wall".
   [[nodiscard]] const std::vector<double>& time_ns() const;
+  [[nodiscard]] const std::vector<double>& time_ns_by(std::string_view clock) const {
+    return clock == "wall" ? wall_ns : device_ns;
+  }
   [[nodiscard]] std::string_view clock() const;
   // ln of the second least of the rounds' medians over the least: how well the quietest round was
   // seen again. Empty below two rounds.

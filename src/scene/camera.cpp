@@ -239,6 +239,16 @@ void require_usable(const Box& box, double fov_y_deg) {
 
 }  // namespace
 
+Camera looking(const dvec3& eye, const dvec3& target, double fov_y_deg) {
+  Camera camera;
+  camera.eye = eye;
+  camera.forward = glm::normalize(target - eye);
+  const dvec3 right = glm::normalize(glm::cross(camera.forward, dvec3{0, 1, 0}));
+  camera.up = glm::cross(right, camera.forward);
+  camera.fov_y_deg = fov_y_deg;
+  return camera;
+}
+
 dvec3 Camera::right() const {
   return glm::cross(forward, up);
 }

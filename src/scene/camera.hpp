@@ -22,6 +22,9 @@ struct Camera {
   [[nodiscard]] glm::dvec3 ray_direction(int x, int y, int width, int height) const;
 };
 
+// A camera at `eye` that looks at `target`, y up as far as it can be; the view must not be along y.
+[[nodiscard]] Camera looking(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_deg);
+
 struct Box {
   glm::dvec3 lo{0, 0, 0};
   glm::dvec3 hi{1, 1, 1};

@@ -1,19 +1,13 @@
 #include "suites/particles/stress_cases.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "core/error.hpp"
 #include "suites/particles/stress_scenes.hpp"
 
 namespace triptych::particles_suite {
 namespace {
-
-constexpr std::string_view prefix = "stress:";
 
 struct Entry {
   StressCase of;
@@ -113,32 +107,11 @@ const std::vector<StressCase>& stress_cases() {
 }
 
 std::string name_of(const StressData& data) {
-  return fmt::format("{}{}{}{}", prefix, data.of->name, data.variant.empty() ? "" : ":",
-                     data.variant);
+  return measure::stress_name(data);
 }
 
 std::optional<StressData> stress_data(std::string_view data) {
-  if (!data.starts_with(prefix)) return std::nullopt;
-  const std::string_view rest = data.substr(prefix.size());
-  const std::size_t colon = std::min(rest.find(':'), rest.size());
-  const auto found = std::ranges::find(stress_cases(), rest.substr(0, colon), &StressCase::name);
-  if (found == stress_cases().end()) {
-    std::vector<std::string_view> names;
-    for (const StressCase& each : stress_cases()) names.push_back(each.name);
-    throw core::InputError(
-        fmt::format("'{}': expected stress:CASE with one of {}", data, fmt::join(names, ", ")));
-  }
-  const std::string_view variant = rest.substr(std::min(colon + 1, rest.size()));
-  const auto& variants = found->variants;
-  const auto known = std::ranges::find(variants, variant);
-  if (variants.empty() ? colon < rest.size() : known == variants.end()) {
-    throw core::InputError(variants.empty()
-                               ? fmt::format("'{}': the case has no variants; expected {}{}", data,
-                                             prefix, found->name)
-                               : fmt::format("'{}': expected {}{}:VARIANT with one of {}", data,
-                                             prefix, found->name, fmt::join(variants, ", ")));
-  }
-  return StressData{.of = &*found, .variant = variants.empty() ? std::string_view() : *known};
+  return measure::choose_stress(data, stress_cases());
 }
 
 std::vector<record::Expectation> stress_expectations(const StressData& data) {

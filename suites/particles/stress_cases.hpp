@@ -12,13 +12,14 @@
 #include <string_view>
 #include <vector>
 
+#include "measure/stress_name.hpp"
 #include "record/expectation.hpp"
 #include "scene/particles.hpp"
 
 namespace triptych::particles_suite {
 
 // The level of `camera`, `fov` and `viewport` that means what belongs to the data.
-inline constexpr std::string_view own_level = "own";
+using measure::own_level;
 
 struct StressCase {
   int number = 0;  // in the catalogue of docs/accuracy.md
@@ -30,10 +31,7 @@ struct StressCase {
 // By number.
 [[nodiscard]] const std::vector<StressCase>& stress_cases();
 
-struct StressData {
-  const StressCase* of = nullptr;  // into stress_cases()
-  std::string_view variant;        // of its variants; empty where it has none
-};
+using StressData = measure::StressChoice<StressCase>;
 // As a plan spells it.
 [[nodiscard]] std::string name_of(const StressData& data);
 

@@ -10,16 +10,6 @@
 
 namespace triptych::particles_suite {
 
-scene::Camera looking(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_deg) {
-  scene::Camera camera;
-  camera.eye = eye;
-  camera.forward = glm::normalize(target - eye);
-  const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, glm::dvec3{0, 1, 0}));
-  camera.up = glm::cross(right, camera.forward);
-  camera.fov_y_deg = fov_y_deg;
-  return camera;
-}
-
 glm::dvec3 oblique() {
   return glm::normalize(glm::dvec3{1, 0.5, 2});
 }

@@ -7,9 +7,7 @@
 
 namespace triptych::particles_suite {
 
-// A camera at `eye` that looks at `target`, y up.
-[[nodiscard]] scene::Camera looking(const glm::dvec3& eye, const glm::dvec3& target,
-                                    double fov_y_deg);
+using scene::looking;
 
 // A direction that is oblique to all axes, of unit length.
 [[nodiscard]] glm::dvec3 oblique();

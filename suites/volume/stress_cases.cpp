@@ -1,23 +1,12 @@
 #include "suites/volume/stress_cases.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
-#include "core/error.hpp"
 #include "suites/volume/stress_scenes.hpp"
 
 namespace triptych::volume_suite {
 namespace {
-
-constexpr std::string_view prefix = "stress:";
-
-std::string known(const StressCase& of) {
-  std::string names;
-  for (const std::string_view variant : of.variants) names += fmt::format(" {}", variant);
-  return names;
-}
 
 std::vector<StressCase> cases_of_geometry() {
   return {
@@ -291,31 +280,11 @@ const std::vector<StressCase>& stress_cases() {
 }
 
 std::string name_of(const StressData& data) {
-  return fmt::format("{}{}{}{}", prefix, data.of->name, data.variant.empty() ? "" : ":",
-                     data.variant);
+  return measure::stress_name(data);
 }
 
 std::optional<StressData> stress_data(std::string_view data) {
-  if (!data.starts_with(prefix)) return std::nullopt;
-  const std::string_view rest = data.substr(prefix.size());
-  const std::size_t colon = std::min(rest.find(':'), rest.size());
-  const auto found = std::ranges::find(stress_cases(), rest.substr(0, colon), &StressCase::name);
-  if (found == stress_cases().end()) {
-    std::string names;
-    for (const StressCase& each : stress_cases()) names += fmt::format(" {}", each.name);
-    throw core::InputError(fmt::format("'{}': expected stress:CASE with one of{}", data, names));
-  }
-  const std::string_view variant = rest.substr(std::min(colon + 1, rest.size()));
-  if (found->variants.empty()) {
-    if (colon == rest.size()) return StressData{&*found, {}};
-    throw core::InputError(fmt::format("'{}': stress:{} has no variants", data, found->name));
-  }
-  const auto known_variant = std::ranges::find(found->variants, variant);
-  if (known_variant == found->variants.end()) {
-    throw core::InputError(fmt::format("'{}': expected stress:{}:VARIANT with one of{}", data,
-                                       found->name, known(*found)));
-  }
-  return StressData{&*found, *known_variant};
+  return measure::choose_stress(data, stress_cases());
 }
 
 StressScene stress_scene(const StressData& data) {

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "measure/stress_name.hpp"
 #include "record/expectation.hpp"
 #include "scene/camera.hpp"
 #include "scene/transfer_function.hpp"
@@ -22,7 +23,7 @@
 namespace triptych::volume_suite {
 
 // The level that means what belongs to the data.
-inline constexpr std::string_view own_level = "own";
+using measure::own_level;
 
 // All but its volume is what the levels `own` stand for.
 struct StressScene {
@@ -52,10 +53,7 @@ struct StressCase {
 // By number.
 [[nodiscard]] const std::vector<StressCase>& stress_cases();
 
-struct StressData {
-  const StressCase* of = nullptr;  // into stress_cases()
-  std::string_view variant;        // of its variants; empty where it has none
-};
+using StressData = measure::StressChoice<StressCase>;
 // As a plan spells it.
 [[nodiscard]] std::string name_of(const StressData& data);
 

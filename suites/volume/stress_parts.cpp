@@ -80,12 +80,6 @@ scene::Camera along(const glm::dvec3& eye, const glm::dvec3& forward, const glm:
   return camera;
 }
 
-scene::Camera looking(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_deg) {
-  const glm::dvec3 forward = glm::normalize(target - eye);
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
-  return along(eye, forward, glm::cross(right, forward), fov_y_deg);
-}
-
 scene::Camera from_outside(const scene::Volume& volume) {
   const glm::dvec3 extent = extent_of(volume);
   const glm::dvec3 centre = extent * 0.5;

@@ -28,9 +28,7 @@ using Voxel = std::function<double(int i, int j, int k)>;
 // turns from blue to orange.
 [[nodiscard]] scene::TransferFunction ramp(int first, double most);
 
-// A camera at `eye` that looks at `target`, y up as far as it can be.
-[[nodiscard]] scene::Camera looking(const glm::dvec3& eye, const glm::dvec3& target,
-                                    double fov_y_deg);
+using scene::looking;
 // Along an axis, exactly: forward and up have components 0 and ±1 only.
 [[nodiscard]] scene::Camera along(const glm::dvec3& eye, const glm::dvec3& forward,
                                   const glm::dvec3& up, double fov_y_deg);

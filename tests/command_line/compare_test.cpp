@@ -1,6 +1,7 @@
 // Two scripted sides of known speed, measured in turns.
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,7 @@
 // A requested error: the cheapest configuration that keeps it, or why there is none.
 
+#include <gtest/gtest.h>
+
 #include "core/image_io.hpp"
 #include "measure/plan.hpp"
 #include "program.hpp"

@@ -1,5 +1,7 @@
 // Measuring planted slowdowns on scripted devices and judging the judge by them.
 
+#include <gtest/gtest.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,7 @@
 // Workers that die, and what is kept.
 
+#include <gtest/gtest.h>
+
 #include "program.hpp"
 
 namespace triptych::command_line {

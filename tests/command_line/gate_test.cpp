@@ -1,6 +1,7 @@
 // Measure, accept, judge: the whole way on scripted devices whose answers are known.
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "program.hpp"
 #include "right_picture.hpp"

@@ -1,5 +1,7 @@
 // Wrong usage and bad input: one clear line, the code people expect.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 
 #include "program.hpp"

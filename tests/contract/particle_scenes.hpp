@@ -40,16 +40,7 @@ inline scene::ParticleSet particles_of(const std::vector<std::array<double, 4>>&
   return set;
 }
 
-// A camera at `eye` that looks at `target`, y up.
-inline scene::Camera looking(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_deg) {
-  scene::Camera camera;
-  camera.eye = eye;
-  camera.forward = glm::normalize(target - eye);
-  const glm::dvec3 right = glm::normalize(glm::cross(camera.forward, glm::dvec3{0, 1, 0}));
-  camera.up = glm::cross(right, camera.forward);
-  camera.fov_y_deg = fov_y_deg;
-  return camera;
-}
+using scene::looking;
 
 inline ParticleWork particle_work(scene::ParticleSet set, const scene::Camera& camera, int width,
                                   int height) {

@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "reference/analytic_scenes.hpp"
-#include "reference/volume.hpp"
-#include "suites/volume/tolerance.hpp"
 #include "under_test.hpp"
+#include "volume_truth.hpp"
 
 namespace triptych::contract {
 namespace {
@@ -41,20 +40,6 @@ double rms_error(const core::Image& image, const reference::AnalyticScene& analy
     }
   }
   return std::sqrt(sum / (4.0 * static_cast<double>(image.pixel_count())));
-}
-
-void expect_within_bound(measure::Device& device, const measure::Work& work) {
-  const VolumeWork& volume = std::get<VolumeWork>(work.scene);
-  const measure::VolumePath path{volume.scene.grid->format, volume.options.sampler};
-  const reference::Truth truth = reference::render_volume(
-      volume.scene, volume_suite::error_model(
-                        volume.scene, {.ert = volume.options.ert,
-                                       .filter_weight_error = device.filter_weight_error(path)}));
-  const core::Image image = draw(device, work);
-  for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
-    ASSERT_LE(std::abs(static_cast<double>(image.rgba[i]) - truth.rgba[i]), truth.bound[i / 4])
-        << "pixel " << i / 4 % 64 << ' ' << i / 4 / 64 << " channel " << i % 4;
-  }
 }
 
 // What is left is the rounding of positions, values and sums. Root mean square, it is that of V1,

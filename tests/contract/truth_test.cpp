@@ -3,28 +3,13 @@
 #include <cmath>
 
 #include "data_folder.hpp"
-#include "reference/volume.hpp"
-#include "suites/volume/tolerance.hpp"
 #include "under_test.hpp"
+#include "volume_truth.hpp"
 
 namespace triptych::contract {
 namespace {
 
 using measure::VolumeWork;
-
-void expect_within_bound(measure::Device& device, const measure::Work& work) {
-  const VolumeWork& volume = std::get<VolumeWork>(work.scene);
-  const measure::VolumePath path{volume.scene.grid->format, volume.options.sampler};
-  const reference::Truth truth = reference::render_volume(
-      volume.scene, volume_suite::error_model(
-                        volume.scene, {.ert = volume.options.ert,
-                                       .filter_weight_error = device.filter_weight_error(path)}));
-  const core::Image image = draw(device, work);
-  for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
-    ASSERT_LE(std::abs(static_cast<double>(image.rgba[i]) - truth.rgba[i]), truth.bound[i / 4])
-        << "pixel " << i / 4 % 64 << ' ' << i / 4 / 64 << " channel " << i % 4;
-  }
-}
 
 TEST(Truth, EveryPathStaysWithinItsBound) {
   on_every_device([](measure::Device& device) {

@@ -9,10 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "backends/vulkan/descriptors.hpp"
 #include "backends/vulkan/devices.hpp"
 #include "backends/vulkan/instance.hpp"
-#include "backends/vulkan/pipeline.hpp"
+#include "tests/device/vulkan/one_dispatch.hpp"
 #include "vulkan_device_test_embedded.hpp"
 
 namespace triptych::vulkan_backend {
@@ -21,33 +20,8 @@ namespace {
 constexpr std::size_t invocations = 64;
 
 std::vector<std::uint32_t> count_to(const Gpu& gpu, std::uint32_t wanted) {
-  using enum vk::DescriptorType;
-  constexpr auto stage = vk::ShaderStageFlagBits::eCompute;
-  const std::array<vk::DescriptorSetLayoutBinding, 2> bindings{{
-      {.binding = 0, .descriptorType = eStorageBuffer, .descriptorCount = 1, .stageFlags = stage},
-      {.binding = 1, .descriptorType = eStorageBuffer, .descriptorCount = 1, .stageFlags = stage},
-  }};
-  const Layout layout = make_layout(gpu, bindings);
-  const vk::raii::Pipeline pipeline =
-      make_compute_pipeline(gpu, layout, test_shaders::embedded("loop.comp.spv"), Constants{});
-  const vk::raii::DescriptorPool pool = make_pool(gpu, 1);
-  const vk::DescriptorSet set = allocate_sets(gpu, pool, layout, 1).front();
   const std::vector<std::uint32_t> in(invocations, wanted);
-  std::vector<std::uint32_t> out(invocations);
-  const Buffer from =
-      make_buffer(gpu, std::as_bytes(std::span(in)), vk::BufferUsageFlagBits::eStorageBuffer);
-  const Buffer to(gpu, std::as_bytes(std::span(out)).size(),
-                  vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc,
-                  Place::device);
-  bind_buffer(gpu, set, 0, eStorageBuffer, from);
-  bind_buffer(gpu, set, 1, eStorageBuffer, to);
-  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout.pipeline, 0, set, {});
-    commands.dispatch(1, 1, 1);
-  });
-  download(gpu, to, std::as_writable_bytes(std::span(out)));
-  return out;
+  return dispatch_once<std::uint32_t>(gpu, test_shaders::embedded("loop.comp.spv"), in, 1);
 }
 
 TEST(VulkanLoops, EndWhereTheyAreToldTo) {

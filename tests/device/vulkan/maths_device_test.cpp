@@ -8,13 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "backends/vulkan/descriptors.hpp"
 #include "backends/vulkan/devices.hpp"
 #include "backends/vulkan/instance.hpp"
-#include "backends/vulkan/pipeline.hpp"
 #include "core/random.hpp"
 #include "technique/portable/prelude.hpp"
 #include "technique/volume/opacity_form.hpp"
+#include "tests/device/vulkan/one_dispatch.hpp"
 #include "vulkan_device_test_embedded.hpp"
 
 namespace triptych::vulkan_backend {
@@ -57,32 +56,8 @@ Results on_host(const Vector& vector) {
 }
 
 std::vector<Results> on_device(const Gpu& gpu, const std::vector<Vector>& in) {
-  using enum vk::DescriptorType;
-  constexpr auto stage = vk::ShaderStageFlagBits::eCompute;
-  const std::array<vk::DescriptorSetLayoutBinding, 2> bindings{{
-      {.binding = 0, .descriptorType = eStorageBuffer, .descriptorCount = 1, .stageFlags = stage},
-      {.binding = 1, .descriptorType = eStorageBuffer, .descriptorCount = 1, .stageFlags = stage},
-  }};
-  const Layout layout = make_layout(gpu, bindings);
-  const vk::raii::Pipeline pipeline =
-      make_compute_pipeline(gpu, layout, test_shaders::embedded("maths.comp.spv"), Constants{});
-  const vk::raii::DescriptorPool pool = make_pool(gpu, 1);
-  const vk::DescriptorSet set = allocate_sets(gpu, pool, layout, 1).front();
-  std::vector<Results> out(in.size());
-  const Buffer from =
-      make_buffer(gpu, std::as_bytes(std::span(in)), vk::BufferUsageFlagBits::eStorageBuffer);
-  const Buffer to(gpu, std::as_bytes(std::span(out)).size(),
-                  vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc,
-                  Place::device);
-  bind_buffer(gpu, set, 0, eStorageBuffer, from);
-  bind_buffer(gpu, set, 1, eStorageBuffer, to);
-  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout.pipeline, 0, set, {});
-    commands.dispatch(static_cast<std::uint32_t>(in.size() / 64), 1, 1);
-  });
-  download(gpu, to, std::as_writable_bytes(std::span(out)));
-  return out;
+  return dispatch_once<Results>(gpu, test_shaders::embedded("maths.comp.spv"), in,
+                                static_cast<std::uint32_t>(in.size() / 64));
 }
 
 // Distance in units in the last place; 0 for equal bits, for +0 and −0 and for two not-a-numbers.

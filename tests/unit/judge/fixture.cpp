@@ -29,17 +29,6 @@ std::vector<record::Device> devices() {
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "judge_test_XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 JudgeTest::JudgeTest() : store_(folder_.path() / "store.sqlite", record::Store::Mode::append) {
   request_.plan = plan;
   request_.today = "2026-03-01";

@@ -12,22 +12,13 @@
 
 #include "core/image.hpp"
 #include "core/random.hpp"
+#include "core/temporary_folder.hpp"
 #include "judge/gate.hpp"
 #include "record/store.hpp"
 
 namespace triptych::judge {
 
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using core::TemporaryFolder;
 
 class JudgeTest : public testing::Test {
  public:

@@ -3,17 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <map>
 
 namespace triptych::judge {
 namespace {
 
 std::optional<WorkChange> change(const record::Counts& now, const record::Counts& then) {
-  return work_change(now, [&](const std::string& unit) -> std::optional<double> {
-    const auto count = then.find(unit);
-    if (count == then.end()) return std::nullopt;
-    return static_cast<double>(count->second);
-  });
+  return work_change(now, then);
 }
 
 TEST(Work, IsOfTheFirstUnitThatBothHave) {

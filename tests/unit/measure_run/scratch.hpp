@@ -8,28 +8,11 @@
 #include <optional>
 #include <string>
 
-#include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 
 namespace triptych::measure {
 
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "triptych-test-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw core::IoError("cannot make " + name);
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using ScratchFolder = core::TemporaryFolder;
 
 // Sets a variable, or unsets it when there is no value, and puts back what was.
 class Variable {

@@ -1,0 +1,26 @@
+#include "core/temporary_folder.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <string>
+#include <system_error>
+
+#include "core/error.hpp"
+
+namespace triptych::core {
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "triptych-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) {
+    throw IoError(fmt::format("cannot make a folder like {}", name));
+  }
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace triptych::core

@@ -1,0 +1,63 @@
+#pragma once
+// How plans spell the data of stress suites, "stress:CASE" or "stress:CASE:VARIANT", and the level
+// of other factors that means what belongs to the data.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace triptych::measure {
+
+inline constexpr std::string_view own_level = "own";
+inline constexpr std::string_view stress_prefix = "stress:";
+
+// A case of a suite's catalogue with one of its variants.
+template <typename Case>
+struct StressChoice {
+  const Case* of = nullptr;  // into the catalogue
+  std::string_view variant;  // of its variants; empty where it has none
+};
+
+template <typename Case>
+[[nodiscard]] std::string stress_name(const StressChoice<Case>& choice) {
+  return fmt::format("{}{}{}{}", stress_prefix, choice.of->name, choice.variant.empty() ? "" : ":",
+                     choice.variant);
+}
+
+// A Case has a `name` and `variants`; the catalogue outlives the choice. nullopt for data that is
+// no stress data. Throws InputError, saying what there is, for an unknown case or variant.
+template <typename Case>
+[[nodiscard]] std::optional<StressChoice<Case>> choose_stress(std::string_view data,
+                                                              const std::vector<Case>& cases) {
+  if (!data.starts_with(stress_prefix)) return std::nullopt;
+  const std::string_view rest = data.substr(stress_prefix.size());
+  const std::size_t colon = std::min(rest.find(':'), rest.size());
+  const auto found = std::ranges::find(cases, rest.substr(0, colon), &Case::name);
+  if (found == cases.end()) {
+    std::vector<std::string_view> names;
+    for (const Case& each : cases) names.push_back(each.name);
+    throw core::InputError(fmt::format("'{}': expected {}CASE with one of {}", data, stress_prefix,
+                                       fmt::join(names, ", ")));
+  }
+  const auto& variants = found->variants;
+  if (variants.empty()) {
+    if (colon == rest.size()) return StressChoice<Case>{&*found, {}};
+    throw core::InputError(fmt::format("'{}': the case has no variants; expected {}{}", data,
+                                       stress_prefix, found->name));
+  }
+  const auto known = std::ranges::find(variants, rest.substr(std::min(colon + 1, rest.size())));
+  if (known == variants.end()) {
+    throw core::InputError(fmt::format("'{}': expected {}{}:VARIANT with one of {}", data,
+                                       stress_prefix, found->name, fmt::join(variants, ", ")));
+  }
+  return StressChoice<Case>{&*found, *known};
+}
+
+}  // namespace triptych::measure
