@@ -20,9 +20,10 @@ constexpr GLuint groups(int size) {
 ComputePass::ComputePass(const Api& gl, int width, int height, int extra_work_stride)
     : width_(width),
       height_(height),
-      extra_rows_(technique::extra_rows(height, extra_work_stride)),
-      pixels_(device_buffer(gl, 4 * sizeof(float) * static_cast<std::size_t>(width) *
-                                    static_cast<std::size_t>(height))) {}
+      drawn_columns_(technique::drawn_columns(width, extra_work_stride)),
+      pixels_(device_buffer(gl, 4 * sizeof(float) *
+                                    static_cast<std::size_t>(technique::drawn_pixels(
+                                        width, height, extra_work_stride)))) {}
 
 std::optional<std::string> ComputePass::unsupported(const Api& gl, int width, int height) {
   if (gl.VERSION_4_3 == 0 && gl.ARB_compute_shader == 0) {
@@ -54,9 +55,9 @@ void ComputePass::bind(const Api& gl) {
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_pixels, pixels_.get());
 }
 
-void ComputePass::submit(const Api& gl, Rows rows) {
-  const int height = rows == Rows::all ? height_ : extra_rows_;
-  gl.DispatchCompute(groups(width_), groups(height), 1);
+void ComputePass::submit(const Api& gl, measure::Purpose purpose) {
+  const int columns = purpose == measure::Purpose::counters ? width_ : drawn_columns_;
+  gl.DispatchCompute(groups(columns), groups(height_), 1);
 }
 
 core::Image ComputePass::read(const Api& gl) const {

@@ -17,13 +17,13 @@ class ComputePass final : public Pass {
   [[nodiscard]] std::vector<Stage> stages(const Api& gl, const Constants& constants) const override;
   [[nodiscard]] std::span<const Statistic> statistics() const override;
   void bind(const Api& gl) override;
-  void submit(const Api& gl, Rows rows) override;
+  void submit(const Api& gl, measure::Purpose purpose) override;
   [[nodiscard]] core::Image read(const Api& gl) const override;
 
  private:
   int width_;
   int height_;
-  int extra_rows_;
+  int drawn_columns_;
   Buffer pixels_;
 };
 

@@ -10,6 +10,7 @@
 #include "backends/gl/timing.hpp"
 #include "backends/gl/volume_data.hpp"
 #include "core/image.hpp"
+#include "measure/backend.hpp"
 
 namespace triptych::gl_backend {
 
@@ -27,9 +28,8 @@ class Pass {
   [[nodiscard]] virtual std::span<const Statistic> statistics() const = 0;
   // Makes its target the current one; before the clock starts.
   virtual void bind(const Api& gl) = 0;
-  // The calls that are timed. The parameters in force say which rows: all, or the extra ones, whose
-  // result does not change the picture.
-  virtual void submit(const Api& gl, Rows rows) = 0;
+  // The calls that are timed: the picture and, but for counters, the planted extra work below it.
+  virtual void submit(const Api& gl, measure::Purpose purpose) = 0;
   // The picture; the device has finished it.
   [[nodiscard]] virtual core::Image read(const Api& gl) const = 0;
 };

@@ -16,7 +16,6 @@ namespace {
 // RGBA32F pixels to draw into.
 class Target {
  public:
-  Target() = default;
   Target(const Api& gl, int width, int height)
       : pixels_(pixels(gl, GL_RGBA32F, width, height)), framebuffer_(gl) {
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
@@ -36,12 +35,9 @@ class FragmentPass final : public Pass {
   FragmentPass(const Api& gl, int width, int height, int extra_work_stride)
       : width_(width),
         height_(height),
-        extra_rows_(technique::extra_rows(height, extra_work_stride)),
+        extra_tiles_(technique::extra_tiles(width, height, extra_work_stride)),
         no_vertices_(gl),
-        target_(gl, width, height) {
-    // A target of its own: drawn over in the picture's, a driver may leave the extra work out.
-    if (extra_rows_ > 0) extra_target_ = Target(gl, width, extra_rows_);
-  }
+        target_(gl, width, height) {}
 
   [[nodiscard]] std::vector<Stage> stages(const Api& gl,
                                           const Constants& constants) const override {
@@ -63,13 +59,20 @@ class FragmentPass final : public Pass {
 
   void bind(const Api& gl) override {
     gl.BindVertexArray(no_vertices_.get());
-    choose(gl, Rows::all);
+    target_.bind(gl);
+    gl.Viewport(0, 0, width_, height_);
   }
 
-  void submit(const Api& gl, Rows rows) override {
-    if (rows == Rows::extra) choose(gl, rows);
+  // After the picture and not before it, as a driver may leave out what will be drawn over.
+  void submit(const Api& gl, measure::Purpose purpose) override {
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    if (rows == Rows::extra) choose(gl, Rows::all);
+    if (extra_tiles_.empty() || purpose == measure::Purpose::counters) return;
+    gl.Enable(GL_SCISSOR_TEST);
+    for (const technique::ExtraTile& tile : extra_tiles_) {
+      gl.Scissor(tile.x, tile.y, tile.width, tile.height);
+      gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    }
+    gl.Disable(GL_SCISSOR_TEST);
   }
 
   [[nodiscard]] core::Image read(const Api& gl) const override {
@@ -82,17 +85,11 @@ class FragmentPass final : public Pass {
   }
 
  private:
-  void choose(const Api& gl, Rows rows) const {
-    (rows == Rows::all ? target_ : extra_target_).bind(gl);
-    gl.Viewport(0, 0, width_, rows == Rows::all ? height_ : extra_rows_);
-  }
-
   int width_;
   int height_;
-  int extra_rows_;
+  std::vector<technique::ExtraTile> extra_tiles_;
   VertexArray no_vertices_;  // the core profile draws nothing without one
   Target target_;
-  Target extra_target_;
 };
 
 std::optional<std::string> unsupported(const Api& gl, const measure::VolumeWork& work) {

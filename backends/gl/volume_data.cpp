@@ -100,12 +100,9 @@ VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work)
       transfer_(transfer_texture(gl, work.scene.transfer_function)),
       bricks_(brick_buffer(gl, work)),
       pairs_(pair_buffer(gl, work.scene)) {
-  technique::RaycastParameters parameters = technique::raycast_parameters(
+  const technique::RaycastParameters parameters = technique::raycast_parameters(
       work.scene, work.options, texel_format(work.scene.grid->format).stored_maximum);
   parameters_ = constant_buffer(gl, std::as_bytes(std::span(&parameters, 1)));
-  if (work.options.extra_work_stride == 0) return;
-  parameters.viewport[2] = work.options.extra_work_stride;
-  extra_parameters_ = constant_buffer(gl, std::as_bytes(std::span(&parameters, 1)));
 }
 
 void VolumeData::bind(const Api& gl) const {
@@ -115,12 +112,7 @@ void VolumeData::bind(const Api& gl) const {
   gl.BindTexture(GL_TEXTURE_1D, transfer_.get());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_bricks, bricks_.get());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_pairs, pairs_.get());
-  choose(gl, Rows::all);
-}
-
-void VolumeData::choose(const Api& gl, Rows rows) const {
-  const Buffer& parameters = rows == Rows::all ? parameters_ : extra_parameters_;
-  gl.BindBufferBase(GL_UNIFORM_BUFFER, binding_parameters, parameters.get());
+  gl.BindBufferBase(GL_UNIFORM_BUFFER, binding_parameters, parameters_.get());
 }
 
 }  // namespace triptych::gl_backend

@@ -1,6 +1,5 @@
 #pragma once
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "backends/gl/objects.hpp"
@@ -25,9 +24,6 @@ struct TexelFormat {
 [[nodiscard]] Buffer constant_buffer(const Api& gl, std::span<const std::byte> bytes);
 [[nodiscard]] Buffer device_buffer(const Api& gl, std::size_t size);
 
-// Which rows of the picture are computed: all, or each stride-th of them as planted extra work.
-enum class Rows : std::uint8_t { all, extra };
-
 // All that the shared raycasting source reads, on the device.
 class VolumeData {
  public:
@@ -35,8 +31,6 @@ class VolumeData {
 
   // Makes the data what the shared source's bindings 0…3 and 6 stand for.
   void bind(const Api& gl) const;
-  // Switches binding 0 between the two sets of rows.
-  void choose(const Api& gl, Rows rows) const;
 
  private:
   Texture volume_;
@@ -44,7 +38,6 @@ class VolumeData {
   Buffer bricks_;
   Buffer pairs_;
   Buffer parameters_;
-  Buffer extra_parameters_;
 };
 
 }  // namespace triptych::gl_backend

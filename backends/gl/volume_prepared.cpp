@@ -50,11 +50,7 @@ class VolumeDrawing final : public Drawing {
  public:
   VolumeDrawing(const Api& gl, const measure::VolumeWork& work, const Constants& constants,
                 std::unique_ptr<Pass> pass)
-      : constants_(constants),
-        pixels_(pixel_count(work)),
-        extra_(work.options.extra_work_stride != 0),
-        pass_(std::move(pass)),
-        data_(gl, work) {
+      : constants_(constants), pixels_(pixel_count(work)), pass_(std::move(pass)), data_(gl, work) {
     const std::vector<Stage> stages = pass_->stages(gl, constants);
     program_ = link(gl, stages);
     std::vector<std::string> sources;
@@ -77,14 +73,7 @@ class VolumeDrawing final : public Drawing {
     }
   }
 
-  void submit(const Api& gl, measure::Purpose /*purpose*/) override {
-    if (extra_) {
-      data_.choose(gl, Rows::extra);
-      pass_->submit(gl, Rows::extra);
-      data_.choose(gl, Rows::all);
-    }
-    pass_->submit(gl, Rows::all);
-  }
+  void submit(const Api& gl, measure::Purpose purpose) override { pass_->submit(gl, purpose); }
 
   [[nodiscard]] record::Counts counters(const Api& gl) const override {
     return sum_counters(gl, counting_->counters, pixels_);
@@ -101,7 +90,6 @@ class VolumeDrawing final : public Drawing {
 
   Constants constants_;
   std::size_t pixels_;
-  bool extra_;
   std::unique_ptr<Pass> pass_;
   VolumeData data_;
   Program program_;

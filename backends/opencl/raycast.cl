@@ -178,13 +178,14 @@ TRI_FN void store_counts(__global uint* to, const Counts* counts, int total) {
   to[6] = (uint)total - counts->samples;
 }
 
-// Image: premultiplied RGBA, top row first. Row y of the grid is image row
-// tri_drawn_row(y): y itself for the picture, others for planted extra work.
+// Image: premultiplied RGBA, top row first. Column x of the grid is
+// image column tri_drawn_column(x): x itself for the picture, others beside it for planted extra work.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const int* brick_reach, __global float4* image,
                       __global uint* counters, __global const float4* pairs) {
   int x = (int)get_global_id(0);
-  int2 pixel = (int2)(x, tri_drawn_row(x, (int)get_global_id(1), u->viewport.z));
+  int y = (int)get_global_id(1);
+  int2 pixel = (int2)(tri_drawn_column(x, y, u->viewport.w, u->viewport.z), y);
   if (pixel.x >= u->viewport.x || pixel.y >= u->viewport.y) return;
   Ray ray = make_ray(u, pixel);
   int count = tri_sample_count(ray.steps);
@@ -216,7 +217,7 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
       i += n;
     }
   }
-  int at = pixel.y * u->viewport.x + pixel.x;
+  int at = tri_output_place(x, y, u->viewport.x, u->viewport.y, u->viewport.w, (int)get_global_size(0));
 #if TRI_SPEED_OF_LIGHT
   gathered.transmittance += gathered.sum.w;
 #endif

@@ -47,7 +47,7 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
   const VolumeCache::Entry& volume =
       volumes.get(session, *work.scene.grid, constants.sampler,
                   technique::brick_layout(work.scene, work.options.skip));
-  technique::RaycastParameters parameters = technique::raycast_parameters(
+  const technique::RaycastParameters parameters = technique::raycast_parameters(
       work.scene, work.options, stored_maximum(constants.voxel, constants.sampler));
   checked([&] {
     volume_ = volume.volume;
@@ -60,31 +60,25 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
     }
     pairs_ = upload_bytes(session, std::as_bytes(std::span(pairs)));
     bricks_ = upload_bytes(session, std::as_bytes(std::span(reach)));
-    image_ = cl::Buffer(session.context, CL_MEM_WRITE_ONLY,
-                        core::Image(width_, height_).rgba.size() * sizeof(float));
+    const int stride = work.options.extra_work_stride;
+    image_ =
+        cl::Buffer(session.context, CL_MEM_WRITE_ONLY,
+                   4 * sizeof(float) *
+                       static_cast<std::size_t>(technique::drawn_pixels(width_, height_, stride)));
     counters_ =
         cl::Buffer(session.context, CL_MEM_WRITE_ONLY, counts_.size() * sizeof(std::uint32_t));
-    const auto upload_parameters = [&] {
-      return upload_bytes(session, std::as_bytes(std::span(&parameters, 1)));
-    };
-    parameters_.push_back(upload_parameters());
-    timed_.push_back(launch(timed, parameters_.back(), height_));
-    counting_.push_back(launch(counting, parameters_.back(), height_));
-    if (const int stride = work.options.extra_work_stride; stride > 0) {
-      parameters.viewport[2] = stride;
-      parameters_.push_back(upload_parameters());
-      timed_.push_back(launch(timed, parameters_.back(), technique::extra_rows(height_, stride)));
-    }
+    parameters_ = upload_bytes(session, std::as_bytes(std::span(&parameters, 1)));
+    timed_.push_back(launch(timed, technique::drawn_columns(width_, stride)));
+    counting_.push_back(launch(counting, width_));
   });
 }
 
-Launch VolumeFrames::launch(const cl::Program& program, const cl::Buffer& parameters,
-                            int rows) const {
-  const auto width = static_cast<std::size_t>(width_);
-  const auto height = static_cast<std::size_t>(rows);
+Launch VolumeFrames::launch(const cl::Program& program, int columns) const {
+  const auto width = static_cast<std::size_t>(columns);
+  const auto height = static_cast<std::size_t>(height_);
   const cl::NDRange global(round_up(width, group_width), round_up(height, group_height));
   Launch made = make_launch(program, "raycast", global, cl::NDRange(group_width, group_height),
-                            parameters, volume_, table_, bricks_, image_, counters_, pairs_);
+                            parameters_, volume_, table_, bricks_, image_, counters_, pairs_);
   const auto most = made.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(session_.device);
   if (most < group_width * group_height) made.local = cl::NullRange;
   return made;

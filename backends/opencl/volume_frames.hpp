@@ -27,23 +27,22 @@ class VolumeFrames final : public measure::Prepared {
   [[nodiscard]] std::string kernel_hash() const override { return hash_; }
 
  private:
-  [[nodiscard]] Launch launch(const cl::Program& program, const cl::Buffer& parameters,
-                              int rows) const;
+  [[nodiscard]] Launch launch(const cl::Program& program, int columns) const;
   [[nodiscard]] record::Counts read_counters();
 
   Session session_;
   int width_;
   int height_;
   std::string hash_;
-  std::vector<cl::Buffer> parameters_;
+  cl::Buffer parameters_;
   cl::Memory volume_;
   cl::Buffer table_;
   cl::Buffer bricks_;
   cl::Buffer pairs_;
   cl::Buffer image_;
   cl::Buffer counters_;
-  std::vector<Launch> timed_;      // the frame, then the planted extra work if there is any
-  std::vector<Launch> counting_;   // the frame alone
+  std::vector<Launch> timed_;      // one, with the planted extra work if there is any
+  std::vector<Launch> counting_;   // one, of the picture alone
   std::vector<cl::Event> events_;  // of the last frame, one per launch
   std::vector<std::uint32_t> counts_;
 };

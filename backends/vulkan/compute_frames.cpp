@@ -16,9 +16,10 @@ std::uint32_t tiles(int pixels) {
   return (static_cast<std::uint32_t>(pixels) + 7) / 8;
 }
 
-vk::DeviceSize output_bytes(const scene::VolumeScene& scene) {
-  return 4 * sizeof(float) * static_cast<vk::DeviceSize>(scene.width) *
-         static_cast<vk::DeviceSize>(scene.height);
+vk::DeviceSize output_bytes(const measure::VolumeWork& work) {
+  return 4 * sizeof(float) *
+         static_cast<vk::DeviceSize>(technique::drawn_pixels(work.scene.width, work.scene.height,
+                                                             work.options.extra_work_stride));
 }
 
 }  // namespace
@@ -30,8 +31,8 @@ ComputeFrames::ComputeFrames(const Gpu& gpu, const Instance& instance,
       constants_(constants),
       width_(work.scene.width),
       height_(work.scene.height),
-      extra_work_stride_(work.options.extra_work_stride),
-      output_(gpu, output_bytes(work.scene),
+      drawn_columns_(technique::drawn_columns(width_, work.options.extra_work_stride)),
+      output_(gpu, output_bytes(work),
               vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc,
               Place::device),
       resources_(gpu, work, &output_),
@@ -44,16 +45,14 @@ ComputeFrames::ComputeFrames(const Gpu& gpu, const Instance& instance,
 
 void ComputeFrames::record_timed(const vk::raii::CommandBuffer& commands) const {
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
-  dispatch(commands, Pass::whole, height_);
-  if (extra_work_stride_ == 0) return;
-  barrier(commands);
-  dispatch(commands, Pass::strided, technique::extra_rows(height_, extra_work_stride_));
+  dispatch(commands, Pass::timed, drawn_columns_);
 }
 
-void ComputeFrames::dispatch(const vk::raii::CommandBuffer& commands, Pass pass, int rows) const {
+void ComputeFrames::dispatch(const vk::raii::CommandBuffer& commands, Pass pass,
+                             int columns) const {
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *resources_.layout().pipeline, 0,
                               resources_.set(pass), {});
-  commands.dispatch(tiles(width_), tiles(rows), 1);
+  commands.dispatch(tiles(columns), tiles(height_), 1);
 }
 
 void ComputeFrames::prepare_counters() {
@@ -62,7 +61,7 @@ void ComputeFrames::prepare_counters() {
       make_compute_pipeline(gpu_, resources_.layout(), spirv(counting_shader), constants_);
   frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *counting_pipeline_);
-    dispatch(commands, Pass::counting, height_);
+    dispatch(commands, Pass::counting, width_);
   });
 }
 

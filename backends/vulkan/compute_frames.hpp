@@ -19,7 +19,7 @@ class ComputeFrames final : public measure::Prepared {
 
  private:
   void record_timed(const vk::raii::CommandBuffer& commands) const;
-  void dispatch(const vk::raii::CommandBuffer& commands, Pass pass, int rows) const;
+  void dispatch(const vk::raii::CommandBuffer& commands, Pass pass, int columns) const;
   void prepare_counters();
 
   const Gpu& gpu_;
@@ -27,7 +27,7 @@ class ComputeFrames final : public measure::Prepared {
   Constants constants_;
   int width_;
   int height_;
-  int extra_work_stride_;
+  int drawn_columns_;
   Buffer output_;
   VolumeResources resources_;
   vk::raii::Pipeline pipeline_;

@@ -8,6 +8,7 @@
 #include "backends/vulkan/frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 #include "backends/vulkan/volume_resources.hpp"
+#include "technique/volume/extra_work.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -85,7 +86,7 @@ class FragmentFrames final : public measure::Prepared {
   const Gpu& gpu_;
   const Instance& instance_;
   Constants constants_;
-  int extra_work_stride_;
+  std::vector<technique::ExtraTile> extra_tiles_;
   Image target_;
   VolumeResources resources_;
   vk::raii::RenderPass render_pass_;
@@ -100,7 +101,8 @@ FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
     : gpu_(gpu),
       instance_(instance),
       constants_(constants_of(work)),
-      extra_work_stride_(work.options.extra_work_stride),
+      extra_tiles_(technique::extra_tiles(work.scene.width, work.scene.height,
+                                          work.options.extra_work_stride)),
       target_(gpu, vk::ImageType::e2D, target_format,
               {static_cast<std::uint32_t>(work.scene.width),
                static_cast<std::uint32_t>(work.scene.height), 1},
@@ -112,7 +114,7 @@ FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
                               timed_shader, constants_)),
       counting_pipeline_(nullptr),
       frames_(gpu, draw_statistics(), [this](const vk::raii::CommandBuffer& commands) {
-        draw(commands, pipeline_, Pass::whole);
+        draw(commands, pipeline_, Pass::timed);
       }) {
   instance_.check_validation();
 }
@@ -129,22 +131,15 @@ void FragmentFrames::draw(const vk::raii::CommandBuffer& commands,
                               resources_.set(pass), {});
   commands.setScissor(0, everything);
   commands.draw(3, 1, 0, 0);
-  if (pass == Pass::whole && extra_work_stride_ > 0) draw_again(commands);
+  if (pass == Pass::timed) draw_again(commands);
   commands.endRenderPass();
 }
 
-// Draws 1/stride of the rows once more, in bands spread over the picture. Bands are four rows high
-// because rasterizers shade blocks: a single row would cost as much as the block it lies in.
 void FragmentFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
-  constexpr std::uint32_t band = 4;
-  const vk::Extent3D extent = target_.extent();
-  const std::uint32_t interval = band * static_cast<std::uint32_t>(extra_work_stride_);
-  for (std::uint32_t begin = 0; begin < extent.height; begin += interval) {
-    const std::uint32_t middle = (begin + interval / 2) / band * band;
-    const std::uint32_t top = std::min(middle, (extent.height - 1) / band * band);
-    commands.setScissor(0,
-                        vk::Rect2D{.offset = {.y = static_cast<std::int32_t>(top)},
-                                   .extent = {extent.width, std::min(band, extent.height - top)}});
+  for (const technique::ExtraTile& tile : extra_tiles_) {
+    commands.setScissor(0, vk::Rect2D{.offset = {tile.x, tile.y},
+                                      .extent = {static_cast<std::uint32_t>(tile.width),
+                                                 static_cast<std::uint32_t>(tile.height)}});
     commands.draw(3, 1, 0, 0);
   }
 }

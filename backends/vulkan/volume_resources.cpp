@@ -12,7 +12,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-constexpr std::uint32_t passes = 3;
+constexpr std::uint32_t passes = 2;
 constexpr std::uint32_t storage_buffers = 4;  // bricks, output, counters, pairs
 
 // What an integer texel of this format is divided by on its way to the shader.
@@ -28,10 +28,9 @@ double stored_maximum(scene::VoxelFormat format) {
   return 1;
 }
 
-Buffer upload_parameters(const Gpu& gpu, const measure::VolumeWork& work, int row_stride) {
-  technique::RaycastParameters parameters = technique::raycast_parameters(
+Buffer upload_parameters(const Gpu& gpu, const measure::VolumeWork& work) {
+  const technique::RaycastParameters parameters = technique::raycast_parameters(
       work.scene, work.options, stored_maximum(work.scene.grid->format));
-  parameters.viewport[2] = row_stride;
   return make_buffer(gpu, std::as_bytes(std::span(&parameters, 1)),
                      vk::BufferUsageFlagBits::eUniformBuffer);
 }
@@ -110,23 +109,21 @@ VolumeResources::VolumeResources(const Gpu& gpu, const measure::VolumeWork& work
       table_(upload_table(gpu, work.scene.transfer_function)),
       bricks_(upload_bricks(gpu, work)),
       pairs_(upload_pairs(gpu, work.scene)),
-      parameters_(upload_parameters(gpu, work, 1)),
-      strided_parameters_(upload_parameters(gpu, work, work.options.extra_work_stride)),
+      parameters_(upload_parameters(gpu, work)),
       linear_(make_sampler(gpu, vk::Filter::eLinear)),
       nearest_(make_sampler(gpu, vk::Filter::eNearest)),
       hardware_filter_(work.options.sampler == technique::Sampler::hardware),
       layout_(make_layout(gpu, volume_bindings())),
       pool_(make_pool(gpu, passes, storage_buffers)),
       sets_(allocate_sets(gpu, pool_, layout_, passes)) {
-  write_set(Pass::whole, parameters_);
-  write_set(Pass::strided, strided_parameters_);
-  write_set(Pass::counting, parameters_);
+  write_set(Pass::timed);
+  write_set(Pass::counting);
 }
 
-void VolumeResources::write_set(Pass pass, const Buffer& parameters) const {
+void VolumeResources::write_set(Pass pass) const {
   using enum vk::DescriptorType;
   const vk::DescriptorSet to = set(pass);
-  bind_buffer(gpu_, to, parameters_binding, eUniformBuffer, parameters);
+  bind_buffer(gpu_, to, parameters_binding, eUniformBuffer, parameters_);
   bind_texture(gpu_, to, volume_binding, volume_, hardware_filter_ ? linear_ : nearest_);
   bind_texture(gpu_, to, transfer_binding, table_, nearest_);
   bind_buffer(gpu_, to, bricks_binding, eStorageBuffer, bricks_);

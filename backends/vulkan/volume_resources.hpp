@@ -27,9 +27,8 @@ enum Binding : std::uint32_t {
 
 // A pass over the picture.
 enum class Pass : std::uint8_t {
-  whole,
-  strided,  // a share of 1/n of the rows, n from the options' extra_work_stride
-  counting  // all rows, with the counters bound
+  timed,    // with the planted extra work, if there is any
+  counting  // the picture alone, with the counters bound
 };
 
 class VolumeResources {
@@ -46,7 +45,7 @@ class VolumeResources {
   [[nodiscard]] record::Counts read_counters() const;
 
  private:
-  void write_set(Pass pass, const Buffer& parameters) const;
+  void write_set(Pass pass) const;
 
   const Gpu& gpu_;
   std::size_t pixels_;
@@ -56,7 +55,6 @@ class VolumeResources {
   Buffer bricks_;
   Buffer pairs_;
   Buffer parameters_;
-  Buffer strided_parameters_;
   vk::raii::Sampler linear_;
   vk::raii::Sampler nearest_;
   bool hardware_filter_;

@@ -1,5 +1,5 @@
-// One ray per invocation. Row y of the grid is image row tri_drawn_row(y): y itself for the picture,
-// others for planted extra work. A group takes 8×8 pixels in Z order, so that any 4, 8, 16 or 32 consecutive invocations,
+// One ray per invocation. Column x of the grid is image column tri_drawn_column(x): x itself for the
+// picture, others beside it for planted extra work. A group takes 8×8 pixels in Z order, so that any 4, 8, 16 or 32 consecutive invocations,
 // whichever a device runs in step, are a compact block: neighbouring rays walk alike.
 layout(local_size_x = 64) in;
 layout(std430) TRI_BINDING(4) writeonly buffer Pixels { vec4 pixels[]; };  // top row first
@@ -9,8 +9,9 @@ ivec2 pixel_of_group(int i) {
 }
 
 void main() {
-  ivec2 pixel = 8 * ivec2(gl_WorkGroupID.xy) + pixel_of_group(int(gl_LocalInvocationIndex));
-  pixel.y = tri_drawn_row(pixel.x, pixel.y, u.viewport.z);
+  ivec2 at = 8 * ivec2(gl_WorkGroupID.xy) + pixel_of_group(int(gl_LocalInvocationIndex));
+  ivec2 pixel = ivec2(tri_drawn_column(at.x, at.y, u.viewport.w, u.viewport.z), at.y);
   if (pixel.x >= u.viewport.x || pixel.y >= u.viewport.y) return;
-  pixels[pixel.y * u.viewport.x + pixel.x] = raycast(pixel);
+  int columns = 8 * int(gl_NumWorkGroups.x);
+  pixels[tri_output_place(at.x, at.y, u.viewport.x, u.viewport.y, u.viewport.w, columns)] = raycast(pixel);
 }

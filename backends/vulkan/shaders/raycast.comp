@@ -20,7 +20,9 @@ ivec2 pixel_in_tile(int i) {
 layout(std430) TRI_BINDING(4) writeonly buffer Output { vec4 image[]; };  // top row first
 
 void main() {
-  ivec2 pixel = 8 * ivec2(gl_WorkGroupID.xy) + pixel_in_tile(int(gl_LocalInvocationIndex));
-  pixel.y = tri_drawn_row(pixel.x, pixel.y, u.viewport.z);
-  if (pixel.x < u.viewport.x && pixel.y < u.viewport.y) image[pixel.y * u.viewport.x + pixel.x] = raycast(pixel);
+  ivec2 at = 8 * ivec2(gl_WorkGroupID.xy) + pixel_in_tile(int(gl_LocalInvocationIndex));
+  ivec2 pixel = ivec2(tri_drawn_column(at.x, at.y, u.viewport.w, u.viewport.z), at.y);
+  if (pixel.x >= u.viewport.x || pixel.y >= u.viewport.y) return;
+  int columns = 8 * int(gl_NumWorkGroups.x);
+  image[tri_output_place(at.x, at.y, u.viewport.x, u.viewport.y, u.viewport.w, columns)] = raycast(pixel);
 }

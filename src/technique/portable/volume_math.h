@@ -13,13 +13,23 @@ TRI_FN TRI_FLOAT2 tri_slab(float o, float d, float extent) {
   return (a < b) ? TRI_MAKE_FLOAT2(a, b) : TRI_MAKE_FLOAT2(b, a);
 }
 
-// The image row that row y of a grid draws: y itself at stride 1; of a planted slowdown's grid a share
-// of 1/stride of the image, spread over it in tiles of 16×8, since rays that lie apart walk apart and
-// cost more than their share. Columns of tiles are staggered by the golden ratio. May lie beyond the
-// image: nothing is drawn there.
-TRI_FN int tri_drawn_row(int x, int y, int stride) {
-  int stagger = ((x / 16 * 40503) & 65535) * stride / 65536;
-  return (y / 8 * stride + stagger) * 8 + y % 8;
+// The image column that column x of a grid draws: x itself before column `again`; from there on, for a
+// planted slowdown, a share of 1/stride of the row of tiles once more. In tiles of 16×8, since rays that
+// lie apart walk apart and cost more than their share; in the row that is drawn anyway, since a device
+// that deals out rows in advance has to give each processor its share; rows are staggered by the golden
+// ratio. May lie beyond the image: nothing is drawn there.
+TRI_FN int tri_drawn_column(int x, int y, int again, int stride) {
+  if (x < again) return x;
+  int extra = x - again;
+  int stagger = ((y / 8 * 40503) & 65535) * stride / 65536;
+  return (extra / 16 * stride + stagger) * 16 + extra % 16;
+}
+
+// Where the result of (x, y) goes in a grid of `columns`: the image in rows of `width`, and what is drawn
+// again behind it, as no pixel may be written twice.
+TRI_FN int tri_output_place(int x, int y, int width, int height, int again, int columns) {
+  if (x < again) return y * width + x;
+  return width * height + y * (columns - again) + (x - again);
 }
 
 // Number of samples of a ray whose length is `steps` steps, the last one partial: ⌈steps⌉, 0 for an

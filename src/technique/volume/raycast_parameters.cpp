@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "technique/volume/bricks.hpp"
+#include "technique/volume/extra_work.hpp"
 
 namespace triptych::technique {
 namespace {
@@ -95,7 +96,7 @@ RaycastParameters raycast_parameters(const scene::VolumeScene& scene, const Rayc
       .volume_size = {grid.size[0], grid.size[1], grid.size[2],
                       std::countr_zero(static_cast<unsigned>(light.exponent))},
       .brick_grid = {bricks[0], bricks[1], bricks[2], options.skip == Skip::none ? 0 : layout.edge},
-      .viewport = {scene.width, scene.height, 1, 0},
+      .viewport = {scene.width, scene.height, options.extra_work_stride, again_from(scene.width)},
   };
 }
 

@@ -62,8 +62,9 @@ struct RaycastParameters {
   std::array<float, 4> background;          // premultiplied RGBA
   std::array<std::int32_t, 4> volume_size;  // voxels; w: log2 of the specular exponent
   std::array<std::int32_t, 4>
-      brick_grid;                        // bricks per axis; w: brick edge in voxels, 0: no skipping
-  std::array<std::int32_t, 4> viewport;  // width, height, row stride, 0
+      brick_grid;  // bricks per axis; w: brick edge in voxels, 0: no skipping
+  // width, height; stride and again of tri_drawn_column
+  std::array<std::int32_t, 4> viewport;
 };
 static_assert(sizeof(RaycastParameters) == std::size_t{11} * 16);
 static_assert(offsetof(RaycastParameters, volume_size) == std::size_t{8} * 16);
