@@ -135,7 +135,7 @@ void add_measuring_options(CLI::App& command, EvaluateArguments& arguments) {
   };
   number("--configurations", material.configurations, "compare: how many of each plan", 1);
   number("--launches", material.launches, "compare: launches of both workers", 1);
-  number("--blocks", material.blocks, "compare: blocks of turns in a launch", 12);
+  number("--blocks", material.blocks, "compare: blocks of turns in a launch, at most", 12);
   number("--rounds", material.rounds, "Unplanted runs of each plan", 1);
   number("--planted-rounds", material.planted_rounds, "Runs of each plan and size", 0);
 }

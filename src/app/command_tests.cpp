@@ -79,6 +79,11 @@ std::vector<std::string_view> checks_of(const PlanTests& plan, bool pictures) {
   return result;
 }
 
+// What one launch cannot decide: its suspects are measured again.
+bool is_of_times(std::string_view check) {
+  return check == "correlation" || check == "timing";
+}
+
 bool has_pictures(const std::string& suite) {
   return std::ranges::any_of(technique::catalogue(), [&](const technique::Technique& each) {
     return each.suite == suite && each.picture;
@@ -114,7 +119,7 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
            // A score says how a device agrees with the others.
            .requires_fixtures = check == "stress" ? measured : std::vector<std::string>{fixture},
            .sets_up = {},
-           .lock = check == "correlation" ? device.id : std::string()});
+           .lock = is_of_times(check) ? device.id : std::string()});
     }
   }
   if (std::ranges::find(own_checks, "image") == own_checks.end()) return;
@@ -236,7 +241,7 @@ void confirm_suspects(const CheckArguments& arguments, const Registry& registry,
   for (judge::Finding& finding : result.findings) {
     if (finding.verdict != judge::Verdict::regression) continue;
     const bool confirmed = std::ranges::any_of(again.findings, [&](const judge::Finding& other) {
-      return other.verdict == judge::Verdict::regression &&
+      return other.check == finding.check && other.verdict == judge::Verdict::regression &&
              other.configuration == finding.configuration;
     });
     if (confirmed) continue;
@@ -251,7 +256,7 @@ core::ExitCode check(const CheckArguments& arguments) {
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
   auto [run, result] = judge_store(arguments, store, truths);
-  if (arguments.check == "correlation" && !arguments.device.empty() &&
+  if (is_of_times(arguments.check) && !arguments.device.empty() &&
       result.exit_code() == core::ExitCode::regression) {
     confirm_suspects(arguments, registry, result);
   }

@@ -40,6 +40,8 @@ constexpr measure::Protocol looking_protocol{.warm_up_frames = 2,
                                              .statistics = true,
                                              .counters = true};
 
+constexpr std::size_t least_launches = 2;  // fewer have no scatter
+
 // A configuration with what it takes to go on measuring it.
 struct Entry {
   Compared& compared;
@@ -297,6 +299,7 @@ class Comparer {
     const int total = options_.launches * static_cast<int>(suspected.size());
     int done = 0;
     for (int launch = 1; launch <= options_.launches; ++launch) {
+      if (launch > static_cast<int>(least_launches) && over_budget()) break;
       held_ = nullptr;
       try {
         turns_.relaunch();
@@ -330,7 +333,7 @@ class Comparer {
     for (Entry* entry : suspected) {
       Compared& compared = entry->compared;
       if (compared.ended) continue;
-      if (entry->launches.size() < 2) {
+      if (entry->launches.size() < least_launches) {
         compared.reason = fmt::format("{} at first, but fresh launches could not be measured",
                                       judge::name_of(compared.verdict));
         compared.verdict = PairVerdict::undecided;
@@ -388,39 +391,7 @@ class Comparer {
   const Entry* held_ = nullptr;  // by both workers
 };
 
-bool has(const Compared& compared, judge::DifferenceKind kind) {
-  return std::ranges::any_of(compared.differences,
-                             [kind](const auto& each) { return each.kind == kind; });
-}
-
 }  // namespace
-
-bool Compared::is_regression() const {
-  return (!ended && verdict == PairVerdict::slower) ||
-         has(*this, judge::DifferenceKind::regression);
-}
-
-bool Compared::is_doubtful() const {
-  if (has(*this, judge::DifferenceKind::unjudged)) return true;
-  return ended ? *ended != record::Outcome::skipped : verdict == PairVerdict::undecided;
-}
-
-std::string_view Compared::verdict_name() const {
-  if (ended) return *ended == record::Outcome::skipped ? "skipped" : "cannot tell";
-  return judge::name_of(verdict);
-}
-
-core::ExitCode ComparisonResult::exit_code() const {
-  const auto any = [this](auto member) {
-    return std::ranges::any_of(configurations,
-                               [&](const Compared& each) { return (each.*member)(); });
-  };
-  if (any(&Compared::is_regression)) return core::ExitCode::regression;
-  const bool measured =
-      std::ranges::any_of(configurations, [](const Compared& each) { return each.blocks > 0; });
-  return measured && !any(&Compared::is_doubtful) ? core::ExitCode::pass
-                                                  : core::ExitCode::cannot_judge;
-}
 
 ComparisonResult compare(const ComparisonOptions& options, const measure::Suite& suite,
                          Truths& truths,

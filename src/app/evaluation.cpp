@@ -11,7 +11,7 @@
 
 #include "app/paths.hpp"
 #include "core/json.hpp"
-#include "judge/correlation_pairs.hpp"
+#include "judge/anchor.hpp"
 #include "measure/runner.hpp"
 #include "measure/turns.hpp"
 #include "technique/catalogue.hpp"
@@ -95,6 +95,22 @@ class BlockMeasuring {
     return clocks_.emplace(key, clock).first->second;
   }
 
+  // As many as a comparison's first launch would take, and no fewer than a fresh one.
+  std::vector<measure::Block> until_told(TurnClock clock) {
+    const judge::ReplayDesign design;
+    std::vector<measure::Block> blocks;
+    const auto told = [&] {
+      return judge::look_at(measure::differences(blocks, clock), design.looks).verdict !=
+             judge::PairVerdict::undecided;
+    };
+    for (const int look : design.looks.looks) {
+      if (look > material_.blocks && !blocks.empty()) break;
+      while (static_cast<int>(blocks.size()) < look) blocks.push_back(turns_.block());
+      if (blocks.size() >= design.blocks_per_launch && told()) break;
+    }
+    return blocks;
+  }
+
   void one(int number, const measure::Configuration& configuration, const std::string& key,
            std::ostream& out) {
     const TurnClock clock = clock_of(configuration, key);
@@ -105,8 +121,7 @@ class BlockMeasuring {
       std::vector<std::string> planted;
       if (percent > 0) planted.push_back(fault_of(percent));
       turns_.hold(configuration, {std::vector<std::string>{}, planted}, clock);
-      std::vector<measure::Block> blocks;
-      for (int i = 0; i < material_.blocks; ++i) blocks.push_back(turns_.block());
+      const std::vector<measure::Block> blocks = until_told(clock);
       const bool by_device = clock == TurnClock::device && measure::device_clock_holds(blocks);
       const TurnClock used = by_device ? TurnClock::device : TurnClock::wall;
       core::Json line{{"plan", plan_.name},

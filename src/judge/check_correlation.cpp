@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "judge/anchor.hpp"
 #include "judge/correlation_pairs.hpp"
 #include "judge/run_view.hpp"
 #include "judge/timing_model.hpp"
@@ -77,10 +78,13 @@ class PairReport {
 
   [[nodiscard]] std::string fit_text() const {
     return fmt::format(
-        "{} configurations, {} anchors, r = {:.3f}, ln t_B = {:.3f} + {:.3f} ln t_A, residuals "
+        "{} configurations, {} anchors, r = {:.3f}, ln t_B = {:.3f} + {:.3f} ln t_A{}, residuals "
         "{:.1f} %; one configuration shows from {:+.0f} % on",
         result_.configurations, result_.anchors, result_.r, result_.line.intercept,
-        result_.line.slope, percent(result_.scale), percent(result_.smallest_effect));
+        result_.line.slope,
+        result_.line_of_acceptance ? " (when this device was accepted; today there is no line)"
+                                   : "",
+        percent(result_.scale), percent(result_.smallest_effect));
   }
 
   // What would help depends on what is missing.

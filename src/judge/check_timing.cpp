@@ -6,6 +6,7 @@
 #include <set>
 
 #include "judge/anchor.hpp"
+#include "judge/anchor_run.hpp"
 #include "judge/drift.hpp"
 #include "judge/run_view.hpp"
 #include "judge/statistics.hpp"
@@ -71,8 +72,9 @@ class TimingCheck {
 
   std::vector<Finding> run() {
     for (const record::Record* record : view_.measured) sort_out(*record);
+    call_witnesses();
     const std::vector<TimingJudgement> judgements = judge_timings(cases_);
-    for (std::size_t i = 0; i < judgements.size(); ++i) report(i, judgements[i]);
+    for (std::size_t i = 0; i < judged_.size(); ++i) report(i, judgements[i]);
     report_shifts(judgements);
     report_drift();
     return std::move(findings_);
@@ -155,6 +157,58 @@ class TimingCheck {
     judged_.push_back({&record, other_code});
   }
 
+  // The anchors' own plan, where it was measured beside this run and the stored ones.
+  void call_witnesses() {
+    if (judged_.empty() || view_.request.plan == anchors_plan) return;
+    std::set<std::string> anchor_runs;
+    for (const record::Run& run : view_.store.runs()) {
+      if (run.plan == anchors_plan) anchor_runs.insert(run.id);
+    }
+    const auto run = anchors_beside(judged_.front().record->run, anchor_runs);
+    if (!run) return;
+    const Baselines stored = view_.baselines.of_plan(anchors_plan);
+    const auto runs = stored_runs();
+    for (const record::Record& anchor : anchors_of(view_, *run)) {
+      const auto of_device = runs.find(anchor.device);
+      if (of_device != runs.end()) call_witness(anchor, stored, of_device->second);
+    }
+  }
+
+  void call_witness(const record::Record& anchor, const Baselines& baselines,
+                    const std::set<std::string>& runs) {
+    const auto stored = baselines.timings(view_.device(anchor), anchor.configuration);
+    const std::string_view clock = common_clock(anchor, stored);
+    if (anchor.time_ns_by(clock).empty()) return;
+    std::map<std::string, double> times;
+    std::set<std::string> anchor_runs;
+    for (const StoredTiming& timing : stored) {
+      const auto time = timing.median_by(clock);
+      if (!time) continue;
+      times[timing.run] = *time;
+      anchor_runs.insert(timing.run);
+    }
+    TimingCase timing{.device = anchor.device,
+                      .anchor = true,
+                      .witness = true,
+                      .median_ns = median(anchor.time_ns_by(clock)),
+                      .stored_ns = {},
+                      .tolerance = 0};
+    for (const std::string& run : runs) {
+      const auto beside = anchors_beside(run, anchor_runs);
+      if (beside) timing.stored_ns[run] = times.at(*beside);
+    }
+    if (timing.stored_ns.size() >= TimingModel::least_runs) cases_.push_back(std::move(timing));
+  }
+
+  // Of each device, those its configurations are judged by.
+  [[nodiscard]] std::map<std::string, std::set<std::string>> stored_runs() const {
+    std::map<std::string, std::set<std::string>> runs;
+    for (std::size_t i = 0; i < judged_.size(); ++i) {
+      for (const auto& [run, ns] : cases_[i].stored_ns) runs[cases_[i].device].insert(run);
+    }
+    return runs;
+  }
+
   void report(std::size_t index, const TimingJudgement& judgement) {
     const TimingCase& timing = cases_[index];
     const bool noisy =
@@ -226,15 +280,12 @@ class TimingCheck {
   // Every accepted run may have been within the tolerance of those before it.
   void report_drift() {
     std::vector<DriftSeries> series;
-    std::map<std::string, std::set<std::string>>
-        runs;  // of a device; by id, which begins with the time
-    for (const TimingCase& timing : cases_) {
-      for (const auto& [run, ns] : timing.stored_ns) runs[timing.device].insert(run);
-    }
-    for (const TimingCase& timing : cases_) {
+    const auto runs = stored_runs();  // in the order of time
+    for (std::size_t i = 0; i < judged_.size(); ++i) {
+      const TimingCase& timing = cases_[i];
       DriftSeries& each =
           series.emplace_back(DriftSeries{.device = timing.device, .log_times = {}});
-      for (const std::string& run : runs[timing.device]) {
+      for (const std::string& run : runs.at(timing.device)) {
         const auto stored = timing.stored_ns.find(run);
         each.log_times.push_back(stored == timing.stored_ns.end()
                                      ? std::numeric_limits<double>::quiet_NaN()
@@ -271,7 +322,7 @@ class TimingCheck {
   const RunView& view_;
   const WrongImages& wrong_;
   Resolutions resolutions_;
-  std::vector<TimingCase> cases_;
+  std::vector<TimingCase> cases_;  // those of judged_, then the witnesses
   std::vector<Judged> judged_;
   std::vector<Finding> findings_;
 };

@@ -88,6 +88,7 @@ Json to_json(const CorrelationPair& pair) {
           {"slope_error", number(result.slope_error)},
           {"scale", number(result.scale)},
           {"anchor_intercept", number(result.anchor_intercept)},
+          {"line_of_acceptance", result.line_of_acceptance},
           {"smallest_effect", number(result.smallest_effect)},
           {"configurations", std::move(configurations)},
           {"levels", std::move(levels)},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "judge/correlation_levels.hpp"
 #include "judge/statistics.hpp"
@@ -55,23 +56,50 @@ void refuse_counts(Correlation& result) {
   too_few(result.anchors, Model::least_anchors, "anchors");
 }
 
-// Written so that a number that is none is refused.
-void refuse_fit(Correlation& result) {
-  if (!(result.rho >= Model::least_rho)) {
-    result.refusals.push_back(fmt::format("the correlation of ln t is {:.3f}, {} is needed",
-                                          result.rho, Model::least_rho));
+// Why a line cannot judge. Written so that a number that is none is refused.
+std::vector<std::string> refusals_of(const RobustLine& fit, double rho) {
+  std::vector<std::string> refusals;
+  if (!(rho >= Model::least_rho)) {
+    refusals.push_back(
+        fmt::format("the correlation of ln t is {:.3f}, {} is needed", rho, Model::least_rho));
   }
-  if (!(result.line.slope >= Model::least_slope && result.line.slope <= Model::largest_slope)) {
-    result.refusals.push_back(fmt::format("the slope is {:.3f}, outside {} to {}",
-                                          result.line.slope, Model::least_slope,
-                                          Model::largest_slope));
+  const double slope = fit.line.slope;
+  if (!(slope >= Model::least_slope && slope <= Model::largest_slope)) {
+    refusals.push_back(fmt::format("the slope is {:.3f}, outside {} to {}", slope,
+                                   Model::least_slope, Model::largest_slope));
   }
-  if (!(result.scale <= Model::largest_scale)) {
-    result.refusals.push_back(
+  if (!(fit.scale <= Model::largest_scale)) {
+    refusals.push_back(
         fmt::format("the residuals scatter by {:.3f} in ln t, at most {:.2f} "
                     "is allowed",
-                    result.scale, Model::largest_scale));
+                    fit.scale, Model::largest_scale));
   }
+  return refusals;
+}
+
+// The line that B's times had when it was accepted, with today's residuals from it; nullopt where a
+// case was not accepted or that line cannot judge either.
+std::optional<RobustLine> line_of_acceptance(std::span<const CorrelationCase> cases) {
+  Times known;
+  Times now;
+  std::vector<double> shifts;
+  for (const CorrelationCase& each : cases) {
+    if (!each.known_log_time_b) return std::nullopt;
+    if (each.anchor) {
+      shifts.push_back(each.log_time_b - *each.known_log_time_b);
+      continue;
+    }
+    known.a.push_back(each.log_time_a);
+    known.b.push_back(*each.known_log_time_b);
+    now.b.push_back(each.log_time_b);
+  }
+  RobustLine fit = robust_line(known.a, known.b);
+  if (!refusals_of(fit, pearson_r(known.a, known.b)).empty()) return std::nullopt;
+  fit.line.intercept += median(shifts);
+  for (std::size_t i = 0; i < now.b.size(); ++i) {
+    fit.residuals[i] = now.b[i] - fit.line.at(known.a[i]);
+  }
+  return fit;
 }
 
 double square(double value) {
@@ -209,15 +237,25 @@ Correlation correlate(std::span<const CorrelationCase> cases) {
     if (result.admitted()) result.refusals.emplace_back("all times of one device are alike");
     return result;
   }
-  const RobustLine fit = robust_line(times.a, times.b);
+  RobustLine fit = robust_line(times.a, times.b);
   result.r = raw_r(times);
   result.rho = pearson_r(times.a, times.b);
+  const auto refusals = refusals_of(fit, result.rho);
+  // Times that no longer go together at all are not a matter of how much is slower.
+  if (result.admitted() && !refusals.empty() && result.rho >= Model::least_rho) {
+    if (auto accepted = line_of_acceptance(cases)) {
+      fit = std::move(*accepted);
+      result.line_of_acceptance = true;
+    }
+  }
+  if (!result.line_of_acceptance) {
+    result.refusals.insert(result.refusals.end(), refusals.begin(), refusals.end());
+  }
   result.line = fit.line;
   result.intercept_error = fit.intercept_error;
   result.slope_error = fit.slope_error;
   result.scale = fit.scale;
   place(cases, fit, result);
-  refuse_fit(result);
   if (!result.admitted()) return result;
   judge_configurations(cases, fit, result);
   result.levels = level_effects(cases, fit);

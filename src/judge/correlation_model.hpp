@@ -18,6 +18,11 @@
 // with each side's wild points weighted down about that side's own median: a level that is slower
 // as a whole is no outlier to itself, and one that holds the long times does not hide in the slope.
 //
+// Too many changes. Where so much is slower that no line is left, though ρ is still what it must
+// be, and B's times when it was accepted had one, that line is taken, moved by the median of what
+// the anchors changed since; residuals and effects are those from it. A device that was never
+// accepted has none: it is refused.
+//
 // All configurations at once. The line follows them, so that no residual tells. Δ = α − α′ does: by
 // how much the program lies above the anchors' own line. Anchors of one technique share a resource;
 // the k techniques' mean residuals (the configurations', where there is one technique only) scatter
@@ -114,8 +119,9 @@ struct Correlation {
   double anchor_intercept = std::numeric_limits<double>::quiet_NaN();  // α′
   double intercept_error = 0;
   double slope_error = 0;
-  double scale = 0;            // ŝ
-  double smallest_effect = 0;  // on one typical configuration, with probability `power`
+  double scale = 0;                 // ŝ
+  double smallest_effect = 0;       // on one typical configuration, with probability `power`
+  bool line_of_acceptance = false;  // today's times have none
   // "12 configurations, 30 are needed": why this baseline cannot judge; empty: it can. Nothing is
   // tested where it cannot.
   std::vector<std::string> refusals;

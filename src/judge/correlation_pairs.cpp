@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "judge/anchor.hpp"
+#include "judge/anchor_run.hpp"
 #include "judge/statistics.hpp"
 
 namespace triptych::judge {
@@ -73,12 +74,6 @@ double log_median(const record::Record& record, std::string_view clock) {
   return std::log(median(record.time_ns_by(clock)));
 }
 
-bool has_time(const record::Record& record) {
-  if (record.outcome != record::Outcome::measured || record.time_ns().empty()) return false;
-  const double time = median(record.time_ns());
-  return time > 0 && std::isfinite(time);
-}
-
 CorrelationCase case_of(const record::Record& record, std::string_view clock) {
   CorrelationCase each;
   each.configuration = record.configuration;
@@ -105,7 +100,7 @@ class Pairs {
       }
     }
     if (view.request.plan == anchors_plan) return;
-    if (const auto run = view.store.latest_run(anchors_plan)) load_anchors(run->id);
+    if (const auto run = view.store.latest_run(anchors_plan)) anchors_ = anchors_of(view, run->id);
     for (const record::Record& anchor : anchors_) records_[anchor.device].push_back(&anchor);
   }
 
@@ -128,20 +123,6 @@ class Pairs {
   }
 
  private:
-  // Only of the very devices that are judged: another driver is another device.
-  void load_anchors(const std::string& run) {
-    std::set<std::string> same;
-    for (const auto& entry : view_.store.devices(run)) {
-      const auto judged = view_.devices.find(entry.device.id);
-      if (judged != view_.devices.end() && judged->second.key() == entry.device.key()) {
-        same.insert(entry.device.id);
-      }
-    }
-    for (record::Record& record : view_.store.records(run)) {
-      if (same.contains(record.device) && has_time(record)) anchors_.push_back(std::move(record));
-    }
-  }
-
   // All that is stored under one key, of the plan and of the anchors' plan.
   [[nodiscard]] Stored stored_under(const std::string& key) const {
     Stored result;

@@ -1,14 +1,11 @@
 #pragma once
 // From records and baselines to the cases of the correlation model.
 
-#include <string_view>
 #include <vector>
 
 #include "judge/run_view.hpp"
 
 namespace triptych::judge {
-
-inline constexpr std::string_view anchors_plan = "anchors/frozen";
 
 // Every device of the run against every stored device with another key, and against every other
 // device of the run (once each). Configurations whose picture is wrong are left out, and those that

@@ -8,12 +8,13 @@
 #include <tuple>
 #include <utility>
 
-#include "judge/correlation_pairs.hpp"
+#include "judge/anchor.hpp"
 
 namespace triptych::judge {
 namespace {
 
-constexpr const char* trial_run = "trial";
+// Anchors go before their run, in the order of ids too.
+constexpr const char* trial_run = "trial-run";
 constexpr const char* trial_anchors = "trial-anchors";
 
 // The size of "slowdown:PERCENT", 0 for nothing planted; nullopt for any other fault.
@@ -34,7 +35,8 @@ std::vector<record::Record> measured(const record::Store& store, const std::stri
   for (record::Record& record : store.records(run)) {
     if (record.outcome != record::Outcome::measured || record.time_ns().empty()) continue;
     record.image.clear();
-    record.scene = "none";  // baselines keep a picture of each
+    record.scene = "none";  // baselines keep a picture of each, and a hash of its data
+    record.data_hash.clear();
     record.statistics.clear();
     record.benchmark_json.clear();
     result.push_back(std::move(record));
@@ -146,8 +148,8 @@ TrialBench::TrialBench(const RunPool& pool, std::size_t base, const std::filesys
       if (i == base) continue;
       const PooledRun& run = pool.unplanted[i];
       const std::string id = std::to_string(which) + "-" + std::to_string(i);
-      add_copy(run, plan_, id, run.records, known[which], history);
-      accept_copy(history, id, plan_, root);
+      add_copy(run, plan_, id + "-run", run.records, known[which], history);
+      accept_copy(history, id + "-run", plan_, root);
       if (run.anchors.empty()) continue;
       add_copy(run, std::string(anchors_plan), id + "-anchors", run.anchors, known[which], history);
       accept_copy(history, id + "-anchors", std::string(anchors_plan), root);

@@ -153,17 +153,20 @@ std::vector<TimingJudgement> judge_timings(std::span<const TimingCase> cases) {
     }
     judge_device(own, results);
   }
+  std::vector<TimingJudgement*> judged;
   std::vector<double> slower;
   std::vector<double> faster;
-  for (const TimingJudgement& judgement : judgements) {
-    slower.push_back(judgement.p_slower);
-    faster.push_back(judgement.p_faster);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (cases[i].witness) continue;
+    judged.push_back(&judgements[i]);
+    slower.push_back(judgements[i].p_slower);
+    faster.push_back(judgements[i].p_faster);
   }
   const auto is_slower = benjamini_hochberg(slower, TimingModel::share_of_false_alarms);
   const auto is_faster = benjamini_hochberg(faster, TimingModel::share_of_false_alarms);
-  for (std::size_t i = 0; i < judgements.size(); ++i) {
-    judgements[i].slower = is_slower[i];
-    judgements[i].faster = is_faster[i];
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    judged[i]->slower = is_slower[i];
+    judged[i]->faster = is_faster[i];
   }
   return judgements;
 }

@@ -22,6 +22,7 @@ struct TimingModel {
 struct TimingCase {
   std::string device;
   bool anchor = false;
+  bool witness = false;  // an anchor of another plan: tells the shift, is not judged itself
   double median_ns = 0;
   std::map<std::string, double> stored_ns;  // run → median; at least TimingModel::least_runs
   double tolerance = 0;                     // τ in ln t: max(ln 1.02, one step of the clock)
@@ -43,10 +44,10 @@ struct TimingJudgement {
   [[nodiscard]] bool too_noisy(double tolerance) const;
 };
 
-// One judgement per case, in order. With y = ln t: the anchors' median deviation of each run (the
-// stored ones and this one) is taken from all of the device's cases; variances between stored runs
-// are moderated over the device's cases; t = (x − shift − x̄ − τ)/√(s̃²(1 + 1/H) + v), v the variance
-// of the shift.
+// One judgement per case, in order; of witnesses it says nothing. With y = ln t: the anchors'
+// median deviation of each run (the stored ones and this one) is taken from all of the device's
+// cases; variances between stored runs are moderated over the device's cases; t = (x − shift − x̄ −
+// τ)/√(s̃²(1 + 1/H) + v), v the variance of the shift.
 [[nodiscard]] std::vector<TimingJudgement> judge_timings(std::span<const TimingCase> cases);
 
 }  // namespace triptych::judge

@@ -274,6 +274,33 @@ TEST(Correlation, OneConfigurationInManyStandsOutByItsShare) {
   EXPECT_LT(result.levels.front().share, result.judgements[5].share);
 }
 
+// Half of all slower by half leaves no line; a device that was accepted still has its own.
+TEST(Correlation, WhatFollowsNoLineIsHeldAgainstTheAcceptedOne) {
+  Bench bench{.noise = 0.02};
+  auto cases = bench.draw(4);
+  for (CorrelationCase& each : cases) {
+    each.known_log_time_b = each.log_time_b;
+    // The device is slower by a fifth today, and the program in half of its configurations by half.
+    each.log_time_b += std::log(1.2);
+    if (!each.anchor && each.factors.at("skip") == "none") each.log_time_b += std::log(1.5);
+  }
+  const Correlation result = correlate(cases);
+  ASSERT_TRUE(result.admitted()) << fmt::format("{}", fmt::join(result.refusals, "; "));
+  EXPECT_TRUE(result.line_of_acceptance);
+  EXPECT_LT(result.scale, 0.03);
+  ASSERT_FALSE(result.levels.empty());
+  EXPECT_EQ(result.levels.front().level, "none");
+  EXPECT_TRUE(result.levels.front().slower);
+  EXPECT_NEAR(result.levels.front().effect, std::log(1.5), 0.02);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (cases[i].anchor) continue;
+    EXPECT_EQ(result.judgements[i].slower, cases[i].factors.at("skip") == "none");
+    EXPECT_FALSE(result.judgements[i].standing);
+  }
+  cases.front().known_log_time_b.reset();
+  EXPECT_FALSE(correlate(cases).admitted());
+}
+
 // The median of two levels of one size, one of them slower, lies where nothing is.
 TEST(Correlation, ALevelIsHeldAgainstTwoThatDiffer) {
   Bench bench;

@@ -9,6 +9,7 @@
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
 #include "core/json.hpp"
+#include "judge/anchor.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -63,10 +64,7 @@ record::Record JudgeTest::make_record(const std::string& run, const record::Devi
   record.outcome = record::Outcome::measured;
   record.kernel_hash = "kernel-" + device.id;
   const double level = 1e6 * static_cast<double>(1 + record.configuration.size() % 7);
-  for (int frame = 0; frame < 5; ++frame) {
-    const double noise = random_.uniform() + random_.uniform() + random_.uniform() - 1.5;
-    record.wall_ns.push_back(level * std::exp(0.01 * noise));
-  }
+  record.wall_ns = noisy(level);
   if (!anchor) {
     record.counters = {{"rays", 48}, {"samples", 1000000}};
     if (device.api != "opencl") {
@@ -74,6 +72,15 @@ record::Record JudgeTest::make_record(const std::string& run, const record::Devi
     }
   }
   return record;
+}
+
+std::vector<double> JudgeTest::noisy(double level) {
+  std::vector<double> times;
+  for (int frame = 0; frame < 5; ++frame) {
+    const double noise = random_.uniform() + random_.uniform() + random_.uniform() - 1.5;
+    times.push_back(level * std::exp(0.01 * noise));
+  }
+  return times;
 }
 
 void JudgeTest::add_run(const std::string& run, const Tweak& tweak) {
@@ -108,6 +115,35 @@ std::vector<std::string> JudgeTest::accept_run(const std::string& run, const std
   request.date = "2026-02-01";
   request.truth = [](const record::Record& record) { return truth_of(record.scene); };
   return accept(store_, run, folder_.path() / "baselines", request);
+}
+
+void JudgeTest::add_anchors(const std::string& run, double factor) {
+  store_.add_run({run, std::string(anchors_plan), "2026-02-01T00:00:00Z", {}});
+  for (const record::Device& device : devices()) {
+    store_.add_device(run, device, {});
+    for (int size = 1; size <= 8; ++size) {
+      record::Record record;
+      record.run = run;
+      record.suite = "anchors";
+      record.plan = anchors_plan;
+      record.scene = "none";
+      record.device = device.id;
+      record.technique = "anchor_arithmetic";
+      record.configuration = fmt::format("size={},technique=anchor_arithmetic", size);
+      record.outcome = record::Outcome::measured;
+      record.counters = {{"checksum", 7}};
+      record.wall_ns = noisy(1e6 * size * factor);
+      store_.add_record(record);
+    }
+  }
+}
+
+void JudgeTest::accept_anchors(const std::string& run) {
+  AcceptRequest request;
+  request.plan = anchors_plan;
+  request.reason = "a test";
+  request.date = "2026-02-01";
+  (void)accept(store_, run, folder_.path() / "baselines", request);
 }
 
 void JudgeTest::accept_history(const Tweak& tweak) {

@@ -35,6 +35,10 @@ class JudgeTest : public testing::Test {
   // configuration.
   void add_run(const std::string& run, const Tweak& tweak = {});
   std::vector<std::string> accept_run(const std::string& run, const std::string& only = {});
+  // Eight records of anchors/frozen on each device, with as much noise, `factor` times as long as
+  // usual.
+  void add_anchors(const std::string& run, double factor);
+  void accept_anchors(const std::string& run);
   // Eight accepted runs, r1 … r8.
   void accept_history(const Tweak& tweak = {});
   [[nodiscard]] GateResult gate(const std::string& run) const { return gate(run, request_); }
@@ -66,6 +70,7 @@ class JudgeTest : public testing::Test {
  private:
   [[nodiscard]] record::Record make_record(const std::string& run, const record::Device& device,
                                            const std::string& scene, const std::string& variant);
+  [[nodiscard]] std::vector<double> noisy(double level);
   core::Random random_{7};
 };
 

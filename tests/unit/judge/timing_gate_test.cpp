@@ -189,6 +189,39 @@ TEST_F(TimingGateTest, ASlowerMachineIsNoSlowerProgram) {
   EXPECT_EQ(with(gate("c"), Verdict::regression, Check::timing).size(), 3U);
 }
 
+// Anchors of their own plan, measured before each run, as the gate's script does.
+TEST_F(TimingGateTest, AMachineThatItsOwnAnchorsShowSlowerIsNoSlowerProgram) {
+  for (int i = 1; i <= 8; ++i) {
+    // Now a fast day, now a slow one.
+    const double day = i % 2 == 0 ? 1.15 : 1.0;
+    add_anchors(fmt::format("r{}-anchors", i), day);
+    accept_anchors(fmt::format("r{}-anchors", i));
+    add_run(fmt::format("r{}-run", i), times(day));
+    (void)accept_run(fmt::format("r{}-run", i));
+  }
+  add_anchors("s-anchors", 1.3);
+  add_run("s-run", [](record::Record& record, core::Image& image) {
+    times(1.3)(record, image);
+    times(1.1, plain_)(record, image);
+  });
+  const GateResult result = gate("s-run");
+  const auto slower = with(result, Verdict::regression, Check::timing);
+  ASSERT_EQ(slower.size(), 3U) << text(result);
+  for (const Finding& each : slower) EXPECT_EQ(each.configuration, plain_);
+  EXPECT_NEAR(slower[0].numbers.at("ratio"), 1.1, 0.02);
+  EXPECT_EQ(with(result, Verdict::pass, Check::timing).size(), 9U);
+  const auto advice = with(result, Verdict::advisory, Check::timing);
+  ASSERT_EQ(advice.size(), 3U) << text(result);
+  EXPECT_THAT(advice[0].message, HasSubstr("by 8 anchors"));
+}
+
+TEST_F(TimingGateTest, AnchorsThatNobodyAcceptedTellNothing) {
+  accept_history();
+  add_anchors("b-anchors", 1.3);
+  add_run("b-run", times(1.3));
+  EXPECT_EQ(with(gate("b-run"), Verdict::regression, Check::timing).size(), 12U);
+}
+
 TEST_F(TimingGateTest, ACoarseClockToleratesItsOwnStep) {
   const double step = 1e6;
   const auto coarse = [step](record::Record& record, core::Image&) {

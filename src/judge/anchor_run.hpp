@@ -1,0 +1,25 @@
+#pragma once
+// Which anchors were measured beside a run: what shows how its devices did at that time.
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "judge/run_view.hpp"
+
+namespace triptych::judge {
+
+// Of these runs of anchors_plan the latest that began before `run` did, by their ids, which begin
+// with the time; nullopt where that was more than an hour before, as a machine does not stay as it
+// is.
+[[nodiscard]] std::optional<std::string> anchors_beside(const std::string& run,
+                                                        const std::set<std::string>& anchor_runs);
+
+// Whether there is a time that a logarithm can be taken of.
+[[nodiscard]] bool has_time(const record::Record& record);
+
+// What that run holds of the very devices that are judged: another driver is another device.
+[[nodiscard]] std::vector<record::Record> anchors_of(const RunView& view, const std::string& run);
+
+}  // namespace triptych::judge
