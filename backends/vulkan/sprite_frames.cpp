@@ -185,7 +185,8 @@ void SpriteFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
     culling_.draw(commands, stride);
     return;
   }
-  constexpr std::uint32_t most_runs = 64;
+  // Few, as a draw costs lavapipe some microseconds, whatever it draws.
+  constexpr std::uint32_t most_runs = 4;
   const std::uint32_t particles = data_.particles();
   const std::uint32_t length = std::max(particles / stride / most_runs, 1U);
   for (std::uint32_t begin = 0; begin < particles;) {

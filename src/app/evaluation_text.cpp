@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/json.hpp"
+#include "judge/statistics.hpp"
 
 namespace triptych::app {
 namespace {
@@ -52,6 +55,12 @@ double seconds_each(const Tally& tally) {
   return tally.seconds / static_cast<double>(tally.configurations);
 }
 
+// As a ratio of times.
+std::optional<double> cost_of(const Tally& tally) {
+  if (tally.costs.empty()) return std::nullopt;
+  return std::exp(judge::median(tally.costs));
+}
+
 std::string heading(const TrialKind& kind) {
   return fmt::format("{}, {}, {}", kind.method, kind.plan, kind.subject);
 }
@@ -88,6 +97,9 @@ std::string to_text(const judge::Tallies& tallies) {
     if (heading(kind) != last) text += (last = heading(kind)) + "\n";
     text += fmt::format("  {}", judge::name_of(kind.spread));
     if (kind.percent > 0) text += fmt::format(" {} %", kind.percent);
+    if (const auto cost = cost_of(tally)) {
+      text += fmt::format(", which cost {:+.1f} %", 100 * (*cost - 1));
+    }
     for (const auto& [name, rate] : rates) {
       if ((tally.*rate).trials > 0) text += fmt::format("; {} {}", name, text_of(tally.*rate));
     }
@@ -107,6 +119,7 @@ nlohmann::json to_json(const judge::Tallies& tallies) {
     for (const auto& [name, rate] : rates) {
       if ((tally.*rate).trials > 0) row[name] = json_of(tally.*rate);
     }
+    if (const auto cost = cost_of(tally)) row["cost"] = *cost;
     if (tally.seconds > 0) row["seconds_per_configuration"] = seconds_each(tally);
     json["trials"].push_back(std::move(row));
   }

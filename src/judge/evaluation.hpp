@@ -66,7 +66,10 @@ struct Tally {
   Rate first_named;        // of trials that name something: the first is what was planted
   Rate split;              // of what was found: more work, or more time for the same, told rightly
   Rate same_bytes;         // verdicts that were the same to the byte when asked for again
-  double seconds = 0;      // of measuring, over all configurations of all trials
+  // What was planted really cost, ln t planted over unplanted, of each trial: extra work has costs
+  // of its own, which on short frames are larger than its share.
+  std::vector<double> costs;
+  double seconds = 0;              // of measuring, over all configurations of all trials
   std::size_t configurations = 0;  // those
 };
 

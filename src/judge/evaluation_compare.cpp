@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "judge/statistics.hpp"
+
 namespace triptych::judge {
 namespace {
 
@@ -23,6 +25,7 @@ struct Entry {
   PairVerdict verdict = PairVerdict::undecided;
   std::size_t blocks = 0;
   std::vector<double> launches;
+  double cost = 0;  // of what was planted, in the first launch
   double seconds = 0;
 };
 
@@ -39,6 +42,7 @@ void look(const BlockSeries& series, const ReplayDesign& design, Entry& entry) {
     entry.verdict = look_at(std::span(series.differences).first(count), design.looks).verdict;
     if (entry.verdict != PairVerdict::undecided) break;
   }
+  entry.cost = median(series.differences);
   entry.seconds += seconds_of(series, entry.blocks);
 }
 
@@ -74,7 +78,9 @@ void count(const std::vector<Entry>& entries, Tally& tally) {
   bool detected = false;
   bool alarmed = false;
   bool planted = false;
+  std::vector<double> costs;
   for (const Entry& entry : entries) {
+    if (entry.percent > 0) costs.push_back(entry.cost);
     const bool slower = entry.verdict == PairVerdict::slower;
     planted = planted || entry.percent > 0;
     if (entry.percent > 0) tally.found.count(slower);
@@ -85,7 +91,10 @@ void count(const std::vector<Entry>& entries, Tally& tally) {
     tally.seconds += entry.seconds;
     ++tally.configurations;
   }
-  if (planted) tally.detected.count(detected);
+  if (planted) {
+    tally.detected.count(detected);
+    tally.costs.push_back(median(costs));
+  }
   tally.false_alarms.count(alarmed);
 }
 

@@ -23,7 +23,10 @@ class PairCount {
       name(everything);
       detected_ = detected_ || everything;
     }
-    if (!trial_.planted.empty()) tally_.detected.count(detected_);
+    if (!trial_.planted.empty()) {
+      tally_.detected.count(detected_);
+      tally_.costs.push_back(trial_.cost);
+    }
     tally_.false_alarms.count(alarmed_);
   }
 
@@ -125,7 +128,10 @@ void count_history(const std::string& plan, const GateResult& result, const Tria
                             finding.verdict == Verdict::advisory);
       ++tally.configurations;
     }
-    if (!trial.planted.empty()) tally.detected.count(detected);
+    if (!trial.planted.empty()) {
+      tally.detected.count(detected);
+      tally.costs.push_back(trial.cost);
+    }
     tally.false_alarms.count(alarmed);
   }
 }

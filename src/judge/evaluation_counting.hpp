@@ -16,6 +16,7 @@ struct Trial {
   double percent = 0;
   std::set<std::pair<std::string, std::string>> planted = {};  // (device, configuration)
   std::pair<std::string, std::string> level = {};              // factor, level; Spread::level only
+  double cost = 0;         // of what is planted, measured: see Tally
   bool more_work = false;  // Spread::configuration only: else more time for the same work
 };
 

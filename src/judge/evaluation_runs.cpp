@@ -12,6 +12,7 @@
 #include "judge/anchor.hpp"
 #include "judge/correlation_pairs.hpp"
 #include "judge/evaluation_counting.hpp"
+#include "judge/statistics.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -38,12 +39,29 @@ Record lengthened(Record record, double factor) {
   return record;
 }
 
-// Counters of work as they were without what was planted, times a factor.
-void set_work(Record& record, const std::vector<Record>& unplanted, double factor) {
-  const auto own = std::ranges::find_if(unplanted, [&](const Record& each) {
+// The same device's record of the same configuration; nullptr: there is none.
+const Record* same_of(const Record& record, const std::vector<Record>& records) {
+  const auto own = std::ranges::find_if(records, [&](const Record& each) {
     return each.device == record.device && each.configuration == record.configuration;
   });
-  if (own == unplanted.end()) return;
+  return own == records.end() ? nullptr : &*own;
+}
+
+// ln t of planted records over those without, in the median.
+double cost_of(const std::vector<Record>& planted, const std::vector<Record>& unplanted) {
+  std::vector<double> costs;
+  for (const Record& record : planted) {
+    const Record* own = same_of(record, unplanted);
+    if (own == nullptr || own->time_ns_by(record.clock()).empty()) continue;
+    costs.push_back(std::log(median(record.time_ns()) / median(own->time_ns_by(record.clock()))));
+  }
+  return costs.empty() ? 0 : median(costs);
+}
+
+// Counters of work as they were without what was planted, times a factor.
+void set_work(Record& record, const std::vector<Record>& unplanted, double factor) {
+  const Record* own = same_of(record, unplanted);
+  if (own == nullptr) return;
   record.counters = own->counters;
   for (const std::string_view unit : work_units) {
     const auto counter = record.counters.find(std::string(unit));
@@ -180,7 +198,10 @@ class Trials {
     for (const std::string& device : devices_) apis.insert(api_of(device));
     const auto planted = [&](Spread spread, const std::function<bool(const Record&)>& where) {
       std::vector<Record> changed = chosen(run.records, where);
-      const Trial trial{.spread = spread, .percent = run.percent, .planted = names_of(changed)};
+      const Trial trial{.spread = spread,
+                        .percent = run.percent,
+                        .planted = names_of(changed),
+                        .cost = cost_of(changed, pool_.unplanted[run.before].records)};
       std::vector<std::string> devices;
       for (const std::string& device : devices_) {
         const bool there =
@@ -215,13 +236,15 @@ class Trials {
                });
                if (changed.empty()) return;
                const bool more_work = number % 2 == 1;
-               const double factor = more_work ? 1 + run.percent / 100 : 1;
-               set_work(changed.front(), pool_.unplanted[run.before].records, factor);
+               const std::vector<Record>& without = pool_.unplanted[run.before].records;
+               const double cost = cost_of(changed, without);
+               set_work(changed.front(), without, more_work ? std::exp(cost) : 1);
                judge(run.before,
                      {.spread = Spread::configuration,
                       .percent = run.percent,
                       .planted = names_of(changed),
                       .level = {},
+                      .cost = cost,
                       .more_work = more_work},
                      changed, {device});
              });
@@ -240,7 +263,8 @@ class Trials {
             {.spread = Spread::level,
              .percent = run.percent,
              .planted = names_of(changed),
-             .level = level},
+             .level = level,
+             .cost = cost_of(changed, pool_.unplanted[run.before].records)},
             changed, {device});
     });
   }

@@ -160,6 +160,11 @@ TEST_F(EvaluateRuns, FindsWhatIsPlantedAndNamesIt) {
   expect_none(sum(tallies, "history", Spread::device, 25).false_alarms);
   expect_all(sum(tallies, "correlation", Spread::configuration, 25).first_named);
   expect_all(sum(tallies, "correlation", Spread::configuration, 25).split);
+  for (const auto& [kind, tally] : tallies) {
+    if (kind.percent == 0 || kind.spread == Spread::device) continue;
+    ASSERT_FALSE(tally.costs.empty());
+    for (const double cost : tally.costs) EXPECT_NEAR(cost, std::log(1.25), 0.05);
+  }
   expect_all(sum(tallies, "correlation", Spread::level, 25).first_named);
   expect_all(sum(tallies, "correlation", Spread::scrambled).detected);
   expect_all(sum(tallies, "gate", Spread::none).same_bytes);
