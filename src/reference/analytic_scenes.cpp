@@ -5,295 +5,16 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 #include "core/error.hpp"
-#include "reference/closed_forms.hpp"
+#include "reference/analytic_setting.hpp"
 
 namespace triptych::reference {
 
 namespace {
-
-using Rgb = std::array<double, 3>;
-constexpr double rounding = 0x1.0p-24;
-
-// τ and straight colour as functions of g, and how steep τ is.
-struct Medium {
-  std::function<double(double)> tau;
-  std::function<Rgb(double)> colour;
-  double largest = 0;              // of τ
-  double slope = 0;                // of |dτ/dg|
-  double curvature = 0;            // of |d²τ/dg²|, but for its kinks
-  std::vector<double> kinks = {};  // at multiples of 1/255
-};
-
-// The box, what fills it, and the ray of a pixel in it; lengths in world units.
-struct Setting {
-  AnalyticOptions options;
-  scene::Camera camera;
-  glm::dvec3 extent{};
-  double voxel = 1;    // the smallest spacing
-  double layer_z = 1;  // spacing along z
-  Medium medium;
-};
-
-struct Chord {
-  glm::dvec3 direction{};
-  double begin = 0;
-  double end = 0;
-  [[nodiscard]] double length() const { return end - begin; }
-};
-
-// Deliberately not the renderer's: the two check each other. Cuts the ray by one plane after the
-// other.
-Chord chord_of(const Setting& setting, int x, int y) {
-  Chord chord;
-  chord.direction =
-      setting.camera.ray_direction(x, y, setting.options.width, setting.options.height);
-  chord.end = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-1.0, 1.0}) {
-      // Inside means side·(p − face) ≤ 0.
-      const double face = side < 0 ? 0.0 : setting.extent[axis];
-      const double distance = side * (setting.camera.eye[axis] - face);
-      const double speed = side * chord.direction[axis];
-      if (speed > 0) chord.end = std::min(chord.end, -distance / speed);
-      if (speed < 0) chord.begin = std::max(chord.begin, distance / -speed);
-      if (speed == 0 && distance > 0) chord.end = chord.begin;
-    }
-  }
-  chord.end = std::max(chord.end, chord.begin);
-  return chord;
-}
-
-AnalyticPixel finish(const Setting& setting, const std::array<Radiance, 3>& channels,
-                     double model_error) {
-  AnalyticPixel pixel;
-  const double opacity = channels[0].opacity;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double own = i < 3 ? channels[i].colour : opacity;
-    pixel.rgba[i] = own + (1.0 - opacity) * static_cast<double>(setting.options.background[i]);
-  }
-  pixel.model_error = model_error;
-  return pixel;
-}
-
-// Of the picture, from the table alone: derived in the header.
-double table_error(const Setting& setting, double length) {
-  const Medium& medium = setting.medium;
-  const double u = setting.voxel;
-  const double left = std::exp(-u * medium.largest);
-  const double slope = u * medium.slope;
-  const double bend = u * medium.curvature + slope * slope;
-  const double alpha = bend / (8.0 * 255.0 * 255.0) + rounding * (1.0 - left + slope);
-  return length * alpha / (u * left) + 2.0 * rounding;
-}
-
-// Distances along the ray at which z crosses one of the planes, with both ends, ascending.
-std::vector<double> cuts(const Setting& setting, const Chord& chord,
-                         const std::vector<double>& planes) {
-  std::vector<double> at{chord.begin, chord.end};
-  const double speed = chord.direction.z;
-  for (const double plane : planes) {
-    if (speed == 0.0) break;
-    const double t = (plane - setting.camera.eye.z) / speed;
-    if (t > chord.begin && t < chord.end) at.push_back(t);
-  }
-  std::sort(at.begin(), at.end());
-  return at;
-}
-
-// g of the problems along z, constant in the outermost half voxels.
-double height(const Setting& setting, double z) {
-  const double half = 0.5 * setting.layer_z;
-  return std::clamp(z, half, setting.extent.z - half) / setting.extent.z;
-}
-
-double z_at(const Setting& setting, const Chord& chord, double t) {
-  return setting.camera.eye.z + t * chord.direction.z;
-}
-
-// Of the field, and of the medium as the table shows it.
-std::vector<double> kinks(const Setting& setting) {
-  std::vector<double> at{0.5 * setting.layer_z, setting.extent.z - 0.5 * setting.layer_z};
-  for (const double g : setting.medium.kinks) at.push_back(g * setting.extent.z);
-  return at;
-}
-
-using Piece = std::function<Radiance(const Setting&, double g0, double g1, double length,
-                                     std::size_t channel)>;
-
-// Composites a closed form per piece between kinks of the field.
-AnalyticPixel along_z(const Setting& setting, const Piece& piece, int x, int y) {
-  const Chord chord = chord_of(setting, x, y);
-  const std::vector<double> at = cuts(setting, chord, kinks(setting));
-  std::array<Radiance, 3> channels{};
-  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-    if (!(at[i + 1] > at[i])) continue;
-    const double g0 = height(setting, z_at(setting, chord, at[i]));
-    const double g1 = height(setting, z_at(setting, chord, at[i + 1]));
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      channels[channel] =
-          over(channels[channel], piece(setting, g0, g1, at[i + 1] - at[i], channel));
-    }
-  }
-  const double error = chord.length() > 0 ? table_error(setting, chord.length()) : 0.0;
-  return finish(setting, channels, error);
-}
-
-Radiance linear_piece(const Setting& setting, double g0, double g1, double length,
-                      std::size_t channel) {
-  const Medium& medium = setting.medium;
-  const double tau = medium.tau(g0);
-  const double colour = medium.colour(g0)[channel];
-  return v3_segment({tau, (medium.tau(g1) - tau) / length, colour,
-                     (medium.colour(g1)[channel] - colour) / length, length});
-}
-
-Radiance atmosphere_piece(const Setting& setting, double g0, double g1, double length,
-                          std::size_t channel) {
-  const double colour = setting.medium.colour(g0)[channel];
-  if (g0 == g1) return v1_constant(setting.medium.tau(g0), colour, length);
-  const double scale_height = setting.extent.z / 2.0;
-  const double z0 = g0 * setting.extent.z;
-  const double z1 = g1 * setting.extent.z;
-  const double depth = v5_atmosphere_depth(setting.medium.tau(0.0), scale_height, z0, z1,
-                                           std::abs(z1 - z0) / length);
-  return v1_constant(depth, colour, 1.0);
-}
-
-AnalyticPixel constant_pixel(const Setting& setting, int x, int y) {
-  const double length = chord_of(setting, x, y).length();
-  // The table's float is taken as the truth, so only the colour's own rounding would be left; it is
-  // exact in float too.
-  const double tau = -std::log1p(-static_cast<double>(static_cast<float>(
-                         -std::expm1(-setting.voxel * setting.medium.largest)))) /
-                     setting.voxel;
-  std::array<Radiance, 3> channels;
-  for (std::size_t i = 0; i < 3; ++i) {
-    channels[i] = v1_constant(tau, setting.medium.colour(0.5)[i], length);
-  }
-  return finish(setting, channels, 0.0);
-}
-
-AnalyticPixel layers_pixel(const Setting& setting, int x, int y) {
-  const Chord chord = chord_of(setting, x, y);
-  const std::vector<double> at = cuts(setting, chord, {0.5 * setting.extent.z});
-  std::array<Radiance, 3> channels{};
-  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-    const double z = z_at(setting, chord, 0.5 * (at[i] + at[i + 1]));
-    const double g = z < 0.5 * setting.extent.z ? 0.0 : 1.0;
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      channels[channel] = over(
-          channels[channel],
-          v1_constant(setting.medium.tau(g), setting.medium.colour(g)[channel], at[i + 1] - at[i]));
-    }
-  }
-  if (!(chord.length() > 0)) return finish(setting, channels, 0.0);
-  const double slope = std::abs(chord.direction.z) * 255.0 / setting.layer_z;
-  const double inside = slope * chord.length() > 1.0 ? 1.0 / slope : chord.length();
-  const double transition = at.size() > 2 || slope * chord.length() <= 1.0
-                                ? -std::expm1(-setting.medium.largest * inside)
-                                : 0.0;
-  return finish(setting, channels, transition + table_error(setting, chord.length()));
-}
-
-double blob_sigma(const Setting& setting) {
-  return std::min({setting.extent.x, setting.extent.y, setting.extent.z}) / 10.0;
-}
-
-// ∫ |error of g| ds by trilinear interpolation and, near the faces, clamping; the derivatives are
-// taken at their worst within a cell's diagonal: |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ², |∂ᵢg| = rᵢ·g/σ².
-double blob_interpolation_error(const Setting& setting, const Chord& chord) {
-  constexpr int intervals = 512;
-  const double sigma = blob_sigma(setting);
-  const glm::dvec3 spacing = {setting.options.spacing[0], setting.options.spacing[1],
-                              setting.options.spacing[2]};
-  const double diagonal = glm::length(spacing);
-  const double ds = chord.length() / intervals;
-  double sum = 0;
-  for (int i = 0; i < intervals; ++i) {
-    const glm::dvec3 p = setting.camera.eye + (chord.begin + (i + 0.5) * ds) * chord.direction;
-    const double r = glm::length(p - 0.5 * setting.extent);
-    const double nearest = std::max(r - diagonal - 0.5 * ds, 0.0) / sigma;
-    const double farthest = (r + diagonal + 0.5 * ds) / sigma;
-    const double g = std::exp(-0.5 * nearest * nearest);
-    for (int axis = 0; axis < 3; ++axis) {
-      const double width = spacing[axis] / sigma;
-      sum += ds * g * width * width / 8.0 * (1.0 + farthest * farthest);
-      const double to_face = std::min(p[axis], setting.extent[axis] - p[axis]);
-      if (to_face < 0.5 * spacing[axis] + ds) sum += ds * g * width / 2.0 * farthest;
-    }
-  }
-  return sum;
-}
-
-AnalyticPixel gaussian_pixel(const Setting& setting, int x, int y) {
-  const Chord chord = chord_of(setting, x, y);
-  const double sigma = blob_sigma(setting);
-  const glm::dvec3 to_centre = 0.5 * setting.extent - setting.camera.eye;
-  const double nearest = glm::dot(to_centre, chord.direction);
-  const double p = glm::length(to_centre - nearest * chord.direction);
-  const double depth = v4_gaussian_depth(setting.medium.largest, sigma, p, chord.begin - nearest,
-                                         chord.end - nearest);
-  std::array<Radiance, 3> channels;
-  for (std::size_t i = 0; i < 3; ++i) {
-    channels[i] = v1_constant(depth, setting.medium.colour(0.5)[i], 1.0);
-  }
-  if (!(chord.length() > 0)) return finish(setting, channels, 0.0);
-  const double error = table_error(setting, chord.length()) +
-                       setting.medium.largest * blob_interpolation_error(setting, chord);
-  return finish(setting, channels, error);
-}
-
-// g of v8_trilinear: its height along every axis, each constant in the outermost half voxels.
-double heights_product(const Setting& setting, const glm::dvec3& p) {
-  double g = 1.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double half = 0.5 * setting.options.spacing[static_cast<std::size_t>(axis)];
-    g *= std::clamp(p[axis], half, setting.extent[axis] - half) / setting.extent[axis];
-  }
-  return g;
-}
-
-// Where the ray crosses the outermost voxel centres, with both ends, ascending.
-std::vector<double> cuts_of_all_axes(const Setting& setting, const Chord& chord) {
-  std::vector<double> at{chord.begin, chord.end};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double half = 0.5 * setting.options.spacing[static_cast<std::size_t>(axis)];
-    for (const double plane : {half, setting.extent[axis] - half}) {
-      const double t = (plane - setting.camera.eye[axis]) / chord.direction[axis];
-      if (t > chord.begin && t < chord.end) at.push_back(t);
-    }
-  }
-  std::sort(at.begin(), at.end());
-  return at;
-}
-
-// A product of three heights is a cubic along the ray, which two points of Gauss integrate exactly.
-AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
-  const Chord chord = chord_of(setting, x, y);
-  const std::vector<double> at = cuts_of_all_axes(setting, chord);
-  double depth = 0;
-  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-    const double half = 0.5 * (at[i + 1] - at[i]);
-    for (const double side : {-1.0, 1.0}) {
-      const double t = at[i] + half + side * half / std::numbers::sqrt3;
-      const glm::dvec3 p = setting.camera.eye + t * chord.direction;
-      depth += half * setting.medium.tau(heights_product(setting, p));
-    }
-  }
-  std::array<Radiance, 3> channels;
-  for (std::size_t i = 0; i < 3; ++i) {
-    channels[i] = v1_constant(depth, setting.medium.colour(0.5)[i], 1.0);
-  }
-  const double error = chord.length() > 0 ? table_error(setting, chord.length()) : 0.0;
-  return finish(setting, channels, error);
-}
 
 // Optical depths of the box along z (of the blob: through its centre) are between 1 and 2.5, so
 // that nothing is hidden and nothing negligible. Colours of constant media are exact in float.
@@ -340,6 +61,16 @@ Medium medium_of(AnalyticProblem problem, const Setting& setting) {
                 },
                 2.0 * depth, 0, 0};
       break;
+    case AnalyticProblem::v7_shell: {
+      const Shell shell = shell_of(setting);
+      const double tau = 0.75 / (shell.outer - shell.inner);
+      medium = {[=](double g) {
+                  const double r = g * shell.reach;
+                  return r > shell.inner && r < shell.outer ? tau : 0.0;
+                },
+                constant, tau, 0, 0};
+      break;
+    }
     case AnalyticProblem::v8_trilinear:
       medium = {[=](double g) { return 8.0 * depth * g; }, constant, 8.0 * depth, 8.0 * depth, 0};
       break;
@@ -353,6 +84,9 @@ double stored_g(AnalyticProblem problem, const Setting& setting, const std::arra
   const glm::dvec3 centre = (glm::dvec3(voxel[0], voxel[1], voxel[2]) + 0.5) * spacing;
   if (problem == AnalyticProblem::v1_constant) return 0.5;
   if (problem == AnalyticProblem::v6_layers) return centre.z < 0.5 * setting.extent.z ? 0.0 : 1.0;
+  if (problem == AnalyticProblem::v7_shell) {
+    return std::min(1.0, glm::length(centre - 0.5 * setting.extent) / shell_of(setting).reach);
+  }
   if (problem == AnalyticProblem::v8_trilinear) return heights_product(setting, centre);
   if (problem != AnalyticProblem::v4_gaussian) return centre.z / setting.extent.z;
   const double r = glm::length(centre - 0.5 * setting.extent) / blob_sigma(setting);
@@ -402,25 +136,28 @@ scene::Camera outside(const glm::dvec3& extent) {
   return camera;
 }
 
-std::function<AnalyticPixel(int, int)> exact_of(AnalyticProblem problem,
-                                                std::shared_ptr<const Setting> setting) {
+using PixelOf = AnalyticPixel (*)(const Setting&, int x, int y);
+
+PixelOf pixel_of(AnalyticProblem problem) {
   switch (problem) {
     case AnalyticProblem::v1_constant:
-      return [setting](int x, int y) { return constant_pixel(*setting, x, y); };
-    case AnalyticProblem::v4_gaussian:
-      return [setting](int x, int y) { return gaussian_pixel(*setting, x, y); };
-    case AnalyticProblem::v5_atmosphere:
-      return [setting](int x, int y) { return along_z(*setting, atmosphere_piece, x, y); };
-    case AnalyticProblem::v6_layers:
-      return [setting](int x, int y) { return layers_pixel(*setting, x, y); };
-    case AnalyticProblem::v8_trilinear:
-      return [setting](int x, int y) { return trilinear_pixel(*setting, x, y); };
+      return constant_pixel;
     case AnalyticProblem::v2_ramp:
     case AnalyticProblem::v3_segment:
     case AnalyticProblem::v3_plateaus:
-      break;
+      return linear_pixel;
+    case AnalyticProblem::v4_gaussian:
+      return gaussian_pixel;
+    case AnalyticProblem::v5_atmosphere:
+      return atmosphere_pixel;
+    case AnalyticProblem::v6_layers:
+      return layers_pixel;
+    case AnalyticProblem::v7_shell:
+      return shell_pixel;
+    case AnalyticProblem::v8_trilinear:
+      return trilinear_pixel;
   }
-  return [setting](int x, int y) { return along_z(*setting, linear_piece, x, y); };
+  return nullptr;
 }
 
 }  // namespace
@@ -441,6 +178,8 @@ std::string_view name_of(AnalyticProblem problem) {
       return "v5_atmosphere";
     case AnalyticProblem::v6_layers:
       return "v6_layers";
+    case AnalyticProblem::v7_shell:
+      return "v7_shell";
     case AnalyticProblem::v8_trilinear:
       return "v8_trilinear";
   }
@@ -478,7 +217,8 @@ AnalyticScene analytic_scene(AnalyticProblem problem, const AnalyticOptions& opt
   analytic.scene.height = options.height;
   analytic.scene.step_voxels = options.step_voxels;
   analytic.scene.background = options.background;
-  analytic.exact = exact_of(problem, std::move(setting));
+  analytic.exact = [setting = std::shared_ptr<const Setting>(std::move(setting)),
+                    pixel = pixel_of(problem)](int x, int y) { return pixel(*setting, x, y); };
   return analytic;
 }
 

@@ -98,13 +98,11 @@ TEST(Convergence, SmoothProblemsAreOfSecondOrder) {
   EXPECT_GE(order_against_closed_form(AnalyticProblem::v8_trilinear, 10), 1.9);
 }
 
-// The blob's grid is not its closed form, so the order in the step is taken against the grid's own
-// limit; from one step more, as on a smooth field the kinks at cell boundaries dominate only late.
-TEST(Convergence, BlobIsOfSecondOrderInTheStep) {
-  const AnalyticScene analytic = analytic_scene(AnalyticProblem::v4_gaussian, options(24));
+double order_against_limit(AnalyticProblem problem, int size, const std::vector<double>& steps) {
+  const AnalyticScene analytic = analytic_scene(problem, options(size));
   const Truth limit = render_volume_converged(analytic.scene, 1e-8);
   std::vector<double> errors;
-  for (const double step : more_halvings) {
+  for (const double step : steps) {
     scene::VolumeScene scene = analytic.scene;
     scene.step_voxels = step;
     const Truth truth = render_volume(scene);
@@ -114,7 +112,13 @@ TEST(Convergence, BlobIsOfSecondOrderInTheStep) {
     }
     errors.push_back(std::sqrt(sum));
   }
-  EXPECT_GE(fitted_order(more_halvings, errors), 1.9);
+  return fitted_order(steps, errors);
+}
+
+// The blob's grid is not its closed form, so the order in the step is taken against the grid's own
+// limit; from one step more, as on a smooth field the kinks at cell boundaries dominate only late.
+TEST(Convergence, BlobIsOfSecondOrderInTheStep) {
+  EXPECT_GE(order_against_limit(AnalyticProblem::v4_gaussian, 24, more_halvings), 1.9);
 }
 
 TEST(Convergence, BlobIsOfSecondOrderInTheVoxelSize) {
@@ -132,6 +136,29 @@ TEST(Convergence, LayersAreLimitedByTheirEdge) {
   const double order = order_against_closed_form(AnalyticProblem::v6_layers, 12);
   EXPECT_GT(order, 0.4);
   EXPECT_LT(order, 1.7);
+}
+
+// Against the grid's own limit, which is not the closed form.
+TEST(Convergence, AShellIsLimitedByItsFaces) {
+  const double order = order_against_limit(AnalyticProblem::v7_shell, 24, halvings);
+  EXPECT_GT(order, 0.4);
+  EXPECT_LT(order, 1.7);
+}
+
+// Of the limit of the step, by rays that cross the faces steeply: what is left is the grid's
+// distance from the centre. The table's ramp lies about a face evenly.
+TEST(Convergence, AShellIsOfSecondOrderInTheVoxelSize) {
+  std::vector<double> sizes;
+  std::vector<double> errors;
+  for (const int size : {16, 32, 64}) {
+    AnalyticOptions o = options(size);
+    o.camera = analytic_scene(AnalyticProblem::v7_shell, o).scene.camera;
+    o.camera->fov_y_deg = 12;
+    const AnalyticScene analytic = analytic_scene(AnalyticProblem::v7_shell, o);
+    sizes.push_back(1.0 / size);
+    errors.push_back(difference(analytic, render_volume_converged(analytic.scene, 1e-6)).rms);
+  }
+  EXPECT_GE(fitted_order(sizes, errors), 1.8);
 }
 
 TEST(Convergence, LayersSeenFromBehindAreReversed) {

@@ -1,0 +1,330 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "reference/analytic_setting.hpp"
+#include "reference/closed_forms.hpp"
+
+namespace triptych::reference {
+namespace {
+
+constexpr double rounding = 0x1.0p-24;
+
+struct Chord {
+  glm::dvec3 direction{};
+  double begin = 0;
+  double end = 0;
+  [[nodiscard]] double length() const { return end - begin; }
+};
+
+// Deliberately not the renderer's: the two check each other. Cuts the ray by one plane after the
+// other.
+Chord chord_of(const Setting& setting, int x, int y) {
+  Chord chord;
+  chord.direction =
+      setting.camera.ray_direction(x, y, setting.options.width, setting.options.height);
+  chord.end = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      // Inside means side·(p − face) ≤ 0.
+      const double face = side < 0 ? 0.0 : setting.extent[axis];
+      const double distance = side * (setting.camera.eye[axis] - face);
+      const double speed = side * chord.direction[axis];
+      if (speed > 0) chord.end = std::min(chord.end, -distance / speed);
+      if (speed < 0) chord.begin = std::max(chord.begin, distance / -speed);
+      if (speed == 0 && distance > 0) chord.end = chord.begin;
+    }
+  }
+  chord.end = std::max(chord.end, chord.begin);
+  return chord;
+}
+
+AnalyticPixel finish(const Setting& setting, const std::array<Radiance, 3>& channels,
+                     double model_error) {
+  AnalyticPixel pixel;
+  const double opacity = channels[0].opacity;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double own = i < 3 ? channels[i].colour : opacity;
+    pixel.rgba[i] = own + (1.0 - opacity) * static_cast<double>(setting.options.background[i]);
+  }
+  pixel.model_error = model_error;
+  return pixel;
+}
+
+// Of the picture, from the table alone: derived in the header.
+double table_error(const Setting& setting, double length) {
+  const Medium& medium = setting.medium;
+  const double u = setting.voxel;
+  const double left = std::exp(-u * medium.largest);
+  const double slope = u * medium.slope;
+  const double bend = u * medium.curvature + slope * slope;
+  const double alpha = bend / (8.0 * 255.0 * 255.0) + rounding * (1.0 - left + slope);
+  return length * alpha / (u * left) + 2.0 * rounding;
+}
+
+// Distances along the ray at which z crosses one of the planes, with both ends, ascending.
+std::vector<double> cuts(const Setting& setting, const Chord& chord,
+                         const std::vector<double>& planes) {
+  std::vector<double> at{chord.begin, chord.end};
+  const double speed = chord.direction.z;
+  for (const double plane : planes) {
+    if (speed == 0.0) break;
+    const double t = (plane - setting.camera.eye.z) / speed;
+    if (t > chord.begin && t < chord.end) at.push_back(t);
+  }
+  std::sort(at.begin(), at.end());
+  return at;
+}
+
+// g of the problems along z, constant in the outermost half voxels.
+double height(const Setting& setting, double z) {
+  const double half = 0.5 * setting.layer_z;
+  return std::clamp(z, half, setting.extent.z - half) / setting.extent.z;
+}
+
+double z_at(const Setting& setting, const Chord& chord, double t) {
+  return setting.camera.eye.z + t * chord.direction.z;
+}
+
+// Of the field, and of the medium as the table shows it.
+std::vector<double> kinks(const Setting& setting) {
+  std::vector<double> at{0.5 * setting.layer_z, setting.extent.z - 0.5 * setting.layer_z};
+  for (const double g : setting.medium.kinks) at.push_back(g * setting.extent.z);
+  return at;
+}
+
+using Piece = std::function<Radiance(const Setting&, double g0, double g1, double length,
+                                     std::size_t channel)>;
+
+// Composites a closed form per piece between kinks of the field.
+AnalyticPixel along_z(const Setting& setting, const Piece& piece, int x, int y) {
+  const Chord chord = chord_of(setting, x, y);
+  const std::vector<double> at = cuts(setting, chord, kinks(setting));
+  std::array<Radiance, 3> channels{};
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    if (!(at[i + 1] > at[i])) continue;
+    const double g0 = height(setting, z_at(setting, chord, at[i]));
+    const double g1 = height(setting, z_at(setting, chord, at[i + 1]));
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      channels[channel] =
+          over(channels[channel], piece(setting, g0, g1, at[i + 1] - at[i], channel));
+    }
+  }
+  const double error = chord.length() > 0 ? table_error(setting, chord.length()) : 0.0;
+  return finish(setting, channels, error);
+}
+
+Radiance linear_piece(const Setting& setting, double g0, double g1, double length,
+                      std::size_t channel) {
+  const Medium& medium = setting.medium;
+  const double tau = medium.tau(g0);
+  const double colour = medium.colour(g0)[channel];
+  return v3_segment({tau, (medium.tau(g1) - tau) / length, colour,
+                     (medium.colour(g1)[channel] - colour) / length, length});
+}
+
+Radiance atmosphere_piece(const Setting& setting, double g0, double g1, double length,
+                          std::size_t channel) {
+  const double colour = setting.medium.colour(g0)[channel];
+  if (g0 == g1) return v1_constant(setting.medium.tau(g0), colour, length);
+  const double scale_height = setting.extent.z / 2.0;
+  const double z0 = g0 * setting.extent.z;
+  const double z1 = g1 * setting.extent.z;
+  const double depth = v5_atmosphere_depth(setting.medium.tau(0.0), scale_height, z0, z1,
+                                           std::abs(z1 - z0) / length);
+  return v1_constant(depth, colour, 1.0);
+}
+
+// ∫ |error of g| ds by trilinear interpolation and, near the faces, clamping; the derivatives are
+// taken at their worst within a cell's diagonal: |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ², |∂ᵢg| = rᵢ·g/σ².
+double blob_interpolation_error(const Setting& setting, const Chord& chord) {
+  constexpr int intervals = 512;
+  const double sigma = blob_sigma(setting);
+  const glm::dvec3 spacing = {setting.options.spacing[0], setting.options.spacing[1],
+                              setting.options.spacing[2]};
+  const double diagonal = glm::length(spacing);
+  const double ds = chord.length() / intervals;
+  double sum = 0;
+  for (int i = 0; i < intervals; ++i) {
+    const glm::dvec3 p = setting.camera.eye + (chord.begin + (i + 0.5) * ds) * chord.direction;
+    const double r = glm::length(p - 0.5 * setting.extent);
+    const double nearest = std::max(r - diagonal - 0.5 * ds, 0.0) / sigma;
+    const double farthest = (r + diagonal + 0.5 * ds) / sigma;
+    const double g = std::exp(-0.5 * nearest * nearest);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double width = spacing[axis] / sigma;
+      sum += ds * g * width * width / 8.0 * (1.0 + farthest * farthest);
+      const double to_face = std::min(p[axis], setting.extent[axis] - p[axis]);
+      if (to_face < 0.5 * spacing[axis] + ds) sum += ds * g * width / 2.0 * farthest;
+    }
+  }
+  return sum;
+}
+
+// Where the ray crosses the outermost voxel centres, with both ends, ascending.
+std::vector<double> cuts_of_all_axes(const Setting& setting, const Chord& chord) {
+  std::vector<double> at{chord.begin, chord.end};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = 0.5 * setting.options.spacing[static_cast<std::size_t>(axis)];
+    for (const double plane : {half, setting.extent[axis] - half}) {
+      const double t = (plane - setting.camera.eye[axis]) / chord.direction[axis];
+      if (t > chord.begin && t < chord.end) at.push_back(t);
+    }
+  }
+  std::sort(at.begin(), at.end());
+  return at;
+}
+
+// The ray's length within a radius of the centre, `nearest` along the ray and p beside it.
+double length_within(const Chord& chord, double nearest, double p, double radius) {
+  if (!(radius > p)) return 0;
+  const double half = std::sqrt((radius - p) * (radius + p));
+  return std::max(0.0, std::min(chord.end, nearest + half) - std::max(chord.begin, nearest - half));
+}
+
+// Half the width of the zone about a face in which grid and table need not show what the closed
+// form does. The table goes from one entry to the next, R/510 to each side; the grid's r errs by
+// D/(r − d) at most, D = Σ Δᵢ²/8 as |∂ᵢ²r| ≤ 1/r and d a cell's diagonal, and by its rounding. So w
+// is the smaller root of (w − h)(s − w) = D with s = face − d; infinite where there is none, in a
+// grid that is too coarse.
+double unsure_zone(const Setting& setting, double face) {
+  const auto& spacing = setting.options.spacing;
+  double squares = 0;
+  for (const double delta : spacing) squares += delta * delta;
+  const double s = face - std::sqrt(squares);
+  const double h = shell_of(setting).reach * (1.0 / 510.0 + 2.0 * rounding);
+  const double discriminant = (s - h) * (s - h) - squares / 2.0;
+  if (!(s > h) || !(discriminant >= 0)) return std::numeric_limits<double>::infinity();
+  return 0.5 * (s + h - std::sqrt(discriminant));
+}
+
+}  // namespace
+
+double blob_sigma(const Setting& setting) {
+  return std::min({setting.extent.x, setting.extent.y, setting.extent.z}) / 10.0;
+}
+
+double heights_product(const Setting& setting, const glm::dvec3& p) {
+  double g = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = 0.5 * setting.options.spacing[static_cast<std::size_t>(axis)];
+    g *= std::clamp(p[axis], half, setting.extent[axis] - half) / setting.extent[axis];
+  }
+  return g;
+}
+
+Shell shell_of(const Setting& setting) {
+  const double reach = 0.5 * std::min({setting.extent.x, setting.extent.y, setting.extent.z});
+  return {.reach = reach, .inner = 127.5 / 255.0 * reach, .outer = 216.5 / 255.0 * reach};
+}
+
+AnalyticPixel constant_pixel(const Setting& setting, int x, int y) {
+  const double length = chord_of(setting, x, y).length();
+  // The table's float is taken as the truth, so only the colour's own rounding would be left; it is
+  // exact in float too.
+  const double tau = -std::log1p(-static_cast<double>(static_cast<float>(
+                         -std::expm1(-setting.voxel * setting.medium.largest)))) /
+                     setting.voxel;
+  std::array<Radiance, 3> channels;
+  for (std::size_t i = 0; i < 3; ++i) {
+    channels[i] = v1_constant(tau, setting.medium.colour(0.5)[i], length);
+  }
+  return finish(setting, channels, 0.0);
+}
+
+AnalyticPixel linear_pixel(const Setting& setting, int x, int y) {
+  return along_z(setting, linear_piece, x, y);
+}
+
+AnalyticPixel atmosphere_pixel(const Setting& setting, int x, int y) {
+  return along_z(setting, atmosphere_piece, x, y);
+}
+
+AnalyticPixel layers_pixel(const Setting& setting, int x, int y) {
+  const Chord chord = chord_of(setting, x, y);
+  const std::vector<double> at = cuts(setting, chord, {0.5 * setting.extent.z});
+  std::array<Radiance, 3> channels{};
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    const double z = z_at(setting, chord, 0.5 * (at[i] + at[i + 1]));
+    const double g = z < 0.5 * setting.extent.z ? 0.0 : 1.0;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      channels[channel] = over(
+          channels[channel],
+          v1_constant(setting.medium.tau(g), setting.medium.colour(g)[channel], at[i + 1] - at[i]));
+    }
+  }
+  if (!(chord.length() > 0)) return finish(setting, channels, 0.0);
+  const double slope = std::abs(chord.direction.z) * 255.0 / setting.layer_z;
+  const double inside = slope * chord.length() > 1.0 ? 1.0 / slope : chord.length();
+  const double transition = at.size() > 2 || slope * chord.length() <= 1.0
+                                ? -std::expm1(-setting.medium.largest * inside)
+                                : 0.0;
+  return finish(setting, channels, transition + table_error(setting, chord.length()));
+}
+
+AnalyticPixel gaussian_pixel(const Setting& setting, int x, int y) {
+  const Chord chord = chord_of(setting, x, y);
+  const double sigma = blob_sigma(setting);
+  const glm::dvec3 to_centre = 0.5 * setting.extent - setting.camera.eye;
+  const double nearest = glm::dot(to_centre, chord.direction);
+  const double p = glm::length(to_centre - nearest * chord.direction);
+  const double depth = v4_gaussian_depth(setting.medium.largest, sigma, p, chord.begin - nearest,
+                                         chord.end - nearest);
+  std::array<Radiance, 3> channels;
+  for (std::size_t i = 0; i < 3; ++i) {
+    channels[i] = v1_constant(depth, setting.medium.colour(0.5)[i], 1.0);
+  }
+  if (!(chord.length() > 0)) return finish(setting, channels, 0.0);
+  const double error = table_error(setting, chord.length()) +
+                       setting.medium.largest * blob_interpolation_error(setting, chord);
+  return finish(setting, channels, error);
+}
+
+AnalyticPixel shell_pixel(const Setting& setting, int x, int y) {
+  const Chord chord = chord_of(setting, x, y);
+  const Shell shell = shell_of(setting);
+  const glm::dvec3 to_centre = 0.5 * setting.extent - setting.camera.eye;
+  const double nearest = glm::dot(to_centre, chord.direction);
+  const double p = glm::length(to_centre - nearest * chord.direction);
+  const auto within = [&](double radius) { return length_within(chord, nearest, p, radius); };
+  const double length = within(shell.outer) - within(shell.inner);
+  std::array<Radiance, 3> channels;
+  for (std::size_t i = 0; i < 3; ++i) {
+    channels[i] = v1_constant(setting.medium.largest, setting.medium.colour(0.5)[i], length);
+  }
+  if (!(chord.length() > 0)) return finish(setting, channels, 0.0);
+  double unsure = 0;
+  for (const double face : {shell.inner, shell.outer}) {
+    const double width = unsure_zone(setting, face);
+    unsure += within(face + width) - within(face - width);
+  }
+  return finish(
+      setting, channels,
+      -std::expm1(-setting.medium.largest * unsure) + table_error(setting, chord.length()));
+}
+
+// A product of three heights is a cubic along the ray, which two points of Gauss integrate exactly.
+AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
+  const Chord chord = chord_of(setting, x, y);
+  const std::vector<double> at = cuts_of_all_axes(setting, chord);
+  double depth = 0;
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    const double half = 0.5 * (at[i + 1] - at[i]);
+    for (const double side : {-1.0, 1.0}) {
+      const double t = at[i] + half + side * half / std::numbers::sqrt3;
+      const glm::dvec3 p = setting.camera.eye + t * chord.direction;
+      depth += half * setting.medium.tau(heights_product(setting, p));
+    }
+  }
+  std::array<Radiance, 3> channels;
+  for (std::size_t i = 0; i < 3; ++i) {
+    channels[i] = v1_constant(depth, setting.medium.colour(0.5)[i], 1.0);
+  }
+  const double error = chord.length() > 0 ? table_error(setting, chord.length()) : 0.0;
+  return finish(setting, channels, error);
+}
+
+}  // namespace triptych::reference
