@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/image_io.hpp"
+#include "measure/stopwatch.hpp"
 #include "technique/catalogue.hpp"
 
 namespace triptych::app {
@@ -17,11 +18,6 @@ namespace {
 using judge::PairVerdict;
 using measure::Side;
 using measure::TurnClock;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::vector<std::string> kinds_of(const measure::Plan& plan) {
   std::set<std::string> kinds;
@@ -81,7 +77,7 @@ class Comparer {
     go_on_with_the_widest();
     confirm_suspects();
     for (Entry& entry : entries_) conclude(entry);
-    result_.seconds = seconds_since(start_);
+    result_.seconds = since_start_.seconds();
     return std::move(result_);
   }
 
@@ -99,7 +95,7 @@ class Comparer {
   // Does `act` for a configuration: its time is counted, a side's end is its own.
   template <typename Act>
   void about(Entry& entry, const Act& act) {
-    const auto start = Clock::now();
+    const measure::Stopwatch stopwatch;
     try {
       act();
     } catch (const measure::SideEnded& ended) {
@@ -113,7 +109,7 @@ class Comparer {
             {judge::DifferenceKind::regression, "outcome", ended.what()});
       }
     }
-    entry.compared.seconds += seconds_since(start);
+    entry.compared.seconds += stopwatch.seconds();
   }
 
   void first_looks() {
@@ -121,7 +117,7 @@ class Comparer {
     const int total = static_cast<int>(entries_.size());
     const int first = options_.design.looks.front();
     for (Entry& entry : entries_) {
-      const double each_s = done > 0 ? seconds_since(start_) / done : 0;
+      const double each_s = done > 0 ? since_start_.seconds() / done : 0;
       say("first look", entry, done, total, each_s * (total - done));
       about(entry, [&] {
         look_at_both(entry);
@@ -236,7 +232,7 @@ class Comparer {
   }
 
   [[nodiscard]] bool over_budget() const {
-    return options_.budget && Clock::now() - start_ >= *options_.budget;
+    return options_.budget && since_start_.elapsed() >= *options_.budget;
   }
 
   [[nodiscard]] bool may_go_on(const Entry& entry) const {
@@ -256,7 +252,7 @@ class Comparer {
     }
     if (!options_.budget) return left;
     return std::min(
-        left, std::chrono::duration<double>(*options_.budget).count() - seconds_since(start_));
+        left, std::chrono::duration<double>(*options_.budget).count() - since_start_.seconds());
   }
 
   void go_on_with_the_widest() {
@@ -295,7 +291,7 @@ class Comparer {
   void confirm_suspects() {
     const std::vector<Entry*> suspected = suspects();
     if (suspected.empty()) return;
-    const auto start = Clock::now();
+    const measure::Stopwatch stopwatch;
     const int total = options_.launches * static_cast<int>(suspected.size());
     int done = 0;
     for (int launch = 1; launch <= options_.launches; ++launch) {
@@ -307,7 +303,7 @@ class Comparer {
         break;  // what is then not confirmed says so
       }
       for (Entry* entry : suspected) {
-        const double each_s = done > 0 ? seconds_since(start) / done : 0;
+        const double each_s = done > 0 ? stopwatch.seconds() / done : 0;
         say(fmt::format("fresh launch {} of {}", launch, options_.launches), *entry, done, total,
             each_s * (total - done));
         if (!entry->compared.ended) about(*entry, [&] { launch_again(*entry); });
@@ -384,7 +380,7 @@ class Comparer {
   Truths& truths_;
   const std::function<void(const ComparisonProgress&)>& tell_;
   bool same_setup_;
-  Clock::time_point start_ = Clock::now();
+  measure::Stopwatch since_start_;
   measure::Turns turns_;
   ComparisonResult result_;
   std::vector<Entry> entries_;

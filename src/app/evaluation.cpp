@@ -13,19 +13,15 @@
 #include "core/json.hpp"
 #include "judge/anchor.hpp"
 #include "measure/runner.hpp"
+#include "measure/stopwatch.hpp"
 #include "measure/turns.hpp"
 #include "technique/catalogue.hpp"
 
 namespace triptych::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using measure::Side;
 using measure::TurnClock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string fault_of(double percent) {
   return fmt::format("slowdown:{}", percent);
@@ -117,7 +113,7 @@ class BlockMeasuring {
     std::vector<double> sizes = material_.sizes;
     sizes.insert(sizes.begin(), 0);
     for (const double percent : sizes) {
-      const auto start = Clock::now();
+      const measure::Stopwatch stopwatch;
       std::vector<std::string> planted;
       if (percent > 0) planted.push_back(fault_of(percent));
       turns_.hold(configuration, {std::vector<std::string>{}, planted}, clock);
@@ -133,7 +129,7 @@ class BlockMeasuring {
                       {"launch", number},
                       {"clock", by_device ? "device" : "wall"},
                       {"frames_per_turn", turns_.frames_per_turn()},
-                      {"seconds", seconds_since(start)},
+                      {"seconds", stopwatch.seconds()},
                       {"differences", core::Json::array()}};
       // A ten-millionth of a turn is nothing.
       for (const double d : measure::differences(blocks, used)) {
@@ -197,10 +193,10 @@ void measure_blocks(const EvaluationMaterial& material, const Registry& registry
   const auto parts = static_cast<double>(material.plans.size() * material.devices.size());
   for (const std::string& device : material.devices) {
     for (const measure::Plan& plan : material.plans) {
-      const auto start = Clock::now();
+      const measure::Stopwatch stopwatch;
       const auto in_time = [&] {
         return !material.budget ||
-               seconds_since(start) < static_cast<double>(material.budget->count()) / parts;
+               stopwatch.seconds() < static_cast<double>(material.budget->count()) / parts;
       };
       BlockMeasuring measuring(material, plan, registry.suite(plan.suite), device);
       for (int i = 1; i <= material.launches && (i == 1 || in_time()); ++i) {
@@ -213,11 +209,11 @@ void measure_blocks(const EvaluationMaterial& material, const Registry& registry
 
 void measure_runs(const EvaluationMaterial& material, const Registry& registry,
                   record::Store& store, const TellStep& tell) {
-  const auto start = Clock::now();
+  const measure::Stopwatch stopwatch;
   const measure::Plan anchors = measure::load_plan(judge::anchors_plan, {}, registry.find_suite());
   const auto run = [&](const measure::Plan& plan, double percent) {
     const bool late =
-        material.budget && seconds_since(start) >= static_cast<double>(material.budget->count());
+        material.budget && stopwatch.seconds() >= static_cast<double>(material.budget->count());
     if (late) return;
     measure::RunOptions options{.limit = material.limit, .worker_command = worker_command()};
     tell(fmt::format("{} with {} % planted", plan.name, percent));

@@ -9,6 +9,7 @@ class Stopwatch {
   [[nodiscard]] std::chrono::steady_clock::duration elapsed() const {
     return std::chrono::steady_clock::now() - start_;
   }
+  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(elapsed()).count(); }
   [[nodiscard]] double ns() const {
     return std::chrono::duration<double, std::nano>(elapsed()).count();
   }

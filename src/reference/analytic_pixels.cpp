@@ -178,11 +178,32 @@ std::vector<double> cuts_of_all_axes(const Setting& setting, const Chord& chord)
   return at;
 }
 
-// The ray's length within a radius of the centre, `nearest` along the ray and p beside it.
-double length_within(const Chord& chord, double nearest, double p, double radius) {
-  if (!(radius > p)) return 0;
-  const double half = std::sqrt((radius - p) * (radius + p));
-  return std::max(0.0, std::min(chord.end, nearest + half) - std::max(chord.begin, nearest - half));
+// Where the ray is nearest to the box's centre, and how far from it.
+struct Closest {
+  double along;
+  double beside;
+};
+Closest closest_to_centre(const Setting& setting, const Chord& chord) {
+  const glm::dvec3 to_centre = 0.5 * setting.extent - setting.camera.eye;
+  const double along = glm::dot(to_centre, chord.direction);
+  return {along, glm::length(to_centre - along * chord.direction)};
+}
+
+// A medium of one colour: only its depth, tau times length, matters.
+std::array<Radiance, 3> of_one_colour(const Setting& setting, double tau, double length) {
+  std::array<Radiance, 3> channels;
+  for (std::size_t i = 0; i < 3; ++i) {
+    channels[i] = v1_constant(tau, setting.medium.colour(0.5)[i], length);
+  }
+  return channels;
+}
+
+// The ray's length within a radius of the centre.
+double length_within(const Chord& chord, const Closest& closest, double radius) {
+  if (!(radius > closest.beside)) return 0;
+  const double half = std::sqrt((radius - closest.beside) * (radius + closest.beside));
+  return std::max(
+      0.0, std::min(chord.end, closest.along + half) - std::max(chord.begin, closest.along - half));
 }
 
 // Half the width of the zone about a face in which grid and table need not show what the closed
@@ -228,10 +249,7 @@ AnalyticPixel constant_pixel(const Setting& setting, int x, int y) {
   const double tau = -std::log1p(-static_cast<double>(static_cast<float>(
                          -std::expm1(-setting.voxel * setting.medium.largest)))) /
                      setting.voxel;
-  std::array<Radiance, 3> channels;
-  for (std::size_t i = 0; i < 3; ++i) {
-    channels[i] = v1_constant(tau, setting.medium.colour(0.5)[i], length);
-  }
+  const auto channels = of_one_colour(setting, tau, length);
   return finish(setting, channels, 0.0);
 }
 
@@ -268,15 +286,10 @@ AnalyticPixel layers_pixel(const Setting& setting, int x, int y) {
 AnalyticPixel gaussian_pixel(const Setting& setting, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const double sigma = blob_sigma(setting);
-  const glm::dvec3 to_centre = 0.5 * setting.extent - setting.camera.eye;
-  const double nearest = glm::dot(to_centre, chord.direction);
-  const double p = glm::length(to_centre - nearest * chord.direction);
+  const auto [nearest, p] = closest_to_centre(setting, chord);
   const double depth = v4_gaussian_depth(setting.medium.largest, sigma, p, chord.begin - nearest,
                                          chord.end - nearest);
-  std::array<Radiance, 3> channels;
-  for (std::size_t i = 0; i < 3; ++i) {
-    channels[i] = v1_constant(depth, setting.medium.colour(0.5)[i], 1.0);
-  }
+  const auto channels = of_one_colour(setting, depth, 1.0);
   if (!(chord.length() > 0)) return finish(setting, channels, 0.0);
   const double error = table_error(setting, chord.length()) +
                        setting.medium.largest * blob_interpolation_error(setting, chord);
@@ -286,15 +299,10 @@ AnalyticPixel gaussian_pixel(const Setting& setting, int x, int y) {
 AnalyticPixel shell_pixel(const Setting& setting, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const Shell shell = shell_of(setting);
-  const glm::dvec3 to_centre = 0.5 * setting.extent - setting.camera.eye;
-  const double nearest = glm::dot(to_centre, chord.direction);
-  const double p = glm::length(to_centre - nearest * chord.direction);
-  const auto within = [&](double radius) { return length_within(chord, nearest, p, radius); };
+  const Closest closest = closest_to_centre(setting, chord);
+  const auto within = [&](double radius) { return length_within(chord, closest, radius); };
   const double length = within(shell.outer) - within(shell.inner);
-  std::array<Radiance, 3> channels;
-  for (std::size_t i = 0; i < 3; ++i) {
-    channels[i] = v1_constant(setting.medium.largest, setting.medium.colour(0.5)[i], length);
-  }
+  const auto channels = of_one_colour(setting, setting.medium.largest, length);
   if (!(chord.length() > 0)) return finish(setting, channels, 0.0);
   double unsure = 0;
   for (const double face : {shell.inner, shell.outer}) {
@@ -319,10 +327,7 @@ AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
       depth += half * setting.medium.tau(heights_product(setting, p));
     }
   }
-  std::array<Radiance, 3> channels;
-  for (std::size_t i = 0; i < 3; ++i) {
-    channels[i] = v1_constant(depth, setting.medium.colour(0.5)[i], 1.0);
-  }
+  const auto channels = of_one_colour(setting, depth, 1.0);
   const double error = chord.length() > 0 ? table_error(setting, chord.length()) : 0.0;
   return finish(setting, channels, error);
 }
