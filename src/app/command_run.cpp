@@ -25,6 +25,7 @@ struct RunArguments {
   int limit_s = 60;
   std::optional<int> rounds;
   std::optional<int> budget_s;
+  bool measure_every = false;
   std::vector<std::string> plants;
   std::optional<double> error;
 };
@@ -32,6 +33,9 @@ struct RunArguments {
 std::string outcome_text(const record::Record& record) {
   if (record.outcome != record::Outcome::measured) {
     return fmt::format("{}: {}", record::name_of(record.outcome), record.reason);
+  }
+  if (!record.same_as.empty()) {
+    return fmt::format("the same as {} ({})", record.same_as, record.reason);
   }
   const auto summary = record::summarise(record.time_ns());
   return summary ? fmt::format("{:.3f} ms ({})", summary->median / 1e6, record.clock())
@@ -86,6 +90,7 @@ Told run_and_tell(const RunArguments& arguments) {
   require_writable(std::filesystem::path(arguments.store).parent_path());
   record::Store store(arguments.store, record::Store::Mode::append);
   const measure::RunOptions options{
+      .protocol = {.measure_every = arguments.measure_every},
       .limit = std::chrono::seconds(arguments.limit_s),
       .resume = arguments.resume,
       .rounds = arguments.rounds,
@@ -101,6 +106,13 @@ Told run_and_tell(const RunArguments& arguments) {
       "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
       plan.name, result.run, arguments.store, result.measured, result.skipped, result.failed,
       result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
+  if (result.taken_over > 0) {
+    fmt::print(
+        "{} of them took over the frames of another configuration that their scene cannot tell "
+        "from "
+        "them; --measure-every measures them too\n",
+        result.taken_over);
+  }
   if (result.unsettled > 0) {
     fmt::print(
         "{} not settled: their quietest round was not seen again; --rounds N or --budget "
@@ -178,6 +190,8 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       .add_option("--budget", arguments.budget_s,
                   "Seconds for the run: rounds until then, the most doubtful first")
       ->check(CLI::Range(1, 1000000));
+  command.add_flag("--measure-every", arguments.measure_every,
+                   "Measure configurations too that their scene cannot tell from one before");
   command.add_option(
       "--plant", arguments.plants,
       "Plant a fault to prove that the gate catches it: half_voxel_shift, flipped_axis, "

@@ -71,7 +71,9 @@ class TimingCheck {
       : view_(view), wrong_(wrong), resolutions_(resolutions(view)) {}
 
   std::vector<Finding> run() {
-    for (const record::Record* record : view_.measured) sort_out(*record);
+    for (const record::Record* record : view_.measured) {
+      record->same_as.empty() ? sort_out(*record) : report_taken_over(*record);
+    }
     call_witnesses();
     const std::vector<TimingJudgement> judgements = judge_timings(cases_);
     for (std::size_t i = 0; i < judged_.size(); ++i) report(i, judgements[i]);
@@ -119,6 +121,13 @@ class TimingCheck {
       keep(record, clock, now, std::move(same_clock),
            stored.back().kernel_hash != record.kernel_hash);
     }
+  }
+
+  // Its time is judged where it was measured.
+  void report_taken_over(const record::Record& record) {
+    add(record, Verdict::skipped,
+        fmt::format("measured as {}, which the scene cannot tell from it ({})", record.same_as,
+                    record.reason));
   }
 
   void report_too_few(const record::Record& record, double now,

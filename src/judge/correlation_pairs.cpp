@@ -95,6 +95,8 @@ class Pairs {
         stored_(view.baselines.timings_of_all_devices()),
         stored_anchors_(anchor_baselines_.timings_of_all_devices()) {
     for (const record::Record* record : view.measured) {
+      // One time for several configurations would weigh as many times.
+      if (!record->same_as.empty()) continue;
       if (has_time(*record) && !wrong.contains({record->device, record->configuration})) {
         records_[record->device].push_back(record);
       }

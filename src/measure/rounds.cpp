@@ -37,7 +37,8 @@ std::vector<std::size_t> next_round(std::span<const record::Record> records, std
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const record::Record& record = records[i];
-    const bool timed = record.outcome == record::Outcome::measured && !record.rounds_ns.empty();
+    const bool timed = record.outcome == record::Outcome::measured && record.same_as.empty() &&
+                       !record.rounds_ns.empty();
     if (timed && record.rounds_ns.size() < most && !is_settled(record)) chosen.push_back(i);
   }
   if (order == RoundOrder::doubtful_first) {

@@ -50,6 +50,7 @@ void count(const record::Record& record, RunResult& result) {
   switch (record.outcome) {
     case record::Outcome::measured:
       ++result.measured;
+      if (!record.same_as.empty()) ++result.taken_over;
       break;
     case record::Outcome::skipped:
       ++result.skipped;
@@ -61,6 +62,25 @@ void count(const record::Record& record, RunResult& result) {
       ++result.failed;
       break;
   }
+}
+
+// What frames of another configuration told, which were this one's too; its own benchmark's entry
+// there is none.
+void take_over(record::Record& record, const record::Record& measured) {
+  record.wall_ns = measured.wall_ns;
+  record.device_ns = measured.device_ns;
+  record.device_clock_trusted = measured.device_clock_trusted;
+  record.warm_up_frames = measured.warm_up_frames;
+  record.frames_per_100ms = measured.frames_per_100ms;
+  record.rounds_ns = measured.rounds_ns;
+  record.loop_wall_ns = measured.loop_wall_ns;
+  record.loop_frames = measured.loop_frames;
+  record.counters = measured.counters;
+  record.statistics = measured.statistics;
+  record.image = measured.image;
+  record.data_hash = measured.data_hash;
+  record.kernel_hash = measured.kernel_hash;
+  record.precision = measured.precision;
 }
 
 // Tells how far the run is, with the time left as the mean of what was done foretells it.
@@ -183,10 +203,12 @@ class Measuring {
   }
 
   [[nodiscard]] RunResult conclude(double wall_ns) {
+    share_rounds();
     while (!open_.empty()) leave(open_.begin()->first);
     result_.unsettled =
         static_cast<int>(std::ranges::count_if(records_, [](const record::Record& record) {
-          return record.outcome == record::Outcome::measured && !is_settled(record);
+          return record.outcome == record::Outcome::measured && record.same_as.empty() &&
+                 !is_settled(record);
         }));
     result_.wall_ns = wall_ns;
     result_.overhead_ns = wall_ns - work_ns_;
@@ -224,14 +246,38 @@ class Measuring {
   void measure(const std::string& device, const Configuration& configuration, Report& report) {
     stop_if_asked();
     const std::string key = configuration_key(context_.suite, configuration);
-    const Done done = on(device).perform(
+    Done done = on(device).perform(
         configuration, key, [&](const Loading& loading) { report.loading(device, key, loading); });
+    if (done.record.outcome == record::Outcome::measured) share_frames(done.record);
     // The image first: a record must never name one that is not there.
-    if (!done.record.image.empty()) context_.store.add_image(done.record.image, done.exr);
+    if (!done.exr.empty()) context_.store.add_image(done.record.image, done.exr);
     context_.store.add_record(done.record);
     work_ns_ += done.work_ns;
     count(done.record, result_);
     report.done(done.record);
+  }
+
+  // A record of other frames tells what they told; one of its own may have to tell others.
+  void share_frames(record::Record& record) {
+    if (record.same_as.empty()) {
+      record::Record& kept = measured_[{record.device, record.configuration}];
+      kept = record;
+      kept.benchmark_json.clear();  // the largest part, and never taken over
+    } else {
+      take_over(record, measured_.at({record.device, record.same_as}));
+    }
+  }
+
+  // Rounds after the first were of frames of its own alone.
+  void share_rounds() {
+    for (const record::Record& record : records_) {
+      if (record.same_as.empty()) measured_[{record.device, record.configuration}] = record;
+    }
+    for (record::Record& record : records_) {
+      if (record.same_as.empty()) continue;
+      take_over(record, measured_.at({record.device, record.same_as}));
+      context_.store.update_times(record);
+    }
   }
 
   // What the store knows of this run's devices: with --resume, rounds of before too.
@@ -276,6 +322,7 @@ class Measuring {
   std::map<std::string, std::unique_ptr<DeviceRun>> open_;
   std::vector<record::Record> records_;
   std::map<std::string, const Configuration*> by_key_;
+  std::map<std::pair<std::string, std::string>, record::Record> measured_;  // device, configuration
 };
 
 }  // namespace

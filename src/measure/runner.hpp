@@ -67,6 +67,7 @@ struct Progress {
 struct RunResult {
   std::string run;  // id in the store
   int measured = 0;
+  int taken_over = 0;  // of those, by another configuration's frames (measure/twins.hpp)
   int skipped = 0;
   int failed = 0;     // failed, crashed, hung or lost
   int unsettled = 0;  // of several rounds: measured, but the quietest was not seen again

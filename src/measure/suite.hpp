@@ -39,6 +39,15 @@ struct Factor {
 // Factor → value as canonical text ("0.5", "orbit_y:1/8"); every factor of the suite is present.
 using Configuration = std::map<std::string, std::string>;
 
+// The work of a configuration without what its scene cannot tell.
+struct PlainWork {
+  // Every level that the scene cannot tell from a plainer one replaced by that one; without the
+  // factor that `ends_below` stands for. The same levels and end: the same frames.
+  Configuration levels;
+  double ends_below = 0;                        // a ray ends below this transmittance; 0: never
+  std::map<std::string, std::string> why = {};  // factor → why its level is replaced
+};
+
 class Suite {
  public:
   Suite() = default;
@@ -62,6 +71,12 @@ class Suite {
   // `configuration`. The suite keeps the last data set loaded, so that neighbours in a plan share
   // it.
   [[nodiscard]] virtual Work work(Configuration& configuration, const Device& device) = 0;
+  // What `work` made of a configuration whose "auto" levels are resolved. A level may be replaced
+  // only where the same samples, fragments and counts follow, not where merely the picture is the
+  // same.
+  [[nodiscard]] virtual PlainWork plain(const Configuration& configuration, const Work&) const {
+    return {.levels = configuration};
+  }
   // A work for calibrating clocks: small enough for a very slow device; calibrate_clock lengthens
   // it where it is too short to tell. Its picture tells nothing.
   [[nodiscard]] virtual Work calibration(technique::Work kind) = 0;

@@ -105,7 +105,8 @@ Json to_json(const Protocol& protocol) {
           {"most_loop_frames", protocol.most_loop_frames},
           {"statistics", protocol.statistics},
           {"counters", protocol.counters},
-          {"timed", protocol.timed}};
+          {"timed", protocol.timed},
+          {"measure_every", protocol.measure_every}};
 }
 
 Protocol protocol_from(const Json& json) {
@@ -115,7 +116,8 @@ Protocol protocol_from(const Json& json) {
           .most_loop_frames = json.at("most_loop_frames"),
           .statistics = json.at("statistics"),
           .counters = json.at("counters"),
-          .timed = json.at("timed")};
+          .timed = json.at("timed"),
+          .measure_every = json.at("measure_every")};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <fstream>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -18,6 +19,7 @@
 #include "measure/protocol.hpp"
 #include "measure/runner.hpp"
 #include "measure/stopwatch.hpp"
+#include "measure/twins.hpp"
 #include "measure/wire.hpp"
 
 namespace triptych::measure {
@@ -109,7 +111,7 @@ class Worker {
     return turn([&](Turn&) {
       held_.reset();
       Configuration configuration = hold.configuration;
-      held_ = prepare(configuration, hold.plants).prepared;
+      held_ = device_->prepare(supported_work(configuration, hold.plants));
     });
   }
 
@@ -157,27 +159,34 @@ class Worker {
     answer.exr.clear();
   }
 
-  struct Ready {
-    Work work;
-    std::unique_ptr<Prepared> prepared;
-  };
-  // Resolves the configuration's "auto" levels.
-  Ready prepare(Configuration& configuration, const std::vector<std::string>& plants) {
+  // What the device can do of it. Resolves the configuration's "auto" levels.
+  Work supported_work(Configuration& configuration, const std::vector<std::string>& plants) {
     if (std::string reason = suite_.missing_data(configuration); !reason.empty()) {
       throw core::NotSupported(reason);
     }
     Work work = suite_.work(configuration, *device_);
     for (const std::string& plant : plants) apply_plant(plant, work);
     if (const auto reason = device_->unsupported(work)) throw core::NotSupported(*reason);
-    auto prepared = device_->prepare(work);
-    return {std::move(work), std::move(prepared)};
+    return work;
   }
 
   void perform(const Job& job, Answer& answer) {
     measuring_ns_ = 0;
     const Stopwatch whole;
     Configuration configuration = job.configuration;
-    const auto [work, prepared] = prepare(configuration, job.plants);
+    const Work work = supported_work(configuration, job.plants);
+    const bool may_share = job.protocol.timed && !job.protocol.measure_every && job.plants.empty();
+    std::optional<PlainWork> plain;
+    if (may_share) plain = suite_.plain(configuration, work);
+    if (const auto twin = plain ? twins_.find(*plain) : std::nullopt) {
+      answer.record.outcome = record::Outcome::measured;
+      answer.record.same_as = twin->key;
+      answer.record.reason = twin->reason;
+      answer.record.prepare_ns = whole.ns();
+      answer.record.factors = std::move(configuration);
+      return;
+    }
+    const auto prepared = device_->prepare(work);
     const double prepare_ns = whole.ns();
     answer.record.prepare_ns = prepare_ns;
 
@@ -189,6 +198,9 @@ class Worker {
     answer.record.prepare_ns = prepare_ns;
     answer.record.factors = std::move(configuration);
     describe_work(work, *device_, answer.record);
+    if (plain) {
+      twins_.add(*plain, configuration_key(suite_, job.configuration), work, measured.image);
+    }
     if (technique::technique(work.technique).picture) {
       answer.exr = core::encode_exr(measured.image);
     } else {
@@ -201,6 +213,7 @@ class Worker {
   record::Device info_;
   std::vector<record::ClockTrust> clocks_;
   std::unique_ptr<Prepared> held_;
+  Twins twins_;
   double measuring_ns_ = 0;  // of the last job: what measure() accounts for itself
 };
 

@@ -83,7 +83,11 @@ struct Record {
   std::map<std::string, std::string> factors;  // every factor, defaults resolved
 
   Outcome outcome = Outcome::failed;
-  std::string reason;   // for every outcome but measured
+  // For every outcome but measured, and for what was not measured itself.
+  std::string reason;
+  // The configuration of the same run and device whose frames these are: the scene cannot tell the
+  // two apart, and one of them was measured. Empty: this one was.
+  std::string same_as;
   std::string planted;  // name of a planted fault; such a record is never accepted as a baseline
 
   // Times in nanoseconds, one value per timed frame. The clock that counts is device time where it

@@ -160,6 +160,7 @@ void visit_fields(auto& record, Visit&& visit) requires
   visit("device", record.device);
   visit("factors", record.factors);
   visit("reason", record.reason);
+  visit("same_as", record.same_as);
   visit("planted", record.planted);
   visit("wall_ns", record.wall_ns);
   visit("device_ns", record.device_ns);

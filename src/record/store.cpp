@@ -174,6 +174,23 @@ void read_rounds(const SQLite::Database& database, std::string_view run,
   }
 }
 
+// As of rounds.
+void read_same_as(const SQLite::Database& database, std::string_view run,
+                  const RecordsBySeq& records) {
+  if (!database.tableExists("same_as")) return;
+  SQLite::Statement rows =
+      prepared(database,
+               "SELECT t.record, t.configuration FROM record r JOIN same_as t ON t.record = r.seq "
+               "WHERE r.run = ?",
+               run);
+  while (rows.executeStep()) {
+    std::uint64_t seq = 0;
+    Reader reader(rows);
+    reader >> seq;
+    reader >> records.at(static_cast<std::int64_t>(seq))->same_as;
+  }
+}
+
 Run read_run(SQLite::Statement& row) {
   Run run;
   std::string system;
@@ -298,6 +315,7 @@ void Store::add_record(const Record& r) {
     insert_map(database, "counter", seq, r.counters);
     insert_map(database, "statistic", seq, r.statistics);
     insert_map(database, "precision", seq, r.precision);
+    if (!r.same_as.empty()) execute(database, "INSERT INTO same_as VALUES (?, ?)", seq, r.same_as);
   });
 }
 
@@ -384,6 +402,7 @@ std::vector<Record> Store::records(std::string_view run) const {
     for (std::size_t i = 0; i < records.size(); ++i) by_seq[seqs[i]] = &records[i];
     read_samples(database, run, by_seq);
     read_rounds(database, run, by_seq);
+    read_same_as(database, run, by_seq);
     read_map(database, "factor", run, by_seq, &Record::factors);
     read_map(database, "counter", run, by_seq, &Record::counters);
     read_map(database, "statistic", run, by_seq, &Record::statistics);

@@ -74,14 +74,31 @@ std::string clock_text(const std::vector<record::ClockTrust>& clocks) {
   return text;
 }
 
+// Of their own frames.
 std::vector<const record::Record*> measured(const PlanData& plan) {
   std::vector<const record::Record*> records;
   for (const record::Record& record : plan.records) {
-    if (record.outcome == record::Outcome::measured && !record.time_ns().empty()) {
+    if (record.outcome == record::Outcome::measured && record.same_as.empty() &&
+        !record.time_ns().empty()) {
       records.push_back(&record);
     }
   }
   return records;
+}
+
+// What took over another configuration's frames, and why it could.
+std::string taken_over(const PlanData& plan) {
+  Rows rows{{"configuration", "device", "measured as", "why"}};
+  for (const record::Record& record : plan.records) {
+    if (record.same_as.empty()) continue;
+    rows.push_back({escape(record.configuration), escape(record.device), escape(record.same_as),
+                    escape(record.reason)});
+  }
+  if (rows.size() == 1) return {};
+  return folded(fmt::format("{} configurations measured as another, which their scene cannot tell "
+                            "from them",
+                            rows.size() - 1),
+                table(rows));
 }
 
 }  // namespace
@@ -139,7 +156,7 @@ std::string times_section(const PlanData& plan) {
              "frames drawn back to back.</p><div class=\"chart\" id=\"{0}-times\"></div>"
              "<script>vegaEmbed('#{0}-times', {1}, {{actions: false, renderer: 'svg'}});</script>",
              plan.anchor, time_chart(plan)) +
-         folded("The numbers", table(rows, "times"));
+         folded("The numbers", table(rows, "times")) + taken_over(plan);
 }
 
 std::string speed_of_light_section(const PlanData& plan) {

@@ -11,6 +11,7 @@
 #include "measure/factor.hpp"
 #include "reference/spheres.hpp"
 #include "suites/particles/factors.hpp"
+#include "suites/particles/plain_work.hpp"
 #include "suites/particles/stress_cases.hpp"
 #include "suites/particles/tolerance.hpp"
 #include "triptych_suite_particles_embedded.hpp"
@@ -36,6 +37,10 @@ class ParticleSuite final : public measure::SuiteWithTruth {
   std::string_view plan_text(std::string_view plan) const override;
   std::string missing_data(const Configuration& configuration) const override;
   measure::Work work(Configuration& configuration, const measure::Device& device) override;
+  measure::PlainWork plain(const Configuration& configuration,
+                           const measure::Work& work) const override {
+    return plain_work(configuration, std::get<measure::ParticleWork>(work.scene));
+  }
   measure::Work calibration(technique::Work kind) override;
   measure::Truth truth(const Configuration& configuration,
                        const std::map<std::string, double>& precision) override;

@@ -16,6 +16,7 @@
 #include "suites/volume/factors.hpp"
 #include "suites/volume/frame_description.hpp"
 #include "suites/volume/own_levels.hpp"
+#include "suites/volume/plain_work.hpp"
 #include "suites/volume/stress_cases.hpp"
 #include "suites/volume/tolerance.hpp"
 #include "triptych_suite_volume_embedded.hpp"
@@ -39,6 +40,10 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   std::string_view plan_text(std::string_view plan) const override;
   std::string missing_data(const Configuration& configuration) const override;
   measure::Work work(Configuration& configuration, const measure::Device& device) override;
+  measure::PlainWork plain(const Configuration& configuration,
+                           const measure::Work& work) const override {
+    return plain_work(configuration, std::get<measure::VolumeWork>(work.scene));
+  }
   measure::Work calibration(technique::Work kind) override;
   measure::Truth truth(const Configuration& configuration,
                        const std::map<std::string, double>& precision) override;

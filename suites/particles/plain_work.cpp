@@ -1,0 +1,115 @@
+#include "suites/particles/plain_work.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/particles.hpp"
+
+namespace triptych::particles_suite {
+namespace {
+
+// Pixels of a picture, from lo up to but not including hi.
+struct Rectangle {
+  int x_lo, x_hi, y_lo, y_hi;
+};
+
+// One axis of the image: where it begins on the image plane, pixels per unit there, pixels.
+struct Axis {
+  double first;
+  double per_unit;
+  int pixels;
+
+  // Of a ball of radius r around a, z: with |p − c| ≤ r each point's p_a/p_z differs from a/z by at
+  // most r·(1 + |a|/z)/(z − r). Two pixels more than any sprite's margin on each side.
+  [[nodiscard]] std::pair<int, int> pixels_of(double a, double z, double r) const {
+    constexpr double margin = 2;
+    const double middle = (a / z - first) * per_unit;
+    const double half = r * (1 + std::abs(a) / z) / (z - r) * per_unit + margin;
+    const auto inside = [&](double x) {
+      return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(pixels)));
+    };
+    return {inside(std::floor(middle - half)), inside(std::ceil(middle + half))};
+  }
+};
+
+// Pixels that a sprite has claimed.
+class Claims {
+ public:
+  Claims(int width, int height)
+      : width_(static_cast<std::size_t>(width)),
+        taken_(width_ * static_cast<std::size_t>(height), false) {}
+
+  // False where one of them was another's.
+  bool claim(const Rectangle& rectangle) {
+    for (int y = rectangle.y_lo; y < rectangle.y_hi; ++y) {
+      for (int x = rectangle.x_lo; x < rectangle.x_hi; ++x) {
+        const std::size_t at = static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
+        if (taken_[at]) return false;
+        taken_[at] = true;
+      }
+    }
+    return true;
+  }
+
+ private:
+  std::size_t width_;
+  std::vector<bool> taken_;
+};
+
+}  // namespace
+
+bool sprites_are_apart(const scene::ParticleScene& scene) {
+  // A polygon around a silhouette has at least four corners: they reach √2 as far as it does.
+  constexpr double reach = 1.05 * std::numbers::sqrt2;
+  const double tangent = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360);
+  const double aspect = static_cast<double>(scene.width) / scene.height;
+  const Axis across{-aspect * tangent, scene.width / (2 * aspect * tangent), scene.width};
+  const Axis down{-tangent, scene.height / (2 * tangent), scene.height};
+  const glm::dvec3 right = scene.camera.right();
+  Claims claims(scene.width, scene.height);
+  for (std::size_t i = 0; i < scene.particles->count(); ++i) {
+    const auto& sphere = scene.particles->spheres[i];
+    const glm::dvec3 from_eye = glm::dvec3(sphere[0], sphere[1], sphere[2]) - scene.camera.eye;
+    const double z = glm::dot(from_eye, scene.camera.forward);
+    const double r = reach * static_cast<double>(scene.radius(i));
+    if (z < -r) continue;
+    if (z < 2 * r) return false;
+    const auto [x_lo, x_hi] = across.pixels_of(glm::dot(from_eye, right), z, r);
+    const auto [y_lo, y_hi] = down.pixels_of(-glm::dot(from_eye, scene.camera.up), z, r);
+    if (!claims.claim({x_lo, x_hi, y_lo, y_hi})) return false;
+  }
+  return true;
+}
+
+measure::PlainWork plain_work(const measure::Configuration& configuration,
+                              const measure::ParticleWork& work) {
+  measure::PlainWork plain{.levels = configuration};
+  const auto plainer = [&](const std::string& factor, const std::string& level, const char* why) {
+    std::string& current = plain.levels.at(factor);
+    if (current == level) return;
+    current = level;
+    plain.why[factor] = why;
+  };
+  const std::string technique = configuration.at("technique");
+  if (configuration.at("colour") != "intensity") {
+    plainer("transfer", "vertex", "stored colours are not looked up");
+    plainer("transfer_function", "haze", "stored colours are not looked up");
+  }
+  if (technique != "polygon_tess") plainer("corners", "8", "only polygon_tess is told how many");
+  if (work.options.conservative_depth) {
+    if (technique == "tiles") {
+      plainer("conservative_depth", "off", "tiles reject by the sphere's front in any case");
+    } else if (sprites_are_apart(work.scene)) {
+      plainer("conservative_depth", "off", "no sprite lies behind another");
+    }
+  }
+  return plain;
+}
+
+}  // namespace triptych::particles_suite

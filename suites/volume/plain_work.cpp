@@ -1,0 +1,36 @@
+#include "suites/volume/plain_work.hpp"
+
+#include <algorithm>
+
+#include "technique/volume/bricks.hpp"
+
+namespace triptych::volume_suite {
+namespace {
+
+bool no_brick_is_empty(const scene::VolumeScene& scene, technique::Skip skip) {
+  const technique::BrickRanges ranges =
+      technique::brick_ranges(*scene.grid, technique::brick_layout(scene, skip));
+  return std::ranges::all_of(technique::brick_visibility(ranges, scene.transfer_function),
+                             [](std::uint32_t visible) { return visible != 0; });
+}
+
+}  // namespace
+
+measure::PlainWork plain_work(const measure::Configuration& configuration,
+                              const measure::VolumeWork& work) {
+  measure::PlainWork plain{.levels = configuration};
+  plain.levels.erase("ert");
+  if (configuration.at("technique") != "speed_of_light") {
+    plain.ends_below = work.options.ert;
+  } else if (work.options.ert > 0) {
+    plain.why["ert"] = "speed_of_light ends no ray";
+  }
+  if (work.options.skip == technique::Skip::distance &&
+      no_brick_is_empty(work.scene, work.options.skip)) {
+    plain.levels["skip"] = technique::name_of(technique::Skip::none);
+    plain.why["skip"] = "no brick of this scene is empty";
+  }
+  return plain;
+}
+
+}  // namespace triptych::volume_suite

@@ -1,0 +1,151 @@
+// What counts as the same work, and what runs make of it.
+
+#include "measure/twins.hpp"
+
+#include <limits>
+
+#include "tests/unit/measure_run/run_fixture.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+Work volume_over(float background) {
+  VolumeWork volume;
+  volume.scene.background = {0, 0, 0, background};
+  return {.technique = "raycast", .scene = volume};
+}
+
+core::Image picture(const std::vector<float>& alphas) {
+  core::Image image;
+  image.width = static_cast<int>(alphas.size());
+  image.height = 1;
+  for (const float alpha : alphas) image.rgba.insert(image.rgba.end(), {0, 0, 0, alpha});
+  return image;
+}
+
+TEST(LeastTransmittance, IsWhatThePictureLeavesOfTheBackground) {
+  EXPECT_NEAR(least_transmittance(volume_over(0), picture({0.25F, 0.75F, 0.5F})), 0.25, 1e-6);
+  // 1 − T + T·¼ = 0.85: T = 0.2.
+  EXPECT_NEAR(least_transmittance(volume_over(0.25F), picture({0.25F, 0.85F})), 0.2, 1e-6);
+}
+
+TEST(LeastTransmittance, IsNothingWhereItCannotBeSeen) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(least_transmittance(volume_over(1), picture({0.5F})), 0);
+  EXPECT_EQ(least_transmittance(volume_over(0), picture({1.0F})), 0);
+  EXPECT_EQ(least_transmittance(volume_over(0), picture({0.5F, nan, 0.1F})), 0);
+  EXPECT_EQ(least_transmittance(volume_over(0), picture({})), 0);
+  EXPECT_EQ(least_transmittance({.technique = "tiles", .scene = ParticleWork{}}, picture({0.5F})),
+            0);
+}
+
+class TwinsOf : public testing::Test {
+ protected:
+  static PlainWork plain(const std::string& step, double ends_below) {
+    return {.levels = {{"step", step}}, .ends_below = ends_below};
+  }
+  TwinsOf() { twins.add(plain("1", 0), "first", volume_over(0), picture({0.75F})); }
+  Twins twins;
+};
+
+TEST_F(TwinsOf, RaysThatEndBelowWhatTheyReachAreTheSame) {
+  const auto twin = twins.find(plain("1", 0.125));
+  ASSERT_TRUE(twin);
+  EXPECT_EQ(twin->key, "first");
+  EXPECT_EQ(twin->reason, "ert: no ray gets darker than 0.25");
+  EXPECT_FALSE(twins.find(plain("1", 0.3)));
+  EXPECT_FALSE(twins.find(plain("2", 0.125)));
+}
+
+TEST_F(TwinsOf, WhatEndedRaysTellsNothingOfLess) {
+  twins.add(plain("2", 0.3), "second", volume_over(0), picture({0.75F}));
+  EXPECT_FALSE(twins.find(plain("2", 0)));
+  EXPECT_TRUE(twins.find(plain("2", 0.3)));
+}
+
+TEST_F(TwinsOf, TheReasonNamesWhatWasReplacedInOneOfThem) {
+  PlainWork leaps = plain("1", 0);
+  leaps.why["skip"] = "nothing is empty";
+  const auto twin = twins.find(leaps);
+  ASSERT_TRUE(twin);
+  EXPECT_EQ(twin->reason, "skip: nothing is empty");
+}
+
+// The fake suite's data "full" cannot tell skip=bricks from none.
+class RunTwins : public RunTest {
+ protected:
+  Plan full(const std::string& data = "full") {
+    return plan({{"technique", {"raycast"}},
+                 {"data", {data}},
+                 {"step", {"1"}},
+                 {"camera", {"random:7"}},
+                 {"skip", {"none", "bricks"}}});
+  }
+  // By configuration key: bricks first, as it is the standard level, which no key names.
+  [[nodiscard]] std::map<std::string, record::Record> by_key(const RunResult& result) const {
+    std::map<std::string, record::Record> all;
+    for (const record::Record& record : records(result.run)) all[record.configuration] = record;
+    return all;
+  }
+  const std::string bricks = "camera=random:7,data=full,technique=raycast,viewport=8";
+  const std::string none = "camera=random:7,data=full,skip=none,technique=raycast,viewport=8";
+};
+
+TEST_F(RunTwins, TakeOverWhatTheFirstTold) {
+  const RunResult result = run(full());
+  EXPECT_EQ(result.measured, 2);
+  EXPECT_EQ(result.taken_over, 1);
+  auto all = by_key(result);
+  ASSERT_TRUE(all.contains(none) && all.contains(bricks));
+  const record::Record& first = all[none];
+  const record::Record& other = all[bricks];
+  EXPECT_EQ(first.same_as, "");
+  EXPECT_EQ(other.same_as, none);
+  EXPECT_EQ(other.reason, "skip: nothing is empty");
+  EXPECT_EQ(other.wall_ns, first.wall_ns);
+  EXPECT_EQ(other.counters, first.counters);
+  EXPECT_EQ(other.image, first.image);
+  EXPECT_EQ(other.factors.at("skip"), "bricks");
+  EXPECT_THAT(other.wall_ns, SizeIs(8));
+  EXPECT_TRUE(other.benchmark_json.empty());
+}
+
+TEST_F(RunTwins, FollowLaterRoundsWithoutDrawing) {
+  Variable busy{"TRIPTYCH_NULL_SCRIPT",
+                R"({"base_ns": 3e6, "ns_per_sample": 0, "prepare_factors": [3]})"};
+  Plan what = full();
+  what.rounds = 6;
+  const RunResult result = run(what);
+  EXPECT_THAT(told, SizeIs(2 + 2));  // both once, the first in two rounds more
+  EXPECT_EQ(result.unsettled, 0);
+  auto all = by_key(result);
+  EXPECT_EQ(all[bricks].rounds_ns, all[none].rounds_ns);
+  EXPECT_EQ(all[bricks].wall_ns, all[none].wall_ns);
+  EXPECT_THAT(all[bricks].rounds_ns, SizeIs(3));
+}
+
+TEST_F(RunTwins, AreMeasuredWhereTheSceneTellsThemApart) {
+  EXPECT_EQ(run(full("cube")).taken_over, 0);
+}
+
+TEST_F(RunTwins, AreMeasuredWhereThatIsAskedFor) {
+  options.protocol.measure_every = true;
+  EXPECT_EQ(run(full()).taken_over, 0);
+}
+
+TEST_F(RunTwins, AreMeasuredWhereAFaultIsPlanted) {
+  options.plants = {{.fault = "half_voxel_shift", .only = {}}};
+  EXPECT_EQ(run(full()).taken_over, 0);
+}
+
+TEST_F(RunTwins, AreDrawnWhereNothingIsTimed) {
+  Plan what = full();
+  what.timed = false;
+  EXPECT_EQ(run(what).taken_over, 0);
+}
+
+}  // namespace
+}  // namespace triptych::measure

@@ -1,0 +1,54 @@
+// What volumes cannot tell apart.
+
+#include "suites/volume/plain_work.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "scene/generators.hpp"
+
+namespace triptych::volume_suite {
+namespace {
+
+measure::VolumeWork work_of(const std::string& generator, technique::Skip skip) {
+  measure::VolumeWork work;
+  work.scene.grid = std::make_shared<const scene::VoxelGrid>(
+      scene::encode(scene::generate_volume(generator, {24, 24, 24}), scene::VoxelFormat::f32));
+  work.scene.transfer_function = scene::load_transfer_function("haze");
+  work.options.skip = skip;
+  work.options.ert = 0.25;
+  return work;
+}
+
+measure::PlainWork plain(const std::string& generator, technique::Skip skip,
+                         const std::string& technique = "raycast") {
+  return plain_work(
+      {{"technique", technique}, {"skip", std::string(technique::name_of(skip))}, {"ert", "0.25"}},
+      work_of(generator, skip));
+}
+
+TEST(PlainVolumeWork, LeapsOverNothingAreNone) {
+  const auto full = plain("uniform_box", technique::Skip::distance);
+  EXPECT_EQ(full.levels.at("skip"), "none");
+  EXPECT_TRUE(full.why.contains("skip"));
+  EXPECT_EQ(full.levels, plain("uniform_box", technique::Skip::none).levels);
+}
+
+TEST(PlainVolumeWork, AWalkIsWorkEvenThroughAFullVolume) {
+  EXPECT_EQ(plain("uniform_box", technique::Skip::bricks).levels.at("skip"), "bricks");
+}
+
+TEST(PlainVolumeWork, EmptyBricksTellLeapsApart) {
+  EXPECT_EQ(plain("sparse_field", technique::Skip::distance).levels.at("skip"), "distance");
+}
+
+TEST(PlainVolumeWork, RaysOfTheSpeedOfLightEndNowhere) {
+  EXPECT_EQ(plain("uniform_box", technique::Skip::none).ends_below, 0.25);
+  const auto bare = plain("uniform_box", technique::Skip::none, "speed_of_light");
+  EXPECT_EQ(bare.ends_below, 0);
+  EXPECT_FALSE(bare.levels.contains("ert"));
+}
+
+}  // namespace
+}  // namespace triptych::volume_suite
