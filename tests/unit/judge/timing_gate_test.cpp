@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -209,10 +210,30 @@ TEST_F(TimingGateTest, AMachineThatItsOwnAnchorsShowSlowerIsNoSlowerProgram) {
   ASSERT_EQ(slower.size(), 3U) << text(result);
   for (const Finding& each : slower) EXPECT_EQ(each.configuration, plain_);
   EXPECT_NEAR(slower[0].numbers.at("ratio"), 1.1, 0.02);
-  EXPECT_EQ(with(result, Verdict::pass, Check::timing).size(), 9U);
+  // Three configurations and the program as a whole on each device.
+  EXPECT_EQ(with(result, Verdict::pass, Check::timing).size(), 9U + 3U);
   const auto advice = with(result, Verdict::advisory, Check::timing);
   ASSERT_EQ(advice.size(), 3U) << text(result);
   EXPECT_THAT(advice[0].message, HasSubstr("by 8 anchors"));
+}
+
+TEST_F(TimingGateTest, ASlowerProgramBesideStillAnchorsIsToldAsOne) {
+  for (int i = 1; i <= 8; ++i) {
+    add_anchors(fmt::format("r{}-anchors", i), 1);
+    accept_anchors(fmt::format("r{}-anchors", i));
+    add_run(fmt::format("r{}-run", i));
+    (void)accept_run(fmt::format("r{}-run", i));
+  }
+  add_anchors("s-anchors", 1);
+  add_run("s-run", times(1.3));
+  const GateResult result = gate("s-run");
+  const auto slower = with(result, Verdict::regression, Check::timing);
+  ASSERT_EQ(slower.size(), 12U + 3U) << text(result);
+  const auto whole = std::ranges::find(slower, "program", &Finding::subject);
+  ASSERT_NE(whole, slower.end());
+  EXPECT_TRUE(whole->configuration.empty());
+  EXPECT_THAT(whole->message, HasSubstr("the program as a whole is +"));
+  EXPECT_NEAR(whole->numbers.at("ratio"), 1.3, 0.03);
 }
 
 TEST_F(TimingGateTest, AnchorsThatNobodyAcceptedTellNothing) {
