@@ -9,6 +9,7 @@
 
 #include "core/file.hpp"
 #include "fixture.hpp"
+#include "judge/confirmation.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -234,6 +235,31 @@ TEST_F(TimingGateTest, ASlowerProgramBesideStillAnchorsIsToldAsOne) {
   EXPECT_TRUE(whole->configuration.empty());
   EXPECT_THAT(whole->message, HasSubstr("the program as a whole is +"));
   EXPECT_NEAR(whole->numbers.at("ratio"), 1.3, 0.03);
+}
+
+// What a second launch does not show is taken back, each thing for itself.
+TEST_F(TimingGateTest, ASecondLaunchConfirmsOnlyWhatItShowsToo) {
+  accept_history();
+  add_run("b", [](record::Record& record, core::Image& image) {
+    times(1.2, bricks_)(record, image);
+    times(1.2, plain_)(record, image);
+  });
+  add_run("c", times(1.2, plain_));
+  GateResult result = gate("b");
+  ASSERT_EQ(with(result, Verdict::regression).size(), 6U);
+  EXPECT_TRUE(names_suspects(result));
+  take_back_unconfirmed(result, gate("c"));
+  const auto slower = with(result, Verdict::regression);
+  ASSERT_EQ(slower.size(), 3U) << text(result);
+  for (const Finding& each : slower) EXPECT_EQ(each.configuration, plain_);
+  EXPECT_EQ(result.findings.front().verdict, Verdict::regression);
+  const auto advice = with(result, Verdict::advisory, Check::timing);
+  ASSERT_EQ(advice.size(), 3U);
+  EXPECT_THAT(advice[0].message, HasSubstr("not so on a fresh launch"));
+  // What only the second shows is none of the first's.
+  GateResult calm = gate("c");
+  take_back_unconfirmed(calm, gate("b"));
+  EXPECT_EQ(with(calm, Verdict::regression).size(), 3U);
 }
 
 TEST_F(TimingGateTest, AnchorsThatNobodyAcceptedTellNothing) {
