@@ -16,6 +16,7 @@
 #include "app/registry.hpp"
 #include "app/truth.hpp"
 #include "core/image_io.hpp"
+#include "judge/confirmation.hpp"
 #include "judge/gate.hpp"
 #include "judge/image_metrics.hpp"
 #include "technique/catalogue.hpp"
@@ -227,9 +228,7 @@ Checked judge_store(const CheckArguments& arguments, const record::Store& store,
                            request)};
 }
 
-// One launch on a busy machine makes suspects; a slowdown of the program is there on a fresh one
-// too. A second measurement decided on beforehand, of suspects only: it can take findings back and
-// never adds any.
+// Suspects of one launch are measured again on a fresh one, as was decided beforehand.
 void confirm_suspects(const CheckArguments& arguments, const Registry& registry,
                       judge::GateResult& result) {
   const std::string fresh = arguments.store + ".confirm." + arguments.device;
@@ -237,17 +236,7 @@ void confirm_suspects(const CheckArguments& arguments, const Registry& registry,
   if (measure_as_test(arguments.plan, arguments.device, fresh) != core::ExitCode::pass) return;
   record::Store store(fresh, record::Store::Mode::append);
   Truths truths(registry, store);
-  const judge::GateResult again = judge_store(arguments, store, truths).result;
-  for (judge::Finding& finding : result.findings) {
-    if (finding.verdict != judge::Verdict::regression) continue;
-    const bool confirmed = std::ranges::any_of(again.findings, [&](const judge::Finding& other) {
-      return other.check == finding.check && other.verdict == judge::Verdict::regression &&
-             other.configuration == finding.configuration;
-    });
-    if (confirmed) continue;
-    finding.verdict = judge::Verdict::advisory;
-    finding.message += "; not so on a fresh launch";
-  }
+  judge::take_back_unconfirmed(result, judge_store(arguments, store, truths).result);
 }
 
 core::ExitCode check(const CheckArguments& arguments) {

@@ -48,7 +48,8 @@ core::Json json_of(const TrialKind& kind) {
   return {{"method", kind.method},
           {"plan", kind.plan},
           {"subject", kind.subject},
-          {"spread", judge::name_of(kind.spread)}};
+          {"spread", judge::name_of(kind.spread)},
+          {"confirmed", kind.confirmed}};
 }
 
 double seconds_each(const Tally& tally) {
@@ -61,6 +62,17 @@ std::optional<double> cost_of(const Tally& tally) {
   return std::exp(judge::median(tally.costs));
 }
 
+// Trials that one run judged and no second one could confirm.
+std::size_t without_second_run(const judge::Tallies& tallies, const TrialKind& kind) {
+  const bool could_be = kind.method == "history" || kind.method.starts_with("correlation");
+  if (!could_be || kind.confirmed || kind.spread == judge::Spread::scrambled) return 0;
+  TrialKind confirmed = kind;
+  confirmed.confirmed = true;
+  const auto own = tallies.find(confirmed);
+  return tallies.at(kind).false_alarms.trials -
+         (own == tallies.end() ? 0 : own->second.false_alarms.trials);
+}
+
 std::string heading(const TrialKind& kind) {
   return fmt::format("{}, {}, {}", kind.method, kind.plan, kind.subject);
 }
@@ -68,8 +80,9 @@ std::string heading(const TrialKind& kind) {
 std::string smallest_text(const judge::Tallies& tallies) {
   std::string text = "\nsmallest size from which on 95 % of the trials were found\n";
   for (const auto& [kind, percent] : judge::smallest_found(tallies)) {
-    text += fmt::format("  {:<8} {}, {}\n", percent ? fmt::format("{} %", *percent) : "none",
-                        heading(kind), judge::name_of(kind.spread));
+    text += fmt::format("  {:<8} {}, {}{}\n", percent ? fmt::format("{} %", *percent) : "none",
+                        heading(kind), judge::name_of(kind.spread),
+                        kind.confirmed ? ", confirmed" : "");
   }
   return text;
 }
@@ -97,6 +110,7 @@ std::string to_text(const judge::Tallies& tallies) {
     if (heading(kind) != last) text += (last = heading(kind)) + "\n";
     text += fmt::format("  {}", judge::name_of(kind.spread));
     if (kind.percent > 0) text += fmt::format(" {} %", kind.percent);
+    if (kind.confirmed) text += ", confirmed";
     if (const auto cost = cost_of(tally)) {
       text += fmt::format(", which cost {:+.1f} %", 100 * (*cost - 1));
     }
@@ -104,6 +118,8 @@ std::string to_text(const judge::Tallies& tallies) {
       if ((tally.*rate).trials > 0) text += fmt::format("; {} {}", name, text_of(tally.*rate));
     }
     if (tally.seconds > 0) text += fmt::format("; {:.1f} s a configuration", seconds_each(tally));
+    const std::size_t alone = without_second_run(tallies, kind);
+    if (alone > 0) text += fmt::format("; {} trials without a second run", alone);
     text += "\n";
   }
   return text + smallest_text(tallies) + aims_text(tallies);
@@ -120,6 +136,8 @@ nlohmann::json to_json(const judge::Tallies& tallies) {
       if ((tally.*rate).trials > 0) row[name] = json_of(tally.*rate);
     }
     if (const auto cost = cost_of(tally)) row["cost"] = *cost;
+    const std::size_t alone = without_second_run(tallies, kind);
+    if (alone > 0) row["without_second_run"] = alone;
     if (tally.seconds > 0) row["seconds_per_configuration"] = seconds_each(tally);
     json["trials"].push_back(std::move(row));
   }

@@ -64,9 +64,10 @@ class PairReport {
                                       verdict, std::move(message)));
   }
 
-  // What is slower. As with a device's own history, few stored runs advise only: they do not tell
-  // how the other device's times scatter from day to day.
-  void add_slower(bool decides, std::string message) {
+  // What is slower; `what` of the device, with a blank behind it, or nothing. As with a device's
+  // own history, few stored runs advise only: they do not tell how the other device's times scatter
+  // from day to day.
+  void add_slower(const std::string& what, bool decides, std::string message) {
     slower_ = slower_ || decides;
     const bool few = pair_.stored_runs < TimingModel::least_runs;
     if (decides && few) {
@@ -74,6 +75,7 @@ class PairReport {
                              pair_.stored_runs, TimingModel::least_runs);
     }
     add(decides && !few ? Verdict::regression : Verdict::advisory, std::move(message));
+    findings_.back().subject = what + "by " + pair_.other_key;
   }
 
   [[nodiscard]] std::string fit_text() const {
@@ -121,7 +123,7 @@ class PairReport {
     if (!judgement.slower) return;
     const CorrelationCase& each = pair_.cases[index];
     add_slower(
-        !judgement.standing,
+        {}, !judgement.standing,
         fmt::format("{:.4g} ms, {:+.1f} % against what {} lets expect, z = {:.1f}, q = {:.2g}, "
                     "{:.0f} % of all deviation; {}",
                     1e-6 * std::exp(each.log_time_b), percent(judgement.residual), other_,
@@ -155,7 +157,7 @@ class PairReport {
           "; less than {:.0f} % may be the devices' character: settle it with triptych compare {}",
           100 * (Model::least_effect - 1), view_.request.plan);
     }
-    add_slower(decides, std::move(message));
+    add_slower(fmt::format("{}={} ", level.factor, level.level), decides, std::move(message));
     set_number(findings_.back(), "ratio", std::exp(level.effect));
     set_number(findings_.back(), "standard_error", level.standard_error);
     set_number(findings_.back(), "q", level.q);
@@ -167,7 +169,7 @@ class PairReport {
     const GlobalShift& global = result_.global;
     if (!global.slower) return;
     add_slower(
-        !global.standing,
+        "program ", !global.standing,
         fmt::format("the whole program is {:+.1f} % ± {:.1f} % slower than {} lets expect, by {} "
                     "groups of anchors, p = {:.2g}: the program, not the device{}",
                     percent(global.delta), percent(global.standard_error), other_, global.groups,

@@ -65,6 +65,21 @@ struct Judged {
   bool other_code;  // the stored runs' last device code is not the record's
 };
 
+Verdict verdict_of(const TimingTest& test, double tolerance) {
+  if (test.slower) return Verdict::regression;
+  if (test.faster) return Verdict::improved;
+  return test.too_noisy(tolerance) ? Verdict::cannot_judge : Verdict::pass;
+}
+
+// Where anchors and configurations tell the same shift.
+std::string witnesses_beside_anchors(const std::vector<ProgramJudgement>& programs,
+                                     const std::string& device) {
+  const auto own = std::ranges::find(programs, device, &ProgramJudgement::device);
+  if (own == programs.end() || own->slower || own->faster) return {};
+  return fmt::format(" ({:+.1f} %) and {} configurations", 100 * std::expm1(own->device_shift),
+                     own->configurations);
+}
+
 class TimingCheck {
  public:
   TimingCheck(const RunView& view, const WrongImages& wrong)
@@ -75,8 +90,9 @@ class TimingCheck {
       record->same_as.empty() ? sort_out(*record) : report_taken_over(*record);
     }
     call_witnesses();
-    const std::vector<TimingJudgement> judgements = judge_timings(cases_);
-    for (std::size_t i = 0; i < judged_.size(); ++i) report(i, judgements[i]);
+    const TimingJudgements judgements = judge_timings(cases_);
+    for (std::size_t i = 0; i < judged_.size(); ++i) report(i, judgements.cases[i]);
+    for (const ProgramJudgement& program : judgements.programs) report(program);
     report_shifts(judgements);
     report_drift();
     return std::move(findings_);
@@ -220,12 +236,7 @@ class TimingCheck {
 
   void report(std::size_t index, const TimingJudgement& judgement) {
     const TimingCase& timing = cases_[index];
-    const bool noisy =
-        !judgement.slower && !judgement.faster && judgement.too_noisy(timing.tolerance);
-    const Verdict verdict = judgement.slower   ? Verdict::regression
-                            : judgement.faster ? Verdict::improved
-                            : noisy            ? Verdict::cannot_judge
-                                               : Verdict::pass;
+    const Verdict verdict = verdict_of(judgement, timing.tolerance);
     const record::Record& record = *judged_[index].record;
     std::string message = fmt::format(
         "{:.4g} ms, {:.4g} ms in {} stored runs: {:+.1f} % ± {:.1f} %, {:.1f} % tolerated, p = "
@@ -234,7 +245,7 @@ class TimingCheck {
         100 * std::expm1(judgement.log_ratio), 100 * std::expm1(judgement.half_width),
         100 * std::expm1(timing.tolerance),
         judgement.faster ? judgement.p_faster : judgement.p_slower);
-    message += judgement.anchors > 0 ? fmt::format(", after {:+.1f} % of the anchors",
+    message += judgement.anchors > 0 ? fmt::format(", after {:+.1f} % of the device",
                                                    100 * std::expm1(judgement.shift))
                                      : ", without anchors";
     const auto work =
@@ -243,45 +254,66 @@ class TimingCheck {
       message += "; " + why_text(work, judgement.log_ratio);
     }
     if (judged_[index].other_code) message += "; the device code changed since";
-    if (noisy) {
+    if (verdict == Verdict::cannot_judge) {
       message +=
           "; too much scatter or too coarse a clock to tell: settle it with triptych compare " +
           view_.request.plan;
     }
     if (judgement.faster) message += "; keep it with " + view_.accept_command();
     add(record, verdict, std::move(message));
-    add_numbers(findings_.back(), timing, judgement);
+    add_numbers(findings_.back(), judgement, timing.tolerance);
+    set_number(findings_.back(), "median_ns", timing.median_ns);
+    set_number(findings_.back(), "baseline_ns", judgement.baseline_ns);
+    set_number(findings_.back(), "shift", judgement.shift);
+    set_number(findings_.back(), "runs", static_cast<double>(timing.stored_ns.size()));
     if (work) set_number(findings_.back(), "work_ratio", std::exp(work->log_ratio));
   }
 
-  static void add_numbers(Finding& finding, const TimingCase& timing,
-                          const TimingJudgement& judgement) {
-    set_number(finding, "median_ns", timing.median_ns);
-    set_number(finding, "baseline_ns", judgement.baseline_ns);
-    set_number(finding, "ratio", std::exp(judgement.log_ratio));
-    set_number(finding, "shift", judgement.shift);
-    set_number(finding, "tolerance", timing.tolerance);
-    set_number(finding, "standard_error", judgement.standard_error);
-    set_number(finding, "half_width", judgement.half_width);
-    set_number(finding, "degrees", judgement.degrees);
-    set_number(finding, "t", judgement.t);
-    set_number(finding, "p", judgement.p_slower);
-    set_number(finding, "runs", static_cast<double>(timing.stored_ns.size()));
+  static void add_numbers(Finding& finding, const TimingTest& test, double tolerance) {
+    set_number(finding, "ratio", std::exp(test.log_ratio));
+    set_number(finding, "tolerance", tolerance);
+    set_number(finding, "standard_error", test.standard_error);
+    set_number(finding, "half_width", test.half_width);
+    set_number(finding, "degrees", test.degrees);
+    set_number(finding, "t", test.t);
+    set_number(finding, "p", test.p_slower);
+  }
+
+  // Its configurations together against the anchors.
+  void report(const ProgramJudgement& program) {
+    const Verdict verdict = verdict_of(program, program.tolerance);
+    std::string message = fmt::format(
+        "the program as a whole is {:+.1f} % ± {:.1f} % slower than {} anchors ({:+.1f} %) allow, "
+        "by {} configurations, {:.1f} % tolerated, p = {:.2g}",
+        100 * std::expm1(program.log_ratio), 100 * std::expm1(program.half_width), program.anchors,
+        100 * std::expm1(program.device_shift), program.configurations,
+        100 * std::expm1(program.tolerance), program.faster ? program.p_faster : program.p_slower);
+    if (verdict == Verdict::cannot_judge) {
+      message += "; the anchors scatter too much to tell: settle it with triptych compare " +
+                 view_.request.plan;
+    }
+    if (program.faster) message += "; keep it with " + view_.accept_command();
+    findings_.push_back(finding_about(view_, view_.devices.at(program.device), Check::timing,
+                                      verdict, std::move(message)));
+    findings_.back().subject = "program";
+    add_numbers(findings_.back(), program, program.tolerance);
+    set_number(findings_.back(), "shift", program.device_shift);
   }
 
   // A device that has become slower as a whole is worth knowing: it was taken out of every answer.
-  void report_shifts(const std::vector<TimingJudgement>& judgements) {
+  void report_shifts(const TimingJudgements& judgements) {
     std::set<std::string> reported;
-    for (std::size_t i = 0; i < judgements.size(); ++i) {
-      const double shift = judgements[i].shift;
+    for (std::size_t i = 0; i < judged_.size(); ++i) {
+      const double shift = judgements.cases[i].shift;
       if (std::abs(shift) <= std::log(TimingModel::tolerated)) continue;
       if (!reported.insert(cases_[i].device).second) continue;
       findings_.push_back(finding_about(
           view_, view_.devices.at(cases_[i].device), Check::timing, Verdict::advisory,
           fmt::format(
-              "the device itself is {:+.1f} % slower than in its stored runs, by {} anchors; "
+              "the device itself is {:+.1f} % slower than in its stored runs, by {} anchors{}; "
               "this was taken out of its other answers",
-              100 * std::expm1(shift), judgements[i].anchors)));
+              100 * std::expm1(shift), judgements.cases[i].anchors,
+              witnesses_beside_anchors(judgements.programs, cases_[i].device))));
       set_number(findings_.back(), "shift", shift);
     }
   }

@@ -115,6 +115,14 @@ bool is_worth_telling(double effect) {
   return effect >= std::log(Model::least_effect);
 }
 
+// Of the variance of a residual; `of_line` with `line_degrees`, the times' with their own.
+double satterthwaite(const CorrelationCase& each, double of_line, double line_degrees) {
+  const double sum = of_line + each.variance_a + each.variance_b;
+  const double squares = square(of_line) / line_degrees + square(each.variance_a) / each.degrees_a +
+                         square(each.variance_b) / each.degrees_b;
+  return squares > 0 ? std::min(square(sum) / squares, line_degrees) : line_degrees;
+}
+
 void judge_configurations(std::span<const CorrelationCase> cases, const RobustLine& fit,
                           Correlation& result) {
   const auto degrees = static_cast<double>(result.configurations - 2);
@@ -124,15 +132,16 @@ void judge_configurations(std::span<const CorrelationCase> cases, const RobustLi
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (cases[i].anchor) continue;
     ConfigurationJudgement& judgement = result.judgements[i];
-    const double variance =
-        square(fit.scale) * (1 + judgement.leverage) + cases[i].variance_a + cases[i].variance_b;
+    const double of_line = square(fit.scale) * (1 + judgement.leverage);
+    const double variance = of_line + cases[i].variance_a + cases[i].variance_b;
     errors.push_back(std::sqrt(variance));
     judgement.z = variance > 0
                       ? judgement.residual / errors.back()
                       : std::copysign(judgement.residual == 0 ? 0 : infinite, judgement.residual);
-    judgement.p = student_t_upper_tail(judgement.z, degrees);
+    const double own_degrees = satterthwaite(cases[i], of_line, degrees);
+    judgement.p = student_t_upper_tail(judgement.z, own_degrees);
     slower.push_back(judgement.p);
-    faster.push_back(student_t_upper_tail(-judgement.z, degrees));
+    faster.push_back(student_t_upper_tail(-judgement.z, own_degrees));
   }
   const auto slower_q = benjamini_hochberg_adjusted(slower);
   const auto faster_q = benjamini_hochberg_adjusted(faster);

@@ -11,8 +11,12 @@
 // the line.
 //
 // One configuration. z = residual/√(ŝ²(1 + h) + s_A² + s_B²), h its leverage, s_A and s_B the
-// scatter of its own times; p from Student's t with n − 2 degrees. ŝ holds the typical scatter of
-// times already, so that z is slightly too small rather than too large.
+// scatter of its own times; p from Student's t. ŝ holds the typical scatter of times already, so
+// that z is slightly too small rather than too large. The degrees are Satterthwaite's (1946), of a
+// sum of variances u each known with ν degrees, (Σu)²/Σ(u²/ν), and no more than the line's n − 2:
+// where a machine has slow minutes, configurations scatter so unlike each other that s_A and s_B
+// rest on few runs, and their few degrees are what keeps such a minute from being called beyond
+// chance.
 //
 // A factor level. Its effect is the coefficient of the level's indicator beside α and β, estimated
 // with each side's wild points weighted down about that side's own median: a level that is slower
@@ -63,10 +67,12 @@ struct CorrelationCase {
   std::string configuration;
   std::map<std::string, std::string> factors;  // all of them; "technique" groups anchors
   bool anchor = false;
-  double log_time_a = 0;  // mean ln t of the stored runs
-  double variance_a = 0;  // of that mean
+  double log_time_a = 0;                                       // mean ln t of the stored runs
+  double variance_a = 0;                                       // of that mean
+  double degrees_a = std::numeric_limits<double>::infinity();  // that its variance is known with
   double log_time_b = 0;
   double variance_b = 0;
+  double degrees_b = std::numeric_limits<double>::infinity();
   // ln t that B itself had when it was accepted: what differed then is the device's character.
   std::optional<double> known_log_time_b = {};
   std::optional<WorkChange> work = {};  // from A to B

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -59,9 +60,16 @@ VariancePrior scatter_between_runs(const Stored& stored) {
 
 // Of one run, moderated; 0 where no configuration has two runs: ŝ then carries it alone, as it
 // holds the typical scatter anyway.
-double variance_of_a_run(const VariancePrior& prior, const std::vector<double>& runs) {
-  if (runs.size() < 2) return prior.variance;
-  return moderated_variance(prior, sample_variance(runs), static_cast<double>(runs.size() - 1));
+struct RunVariance {
+  double variance = 0;
+  double degrees = std::numeric_limits<double>::infinity();
+};
+
+RunVariance variance_of_a_run(const VariancePrior& prior, const std::vector<double>& runs) {
+  // As well known as another configuration's lets expect; from a single one alone, hardly at all.
+  if (runs.size() < 2) return {prior.variance, prior.degrees > 0 ? prior.degrees : 1};
+  const auto degrees = static_cast<double>(runs.size() - 1);
+  return {moderated_variance(prior, sample_variance(runs), degrees), prior.degrees + degrees};
 }
 
 // Of ln median of one run's frames: π/2 times that of a mean of as many, by their own scatter.
@@ -156,7 +164,9 @@ class Pairs {
       }
       CorrelationCase each = case_of(*record, clock);
       each.log_time_a = mean(runs_a);
-      each.variance_a = variance_of_a_run(scatter_a, runs_a) / static_cast<double>(runs_a.size());
+      const RunVariance of_a_run = variance_of_a_run(scatter_a, runs_a);
+      each.variance_a = of_a_run.variance / static_cast<double>(runs_a.size());
+      each.degrees_a = of_a_run.degrees;
       if (!each.anchor) {
         pair.stored_runs =
             pair.stored_runs == 0 ? runs_a.size() : std::min(pair.stored_runs, runs_a.size());
@@ -166,9 +176,12 @@ class Pairs {
       if (runs_b.empty()) runs_b = runs_by(clock, of_b, record->configuration);
       if (!runs_b.empty()) each.known_log_time_b = mean(runs_b);
       // A launch scatters more than its frames; unknown of B, it is taken as A's.
-      each.variance_b =
-          std::max(each.variance_b, scatter_b.variance > 0 ? variance_of_a_run(scatter_b, runs_b)
-                                                           : variance_of_a_run(scatter_a, runs_a));
+      const RunVariance of_b_run =
+          scatter_b.variance > 0 ? variance_of_a_run(scatter_b, runs_b) : of_a_run;
+      if (of_b_run.variance > each.variance_b) {
+        each.variance_b = of_b_run.variance;
+        each.degrees_b = of_b_run.degrees;
+      }
       each.work = work_change(record->counters, view_.baselines, record->configuration, other.id);
       pair.cases.push_back(std::move(each));
     }

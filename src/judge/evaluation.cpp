@@ -27,68 +27,67 @@ Aim aim(std::string text, const Tallies& tallies, Rate Tally::*member, double bo
   return result;
 }
 
-bool is_correlation(const TrialKind& kind) {
-  return kind.method.starts_with("correlation");
-}
-
 // What is planted as 3 % is an extra row in 33: sizes are compared with some room.
 bool is_size(const TrialKind& kind, double percent) {
   return std::abs(kind.percent - percent) < 0.05 * percent;
 }
 
-std::vector<Aim> aims_of_gates(const Tallies& tallies) {
-  const auto of = [](const char* method, Spread spread, double percent = 0) {
+std::vector<Aim> aims_of(const std::string& method, const Tallies& tallies, bool confirmed) {
+  const auto of = [=](Spread spread, double percent = 0) {
     return [=](const TrialKind& kind) {
-      return kind.method == method && kind.spread == spread &&
+      return kind.method == method && kind.confirmed == confirmed && kind.spread == spread &&
              (percent == 0 || is_size(kind, percent));
     };
   };
-  std::vector<Aim> result;
-  for (const char* method : {"compare", "history"}) {
-    const std::string name = std::string(method) + ": ";
-    result.push_back(aim(name + "3 % of one configuration found", tallies, &Tally::detected, 0.95,
-                         true, of(method, Spread::configuration, 3)));
-    result.push_back(aim(name + "A/A runs with a false alarm", tallies, &Tally::false_alarms, 0.01,
-                         false, of(method, Spread::none)));
-    result.push_back(aim(name + "configurations of A/A runs that it cannot tell", tallies,
-                         &Tally::undecided, 0.05, false, of(method, Spread::none)));
-  }
+  const std::string name = method + (confirmed ? ", confirmed: " : ": ");
+  std::vector<Aim> result{aim(name + "3 % of one configuration found", tallies, &Tally::detected,
+                              0.95, true, of(Spread::configuration, 3)),
+                          aim(name + "A/A runs with a false alarm", tallies, &Tally::false_alarms,
+                              0.01, false, of(Spread::none))};
+  if (confirmed) return result;
+  result.push_back(aim(name + "configurations of A/A runs that it cannot tell", tallies,
+                       &Tally::undecided, 0.05, false, of(Spread::none)));
   return result;
 }
 
-std::vector<Aim> aims_of_correlation(const Tallies& tallies) {
-  const auto at = [](Spread spread, double least_percent) {
+std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
+  const auto is_own = [=](const TrialKind& kind) {
+    return kind.method.starts_with("correlation") && kind.confirmed == confirmed;
+  };
+  const auto at = [=](Spread spread, double least_percent) {
     return [=](const TrialKind& kind) {
-      return is_correlation(kind) && kind.spread == spread && kind.percent >= least_percent;
+      return is_own(kind) && kind.spread == spread && kind.percent >= least_percent;
     };
   };
-  const auto planted_somewhere = [](const TrialKind& kind) {
-    return is_correlation(kind) &&
-           (kind.spread == Spread::configuration || kind.spread == Spread::level);
+  const auto of_ten_percent = [=](Spread spread) {
+    return [=](const TrialKind& kind) {
+      return is_own(kind) && kind.spread == spread && is_size(kind, 10);
+    };
   };
-  return {
-      aim("correlation: 25 % and more of one configuration found", tallies, &Tally::detected, 1,
-          true, at(Spread::configuration, 25)),
-      aim("correlation: 5 % and more of a factor level found", tallies, &Tally::detected, 1, true,
+  const auto planted_somewhere = [=](const TrialKind& kind) {
+    return is_own(kind) && (kind.spread == Spread::configuration || kind.spread == Spread::level);
+  };
+  const std::string name = confirmed ? "correlation, confirmed: " : "correlation: ";
+  std::vector<Aim> result{
+      aim(name + "25 % and more of one configuration found", tallies, &Tally::detected, 1, true,
+          at(Spread::configuration, 25)),
+      aim(name + "5 % and more of a factor level found", tallies, &Tally::detected, 1, true,
           at(Spread::level, 5)),
-      aim("correlation: false among the discoveries", tallies, &Tally::false_discoveries, 0.05,
-          false, planted_somewhere),
-      aim("correlation: uncorrelated pairs refused", tallies, &Tally::detected, 1, true,
-          at(Spread::scrambled, 0)),
-      aim("correlation: 10 % of everything found", tallies, &Tally::detected, 0.9, true,
-          [](const TrialKind& kind) {
-            return is_correlation(kind) && kind.spread == Spread::global && is_size(kind, 10);
-          }),
-      aim("correlation: a device slower by 10 % taken for the program", tallies,
-          &Tally::false_alarms, 0.1, false,
-          [](const TrialKind& kind) {
-            return is_correlation(kind) && kind.spread == Spread::device && is_size(kind, 10);
-          }),
-      aim("correlation: named first is what was planted", tallies, &Tally::first_named, 0.9, true,
+      aim(name + "false among the discoveries", tallies, &Tally::false_discoveries, 0.05, false,
           planted_somewhere),
-      aim("correlation: work and throughput told apart", tallies, &Tally::split, 0.95, true,
+      aim(name + "10 % of everything found", tallies, &Tally::detected, 0.9, true,
+          of_ten_percent(Spread::global)),
+      aim(name + "a device slower by 10 % taken for the program", tallies, &Tally::false_alarms,
+          0.1, false, of_ten_percent(Spread::device)),
+      aim(name + "named first is what was planted", tallies, &Tally::first_named, 0.9, true,
+          planted_somewhere),
+      aim(name + "work and throughput told apart", tallies, &Tally::split, 0.95, true,
           planted_somewhere),
   };
+  if (confirmed) return result;
+  result.push_back(aim(name + "uncorrelated pairs refused", tallies, &Tally::detected, 1, true,
+                       at(Spread::scrambled, 0)));
+  return result;
 }
 
 }  // namespace
@@ -149,8 +148,13 @@ std::optional<bool> Aim::met() const {
 }
 
 std::vector<Aim> aims(const Tallies& tallies) {
-  std::vector<Aim> result = aims_of_gates(tallies);
-  std::ranges::move(aims_of_correlation(tallies), std::back_inserter(result));
+  std::vector<Aim> result = aims_of("compare", tallies, false);
+  for (const bool confirmed : {false, true}) {
+    std::ranges::move(aims_of("history", tallies, confirmed), std::back_inserter(result));
+  }
+  for (const bool confirmed : {false, true}) {
+    std::ranges::move(aims_of_correlation(tallies, confirmed), std::back_inserter(result));
+  }
   result.push_back(aim("gate: the same bytes from the same store", tallies, &Tally::same_bytes, 1,
                        true, [](const TrialKind&) { return true; }));
   return result;

@@ -53,6 +53,8 @@ struct TrialKind {
   std::string subject;  // a device, or "B by A"
   Spread spread = Spread::none;
   double percent = 0;  // planted
+  // What is called slower was so in a second run too, as under CTest; else one run says it.
+  bool confirmed = false;
   auto operator<=>(const TrialKind&) const = default;
 };
 

@@ -1,5 +1,7 @@
 #include "judge/evaluation_bench.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <iterator>
@@ -13,9 +15,14 @@
 namespace triptych::judge {
 namespace {
 
-// Anchors go before their run, in the order of ids too.
-constexpr const char* trial_run = "trial-run";
-constexpr const char* trial_anchors = "trial-anchors";
+// In the order of ids as in the pool, anchors before their run.
+std::string run_id(std::size_t number) {
+  return fmt::format("{:06}-run", number);
+}
+
+std::string anchors_id(std::size_t number) {
+  return fmt::format("{:06}-anchors", number);
+}
 
 // The size of "slowdown:PERCENT", 0 for nothing planted; nullopt for any other fault.
 std::optional<double> planted_percent(std::string_view planted) {
@@ -133,42 +140,25 @@ std::vector<RunPool> pool_runs(const record::Store& store) {
   return pools;
 }
 
-TrialBench::TrialBench(const RunPool& pool, std::size_t base, const std::filesystem::path& folder)
-    : base_(pool.unplanted.at(base)),
+TrialStore::TrialStore(const RunPool& pool, std::size_t number, const std::filesystem::path& file)
+    : run_(pool.unplanted.at(number)),
       plan_(pool.plan),
-      store_(folder / "trial.sqlite", record::Store::Mode::append) {
-  add_copy(base_, std::string(anchors_plan), trial_anchors, base_.anchors, {}, store_);
-  add_copy(base_, plan_, trial_run, base_.records, {}, store_);
-  record::Store history(folder / "history.sqlite", record::Store::Mode::append);
-  std::vector<std::string> known{""};
-  for (const auto& entry : base_.devices) known.push_back(entry.device.id);
-  for (std::size_t which = 0; which < known.size(); ++which) {
-    const std::filesystem::path root = folder / std::to_string(which);
-    for (std::size_t i = 0; i < pool.unplanted.size(); ++i) {
-      if (i == base) continue;
-      const PooledRun& run = pool.unplanted[i];
-      const std::string id = std::to_string(which) + "-" + std::to_string(i);
-      add_copy(run, plan_, id + "-run", run.records, known[which], history);
-      accept_copy(history, id + "-run", plan_, root);
-      if (run.anchors.empty()) continue;
-      add_copy(run, std::string(anchors_plan), id + "-anchors", run.anchors, known[which], history);
-      accept_copy(history, id + "-anchors", std::string(anchors_plan), root);
-    }
-    baselines_.emplace(known[which], Baselines(root, plan_));
-  }
+      number_(number),
+      store_(file, record::Store::Mode::append) {
+  add_copy(run_, std::string(anchors_plan), anchors_id(number), run_.anchors, {}, store_);
+  add_copy(run_, plan_, run_id(number), run_.records, {}, store_);
 }
 
-void TrialBench::put(const std::vector<record::Record>& records) {
+void TrialStore::put(const std::vector<record::Record>& records) {
   for (record::Record record : records) {
-    record.run = record.plan == anchors_plan ? trial_anchors : trial_run;
+    record.run = record.plan == anchors_plan ? anchors_id(number_) : run_id(number_);
     store_.add_record(record);
   }
 }
 
-std::vector<GateResult> TrialBench::judge(const std::vector<record::Record>& changed,
-                                          const std::set<std::string>& known,
-                                          const std::set<Check>& checks,
-                                          const std::vector<std::string>& devices) {
+GateResult TrialStore::judge(const std::vector<record::Record>& changed, const Baselines& baselines,
+                             const std::set<Check>& checks,
+                             const std::vector<std::string>& devices) {
   put(changed);
   const GateRequest request{.plan = plan_,
                             .checks = checks,
@@ -176,20 +166,37 @@ std::vector<GateResult> TrialBench::judge(const std::vector<record::Record>& cha
                             .required_devices = {},
                             .truth = {},
                             .today = "1970-01-01"};
-  std::vector<GateResult> results;
-  for (const std::string& device : known) {
-    results.push_back(judge_run(store_, trial_run, baselines_.at(device), request));
-  }
+  GateResult result = judge_run(store_, run_id(number_), baselines, request);
   std::set<std::tuple<std::string, std::string, std::string>> touched;
   for (const auto& each : changed) touched.emplace(each.plan, each.configuration, each.device);
   std::vector<record::Record> original;
-  for (const auto* records : {&base_.records, &base_.anchors}) {
+  for (const auto* records : {&run_.records, &run_.anchors}) {
     std::ranges::copy_if(*records, std::back_inserter(original), [&](const record::Record& each) {
       return touched.contains({each.plan, each.configuration, each.device});
     });
   }
   put(original);
-  return results;
+  return result;
+}
+
+TrialHistory::TrialHistory(const RunPool& pool, std::size_t left_out,
+                           const std::filesystem::path& folder) {
+  std::vector<std::string> known{""};
+  for (const auto& entry : pool.unplanted.at(left_out).devices) known.push_back(entry.device.id);
+  for (std::size_t which = 0; which < known.size(); ++which) {
+    const std::filesystem::path root = folder / std::to_string(which);
+    record::Store history(folder / fmt::format("{}.sqlite", which), record::Store::Mode::append);
+    for (std::size_t i = 0; i < pool.unplanted.size(); ++i) {
+      if (i == left_out) continue;
+      const PooledRun& run = pool.unplanted[i];
+      add_copy(run, pool.plan, run_id(i), run.records, known[which], history);
+      accept_copy(history, run_id(i), pool.plan, root);
+      if (run.anchors.empty()) continue;
+      add_copy(run, std::string(anchors_plan), anchors_id(i), run.anchors, known[which], history);
+      accept_copy(history, anchors_id(i), std::string(anchors_plan), root);
+    }
+    baselines_.emplace(known[which], Baselines(root, pool.plan));
+  }
 }
 
 }  // namespace triptych::judge

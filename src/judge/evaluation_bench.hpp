@@ -34,27 +34,41 @@ struct RunPool {
 // one slowdown everywhere.
 [[nodiscard]] std::vector<RunPool> pool_runs(const record::Store& store);
 
-class TrialBench {
+// One unplanted run with its anchors in a store of its own, where records can be exchanged.
+class TrialStore {
  public:
-  // Keeps its files in `folder`, which must be empty and stay. `pool` must have two unplanted runs
-  // and live as long.
-  TrialBench(const RunPool& pool, std::size_t base, const std::filesystem::path& folder);
+  // `number`: of the run in the pool, which must live as long. `file` must not be there, and stay.
+  TrialStore(const RunPool& pool, std::size_t number, const std::filesystem::path& file);
 
   // Judges the run with these records instead of those of the same plan, configuration and device.
-  // One result for each of `known`: the device whose stored runs judge, "" for all devices'.
   // `devices`: as in GateRequest.
-  [[nodiscard]] std::vector<GateResult> judge(const std::vector<record::Record>& changed,
-                                              const std::set<std::string>& known,
-                                              const std::set<Check>& checks,
-                                              const std::vector<std::string>& devices);
+  [[nodiscard]] GateResult judge(const std::vector<record::Record>& changed,
+                                 const Baselines& baselines, const std::set<Check>& checks,
+                                 const std::vector<std::string>& devices);
 
  private:
   void put(const std::vector<record::Record>& records);
 
-  const PooledRun& base_;
+  const PooledRun& run_;
   std::string plan_;
+  std::size_t number_;
   record::Store store_;
-  std::map<std::string, Baselines> baselines_;  // by the device that they hold, "" for all
+};
+
+// What the ordinary accept makes of all unplanted runs but one. Each is stored under the id that
+// its TrialStore gives it, so that the gate does not take it for a witness about itself.
+class TrialHistory {
+ public:
+  // Keeps its files in `folder`, which must be empty and stay. `pool` must have two unplanted runs.
+  TrialHistory(const RunPool& pool, std::size_t left_out, const std::filesystem::path& folder);
+
+  // By the device whose runs are stored, "" for all devices'.
+  [[nodiscard]] const Baselines& of(const std::string& device) const {
+    return baselines_.at(device);
+  }
+
+ private:
+  std::map<std::string, Baselines> baselines_;
 };
 
 }  // namespace triptych::judge

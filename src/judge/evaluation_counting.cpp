@@ -25,7 +25,7 @@ class PairCount {
     }
     if (!trial_.planted.empty()) {
       tally_.detected.count(detected_);
-      tally_.costs.push_back(trial_.cost);
+      if (!trial_.confirmed) tally_.costs.push_back(trial_.cost);
     }
     tally_.false_alarms.count(alarmed_);
   }
@@ -48,8 +48,10 @@ class PairCount {
     for (std::size_t i = 0; i < pair_.cases.size(); ++i) {
       const CorrelationCase& each = pair_.cases[i];
       if (each.anchor) continue;
-      tally_.undecided.count(!result_.admitted());
-      ++tally_.configurations;
+      if (!trial_.confirmed) {
+        tally_.undecided.count(!result_.admitted());
+        ++tally_.configurations;
+      }
       const ConfigurationJudgement& judgement = result_.judgements.at(i);
       const bool slower = result_.admitted() && judgement.slower && !judgement.standing;
       const bool planted = is_planted(each);
@@ -111,26 +113,30 @@ std::set<std::pair<std::string, std::string>> names_of(const std::vector<record:
 void count_history(const std::string& plan, const GateResult& result, const Trial& trial,
                    const std::vector<std::string>& devices, Tallies& tallies) {
   if (trial.spread == Spread::scrambled) return;
+  const bool everything = trial.spread == Spread::global || trial.spread == Spread::api;
   for (const std::string& device : devices) {
-    Tally& tally = tallies[{"history", plan, device, trial.spread, trial.percent}];
+    Tally& tally = tallies[{"history", plan, device, trial.spread, trial.percent, trial.confirmed}];
     bool detected = false;
     bool alarmed = false;
     for (const Finding& finding : result.findings) {
       if (finding.check != Check::timing || finding.device != device) continue;
-      if (finding.configuration.empty()) continue;
+      const bool whole = finding.configuration.empty();
       const bool slower = finding.verdict == Verdict::regression;
-      const bool planted = trial.planted.contains({device, finding.configuration});
-      if (planted) tally.found.count(slower);
+      const bool planted =
+          whole ? everything : trial.planted.contains({device, finding.configuration});
       if (slower) tally.false_discoveries.count(!planted);
       detected = detected || (slower && planted);
       alarmed = alarmed || (slower && !planted);
+      if (whole) continue;
+      if (planted) tally.found.count(slower);
+      if (trial.confirmed) continue;
       tally.undecided.count(finding.verdict == Verdict::cannot_judge ||
                             finding.verdict == Verdict::advisory);
       ++tally.configurations;
     }
     if (!trial.planted.empty()) {
       tally.detected.count(detected);
-      tally.costs.push_back(trial.cost);
+      if (!trial.confirmed) tally.costs.push_back(trial.cost);
     }
     tally.false_alarms.count(alarmed);
   }
@@ -141,7 +147,9 @@ void count_correlations(const std::string& plan, const std::string& method,
   for (const CorrelationPair& pair : result.correlations) {
     if (pair.within_run) continue;
     const std::string subject = pair.device + " by " + pair.other;
-    PairCount(pair, trial, tallies[{method, plan, subject, trial.spread, trial.percent}]).run();
+    PairCount(pair, trial,
+              tallies[{method, plan, subject, trial.spread, trial.percent, trial.confirmed}])
+        .run();
   }
 }
 

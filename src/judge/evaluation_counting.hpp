@@ -18,12 +18,14 @@ struct Trial {
   std::pair<std::string, std::string> level = {};              // factor, level; Spread::level only
   double cost = 0;         // of what is planted, measured: see Tally
   bool more_work = false;  // Spread::configuration only: else more time for the same work
+  bool confirmed = false;  // the result is what a second run left of it: see TrialKind
 };
 
 [[nodiscard]] std::set<std::pair<std::string, std::string>> names_of(
     const std::vector<record::Record>& records);
 
-// The timing check, each device for itself.
+// The timing check, each device for itself; of the program as a whole too. What cannot be told and
+// what was planted cost are counted with the first run only.
 void count_history(const std::string& plan, const GateResult& result, const Trial& trial,
                    const std::vector<std::string>& devices, Tallies& tallies);
 

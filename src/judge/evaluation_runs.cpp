@@ -1,5 +1,7 @@
 #include "judge/evaluation_runs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,9 +12,11 @@
 
 #include "core/json.hpp"
 #include "judge/anchor.hpp"
+#include "judge/confirmation.hpp"
 #include "judge/correlation_pairs.hpp"
 #include "judge/evaluation_counting.hpp"
 #include "judge/statistics.hpp"
+#include "judge/timing_model.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -71,6 +75,15 @@ void set_work(Record& record, const std::vector<Record>& unplanted, double facto
   }
 }
 
+// An unplanted run, by its number in the pool, with these records in place of its own.
+struct Attempt {
+  std::size_t run = 0;
+  std::vector<Record> changed;
+};
+
+// The records of a planted run that are planted in a trial.
+using Planted = std::function<std::vector<Record>(const PooledRun&)>;
+
 class Trials {
  public:
   Trials(const RunPool& pool, const RunTrials& options, const std::filesystem::path& folder)
@@ -79,6 +92,7 @@ class Trials {
     if (options.correlation) checks_.insert(Check::correlation);
     for (const PooledRun& run : pool.planted) sizes_.insert(run.percent);
     for (const auto& entry : pool.unplanted.front().devices) devices_.push_back(entry.device.id);
+    std::filesystem::create_directories(folder);
     find_levels();
   }
 
@@ -99,12 +113,21 @@ class Trials {
   }
 
  private:
-  [[nodiscard]] TrialBench& bench(std::size_t base) {
-    auto& known = benches_[base];
+  [[nodiscard]] const TrialHistory& history(std::size_t left_out) {
+    auto& known = histories_[left_out];
     if (!known) {
-      const auto folder = folder_ / std::to_string(base);
+      const auto folder = folder_ / fmt::format("without-{}", left_out);
       std::filesystem::create_directories(folder);
-      known = std::make_unique<TrialBench>(pool_, base, folder);
+      known = std::make_unique<TrialHistory>(pool_, left_out, folder);
+    }
+    return *known;
+  }
+
+  [[nodiscard]] TrialStore& store(std::size_t number) {
+    auto& known = stores_[number];
+    if (!known) {
+      known =
+          std::make_unique<TrialStore>(pool_, number, folder_ / fmt::format("{}.sqlite", number));
     }
     return *known;
   }
@@ -129,39 +152,89 @@ class Trials {
 
   // The gates of one trial: by all devices' baselines and, for a device that is not known yet, by
   // each other one's alone.
-  void judge(std::size_t base, const Trial& trial, const std::vector<Record>& changed,
+  void judge(Trial trial, const Attempt& first, const std::optional<Attempt>& second,
              const std::vector<std::string>& devices) {
     const std::vector<std::string>& judged = devices.empty() ? devices_ : devices;
-    TrialBench& on = bench(base);
-    for (const GateResult& result : on.judge(changed, {""}, checks_, devices)) {
+    const auto count_all = [&](const GateResult& result) {
       if (options_.history) count_history(pool_.plan, result, trial, judged, tallies_);
       count_correlations(pool_.plan, "correlation, accepted device", result, trial, tallies_);
-    }
+    };
+    judge_by("", checks_, trial, first, second, devices, count_all);
     if (!options_.correlation) return;
     std::set<std::string> others(devices_.begin(), devices_.end());
     if (judged.size() == 1) others.erase(judged.front());
-    if (judged.size() == 1 && others.empty()) return;
-    for (const GateResult& result : on.judge(changed, others, {Check::correlation}, devices)) {
+    const auto count_new = [&](const GateResult& result) {
       count_correlations(pool_.plan, "correlation, new device", result, trial, tallies_);
+    };
+    for (const std::string& other : others) {
+      judge_by(other, {Check::correlation}, trial, first, second, devices, count_new);
     }
   }
 
+  // By one run, then with what a second one confirms, where there is one. Both by the baselines
+  // that the first is not part of; the second is then no witness about itself.
+  void judge_by(const std::string& known, const std::set<Check>& checks, Trial& trial,
+                const Attempt& first, const std::optional<Attempt>& second,
+                const std::vector<std::string>& devices,
+                const std::function<void(const GateResult&)>& count) {
+    const Baselines& baselines = history(first.run).of(known);
+    GateResult result = store(first.run).judge(first.changed, baselines, checks, devices);
+    trial.confirmed = false;
+    count(result);
+    // The first is left out of the history, and the second is no witness about itself.
+    const bool enough = pool_.unplanted.size() >= TimingModel::least_runs + 2;
+    if (!second || !enough) return;
+    if (names_suspects(result)) {
+      take_back_unconfirmed(result,
+                            store(second->run).judge(second->changed, baselines, checks, devices));
+    }
+    trial.confirmed = true;
+    count(result);
+  }
+
+  // The run measured next; after the last, the one before it.
+  [[nodiscard]] std::size_t neighbour(std::size_t run) const {
+    return run + 1 < pool_.unplanted.size() ? run + 1 : run - 1;
+  }
+
+  // Likewise among planted runs of one size; nullptr where there is but one.
+  [[nodiscard]] const PooledRun* neighbour(const PooledRun& run) const {
+    const PooledRun* before = nullptr;
+    bool passed = false;
+    for (const PooledRun& other : pool_.planted) {
+      if (other.percent != run.percent) continue;
+      if (passed) return &other;
+      passed = &other == &run;
+      if (!passed) before = &other;
+    }
+    return before;
+  }
+
   void try_unplanted(std::size_t base) {
-    judge(base, {.spread = Spread::none}, {}, {});
+    const std::size_t next = neighbour(base);
+    judge({.spread = Spread::none}, {base, {}}, Attempt{next, {}}, {});
     ask_again(base);
     if (options_.history) count_seconds(pool_.unplanted[base]);
-    const PooledRun& run = pool_.unplanted[base];
     for (const double size : sizes_) {
-      std::vector<Record> slower;
-      for (const auto* records : {&run.records, &run.anchors}) {
-        for (const Record& each : *records) slower.push_back(lengthened(each, 1 + size / 100));
-      }
-      judge(base, {.spread = Spread::device, .percent = size}, slower, {});
+      judge({.spread = Spread::device, .percent = size}, slower_device(base, size),
+            slower_device(next, size), {});
     }
     if (!options_.correlation) return;
     for (const std::string& device : devices_) {
-      judge(base, {.spread = Spread::scrambled}, scrambled(run, device), {device});
+      judge({.spread = Spread::scrambled}, {base, scrambled(pool_.unplanted[base], device)},
+            std::nullopt, {device});
     }
+  }
+
+  [[nodiscard]] Attempt slower_device(std::size_t number, double percent) const {
+    const PooledRun& run = pool_.unplanted[number];
+    Attempt slower{number, {}};
+    for (const auto* records : {&run.records, &run.anchors}) {
+      for (const Record& each : *records) {
+        slower.changed.push_back(lengthened(each, 1 + percent / 100));
+      }
+    }
+    return slower;
   }
 
   // All that the protocol does of a configuration.
@@ -174,7 +247,9 @@ class Trials {
   }
 
   void ask_again(std::size_t base) {
-    const auto verdict = [&] { return to_json(bench(base).judge({}, {""}, checks_, {}).at(0)); };
+    const auto verdict = [&] {
+      return to_json(store(base).judge({}, history(base).of(""), checks_, {}));
+    };
     tallies_[{"gate", pool_.plan, "all devices"}].same_bytes.count(verdict().dump() ==
                                                                    verdict().dump());
   }
@@ -192,29 +267,43 @@ class Trials {
     return result;
   }
 
+  // The trials with `planted` of each run's records in the unplanted run that was measured before
+  // it; the second run is made of another planted one in the same way.
+  void try_planted(const PooledRun& run, Trial trial, const Planted& planted,
+                   const std::vector<std::string>& devices) {
+    const Attempt first{run.before, planted(run)};
+    trial.percent = run.percent;
+    trial.planted = names_of(chosen(first.changed, [](const Record&) { return true; }));
+    if (trial.planted.empty()) return;
+    std::optional<Attempt> second;
+    if (const PooledRun* other = neighbour(run)) second = {other->before, planted(*other)};
+    judge(std::move(trial), first, second, devices);
+  }
+
+  [[nodiscard]] double cost_in(const PooledRun& run, const std::vector<Record>& planted) const {
+    return cost_of(planted, pool_.unplanted[run.before].records);
+  }
+
   // With its own anchors: it is a whole run.
   void try_everything(const PooledRun& run) {
     std::set<std::string> apis;
     for (const std::string& device : devices_) apis.insert(api_of(device));
-    const auto planted = [&](Spread spread, const std::function<bool(const Record&)>& where) {
-      std::vector<Record> changed = chosen(run.records, where);
-      const Trial trial{.spread = spread,
-                        .percent = run.percent,
-                        .planted = names_of(changed),
-                        .cost = cost_of(changed, pool_.unplanted[run.before].records)};
+    const auto planted = [&](Spread spread, const std::function<bool(const std::string&)>& where) {
+      const auto on_devices = [&](const Record& each) { return where(each.device); };
       std::vector<std::string> devices;
-      for (const std::string& device : devices_) {
-        const bool there =
-            std::ranges::any_of(changed, [&](const Record& each) { return each.device == device; });
-        if (there) devices.push_back(device);
-      }
-      if (devices.empty()) return;
-      changed.insert(changed.end(), run.anchors.begin(), run.anchors.end());
-      judge(run.before, trial, changed, devices);
+      std::ranges::copy_if(devices_, std::back_inserter(devices), where);
+      try_planted(
+          run, {.spread = spread, .cost = cost_in(run, chosen(run.records, on_devices))},
+          [&](const PooledRun& each) {
+            std::vector<Record> changed = chosen(each.records, on_devices);
+            changed.insert(changed.end(), each.anchors.begin(), each.anchors.end());
+            return changed;
+          },
+          devices);
     };
-    planted(Spread::global, [](const Record&) { return true; });
+    planted(Spread::global, [](const std::string&) { return true; });
     for (const std::string& api : apis) {
-      planted(Spread::api, [&](const Record& each) { return api_of(each.device) == api; });
+      planted(Spread::api, [&](const std::string& device) { return api_of(device) == api; });
     }
   }
 
@@ -231,41 +320,40 @@ class Trials {
   void try_configurations(const std::vector<const PooledRun*>& runs, const std::string& device) {
     for_some(runs, configurations_.size(),
              [&](const PooledRun& run, std::size_t which, std::size_t number) {
-               std::vector<Record> changed = chosen(run.records, [&](const Record& each) {
-                 return each.device == device && each.configuration == configurations_[which];
-               });
-               if (changed.empty()) return;
                const bool more_work = number % 2 == 1;
-               const std::vector<Record>& without = pool_.unplanted[run.before].records;
-               const double cost = cost_of(changed, without);
-               set_work(changed.front(), without, more_work ? std::exp(cost) : 1);
-               judge(run.before,
-                     {.spread = Spread::configuration,
-                      .percent = run.percent,
-                      .planted = names_of(changed),
-                      .level = {},
-                      .cost = cost,
-                      .more_work = more_work},
-                     changed, {device});
+               const auto own = [&](const PooledRun& each) {
+                 return chosen(each.records, [&](const Record& record) {
+                   return record.device == device && record.configuration == configurations_[which];
+                 });
+               };
+               try_planted(run,
+                           {.spread = Spread::configuration,
+                            .cost = cost_in(run, own(run)),
+                            .more_work = more_work},
+                           [&](const PooledRun& each) {
+                             std::vector<Record> changed = own(each);
+                             const double factor = more_work ? std::exp(cost_in(each, changed)) : 1;
+                             for (Record& record : changed) {
+                               set_work(record, pool_.unplanted[each.before].records, factor);
+                             }
+                             return changed;
+                           },
+                           {device});
              });
   }
 
   void try_levels(const std::vector<const PooledRun*>& runs, const std::string& device) {
     for_some(runs, levels_.size(), [&](const PooledRun& run, std::size_t which, std::size_t) {
       const Level& level = levels_[which];
-      const std::vector<Record> changed = chosen(run.records, [&](const Record& each) {
-        const auto found = each.factors.find(level.first);
-        return each.device == device && found != each.factors.end() &&
-               found->second == level.second;
-      });
-      if (changed.empty()) return;
-      judge(run.before,
-            {.spread = Spread::level,
-             .percent = run.percent,
-             .planted = names_of(changed),
-             .level = level,
-             .cost = cost_of(changed, pool_.unplanted[run.before].records)},
-            changed, {device});
+      const auto own = [&](const PooledRun& each) {
+        return chosen(each.records, [&](const Record& record) {
+          const auto found = record.factors.find(level.first);
+          return record.device == device && found != record.factors.end() &&
+                 found->second == level.second;
+        });
+      };
+      try_planted(run, {.spread = Spread::level, .level = level, .cost = cost_in(run, own(run))},
+                  own, {device});
     });
   }
 
@@ -278,7 +366,8 @@ class Trials {
   std::vector<std::string> devices_;
   std::vector<std::string> configurations_;
   std::vector<Level> levels_;
-  std::map<std::size_t, std::unique_ptr<TrialBench>> benches_;
+  std::map<std::size_t, std::unique_ptr<TrialHistory>> histories_;  // by the run left out
+  std::map<std::size_t, std::unique_ptr<TrialStore>> stores_;       // by the run
   Tallies tallies_;
 };
 

@@ -197,6 +197,8 @@ int rank(Verdict verdict) {
   return 6;
 }
 
+}  // namespace
+
 void sort_findings(std::vector<Finding>& findings) {
   const auto key = [](const Finding& finding) {
     return std::tuple(rank(finding.verdict), std::string_view(finding.device),
@@ -205,8 +207,6 @@ void sort_findings(std::vector<Finding>& findings) {
   };
   std::ranges::stable_sort(findings, {}, key);
 }
-
-}  // namespace
 
 GateResult judge_run(const record::Store& store, const std::string& run, const Baselines& baselines,
                      const GateRequest& request) {

@@ -55,6 +55,9 @@ struct Finding {
   std::string configuration;
   std::string message;  // one line: what, by how much, against which bound, what to do about it
   std::map<std::string, double> numbers;  // "max_error", "bound", "rmse", "ratio", …
+  // What of the device and configuration, where that is not all of it: "program", "step=0.5"; of a
+  // correlation also by which device. The same in every launch.
+  std::string subject = {};
 };
 
 // A device of the run held against another one, for the report. What was found of it is among the

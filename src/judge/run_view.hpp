@@ -37,6 +37,8 @@ struct RunView {
                                     Verdict verdict, std::string message);
 [[nodiscard]] Finding finding_about(const RunView& view, Check check, Verdict verdict,
                                     std::string message);
+// Worst first, then by device and configuration.
+void sort_findings(std::vector<Finding>& findings);
 // Infinities and NaN are left out: JSON has none, and missing is not zero.
 void set_number(Finding& finding, const std::string& name, double value);
 

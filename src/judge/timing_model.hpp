@@ -1,6 +1,53 @@
 #pragma once
 // Is a configuration slower than its stored runs on the same device? The numbers behind the timing
 // check, free of records and files.
+//
+// With y = ln t, x̄ a configuration's mean over its H stored runs, and deviations y − x̄:
+//
+//     y = x̄ + shift of the run + what became of the configuration + its own scatter.
+//
+// The shift has two witnesses.
+// - The anchors: a, the median of their deviations in each run. No change of the program reaches
+//   them, but they are few and each loads one resource: they scatter by several percent.
+// - The body: b, the median of the deviations of the device's other configurations. It knows the
+//   shift to their scatter/√n, but a slowdown of the whole program moves it too.
+//
+// The program as a whole. d = b − a is free of the device and holds what changed in the program
+// alone. Over the H stored runs, in which nothing did, it scatters by s_d around d̄:
+//
+//     t = (d − d̄ − τ)/√(V + v_b),  V = the larger of s_d²(1 + 1/H) and v_a,
+//
+// Student's t with H − 1 degrees where the first is larger, else with (k − 1)(H − 1) of k anchors
+// (H − 1 of one). v_a is what the anchors' own scatter lets expect; s_d holds what that does not
+// know: anchors that are slow together, a minute that only one of the two witnesses met. Tested at
+// 1 % on either side, once per device.
+//
+// Where d is significant the program has changed, and the shift is a, whose variance is V.
+// Otherwise both tell the same shift, and it is their mean weighted by precision,
+//
+//     shift = w·b + (1 − w)·a,  w = V/(V + v_b),  v = w²v_b + (1 − w)²V,
+//
+// in this run and, with the same w, in each stored one. A slowdown of the whole program that d does
+// not show is in it. How large that may be is what the half-width of d says, and the verdict on the
+// program as a whole is no pass where a fifth cannot be excluded: the configurations' verdicts hold
+// against the program as a whole, that one against the device.
+//
+// The judged configuration is left out of its own b: of few it would hide a part of itself there.
+// v_b is the larger of two: π/2 · s₀²(1 + 1/H)/n, of
+// a median of n normal deviations with the stored runs' typical scatter s₀; and this run's own,
+// from the distribution-free interval of the median between the c-th smallest and c-th largest
+// deviation,
+//
+//     c = (n + 1)/2 − 2.576·√n/2,  (width/2z)²,  z normal with the interval's exact binomial
+//     coverage
+//
+// (McKean and Schrader 1984; coverage as Price and Bonett 2001). That is the guard against a level:
+// where from 31 to 69 % of the configurations are slower together (n = 48) the median lies anywhere
+// between the two parts, the interval spans both, w falls and the anchors decide. Beyond 69 % the
+// body is the slower part: d tells, or, within V, the rest is called faster.
+//
+// Without anchors nothing tells a shift from the program: there is none. With fewer than three
+// configurations the body is no crowd: the shift is the anchors', v = v_a.
 
 #include <cstddef>
 #include <map>
@@ -12,7 +59,9 @@ namespace triptych::judge {
 
 struct TimingModel {
   static constexpr double share_of_false_alarms = 0.05;  // q of Benjamini–Hochberg
+  static constexpr double false_program_alarms = 0.01;   // one test a device, so no q
   static constexpr std::size_t least_runs = 5;           // fewer stored runs decide nothing
+  static constexpr std::size_t least_body = 3;           // fewer configurations tell no shift
   static constexpr double tolerated = 1.02;  // slower by this factor is not worth a finding
   // A configuration passes only where a slowdown by this factor can be excluded; where noise or a
   // coarse clock leave it possible, nothing is decided.
@@ -28,26 +77,46 @@ struct TimingCase {
   double tolerance = 0;                     // τ in ln t: max(ln 1.02, one step of the clock)
 };
 
-struct TimingJudgement {
-  double baseline_ns = 0;     // geometric mean of the stored runs
-  double log_ratio = 0;       // x − shift − x̄
-  double shift = 0;           // of the device's anchors in ln t; 0 without anchors
-  std::size_t anchors = 0;    // the shift rests on
+// Something in ln t against its stored runs, slower by more than τ or faster.
+struct TimingTest {
+  double log_ratio = 0;       // x − shift − x̄; of a program d − d̄
   double standard_error = 0;  // of log_ratio
   double degrees = 0;         // of freedom of its t distribution, may be infinite
   double t = 0;               // against "slower by τ"
   double p_slower = 1;
   double p_faster = 1;
   double half_width = 0;  // of the one-sided 95 % interval of log_ratio
-  bool slower = false;    // both after Benjamini–Hochberg over all cases
+  bool slower = false;
   bool faster = false;
+  // Fills t, both p and the half-width from the first three.
+  void test(double tolerance);
   [[nodiscard]] bool too_noisy(double tolerance) const;
 };
 
-// One judgement per case, in order; of witnesses it says nothing. With y = ln t: the anchors'
-// median deviation of each run (the stored ones and this one) is taken from all of the device's
-// cases; variances between stored runs are moderated over the device's cases; t = (x − shift − x̄ −
-// τ)/√(s̃²(1 + 1/H) + v), v the variance of the shift.
-[[nodiscard]] std::vector<TimingJudgement> judge_timings(std::span<const TimingCase> cases);
+// Slower and faster after Benjamini–Hochberg over all cases.
+struct TimingJudgement : TimingTest {
+  double baseline_ns = 0;   // geometric mean of the stored runs
+  double shift = 0;         // of this run against the stored ones, in ln t; 0 without anchors
+  std::size_t anchors = 0;  // of the device
+};
+
+// The program as a whole on one device, of which both witnesses are there.
+struct ProgramJudgement : TimingTest {
+  std::string device;
+  double tolerance = 0;            // the configurations' median τ
+  double device_shift = 0;         // a − ā, what the anchors show
+  std::size_t configurations = 0;  // of the body
+  std::size_t anchors = 0;
+};
+
+struct TimingJudgements {
+  std::vector<TimingJudgement> cases;      // in order; of witnesses it says nothing
+  std::vector<ProgramJudgement> programs;  // by device
+};
+
+// Variances between stored runs are moderated over the device's cases; t = (x − shift − x̄ −
+// τ)/√(s̃²(1 + 1/H) + v). s̃² has the stored runs' shifts in it already; v is added in full as it
+// is common to all cases, and H runs tell it but once: a bound.
+[[nodiscard]] TimingJudgements judge_timings(std::span<const TimingCase> cases);
 
 }  // namespace triptych::judge

@@ -99,6 +99,21 @@ bool any_level(const Correlation& result) {
   return std::ranges::any_of(result.levels, &LevelEffect::slower);
 }
 
+// Its times scatter by a tenth from run to run, by the word of very many runs or of three.
+TEST(Correlation, AScatterThatFewRunsToldLeavesMoreRoomForChance) {
+  auto cases = Bench{.noise = 0.01}.draw(1);
+  cases[0].log_time_b += 0.5;
+  cases[0].variance_b = 0.01;
+  const ConfigurationJudgement known = correlate(cases).judgements[0];
+  EXPECT_TRUE(known.slower);
+  cases[0].degrees_b = 2;
+  const ConfigurationJudgement guessed = correlate(cases).judgements[0];
+  EXPECT_DOUBLE_EQ(guessed.z, known.z);
+  EXPECT_FALSE(guessed.slower);
+  // Nearly all of the variance is that one's: two degrees, by (Σu)²/Σ(u²/ν).
+  EXPECT_NEAR(guessed.p, student_t_upper_tail(guessed.z, 2), 0.05 * guessed.p);
+}
+
 TEST(Correlation, GivesTheLineBack) {
   const Bench bench{.wild = 0.1};
   std::vector<double> slopes;

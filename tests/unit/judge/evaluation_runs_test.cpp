@@ -86,15 +86,17 @@ class EvaluateRuns : public testing::Test {
   }
 
   static Tally sum(const Tallies& tallies, std::string_view method, Spread spread,
-                   double percent = 0) {
+                   double percent = 0, bool confirmed = false) {
     Tally total;
     const auto add = [](Rate& to, const Rate& from) {
       to.hits += from.hits;
       to.trials += from.trials;
     };
     for (const auto& [kind, tally] : tallies) {
-      if (!kind.method.starts_with(method) || kind.spread != spread || kind.percent != percent)
+      if (!kind.method.starts_with(method) || kind.spread != spread || kind.percent != percent ||
+          kind.confirmed != confirmed) {
         continue;
+      }
       for (const auto rate :
            {&Tally::detected, &Tally::found, &Tally::false_alarms, &Tally::false_discoveries,
             &Tally::undecided, &Tally::first_named, &Tally::split, &Tally::same_bytes}) {
@@ -161,7 +163,7 @@ TEST_F(EvaluateRuns, FindsWhatIsPlantedAndNamesIt) {
   expect_all(sum(tallies, "correlation", Spread::configuration, 25).first_named);
   expect_all(sum(tallies, "correlation", Spread::configuration, 25).split);
   for (const auto& [kind, tally] : tallies) {
-    if (kind.percent == 0 || kind.spread == Spread::device) continue;
+    if (kind.percent == 0 || kind.spread == Spread::device || kind.confirmed) continue;
     ASSERT_FALSE(tally.costs.empty());
     for (const double cost : tally.costs) EXPECT_NEAR(cost, std::log(1.25), 0.05);
   }
@@ -170,6 +172,59 @@ TEST_F(EvaluateRuns, FindsWhatIsPlantedAndNamesIt) {
   expect_all(sum(tallies, "gate", Spread::none).same_bytes);
   // Two ordered pairs of devices, in both states of acceptance.
   EXPECT_EQ(sum(tallies, "correlation", Spread::none).false_alarms.trials, 4U * 6U);
+}
+
+TEST_F(EvaluateRuns, WhatASecondRunShowsTooIsConfirmed) {
+  for (int round = 0; round < 7; ++round) {
+    measure(0);
+    if (round == 2 || round == 4) measure(25);
+  }
+  const Tallies tallies = evaluate();
+  for (const char* method : {"history", "correlation"}) {
+    SCOPED_TRACE(method);
+    for (const Spread spread : {Spread::configuration, Spread::level, Spread::global}) {
+      SCOPED_TRACE(name_of(spread));
+      expect_all(sum(tallies, method, spread, 25, true).detected);
+      EXPECT_EQ(sum(tallies, method, spread, 25, true).detected.trials,
+                sum(tallies, method, spread, 25).detected.trials);
+    }
+  }
+}
+
+// One run in seven is slow in a third of its configurations, on each device: a suspect of that run
+// and of no other.
+TEST_F(EvaluateRuns, ASlowMinuteIsNotConfirmed) {
+  for (int round = 0; round < 7; ++round) measure(0);
+  std::vector<record::Record> slow = store_.records("run3");
+  for (std::size_t i = 0; i < slow.size(); i += 3) {
+    for (double& ns : slow[i].wall_ns) ns *= 1.4;
+    store_.add_record(slow[i]);
+  }
+  const Tallies tallies = evaluate();
+  const Rate once = sum(tallies, "history", Spread::none).false_alarms;
+  const Rate confirmed = sum(tallies, "history", Spread::none, 0, true).false_alarms;
+  EXPECT_GE(once.hits, 2U);
+  EXPECT_EQ(confirmed.hits, 0U);
+  EXPECT_EQ(confirmed.trials, once.trials);
+}
+
+TEST_F(EvaluateRuns, OnePlantedRunHasNoSecond) {
+  for (int round = 0; round < 7; ++round) {
+    measure(0);
+    if (round == 2) measure(25);
+  }
+  const Tallies tallies = evaluate();
+  EXPECT_GT(sum(tallies, "history", Spread::level, 25).detected.trials, 0U);
+  EXPECT_EQ(sum(tallies, "history", Spread::level, 25, true).detected.trials, 0U);
+  EXPECT_GT(sum(tallies, "history", Spread::none, 0, true).false_alarms.trials, 0U);
+}
+
+// Five are left to judge the first by, four to judge the second.
+TEST_F(EvaluateRuns, SixRunsAreTooFewToConfirm) {
+  for (int round = 0; round < 6; ++round) measure(0);
+  const Tallies tallies = evaluate();
+  EXPECT_GT(sum(tallies, "history", Spread::none).false_alarms.trials, 0U);
+  EXPECT_EQ(sum(tallies, "", Spread::none, 0, true).false_alarms.trials, 0U);
 }
 
 TEST_F(EvaluateRuns, TooFewRunsTellNothingOfHistory) {

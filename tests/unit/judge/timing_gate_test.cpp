@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/file.hpp"
 #include "fixture.hpp"
+#include "judge/confirmation.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -209,10 +211,55 @@ TEST_F(TimingGateTest, AMachineThatItsOwnAnchorsShowSlowerIsNoSlowerProgram) {
   ASSERT_EQ(slower.size(), 3U) << text(result);
   for (const Finding& each : slower) EXPECT_EQ(each.configuration, plain_);
   EXPECT_NEAR(slower[0].numbers.at("ratio"), 1.1, 0.02);
-  EXPECT_EQ(with(result, Verdict::pass, Check::timing).size(), 9U);
+  // Three configurations and the program as a whole on each device.
+  EXPECT_EQ(with(result, Verdict::pass, Check::timing).size(), 9U + 3U);
   const auto advice = with(result, Verdict::advisory, Check::timing);
   ASSERT_EQ(advice.size(), 3U) << text(result);
   EXPECT_THAT(advice[0].message, HasSubstr("by 8 anchors"));
+}
+
+TEST_F(TimingGateTest, ASlowerProgramBesideStillAnchorsIsToldAsOne) {
+  for (int i = 1; i <= 8; ++i) {
+    add_anchors(fmt::format("r{}-anchors", i), 1);
+    accept_anchors(fmt::format("r{}-anchors", i));
+    add_run(fmt::format("r{}-run", i));
+    (void)accept_run(fmt::format("r{}-run", i));
+  }
+  add_anchors("s-anchors", 1);
+  add_run("s-run", times(1.3));
+  const GateResult result = gate("s-run");
+  const auto slower = with(result, Verdict::regression, Check::timing);
+  ASSERT_EQ(slower.size(), 12U + 3U) << text(result);
+  const auto whole = std::ranges::find(slower, "program", &Finding::subject);
+  ASSERT_NE(whole, slower.end());
+  EXPECT_TRUE(whole->configuration.empty());
+  EXPECT_THAT(whole->message, HasSubstr("the program as a whole is +"));
+  EXPECT_NEAR(whole->numbers.at("ratio"), 1.3, 0.03);
+}
+
+// What a second launch does not show is taken back, each thing for itself.
+TEST_F(TimingGateTest, ASecondLaunchConfirmsOnlyWhatItShowsToo) {
+  accept_history();
+  add_run("b", [](record::Record& record, core::Image& image) {
+    times(1.2, bricks_)(record, image);
+    times(1.2, plain_)(record, image);
+  });
+  add_run("c", times(1.2, plain_));
+  GateResult result = gate("b");
+  ASSERT_EQ(with(result, Verdict::regression).size(), 6U);
+  EXPECT_TRUE(names_suspects(result));
+  take_back_unconfirmed(result, gate("c"));
+  const auto slower = with(result, Verdict::regression);
+  ASSERT_EQ(slower.size(), 3U) << text(result);
+  for (const Finding& each : slower) EXPECT_EQ(each.configuration, plain_);
+  EXPECT_EQ(result.findings.front().verdict, Verdict::regression);
+  const auto advice = with(result, Verdict::advisory, Check::timing);
+  ASSERT_EQ(advice.size(), 3U);
+  EXPECT_THAT(advice[0].message, HasSubstr("not so on a fresh launch"));
+  // What only the second shows is none of the first's.
+  GateResult calm = gate("c");
+  take_back_unconfirmed(calm, gate("b"));
+  EXPECT_EQ(with(calm, Verdict::regression).size(), 3U);
 }
 
 TEST_F(TimingGateTest, AnchorsThatNobodyAcceptedTellNothing) {

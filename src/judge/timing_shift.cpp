@@ -1,0 +1,176 @@
+#include "judge/timing_shift.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+
+#include "judge/statistics.hpp"
+
+namespace triptych::judge {
+namespace {
+
+double median_of_sorted(std::span<const double> sorted) {
+  return 0.5 * (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]);
+}
+
+double prediction(std::size_t runs) {
+  return 1 + 1 / static_cast<double>(runs);
+}
+
+}  // namespace
+
+std::vector<double> stored_logarithms(const TimingCase& timing, const CaseShift& shift) {
+  std::vector<double> result;
+  for (const auto& [run, ns] : timing.stored_ns) {
+    const auto own = shift.stored.find(run);
+    result.push_back(std::log(ns) - (own == shift.stored.end() ? 0 : own->second));
+  }
+  return result;
+}
+
+double variance_of_median(std::span<const double> sorted) {
+  namespace math = boost::math;
+  if (sorted.size() < 2) return std::numeric_limits<double>::infinity();
+  constexpr double z_of_interval = 2.576;
+  const auto count = static_cast<double>(sorted.size());
+  const double rank = std::round((count + 1) / 2 - z_of_interval * std::sqrt(count) / 2);
+  const auto low = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
+  const double outside =
+      math::cdf(math::binomial(count, 0.5), static_cast<double>(low));  // on one side
+  const double z = student_t_upper_quantile(outside, std::numeric_limits<double>::infinity());
+  const double error = (sorted[sorted.size() - 1 - low] - sorted[low]) / (2 * z);
+  return error * error;
+}
+
+void DeviceShifts::Witness::add(const TimingCase& timing) {
+  const double centre = mean(stored_logarithms(timing));
+  for (const auto& [run, ns] : timing.stored_ns) {
+    stored[run].emplace_back(std::log(ns) - centre, &timing);
+  }
+  now.emplace_back(std::log(timing.median_ns) - centre, &timing);
+}
+
+void DeviceShifts::Witness::sort() {
+  const auto by_value = [](const auto& each) { return each.first; };
+  for (auto& [run, deviations] : stored) std::ranges::stable_sort(deviations, {}, by_value);
+  std::ranges::stable_sort(now, {}, by_value);
+}
+
+DeviceShifts::DeviceShifts(std::span<const TimingCase* const> cases) {
+  for (const TimingCase* timing : cases) (timing->anchor ? anchors_ : body_).add(*timing);
+  if (anchors_.now.empty()) return;
+  anchors_.sort();
+  body_.sort();
+  by_anchors_ = medians(anchors_, nullptr);
+  by_anchors_.variance = scatter_of_anchors();
+  if (body_.now.size() >= TimingModel::least_body) judge_program();
+}
+
+std::vector<double> DeviceShifts::without(const Deviations& deviations,
+                                          const TimingCase* left_out) {
+  std::vector<double> values;
+  values.reserve(deviations.size());
+  for (const auto& [value, timing] : deviations) {
+    if (timing != left_out) values.push_back(value);
+  }
+  return values;
+}
+
+CaseShift DeviceShifts::medians(const Witness& witness, const TimingCase* left_out) {
+  CaseShift result;
+  for (const auto& [run, deviations] : witness.stored) {
+    const std::vector<double> values = without(deviations, left_out);
+    if (!values.empty()) result.stored[run] = median_of_sorted(values);
+  }
+  result.now = median_of_sorted(without(witness.now, left_out));
+  return result;
+}
+
+// v_a: of the median of the anchors' deviations, π/2 times that of a mean of as many. Several
+// anchors tell their own scatter from what moves them all; of one alone everything is scatter.
+double DeviceShifts::scatter_of_anchors() const {
+  std::vector<double> variances;
+  for (const auto& [value, timing] : anchors_.now) {
+    const std::vector<double> values =
+        anchors() > 1 ? stored_logarithms(*timing, by_anchors_) : stored_logarithms(*timing);
+    variances.push_back(sample_variance(values) * prediction(values.size()));
+  }
+  const auto count = static_cast<double>(variances.size());
+  return count > 1 ? mean(variances) * std::numbers::pi / 2 / (count - 1) : variances.front();
+}
+
+double DeviceShifts::scatter_of_body() const {
+  std::vector<double> variances;
+  std::vector<double> degrees;
+  for (const auto& [value, timing] : body_.now) {
+    const std::vector<double> values = stored_logarithms(*timing, medians(body_, timing));
+    variances.push_back(std::max(sample_variance(values), least_timing_variance));
+    degrees.push_back(static_cast<double>(values.size() - 1));
+  }
+  return fit_variance_prior(variances, degrees).variance;
+}
+
+// v_b
+double DeviceShifts::variance_of_body(const TimingCase* left_out) const {
+  const std::vector<double> values = without(body_.now, left_out);
+  const double expected = std::numbers::pi / 2 * typical_scatter_ *
+                          prediction(body_.stored.size()) / static_cast<double>(values.size());
+  return std::max(expected, variance_of_median(values));
+}
+
+void DeviceShifts::judge_program() {
+  const CaseShift body = medians(body_, nullptr);
+  std::vector<double> differences;  // of stored runs
+  std::vector<double> shifts;       // the anchors' in them
+  for (const auto& [run, shift] : by_anchors_.stored) {
+    const auto of_body = body.stored.find(run);
+    if (of_body == body.stored.end()) continue;
+    differences.push_back(of_body->second - shift);
+    shifts.push_back(shift);
+  }
+  if (differences.size() < TimingModel::least_runs) return;
+  typical_scatter_ = scatter_of_body();
+  const auto runs = static_cast<double>(differences.size());
+  const auto anchors = static_cast<double>(anchors_.now.size());
+  const double seen = sample_variance(differences) * prediction(differences.size());
+  ProgramJudgement program;
+  program.device = body_.now.front().second->device;
+  program.configurations = body_.now.size();
+  program.anchors = anchors_.now.size();
+  program.degrees =
+      seen >= by_anchors_.variance ? runs - 1 : std::max(anchors - 1, 1.0) * (runs - 1);
+  by_anchors_.variance = std::max({by_anchors_.variance, seen, least_timing_variance});
+  program.device_shift = by_anchors_.now - mean(shifts);
+  program.log_ratio = body.now - by_anchors_.now - mean(differences);
+  program.standard_error = std::sqrt(by_anchors_.variance + variance_of_body(nullptr));
+  std::vector<double> tolerances;
+  for (const auto& [value, timing] : body_.now) tolerances.push_back(timing->tolerance);
+  program.tolerance = median(tolerances);
+  program.test(program.tolerance);
+  program.slower = program.p_slower <= TimingModel::false_program_alarms;
+  program.faster = program.p_faster <= TimingModel::false_program_alarms;
+  program_ = program;
+}
+
+CaseShift DeviceShifts::of(const TimingCase& timing) const {
+  if (!program_ || program_->slower || program_->faster) return by_anchors_;
+  const double of_anchors = by_anchors_.variance;
+  const double of_body = variance_of_body(&timing);
+  const double weight = of_anchors / (of_anchors + of_body);
+  CaseShift shift = medians(body_, &timing);
+  const auto mix = [weight](double& body, double anchors) {
+    body = weight * body + (1 - weight) * anchors;
+  };
+  mix(shift.now, by_anchors_.now);
+  for (auto& [run, value] : shift.stored) {
+    const auto own = by_anchors_.stored.find(run);
+    mix(value, own == by_anchors_.stored.end() ? 0 : own->second);
+  }
+  shift.variance = weight * weight * of_body + (1 - weight) * (1 - weight) * of_anchors;
+  return shift;
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,69 @@
+#pragma once
+// How much slower than usual a device was in each run, and whether its program as a whole was; the
+// derivation is in timing_model.hpp.
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "judge/timing_model.hpp"
+
+namespace triptych::judge {
+
+// The smallest variance of ln t: clocks step, so that identical medians occur; 1e-6 of the time.
+inline constexpr double least_timing_variance = 1e-12;
+
+// The variance of the median of these values, from its distribution-free interval of 99 % or, of
+// few values, the widest there is. `sorted` in ascending order; infinite for fewer than two.
+[[nodiscard]] double variance_of_median(std::span<const double> sorted);
+
+// What is to be taken out of one case.
+struct CaseShift {
+  std::map<std::string, double> stored;  // by run; a run that is not there was not shifted
+  double now = 0;
+  double variance = 0;
+};
+
+// ln t of the stored runs without the shift.
+[[nodiscard]] std::vector<double> stored_logarithms(const TimingCase& timing,
+                                                    const CaseShift& shift = {});
+
+// Of all cases of one device, which have to live as long.
+class DeviceShifts {
+ public:
+  explicit DeviceShifts(std::span<const TimingCase* const> cases);
+  [[nodiscard]] CaseShift of(const TimingCase& timing) const;
+  // nullopt where anchors or a body are missing.
+  [[nodiscard]] const std::optional<ProgramJudgement>& program() const { return program_; }
+  [[nodiscard]] std::size_t anchors() const { return anchors_.now.size(); }
+
+ private:
+  // Deviations from the cases' means, ascending, each with its case.
+  using Deviations = std::vector<std::pair<double, const TimingCase*>>;
+  struct Witness {
+    std::map<std::string, Deviations> stored;
+    Deviations now;
+    void add(const TimingCase& timing);
+    void sort();
+  };
+
+  [[nodiscard]] static std::vector<double> without(const Deviations& deviations,
+                                                   const TimingCase* left_out);
+  [[nodiscard]] static CaseShift medians(const Witness& witness, const TimingCase* left_out);
+  [[nodiscard]] double scatter_of_anchors() const;
+  [[nodiscard]] double scatter_of_body() const;
+  [[nodiscard]] double variance_of_body(const TimingCase* left_out) const;
+  void judge_program();
+
+  Witness anchors_;
+  Witness body_;
+  CaseShift by_anchors_;        // and the variance V, where there is a program to be judged
+  double typical_scatter_ = 0;  // s₀² of the body
+  std::optional<ProgramJudgement> program_;
+};
+
+}  // namespace triptych::judge

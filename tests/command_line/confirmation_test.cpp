@@ -1,0 +1,94 @@
+// CTest's check of times: a suspect of one launch is measured again by a fresh one.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/image_io.hpp"
+#include "measure/plan.hpp"
+#include "program.hpp"
+#include "suites/volume/suite.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+class Confirmation : public testing::Test {
+ protected:
+  Confirmation() {
+    program.write("plan",
+                  "suite: volume\ntechnique: [raycast]\ndata: [generate:gaussian_blob:12]\n"
+                  "transfer_function: [haze]\nskip: [none, bricks]\ncamera: [orbit_y:1/8]\n"
+                  "viewport: [16]\n");
+    const auto suite = volume_suite::make_suite({});
+    const measure::Plan plan =
+        measure::load_plan((program.folder() / "plan").string(), {},
+                           [&](std::string_view) -> measure::Suite& { return *suite; });
+    core::write_exr(suite->truth(plan.configurations.at(0), {}).image,
+                    program.folder() / "right.exr");
+  }
+
+  void SetUp() override {
+    for (int run = 0; run < 6; ++run) {
+      const std::string store = fmt::format("--store history{}.sqlite", run);
+      ASSERT_EQ(program.run("run plan --device 'null:*' " + store, script(1, run)).code, 0);
+      ASSERT_EQ(
+          program.run("accept plan --reason history --baselines baselines " + store, script(1, run))
+              .code,
+          0);
+    }
+  }
+
+  // `speed`: factor on all times of a launch.
+  [[nodiscard]] std::string script(double speed, int seed) const {
+    return fmt::format(
+        R"({{"images": {{"*": "{}"}}, "devices": [{}], "seed": {}, "base_ns": 5e6, "noise": 0.003}})",
+        (program.folder() / "right.exr").string(), speed, seed);
+  }
+
+  // What the check says of a first launch, measured with `more`, where a second is as fast as that.
+  [[nodiscard]] Result check(double first, double second, const std::string& more = "") const {
+    const Result measured = program.run(
+        "test-measure plan --device null:scripted --store s.sqlite " + more, script(first, 50));
+    EXPECT_EQ(measured.code, 0) << measured.output;
+    return program.run("test-check plan --check timing --device null:scripted --store s.sqlite",
+                       script(second, 51));
+  }
+
+  Program program;
+};
+
+constexpr const char* taken_back = "; not so on a fresh launch";
+
+TEST_F(Confirmation, ALaunchLikeTheStoredOnesNeedsNoSecond) {
+  const Result result = check(1, 1.5);
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_FALSE(std::filesystem::exists(program.folder() / "s.sqlite.confirm.null:scripted"));
+}
+
+TEST_F(Confirmation, SlowInBothLaunchesIsARegression) {
+  const Result result = check(1.25, 1.25);
+  EXPECT_EQ(result.code, 1) << result.output;
+  EXPECT_EQ(result.output.find(taken_back), std::string::npos) << result.output;
+}
+
+TEST_F(Confirmation, SlowInOneLaunchIsNone) {
+  const Result result = check(1, 1, "--plant 'slowdown:25@*skip=bricks*'");
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_NE(result.output.find(taken_back), std::string::npos) << result.output;
+}
+
+// Nothing is left that was judged: a skip, with the reason.
+TEST_F(Confirmation, AllSlowInOneLaunchIsNoPassEither) {
+  const Result result = check(1.25, 1);
+  EXPECT_EQ(result.code, 77) << result.output;
+  EXPECT_NE(result.output.find(taken_back), std::string::npos) << result.output;
+}
+
+// It takes findings back and never adds any.
+TEST_F(Confirmation, ASecondLaunchAddsNoSuspect) {
+  const Result result = check(1, 1.25, "--plant 'slowdown:25@*skip=bricks*'");
+  EXPECT_EQ(result.code, 1) << result.output;
+  EXPECT_NE(result.output.find("1 regression"), std::string::npos) << result.output;
+}
+
+}  // namespace
+}  // namespace triptych::command_line
