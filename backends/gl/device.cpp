@@ -81,7 +81,7 @@ class GlDevice final : public measure::Device {
     }
     if (const auto* raycaster = std::get_if<VolumeTechnique>(&entry->technique)) {
       if (volume == nullptr) return fmt::format("{} draws volumes, nothing else", work.technique);
-      auto reason = technique::quadrature_reason(work.technique, volume->scene.quadrature);
+      auto reason = technique::raycast_reason(work.technique, volume->scene, volume->options);
       if (!reason) reason = volume_unsupported(gl, *volume);
       if (!reason) reason = raycaster->unsupported(gl, *volume);
       return reason;

@@ -1,10 +1,13 @@
 #include "backends/vulkan/volume_resources.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <span>
 #include <vector>
 
 #include "technique/volume/bricks.hpp"
+#include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
 #include "technique/volume/preintegration.hpp"
 #include "technique/volume/raycast_parameters.hpp"
@@ -29,9 +32,9 @@ double stored_maximum(scene::VoxelFormat format) {
 }
 
 Buffer upload_parameters(const Gpu& gpu, const measure::VolumeWork& work) {
-  const technique::RaycastParameters parameters = technique::raycast_parameters(
-      work.scene, work.options, stored_maximum(work.scene.grid->format));
-  return make_buffer(gpu, std::as_bytes(std::span(&parameters, 1)),
+  return make_buffer(gpu,
+                     technique::raycast_parameters(work.scene, work.options,
+                                                   stored_maximum(work.scene.grid->format)),
                      vk::BufferUsageFlagBits::eUniformBuffer);
 }
 
@@ -169,6 +172,15 @@ Constants constants_of(const measure::VolumeWork& work) {
                               : technique::opacity_form(work.scene.step_voxels),
           .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated ? 1 : 0,
           .leaps = work.options.skip == technique::Skip::distance ? 1 : 0};
+}
+
+std::string_view raycast_spirv(std::string_view shader, const measure::VolumeWork& work,
+                               Pass pass) {
+  const std::size_t dot = shader.find('.');
+  return spirv(fmt::format("{}{}{}{}{}.spv", shader.substr(0, dot),
+                           work.options.precision == technique::Precision::fp64 ? "_fp64" : "",
+                           technique::has_long_rays(work.scene) ? "_long" : "",
+                           pass == Pass::counting ? "_counting" : "", shader.substr(dot)));
 }
 
 }  // namespace triptych::vulkan_backend

@@ -4,6 +4,7 @@
 
 #include "reference/volume.hpp"
 #include "scene/volume_scene.hpp"
+#include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::volume_suite {
 
@@ -12,6 +13,7 @@ struct PathPrecision {
   double ert = 0;                  // ε at which rays may end
   double filter_weight_error = 0;  // of the device's sampler, as probed (measure::Device)
   double storage_step = 0;  // normalised value per step of a voxel format too small for the data
+  technique::Precision precision = technique::Precision::fp32;
 };
 
 // u = 2⁻²⁴, the unit roundoff of float; every basic operation errs by at most u relative
@@ -49,6 +51,14 @@ struct PathPrecision {
 //   (share 2u, division by the difference of two positions 4u, product 2u), the exponential 8u, and
 //   three pieces put together, 1u each for product and sum: 32u.
 // compositing, relative per sample. weight u, product u, sum u, transmittance u: 4u.
+//
+// Precision fp64: the same counts, as the kernels are the same text, with u = 2⁻⁵². That is twice
+// the unit roundoff of double, for the truth is computed in doubles as well and may err by as much
+// as the device. Three things differ.
+//   The parameters come in doubles and the eye is not rounded, which the count above includes.
+//   opacity. tri_opacity is stated to 12u: 12u + 4u + 2u = 18u.
+//   output. A channel is rounded to float when it is stored, and so is the truth's picture: 2·2⁻²⁴
+//   of the channel. In fp32 compositing has rounded it already.
 [[nodiscard]] reference::ErrorModel error_model(const scene::VolumeScene& scene,
                                                 const PathPrecision& path);
 
