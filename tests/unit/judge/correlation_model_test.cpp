@@ -107,11 +107,15 @@ TEST(Correlation, AScatterThatFewRunsToldLeavesMoreRoomForChance) {
   const ConfigurationJudgement known = correlate(cases).judgements[0];
   EXPECT_TRUE(known.slower);
   cases[0].degrees_b = 2;
-  const ConfigurationJudgement guessed = correlate(cases).judgements[0];
+  const Correlation result = correlate(cases);
+  const ConfigurationJudgement& guessed = result.judgements[0];
   EXPECT_DOUBLE_EQ(guessed.z, known.z);
   EXPECT_FALSE(guessed.slower);
-  // Nearly all of the variance is that one's: two degrees, by (Σu)²/Σ(u²/ν).
-  EXPECT_NEAR(guessed.p, student_t_upper_tail(guessed.z, 2), 0.05 * guessed.p);
+  // (Σu)²/Σ(u²/ν), s_A² known beyond doubt.
+  const double of_line = result.scale * result.scale * (1 + guessed.leverage);
+  const double sum = of_line + cases[0].variance_a + cases[0].variance_b;
+  const double degrees = sum * sum / (of_line * of_line / 46 + 0.01 * 0.01 / 2);
+  EXPECT_NEAR(guessed.p, student_t_upper_tail(guessed.z, degrees), 1e-9);
 }
 
 TEST(Correlation, GivesTheLineBack) {
