@@ -271,8 +271,10 @@ measure::Limit VolumeSuite::limit(const Configuration& configuration) {
 std::optional<core::Image> VolumeSuite::closed_form(const Configuration& configuration) {
   const auto analytic = analytic_data(configuration.at("data"));
   const bool own = configuration.at("transfer_function") == own_transfer_function;
-  if (!analytic || !own || configuration.at("shading") != "none") return std::nullopt;
-  return analytic_picture(*analytic, scene(configuration, load_as_it_is(configuration)));
+  if (!analytic || !own) return std::nullopt;
+  const scene::VolumeScene pictured = scene(configuration, load_as_it_is(configuration));
+  if (pictured.shading.enabled != reference::is_shaded(analytic->problem)) return std::nullopt;
+  return analytic_picture(*analytic, pictured);
 }
 
 }  // namespace
