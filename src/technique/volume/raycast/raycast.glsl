@@ -129,6 +129,7 @@ struct Walk {
   vec3 at;          // where the ray crosses the brick's far face of each axis, steps
   float leave;      // where it leaves the brick: the least of them
   bool visible;     // also true outside the grid, where rounding can lead: that rest of a ray is sampled
+  bool merged;      // technique::BrickKind::merged
   bool outside;
   ivec3 size;       // bricks per axis
 };
@@ -140,7 +141,9 @@ void enter(inout Walk walk) {
   // As unsigned numbers, negative indices are beyond the end too.
   walk.outside = any(greaterThanEqual(uvec3(walk.brick), uvec3(size)));
   int index = walk.brick.x + size.x * (walk.brick.y + size.y * walk.brick.z);
-  walk.visible = walk.outside || brick_visible[walk.outside ? 0 : index] != 0;
+  int kind = walk.outside ? 1 : brick_visible[walk.outside ? 0 : index];
+  walk.visible = kind != 0;
+  walk.merged = TRI_ADAPT == 1 && kind == 2;
 }
 
 Walk start_walk(Ray ray) {
@@ -172,15 +175,17 @@ int samples_before(Walk walk, int limit) {
   return walk.outside || !(walk.leave < float(limit)) ? limit : clamp(int(ceil(walk.leave - 0.5)), 0, limit);
 }
 
-// Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the ray.
-ivec2 next_run(inout Walk walk, int begin, int end) {
+// Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the ray. The
+// run of a brick whose samples are merged is its own.
+ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
   while (begin < end && !walk.visible) {
     begin = max(begin, samples_before(walk, end));
     next_brick(walk);
     if (TRI_COUNT == 1) { count_bricks_visited++; count_bricks_skipped++; }
   }
   int stop = begin;
-  while (stop < end && walk.visible) {
+  merged = walk.merged;
+  while (stop < end && walk.visible && walk.merged == merged && !(merged && stop > begin)) {
     stop = max(stop, samples_before(walk, end));
     next_brick(walk);
     if (TRI_COUNT == 1) count_bricks_visited++;
@@ -301,6 +306,12 @@ void add_segment(inout Light light, Grid grid, Ray ray, float begin, float end, 
   }
 }
 
+// The samples from `begin` to `end`, in steps, as one in the middle of their way (technique::brick_kinds).
+void add_merged(inout Light light, Grid grid, Ray ray, float begin, float end, float step_voxels) {
+  vec3 middle = ray.p0 + (0.5 * (begin + end)) * ray.g;
+  add_sample(light, grid, ray, middle, false, step_voxels * (end - begin));
+}
+
 // Premultiplied RGBA of the pixel. Two habits of compilers for CPUs shape these loops. They run a block of
 // rays through both sides of a condition, so the opacity of the partial last step must not stand beside
 // that of a whole one: the last sample is taken behind the loops. And Mesa 22.3's llvmpipe goes on
@@ -324,10 +335,20 @@ vec4 raycast(ivec2 pixel) {
   int i = 0;
   while (i < count) {
     int stop = count;
+    bool merged = false;
     if (skipping) {
-      ivec2 run = TRI_LEAPS == 1 ? next_run_by_leaps(leaps, ray, i, count) : next_run(walk, i, count);
+      ivec2 run = TRI_LEAPS == 1 ? next_run_by_leaps(leaps, ray, i, count) : next_run(walk, i, count, merged);
       i = run.x;
       stop = run.y;
+    }
+    if (TRI_ADAPT == 1 && merged && i < stop) {
+      add_merged(light, grid, ray, float(i), min(float(stop), ray.steps), step_voxels);
+      i = stop;
+      if (light.transmittance < enough) {
+        if (TRI_COUNT == 1) count_terminated = 1u;
+        stop = 0;
+        count = 0;
+      }
     }
     last_visible = stop == count && i < stop;
     // A partial step of a straight line is no other work than a whole one: it needs no special place.
