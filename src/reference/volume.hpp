@@ -21,6 +21,7 @@ struct ErrorModel {
   double compositing_error = 0;    // of each multiply–add into colour and transmittance, relative
                                    // and of each operation of shading
   double ert = 0;                  // ε at which a device may stop
+  double adapt = 0;  // how far it may move any channel by taking samples together, absolute
 };
 
 struct Truth {

@@ -64,6 +64,7 @@ reference::ErrorModel error_model(const scene::VolumeScene& scene, const PathPre
       .opacity_error = (preintegrated ? 32 : 14) * unit_roundoff,
       .compositing_error = 4 * unit_roundoff,
       .ert = path.ert,
+      .adapt = path.adapt,
   };
 }
 
