@@ -17,6 +17,7 @@ struct Constants {
   int opacity_form = 0;  // technique::opacity_form of the step
   bool preintegrated = false;
   bool leaps = false;
+  bool adapt = false;
 };
 
 // A work group takes a square of this many pixels (shaders/raycast.comp).

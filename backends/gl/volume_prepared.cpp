@@ -109,7 +109,8 @@ Constants constants_of(const measure::VolumeWork& work) {
       .opacity_form = technique::opacity_form(
           work.options.fault == technique::Fault::uncorrected_opacity ? 1 : work.scene.step_voxels),
       .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated,
-      .leaps = work.options.skip == technique::Skip::distance};
+      .leaps = work.options.skip == technique::Skip::distance,
+      .adapt = work.options.adapt > 0};
 }
 
 std::optional<std::string> volume_unsupported(const Api& gl, const measure::VolumeWork& work) {

@@ -14,6 +14,7 @@
 #include "backends/opencl/techniques.hpp"
 #include "backends/opencl/volume_data.hpp"
 #include "core/error.hpp"
+#include "technique/volume/brick_kinds.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
@@ -153,6 +154,9 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
   }
   if (particles != nullptr) return particle_defect(session_, work.technique, *particles);
   if (auto reason = technique::quadrature_reason(work.technique, volume->scene.quadrature)) {
+    return reason;
+  }
+  if (auto reason = technique::adapt_reason(work.technique, volume->scene, volume->options)) {
     return reason;
   }
   if (volume->options.sampler == Sampler::hardware) {

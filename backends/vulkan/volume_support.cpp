@@ -5,6 +5,7 @@
 #include "backends/vulkan/filter_probe.hpp"
 #include "backends/vulkan/support.hpp"
 #include "backends/vulkan/volume_resources.hpp"
+#include "technique/volume/brick_kinds.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -44,6 +45,7 @@ std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWo
   constexpr std::uint64_t pixel_bytes = 4 * sizeof(float);
   const scene::VolumeScene& scene = work.scene;
   if (auto reason = technique::quadrature_reason(technique, scene.quadrature)) return reason;
+  if (auto reason = technique::adapt_reason(technique, scene, work.options)) return reason;
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
   if (auto reason = format_reason(gpu, work)) return reason;

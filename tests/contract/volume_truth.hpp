@@ -16,6 +16,7 @@ inline void expect_within_bound(measure::Device& device, const measure::Work& wo
   const reference::Truth truth = reference::render_volume(
       volume.scene, volume_suite::error_model(
                         volume.scene, {.ert = volume.options.ert,
+                                       .adapt = volume.options.adapt,
                                        .filter_weight_error = device.filter_weight_error(path)}));
   const core::Image image = draw(device, work);
   for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
