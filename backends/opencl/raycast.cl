@@ -121,12 +121,14 @@ TRI_FN int take_batch(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 
 #if TRI_ADAPT
 // Takes the samples from the i-th on and before `stop` as one in the middle of their way
-// (technique::brick_kinds); 1 where the ray ends there.
+// (technique::brick_kinds), but not before the first of them, which may be the ray's last and stand
+// for little; 1 where the ray ends there.
 TRI_FN int take_merged(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                        const Ray* ray, int i, int stop, Gathered* gathered, Counts* counts) {
   float begin = (float)i;
   float end = (float)stop < ray->steps ? (float)stop : ray->steps;
-  float3 middle = ray->p0 + (0.5f * (begin + end)) * ray->g;
+  float along = max(0.5f * (begin + end), begin + 0.5f);
+  float3 middle = ray->p0 + along * ray->g;
   Positions p;
   float value[TRI_LANES];
   float4 colour[TRI_BATCH];

@@ -44,21 +44,21 @@ double rms_error(const core::Image& image, const Exact& exact) {
   return std::sqrt(sum / (4.0 * static_cast<double>(image.pixel_count())));
 }
 
-// Least-squares slope of log error over log step.
-double fitted_order(const std::vector<double>& steps, const std::vector<double>& errors) {
+// Least-squares slope of log error over log size, of the step or of the voxels.
+double fitted_order(const std::vector<double>& sizes, const std::vector<double>& errors) {
   double sx = 0;
   double sy = 0;
   double sxx = 0;
   double sxy = 0;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double x = std::log(steps[i]);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double x = std::log(sizes[i]);
     const double y = std::log(errors[i]);
     sx += x;
     sy += y;
     sxx += x * x;
     sxy += x * y;
   }
-  const auto n = static_cast<double>(steps.size());
+  const auto n = static_cast<double>(sizes.size());
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 

@@ -306,10 +306,11 @@ void add_segment(inout Light light, Grid grid, Ray ray, float begin, float end, 
   }
 }
 
-// The samples from `begin` to `end`, in steps, as one in the middle of their way (technique::brick_kinds).
+// The samples from `begin` to `end`, in steps, as one in the middle of their way (technique::brick_kinds); not
+// before the first of them, which may be the ray's last and stand for little.
 void add_merged(inout Light light, Grid grid, Ray ray, float begin, float end, float step_voxels) {
-  vec3 middle = ray.p0 + (0.5 * (begin + end)) * ray.g;
-  add_sample(light, grid, ray, middle, false, step_voxels * (end - begin));
+  float middle = max(0.5 * (begin + end), begin + 0.5);
+  add_sample(light, grid, ray, ray.p0 + middle * ray.g, false, step_voxels * (end - begin));
 }
 
 // Premultiplied RGBA of the pixel. Two habits of compilers for CPUs shape these loops. They run a block of
