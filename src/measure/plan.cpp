@@ -11,6 +11,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "core/error.hpp"
 #include "measure/plan_yaml.hpp"
@@ -158,13 +159,12 @@ const Factor& factor_of(const Suite& suite, const PlacedText& name) {
 
 using ValuesByFactor = std::map<std::string, std::vector<std::string>>;
 
-ValuesByFactor values_of_plan(const Suite& suite, const PlanText& text) {
-  ValuesByFactor values;
-  for (const PlanEntry& entry : text.entries) {
+// Sets, or sets anew, what the entries name.
+void set_values(const Suite& suite, const std::vector<PlanEntry>& entries, ValuesByFactor& values) {
+  for (const PlanEntry& entry : entries) {
     const Factor& factor = factor_of(suite, entry.factor);
     values[factor.name] = canonical_values(suite, factor, entry.values);
   }
-  return values;
 }
 
 void apply(const Overrides& overrides, const Suite& suite, ValuesByFactor& values) {
@@ -300,17 +300,41 @@ const Suite& suite_of(const PlanSource& source, const PlanText& text, const Find
   }
 }
 
-Plan make_plan(const std::string& name, const Suite& suite, const ValuesByFactor& values) {
-  const std::vector<Axis> axes = axes_of(suite, values);
-  require_few(axes, name);
+// Adds the combinations that are not there yet, beside others of the same data.
+void add(const std::vector<Configuration>& more, std::vector<Configuration>& configurations) {
+  const std::set<Configuration> known(configurations.begin(), configurations.end());
+  for (const Configuration& each : more) {
+    if (!known.contains(each)) configurations.push_back(each);
+  }
+  std::map<std::string, std::size_t> rank;
+  for (const Configuration& each : configurations) rank.emplace(each.at("data"), rank.size());
+  std::ranges::stable_sort(configurations, {},
+                           [&](const Configuration& each) { return rank.at(each.at("data")); });
+}
+
+// Of one set of values or more, each with all its combinations; none is there twice.
+Plan make_plan(const std::string& name, const Suite& suite,
+               const std::vector<ValuesByFactor>& blocks) {
   Plan plan{.name = name,
             .suite = std::string(suite.name()),
-            .configurations = combine(axes),
+            .configurations = {},
             .varied = {},
             .timed = true,
             .rounds = 1};
-  for (const Axis& axis : axes) {
-    if (axis.values.size() > 1) plan.varied.push_back(axis.factor->name);
+  for (const ValuesByFactor& values : blocks) {
+    const std::vector<Axis> axes = axes_of(suite, values);
+    require_few(axes, name);
+    if (plan.configurations.empty()) {
+      plan.configurations = combine(axes);
+    } else {
+      add(combine(axes), plan.configurations);
+    }
+  }
+  for (const Axis& axis : axes_of(suite, blocks.front())) {
+    const std::string& factor = axis.factor->name;
+    const std::string& first = plan.configurations.front().at(factor);
+    const auto differs = [&](const Configuration& each) { return each.at(factor) != first; };
+    if (std::ranges::any_of(plan.configurations, differs)) plan.varied.push_back(factor);
   }
   return plan;
 }
@@ -327,9 +351,13 @@ Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
   const PlanSource source = find_plan(name_or_file, find_suite);
   const PlanText text = parse_plan(source.yaml, source.file);
   const Suite& suite = suite_of(source, text, find_suite);
-  ValuesByFactor values = values_of_plan(suite, text);
-  apply(overrides, suite, values);
-  Plan plan = make_plan(source.name, suite, values);
+  std::vector<ValuesByFactor> blocks(1 + text.also.size());
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    set_values(suite, text.entries, blocks[i]);
+    if (i > 0) set_values(suite, text.also[i - 1], blocks[i]);
+    apply(overrides, suite, blocks[i]);
+  }
+  Plan plan = make_plan(source.name, suite, blocks);
   plan.timed = text.timed;
   plan.rounds = text.rounds;
   return plan;
@@ -338,7 +366,7 @@ Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
 Plan default_plan(const Suite& suite, const Overrides& overrides) {
   ValuesByFactor values;
   apply(overrides, suite, values);
-  return make_plan(std::string(suite.name()) + "/defaults", suite, values);
+  return make_plan(std::string(suite.name()) + "/defaults", suite, {values});
 }
 
 std::string configuration_key(const Suite& suite, const Configuration& configuration) {

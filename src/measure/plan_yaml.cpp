@@ -74,19 +74,51 @@ int number_of_rounds(const PlacedText& value) {
       value.place, fmt::format("'rounds': expected a number from 1 to 99, found '{}'", value.text));
 }
 
-}  // namespace
-
-PlanText parse_plan(std::string_view yaml, const std::string& file) {
-  PlanText plan;
-  std::map<std::string, core::FilePlace> seen;
-  // yaml-cpp keeps every pair of a mapping, also those whose key was there before.
-  for (const auto& pair : load(yaml, file)) {
-    PlacedText key = scalar(pair.first, file, "a factor's name");
-    const auto [first, added] = seen.emplace(key.text, key.place);
+// The places of keys, to refuse one that is there twice: yaml-cpp keeps every pair of a mapping,
+// also those whose key was there before.
+class Keys {
+ public:
+  void add(const PlacedText& key) {
+    const auto [first, added] = seen_.emplace(key.text, key.place);
     if (!added) {
       throw core::InputError(key.place, fmt::format("'{}' is given twice, first in line {}",
                                                     key.text, first->second.line));
     }
+  }
+
+ private:
+  std::map<std::string, core::FilePlace> seen_;
+};
+
+PlanEntry entry_of(PlacedText key, const YAML::Node& node, const std::string& file) {
+  std::vector<PlacedText> values = values_of(node, file, key.text);
+  return {.factor = std::move(key), .values = std::move(values)};
+}
+
+std::vector<std::vector<PlanEntry>> also_of(const YAML::Node& node, const std::string& file) {
+  if (!node.IsSequence()) refuse(file, node, "'also': expected a list of 'factor: values' blocks");
+  std::vector<std::vector<PlanEntry>> blocks;
+  for (const YAML::Node& block : node) {
+    if (!block.IsMap()) refuse(file, block, "'also': expected 'factor: values' lines");
+    Keys keys;
+    std::vector<PlanEntry>& entries = blocks.emplace_back();
+    for (const auto& pair : block) {
+      PlacedText key = scalar(pair.first, file, "a factor's name");
+      keys.add(key);
+      entries.push_back(entry_of(std::move(key), pair.second, file));
+    }
+  }
+  return blocks;
+}
+
+}  // namespace
+
+PlanText parse_plan(std::string_view yaml, const std::string& file) {
+  PlanText plan;
+  Keys keys;
+  for (const auto& pair : load(yaml, file)) {
+    PlacedText key = scalar(pair.first, file, "a factor's name");
+    keys.add(key);
     if (key.text == "suite") {
       plan.suite = scalar(pair.second, file, key.text);
     } else if (key.text == "summary") {
@@ -95,9 +127,10 @@ PlanText parse_plan(std::string_view yaml, const std::string& file) {
       plan.timed = truth_value(scalar(pair.second, file, key.text));
     } else if (key.text == "rounds") {
       plan.rounds = number_of_rounds(scalar(pair.second, file, key.text));
+    } else if (key.text == "also") {
+      plan.also = also_of(pair.second, file);
     } else {
-      std::vector<PlacedText> values = values_of(pair.second, file, key.text);
-      plan.entries.push_back({.factor = std::move(key), .values = std::move(values)});
+      plan.entries.push_back(entry_of(std::move(key), pair.second, file));
     }
   }
   if (plan.suite.text.empty()) {

@@ -25,11 +25,14 @@ struct PlanText {
   bool timed = true;
   int rounds = 1;
   std::vector<PlanEntry> entries;  // in the order of the file, no factor twice
+  // What stands under `also`: further combinations, by entries in the place of those above.
+  std::vector<std::vector<PlanEntry>> also;
 };
 
 // `file` is what errors call the text. Throws InputError for what is not YAML, not one mapping, has
 // no `suite`, a key twice, an empty list, a value that is not a scalar or has none, a `timed` that
-// is neither true nor false, `rounds` that are no number from 1 to 99.
+// is neither true nor false, `rounds` that are no number from 1 to 99, an `also` that is not a
+// list of mappings.
 [[nodiscard]] PlanText parse_plan(std::string_view yaml, const std::string& file);
 
 }  // namespace triptych::measure

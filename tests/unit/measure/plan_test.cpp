@@ -122,8 +122,38 @@ TEST_F(PlanTest, DefaultMayBeSaidAloud) {
               ElementsAre("auto", "manual"));
 }
 
+TEST_F(PlanTest, AlsoAddsCombinationsBesideTheirDataAndNoneTwice) {
+  const std::string yaml =
+      "suite: fake\n"
+      "data: [x, y]\n"
+      "step: [1, 2]\n"
+      "also:\n"
+      "  - data: x\n"
+      "    step: [2, 4]\n"
+      "    skip: [none, bricks]\n"
+      "  - ert: 0.5\n"
+      "    step: 1\n";
+  const Plan plan = load(yaml);
+  EXPECT_THAT(values(plan, "data"), ElementsAre("x", "x", "x", "x", "x", "x", "y", "y", "y"));
+  EXPECT_THAT(values(plan, "step"), ElementsAre("1", "2", "2", "4", "4", "1", "1", "2", "1"));
+  EXPECT_THAT(plan.varied, ElementsAre("data", "step", "skip", "ert"));
+  const Plan overridden = load(yaml, {{"data", {"y"}}, {"ert", {"0"}}});
+  EXPECT_THAT(values(overridden, "step"), ElementsAre("1", "2", "2", "4", "4"));
+  EXPECT_THAT(overridden.varied, ElementsAre("step", "skip"));
+}
+
 // --- what is refused, and where
 // ------------------------------------------------------------------------
+
+TEST_F(PlanTest, AlsoIsAListOfBlocks) {
+  EXPECT_THAT(refusal("suite: fake\nalso: 1\n"), AllOf(StartsWith(at(2, 7)), HasSubstr("'also'")));
+  EXPECT_THAT(refusal("suite: fake\nalso:\n  - step\n"),
+              AllOf(StartsWith(at(3, 5)), HasSubstr("'factor: values'")));
+  EXPECT_THAT(refusal("suite: fake\nalso:\n  - stepp: 1\n"),
+              AllOf(StartsWith(at(3, 5)), HasSubstr("did you mean 'step'")));
+  EXPECT_THAT(refusal("suite: fake\nalso:\n  - step: 1\n    step: 2\n"),
+              AllOf(StartsWith(at(4, 5)), HasSubstr("twice")));
+}
 
 TEST_F(PlanTest, UnknownFactorNamesTheNearest) {
   EXPECT_THAT(refusal("suite: fake\ndata: cube\nstepp: 1\n"),
