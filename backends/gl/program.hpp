@@ -18,6 +18,7 @@ struct Constants {
   bool preintegrated = false;
   bool leaps = false;
   bool adapt = false;
+  bool long_rays = false;  // technique::has_long_rays
 };
 
 // A work group takes a square of this many pixels (shaders/raycast.comp).

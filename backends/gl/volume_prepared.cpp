@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backends/gl/prepared.hpp"
+#include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
 
 namespace triptych::gl_backend {
@@ -110,7 +111,8 @@ Constants constants_of(const measure::VolumeWork& work) {
           work.options.fault == technique::Fault::uncorrected_opacity ? 1 : work.scene.step_voxels),
       .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated,
       .leaps = work.options.skip == technique::Skip::distance,
-      .adapt = work.options.adapt > 0};
+      .adapt = work.options.adapt > 0,
+      .long_rays = technique::has_long_rays(work.scene)};
 }
 
 std::optional<std::string> volume_unsupported(const Api& gl, const measure::VolumeWork& work) {

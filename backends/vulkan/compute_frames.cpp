@@ -8,8 +8,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-constexpr std::string_view timed_shader = "raycast.comp.spv";
-constexpr std::string_view counting_shader = "raycast_counting.comp.spv";
+constexpr std::string_view shader = "raycast.comp";
 
 // Work groups along one side of the picture: raycast.comp takes a tile of 8×8 pixels each.
 std::uint32_t tiles(int pixels) {
@@ -29,6 +28,8 @@ ComputeFrames::ComputeFrames(const Gpu& gpu, const Instance& instance,
     : gpu_(gpu),
       instance_(instance),
       constants_(constants),
+      timed_code_(raycast_spirv(shader, work, Pass::timed)),
+      counting_code_(raycast_spirv(shader, work, Pass::counting)),
       width_(work.scene.width),
       height_(work.scene.height),
       drawn_columns_(technique::drawn_columns(width_, work.options.extra_work_stride)),
@@ -36,7 +37,7 @@ ComputeFrames::ComputeFrames(const Gpu& gpu, const Instance& instance,
               vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc,
               Place::device),
       resources_(gpu, work, &output_),
-      pipeline_(make_compute_pipeline(gpu, resources_.layout(), spirv(timed_shader), constants)),
+      pipeline_(make_compute_pipeline(gpu, resources_.layout(), timed_code_, constants)),
       counting_pipeline_(nullptr),
       frames_(gpu, vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations,
               [this](const vk::raii::CommandBuffer& commands) { record_timed(commands); }) {
@@ -57,8 +58,7 @@ void ComputeFrames::dispatch(const vk::raii::CommandBuffer& commands, Pass pass,
 
 void ComputeFrames::prepare_counters() {
   resources_.bind_counters();
-  counting_pipeline_ =
-      make_compute_pipeline(gpu_, resources_.layout(), spirv(counting_shader), constants_);
+  counting_pipeline_ = make_compute_pipeline(gpu_, resources_.layout(), counting_code_, constants_);
   frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *counting_pipeline_);
     dispatch(commands, Pass::counting, width_);
@@ -86,7 +86,7 @@ core::Image ComputeFrames::image() {
 }
 
 std::string ComputeFrames::kernel_hash() const {
-  return code_hash(spirv(timed_shader), constants_);
+  return code_hash(timed_code_, constants_);
 }
 
 }  // namespace triptych::vulkan_backend

@@ -25,6 +25,8 @@ class ComputeFrames final : public measure::Prepared {
   const Gpu& gpu_;
   const Instance& instance_;
   Constants constants_;
+  std::string_view timed_code_;
+  std::string_view counting_code_;
   int width_;
   int height_;
   int drawn_columns_;

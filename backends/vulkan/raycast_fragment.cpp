@@ -14,8 +14,7 @@ namespace triptych::vulkan_backend {
 namespace {
 
 constexpr std::string_view vertex_shader = "raycast_fragment.vert.spv";
-constexpr std::string_view timed_shader = "raycast_fragment.frag.spv";
-constexpr std::string_view counting_shader = "raycast_fragment_counting.frag.spv";
+constexpr std::string_view fragment_shader = "raycast_fragment.frag";
 constexpr vk::Format target_format = vk::Format::eR32G32B32A32Sfloat;
 
 vk::QueryPipelineStatisticFlags draw_statistics() {
@@ -58,13 +57,12 @@ vk::raii::Framebuffer make_framebuffer(const Gpu& gpu, const vk::raii::RenderPas
 // A full-screen triangle without vertex buffers.
 vk::raii::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout,
                                  const vk::raii::RenderPass& pass, vk::Extent3D extent,
-                                 std::string_view fragment_shader, const Constants& constants) {
-  return make_draw_pipeline(
-      gpu, layout, pass,
-      {.stages = {{vk::ShaderStageFlagBits::eVertex, spirv(vertex_shader)},
-                  {vk::ShaderStageFlagBits::eFragment, spirv(fragment_shader)}},
-       .extent = extent},
-      Specialization(constants));
+                                 std::string_view fragment_code, const Constants& constants) {
+  return make_draw_pipeline(gpu, layout, pass,
+                            {.stages = {{vk::ShaderStageFlagBits::eVertex, spirv(vertex_shader)},
+                                        {vk::ShaderStageFlagBits::eFragment, fragment_code}},
+                             .extent = extent},
+                            Specialization(constants));
 }
 
 class FragmentFrames final : public measure::Prepared {
@@ -74,7 +72,7 @@ class FragmentFrames final : public measure::Prepared {
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
   [[nodiscard]] core::Image image() override;
   [[nodiscard]] std::string kernel_hash() const override {
-    return code_hash(spirv(timed_shader), constants_);
+    return code_hash(timed_code_, constants_);
   }
 
  private:
@@ -86,6 +84,8 @@ class FragmentFrames final : public measure::Prepared {
   const Gpu& gpu_;
   const Instance& instance_;
   Constants constants_;
+  std::string_view timed_code_;
+  std::string_view counting_code_;
   std::vector<technique::ExtraTile> extra_tiles_;
   Image target_;
   VolumeResources resources_;
@@ -101,6 +101,8 @@ FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
     : gpu_(gpu),
       instance_(instance),
       constants_(constants_of(work)),
+      timed_code_(raycast_spirv(fragment_shader, work, Pass::timed)),
+      counting_code_(raycast_spirv(fragment_shader, work, Pass::counting)),
       extra_tiles_(technique::extra_tiles(work.scene.width, work.scene.height,
                                           work.options.extra_work_stride)),
       target_(gpu, vk::ImageType::e2D, target_format,
@@ -110,8 +112,8 @@ FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
       resources_(gpu, work, nullptr),
       render_pass_(make_render_pass(gpu)),
       framebuffer_(make_framebuffer(gpu, render_pass_, target_)),
-      pipeline_(make_pipeline(gpu, resources_.layout(), render_pass_, target_.extent(),
-                              timed_shader, constants_)),
+      pipeline_(make_pipeline(gpu, resources_.layout(), render_pass_, target_.extent(), timed_code_,
+                              constants_)),
       counting_pipeline_(nullptr),
       frames_(gpu, draw_statistics(), [this](const vk::raii::CommandBuffer& commands) {
         draw(commands, pipeline_, Pass::timed);
@@ -147,7 +149,7 @@ void FragmentFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
 void FragmentFrames::prepare_counters() {
   resources_.bind_counters();
   counting_pipeline_ = make_pipeline(gpu_, resources_.layout(), render_pass_, target_.extent(),
-                                     counting_shader, constants_);
+                                     counting_code_, constants_);
   frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
     draw(commands, counting_pipeline_, Pass::counting);
   });

@@ -1,10 +1,13 @@
 #include "backends/vulkan/volume_resources.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <span>
 #include <vector>
 
 #include "technique/volume/bricks.hpp"
+#include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
 #include "technique/volume/preintegration.hpp"
 #include "technique/volume/raycast_parameters.hpp"
@@ -171,6 +174,14 @@ Constants constants_of(const measure::VolumeWork& work) {
           .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated ? 1 : 0,
           .leaps = work.options.skip == technique::Skip::distance ? 1 : 0,
           .adapt = work.options.adapt > 0 ? 1 : 0};
+}
+
+std::string_view raycast_spirv(std::string_view shader, const measure::VolumeWork& work,
+                               Pass pass) {
+  const std::size_t dot = shader.find('.');
+  return spirv(fmt::format("{}{}{}{}.spv", shader.substr(0, dot),
+                           technique::has_long_rays(work.scene) ? "_long" : "",
+                           pass == Pass::counting ? "_counting" : "", shader.substr(dot)));
 }
 
 }  // namespace triptych::vulkan_backend

@@ -2,6 +2,7 @@
 // What every volume technique needs on the device: voxels, transfer function, bricks, parameters.
 
 #include <optional>
+#include <string_view>
 
 #include "backends/vulkan/descriptors.hpp"
 #include "backends/vulkan/memory.hpp"
@@ -65,5 +66,9 @@ class VolumeResources {
 };
 
 [[nodiscard]] Constants constants_of(const measure::VolumeWork& work);
+
+// The build of a raycaster for this work: `shader` is "raycast.comp" or "raycast_fragment.frag".
+[[nodiscard]] std::string_view raycast_spirv(std::string_view shader,
+                                             const measure::VolumeWork& work, Pass pass);
 
 }  // namespace triptych::vulkan_backend

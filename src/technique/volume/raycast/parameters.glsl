@@ -1,8 +1,9 @@
 // Mirrors technique::RaycastParameters (raycast_parameters.hpp), where the meaning of each field stands.
 // The backend's prelude defines TRI_BINDING(n) and the compile-time constants
 //   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT, TRI_PREINTEGRATED, TRI_LEAPS, TRI_ADAPT (integers),
-// which may be specialization constants, and the macro TRI_COUNT (0 or 1). Where it also defines the
-// macro TRI_OPACITY_FORM, that is technique::opacity_form of the step.
+// which may be specialization constants, and the macros TRI_COUNT (0 or 1)
+// and TRI_LONG_RAYS (0 or 1: technique::has_long_rays). Where it also defines the macro TRI_OPACITY_FORM, that is
+// technique::opacity_form of the step.
 #ifndef TRI_OPACITY_FORM
 #define TRI_OPACITY_FORM 0
 #endif

@@ -85,7 +85,12 @@ vec3 shade(Grid grid, vec3 colour, vec3 p, vec3 d) {
   g *= 0.5 * u.inverse_spacing.w * u.inverse_spacing.xyz;
   float cosine = abs(dot(g, d)) / max(sqrt(dot(g, g)), u.ray_up.w);
   float highlight = cosine;
+#if TRI_LONG_RAYS
+  // Of constant length, hence written out by compilers: no pass of a loop (raycast()).
+  for (int i = 0; i < 31; ++i) highlight *= i < u.volume_size.w ? highlight : 1.0;
+#else
   for (int i = 0; i < u.volume_size.w; ++i) highlight *= highlight;
+#endif
   return colour * (u.shading.x + u.shading.y * cosine) + u.shading.z * highlight;
 }
 
@@ -230,7 +235,9 @@ Leap leap(Leaps leaps, Ray ray, int i, int end) {
   ivec3 face = brick + mix(ivec3(reach), ivec3(1 - reach), lessThan(leaps.inverse_g, vec3(0.0)));
   vec3 at = (vec3(face) * leaps.edge - leaps.p0) * leaps.inverse_g;
   float leave = min(at.x, min(at.y, at.z));
-  int next = leave < float(end) ? int(ceil(leave - 0.5)) : end;
+  // No brick has reach 0: it is what a fragment that is drawn for its neighbours' sake reads on llvmpipe
+  // (Mesa 22.3). Else that one would go from sample to sample, and all wait for it.
+  int next = reach > 0 && leave < float(end) ? int(ceil(leave - 0.5)) : end;
   return Leap(signed_reach > 0, clamp(next, i + 1, end));
 }
 
@@ -306,79 +313,100 @@ void add_segment(inout Light light, Grid grid, Ray ray, float begin, float end, 
   }
 }
 
-// The samples from `begin` to `end`, in steps, as one in the middle of their way (technique::brick_kinds); not
-// before the first of them, which may be the ray's last and stand for little.
-void add_merged(inout Light light, Grid grid, Ray ray, float begin, float end, float step_voxels) {
-  float middle = max(0.5 * (begin + end), begin + 0.5);
-  add_sample(light, grid, ray, ray.p0 + middle * ray.g, false, step_voxels * (end - begin));
+// How far a ray has got.
+struct March {
+  Light light;
+  float front;        // the value where the next step begins; with TRI_PREINTEGRATED only
+  int i;              // the next sample
+  int stop;           // the end of the run of visible samples
+  int count;          // the end of the ray; 0 once nothing more is to be taken, as is `stop`
+  bool last_visible;  // the ray's last sample lies in the run
+};
+
+// Ends the ray where nothing behind can be seen any more.
+void end_in_the_dark(inout March m, float enough) {
+  if (TRI_SPEED_OF_LIGHT == 0 && m.light.transmittance < enough) {
+    if (TRI_COUNT == 1) count_terminated = 1u;
+    m.last_visible = false;
+    m.stop = 0;
+    m.count = 0;
+  }
 }
 
-// Premultiplied RGBA of the pixel. Two habits of compilers for CPUs shape these loops. They run a block of
-// rays through both sides of a condition, so the opacity of the partial last step must not stand beside
-// that of a whole one: the last sample is taken behind the loops. And Mesa 22.3's llvmpipe goes on
+// The i-th sample or step.
+void advance(inout March m, Grid grid, Ray ray, float step_voxels, float enough) {
+  if (TRI_PREINTEGRATED == 1) {
+    float end = min(float(m.i + 1), ray.steps);
+    float back = field(grid, ray.p0 + end * ray.g);
+    float length = step_voxels * tri_step_share(ray.steps, m.i);
+    add_segment(m.light, grid, ray, float(m.i), end, m.front, back, length);
+    m.front = back;
+  }
+  if (TRI_PREINTEGRATED == 0) {
+    add_sample(m.light, grid, ray, ray.p0 + (float(m.i) + 0.5) * ray.g, true, step_voxels);
+  }
+  end_in_the_dark(m, enough);
+  ++m.i;
+}
+
+// The samples of the run as one in the middle of their way (technique::brick_kinds); not before the first of
+// them, which may be the ray's last and stand for little.
+void advance_merged(inout March m, Grid grid, Ray ray, float step_voxels, float enough) {
+  float begin = float(m.i);
+  float end = min(float(m.stop), ray.steps);
+  float middle = max(0.5 * (begin + end), begin + 0.5);
+  add_sample(m.light, grid, ray, ray.p0 + middle * ray.g, false, step_voxels * (end - begin));
+  m.i = m.stop;
+  end_in_the_dark(m, enough);
+}
+
+// Premultiplied RGBA of the pixel. Three habits of compilers for CPUs shape these loops. They run a block
+// of rays through both sides of a condition, so the opacity of the partial last step must not stand beside
+// that of a whole one: the last sample is taken behind the loops. Mesa 22.3's llvmpipe goes on
 // computing, with loads that yield 0, the values of a ray that has left a loop while its neighbours have
-// not: a loop may be left at its head only, where every variable is still what the last pass made it.
+// not: a loop may be left at its head only, where every variable is still what the last pass made it. And
+// it lets an invocation make 65,535 passes through all its loops together, however they are nested: where
+// rays may be longer (technique::has_long_rays), a pass takes sixteen samples.
 vec4 raycast(ivec2 pixel) {
   Ray ray = make_ray(pixel);
   Grid grid = load_grid();
-  int count = tri_sample_count(ray.steps);
-  if (TRI_FAULT == fault_extra_sample && count > 0) { count += 1; ray.steps = float(count); }
-  int last = count - 1;  // the sample that may stand for less than a step: it is taken after the loops
+  March m = March(Light(vec3(0.0), 1.0), 0.0, 0, 0, tri_sample_count(ray.steps), false);
+  if (TRI_FAULT == fault_extra_sample && m.count > 0) { m.count += 1; ray.steps = float(m.count); }
+  int last = m.count - 1;  // the sample that may stand for less than a step: it is taken after the loops
   float step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
   float enough = u.ray_right.w;
-  Light light = Light(vec3(0.0), 1.0);
   bool skipping = skips(ray);
   Walk walk;
   Leaps leaps;
   if (skipping && TRI_LEAPS == 0) walk = start_walk(ray);
   if (skipping && TRI_LEAPS == 1) leaps = make_leaps(ray);
-  bool last_visible = false;
-  int i = 0;
-  while (i < count) {
-    int stop = count;
+  while (m.i < m.count) {
+    m.stop = m.count;
     bool merged = false;
     if (skipping) {
-      ivec2 run = TRI_LEAPS == 1 ? next_run_by_leaps(leaps, ray, i, count) : next_run(walk, i, count, merged);
-      i = run.x;
-      stop = run.y;
+      ivec2 run = TRI_LEAPS == 1 ? next_run_by_leaps(leaps, ray, m.i, m.count) : next_run(walk, m.i, m.count, merged);
+      m.i = run.x;
+      m.stop = run.y;
     }
-    if (TRI_ADAPT == 1 && merged && i < stop) {
-      add_merged(light, grid, ray, float(i), min(float(stop), ray.steps), step_voxels);
-      i = stop;
-      if (light.transmittance < enough) {
-        if (TRI_COUNT == 1) count_terminated = 1u;
-        stop = 0;
-        count = 0;
-      }
-    }
-    last_visible = stop == count && i < stop;
+    if (TRI_ADAPT == 1 && merged && m.i < m.stop) advance_merged(m, grid, ray, step_voxels, enough);
+    m.last_visible = m.stop == m.count && m.i < m.stop;
     // A partial step of a straight line is no other work than a whole one: it needs no special place.
-    if (TRI_PREINTEGRATED == 0) stop = min(stop, last);
-    float front = 0.0;
-    if (TRI_PREINTEGRATED == 1) front = field(grid, ray.p0 + float(i) * ray.g);
-    for (; i < stop; ++i) {
-      if (TRI_PREINTEGRATED == 1) {
-        float end = min(float(i + 1), ray.steps);
-        float back = field(grid, ray.p0 + end * ray.g);
-        float length = step_voxels * tri_step_share(ray.steps, i);
-        add_segment(light, grid, ray, float(i), end, front, back, length);
-        front = back;
-      } else {
-        add_sample(light, grid, ray, ray.p0 + (float(i) + 0.5) * ray.g, true, step_voxels);
-      }
-      if (TRI_SPEED_OF_LIGHT == 0 && light.transmittance < enough) {
-        if (TRI_COUNT == 1) count_terminated = 1u;
-        last_visible = false;
-        stop = 0;  // ends both loops
-        count = 0;
-      }
+    if (TRI_PREINTEGRATED == 0) m.stop = min(m.stop, last);
+    if (TRI_PREINTEGRATED == 1) m.front = field(grid, ray.p0 + float(m.i) * ray.g);
+    while (m.i < m.stop) {
+      advance(m, grid, ray, step_voxels, enough);
+#if TRI_LONG_RAYS
+#define TRI_THREE_MORE TRI_ONE_MORE TRI_ONE_MORE TRI_ONE_MORE
+#define TRI_ONE_MORE if (m.i < m.stop) advance(m, grid, ray, step_voxels, enough);
+      TRI_THREE_MORE TRI_THREE_MORE TRI_THREE_MORE TRI_THREE_MORE TRI_THREE_MORE
+#endif
     }
-    if (TRI_PREINTEGRATED == 0 && last_visible) count = 0;
+    if (TRI_PREINTEGRATED == 0 && m.last_visible) m.count = 0;
   }
-  if (TRI_PREINTEGRATED == 0 && last_visible) {
+  if (TRI_PREINTEGRATED == 0 && m.last_visible) {
     float steps = step_voxels * tri_step_share(ray.steps, last);
-    add_sample(light, grid, ray, ray.p0 + (float(last) + 0.5) * ray.g, false, steps);
-    if (TRI_COUNT == 1 && TRI_SPEED_OF_LIGHT == 0 && light.transmittance < enough) count_terminated = 1u;
+    add_sample(m.light, grid, ray, ray.p0 + (float(last) + 0.5) * ray.g, false, steps);
+    if (TRI_COUNT == 1 && TRI_SPEED_OF_LIGHT == 0 && m.light.transmittance < enough) count_terminated = 1u;
   }
 #if TRI_COUNT
   int total = tri_sample_count(ray.steps);
@@ -391,5 +419,5 @@ vec4 raycast(ivec2 pixel) {
   counters[at + 5] = count_terminated;
   counters[at + 6] = uint(total) - count_samples;
 #endif
-  return vec4(light.colour, 1.0 - light.transmittance) + light.transmittance * u.background;
+  return vec4(m.light.colour, 1.0 - m.light.transmittance) + m.light.transmittance * u.background;
 }
