@@ -5,7 +5,7 @@
 // brick gives it to: no matter for an image to which invisible bricks add nothing, which is the same
 // bit for bit with leaps, with a walk and without bricks. With skip bricks, the build that counts, and
 // speed_of_light, which adds up every colour that it fetches, walk; with skip distance (TRI_LEAPS) all leap.
-// So do all walk where samples are merged by bricks (TRI_ADAPT): a merged one stands for its brick's way alone.
+// So do all walk where samples are merged by bricks (TRI_ADAPT): a merged one stands for its bricks' way alone.
 //
 // brick_reach: n > 0 where all bricks fewer than n away (the greatest distance along any axis) are
 // visible, n < 0 where all fewer than −n away are invisible (brick_reach.hpp). With TRI_ADAPT:
@@ -100,10 +100,10 @@ TRI_FN void next_brick(__constant Parameters* u, Walk* walk, const Ray* ray) {
   aim(u, walk, ray);
 }
 
-// Of the walk's brick.
+// Of the walk's brick: technique::BrickKind.
 #define KIND_INVISIBLE 0
 #define KIND_SAMPLED 1
-#define KIND_MERGED 2
+#define KIND_MERGED 2  // and beyond
 TRI_FN int kind(__constant Parameters* u, __global const int* brick_reach, const Walk* walk) {
   if (walk->outside) return KIND_SAMPLED;
   int index = walk->brick.x +
@@ -118,8 +118,8 @@ TRI_FN int samples_before(const Walk* walk, int limit) {
   return clamp((int)tri_ceil(walk->leave - 0.5f), 0, limit);
 }
 
-// Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the
-// ray. The run of a brick whose samples are merged is its own.
+// Narrows [begin, end) to the next run of visible bricks of one kind at or after begin; empty at the
+// end of the ray. A brick of kind KIND_MERGED itself is a run of its own.
 TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_reach, Walk* walk,
                      const Ray* ray, int begin, int end, Counts* counts) {
   int here = kind(u, brick_reach, walk);
@@ -132,8 +132,8 @@ TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_reach, 
   }
   int stop = begin;
   int first = here;
-  walk->merged = first == KIND_MERGED;
-  while (stop < end && here == first && !(walk->merged && stop > begin)) {
+  walk->merged = first >= KIND_MERGED;
+  while (stop < end && here == first && !(first == KIND_MERGED && stop > begin)) {
     stop = max(stop, samples_before(walk, end));
     next_brick(u, walk, ray);
     here = kind(u, brick_reach, walk);

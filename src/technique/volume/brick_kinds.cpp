@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <unordered_map>
 
 namespace triptych::technique {
 namespace {
@@ -143,14 +144,21 @@ std::vector<std::int32_t> brick_kinds(const BrickRanges& ranges, const scene::Vo
   const auto visible = brick_visibility(ranges, scene.transfer_function);
   const Merging may_merge(scene, adapt);
   std::vector<std::int32_t> kinds(visible.size());
+  std::unordered_map<float, std::int32_t> numbers;  // of the values of homogeneous bricks
   for (std::size_t b = 0; b < kinds.size(); ++b) {
+    const float lo = ranges.minimum[b];
+    const float hi = ranges.maximum[b];
     BrickKind kind = BrickKind::invisible;
     if (visible[b] != 0) {
-      const bool merged =
-          may_merge(static_cast<double>(ranges.minimum[b]), static_cast<double>(ranges.maximum[b]));
-      kind = merged ? BrickKind::merged : BrickKind::sampled;
+      const bool merges = may_merge(static_cast<double>(lo), static_cast<double>(hi));
+      kind = merges ? BrickKind::merged : BrickKind::sampled;
     }
     kinds[b] = static_cast<std::int32_t>(kind);
+    if (kind == BrickKind::merged && lo == hi) {
+      const auto next = static_cast<std::int32_t>(BrickKind::homogeneous) +
+                        static_cast<std::int32_t>(numbers.size());
+      kinds[b] = numbers.try_emplace(lo, next).first->second;
+    }
   }
   return kinds;
 }

@@ -15,7 +15,10 @@ namespace triptych::technique {
 enum class BrickKind : std::int32_t {
   invisible = 0,  // skips it
   sampled = 1,    // takes the samples of the lattice
-  merged = 2      // takes one sample in the middle of its way, with the opacity of all of it (V1)
+  merged = 2,     // takes one sample in the middle of its way, with the opacity of all of it (V1)
+  // From here on a number for each value that fills homogeneous bricks. All of a ray's bricks in
+  // succession with the same number are merged into one sample.
+  homogeneous = 3
 };
 
 // A BrickKind per brick: the visible ones (brick_visibility) are merged where that moves no channel
@@ -30,7 +33,8 @@ enum class BrickKind : std::int32_t {
 // volume. So half the budget, K = adapt/2, is given to what is opaque and half, Y = adapt/2L, to
 // each voxel of the way. As l·a·e^(−al) ≤ 1 − e^(−al) ≤ A' and A' ≤ b·l, what is within
 //   R·(b − a) + (w − k)·b ≤ (K − k)·a + Y,   k = min(w, K),
-// costs at most K·T'·A' + Y·l, which sums to adapt. A homogeneous brick costs nothing.
+// costs at most K·T'·A' + Y·l, which sums to adapt. A homogeneous brick costs nothing, whatever l
+// is: so do many of one value together.
 //
 // Both pictures are a device's own: values that it finds in a brick lie within the brick's range
 // and the rounding of its interpolation (16·2⁻²⁴ of the largest value; none between equal voxels),

@@ -17,6 +17,7 @@ namespace {
 constexpr auto invisible = static_cast<std::int32_t>(BrickKind::invisible);
 constexpr auto sampled = static_cast<std::int32_t>(BrickKind::sampled);
 constexpr auto merged = static_cast<std::int32_t>(BrickKind::merged);
+constexpr auto homogeneous = static_cast<std::int32_t>(BrickKind::homogeneous);
 
 scene::VolumeScene scene_of(scene::Volume volume, std::string_view function) {
   return {.grid = std::make_shared<const scene::VoxelGrid>(
@@ -164,9 +165,18 @@ TEST(BrickKinds, AreThoseOfTheCriterion) {
 
 TEST(BrickKinds, AHomogeneousBrickIsMergedForAnyBudget) {
   const scene::VolumeScene scene = generated("uniform_box", "haze");
-  EXPECT_EQ(brick_kinds(one_brick(0.6F, 0.6F), scene, 1e-12)[0], merged);
+  EXPECT_EQ(brick_kinds(one_brick(0.6F, 0.6F), scene, 1e-12)[0], homogeneous);
   EXPECT_EQ(brick_kinds(one_brick(0.6F, 0.7F), scene, 1e-12)[0], sampled);
   EXPECT_EQ(brick_kinds(one_brick(0.0F, 0.0F), scene, 0.5)[0], invisible);
+}
+
+TEST(BrickKinds, HomogeneousBricksAreNumberedByTheirValue) {
+  const BrickRanges ranges{.counts = {5, 1, 1},
+                           .minimum = {0.6F, 0.7F, 0.6F, 0.7F, 0.6F},
+                           .maximum = {0.6F, 0.7F, 0.8F, 0.7F, 0.6F}};
+  const auto kinds = brick_kinds(ranges, generated("uniform_box", "haze"), 1e-12);
+  EXPECT_EQ(kinds, (std::vector<std::int32_t>{homogeneous, homogeneous + 1, sampled,
+                                              homogeneous + 1, homogeneous}));
 }
 
 TEST(BrickKinds, AnOpaqueBrickIsNot) {
@@ -182,7 +192,7 @@ TEST(BrickKinds, ShadingCountsAsColour) {
   EXPECT_EQ(brick_kinds(one_brick(0.2F, 0.4F), scene, 1e-3)[0], merged);
   scene.shading.enabled = true;
   EXPECT_EQ(brick_kinds(one_brick(0.2F, 0.4F), scene, 1e-3)[0], sampled);
-  EXPECT_EQ(brick_kinds(one_brick(0.4F, 0.4F), scene, 1e-3)[0], merged);
+  EXPECT_EQ(brick_kinds(one_brick(0.4F, 0.4F), scene, 1e-3)[0], homogeneous);
   EXPECT_EQ(brick_layout(scene, Skip::bricks, 1e-3).border, 2);
   EXPECT_EQ(brick_layout(scene, Skip::bricks).border, 1);
 }

@@ -134,7 +134,7 @@ struct Walk {
   vec3 at;          // where the ray crosses the brick's far face of each axis, steps
   float leave;      // where it leaves the brick: the least of them
   bool visible;     // also true outside the grid, where rounding can lead: that rest of a ray is sampled
-  bool merged;      // technique::BrickKind::merged
+  int kind;         // technique::BrickKind of a visible brick, with TRI_ADAPT
   bool outside;
   ivec3 size;       // bricks per axis
 };
@@ -148,7 +148,7 @@ void enter(inout Walk walk) {
   int index = walk.brick.x + size.x * (walk.brick.y + size.y * walk.brick.z);
   int kind = walk.outside ? 1 : brick_visible[walk.outside ? 0 : index];
   walk.visible = kind != 0;
-  walk.merged = TRI_ADAPT == 1 && kind == 2;
+  walk.kind = TRI_ADAPT == 1 ? kind : 1;
 }
 
 Walk start_walk(Ray ray) {
@@ -180,8 +180,8 @@ int samples_before(Walk walk, int limit) {
   return walk.outside || !(walk.leave < float(limit)) ? limit : clamp(int(ceil(walk.leave - 0.5)), 0, limit);
 }
 
-// Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the ray. The
-// run of a brick whose samples are merged is its own.
+// Narrows [begin, end) to the next run of visible bricks of one kind at or after begin; empty at the end of the
+// ray. `merged`: the run is to be taken as one sample. A brick of kind 2 is a run of its own.
 ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
   while (begin < end && !walk.visible) {
     begin = max(begin, samples_before(walk, end));
@@ -189,8 +189,9 @@ ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
     if (TRI_COUNT == 1) { count_bricks_visited++; count_bricks_skipped++; }
   }
   int stop = begin;
-  merged = walk.merged;
-  while (stop < end && walk.visible && walk.merged == merged && !(merged && stop > begin)) {
+  int kind = walk.kind;
+  merged = kind >= 2;
+  while (stop < end && walk.visible && walk.kind == kind && !(kind == 2 && stop > begin)) {
     stop = max(stop, samples_before(walk, end));
     next_brick(walk);
     if (TRI_COUNT == 1) count_bricks_visited++;
