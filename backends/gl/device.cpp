@@ -14,7 +14,6 @@
 #include "backends/gl/volume_prepared.hpp"
 #include "core/error.hpp"
 #include "technique/particles/option_reason.hpp"
-#include "technique/volume/brick_kinds.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -82,10 +81,7 @@ class GlDevice final : public measure::Device {
     }
     if (const auto* raycaster = std::get_if<VolumeTechnique>(&entry->technique)) {
       if (volume == nullptr) return fmt::format("{} draws volumes, nothing else", work.technique);
-      auto reason = technique::quadrature_reason(work.technique, volume->scene.quadrature);
-      if (!reason) {
-        reason = technique::adapt_reason(work.technique, volume->scene, volume->options);
-      }
+      auto reason = technique::raycast_reason(work.technique, volume->scene, volume->options);
       if (!reason) reason = volume_unsupported(gl, *volume);
       if (!reason) reason = raycaster->unsupported(gl, *volume);
       return reason;

@@ -101,9 +101,9 @@ VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work)
       transfer_(transfer_texture(gl, work.scene.transfer_function)),
       bricks_(brick_buffer(gl, work)),
       pairs_(pair_buffer(gl, work.scene)) {
-  const technique::RaycastParameters parameters = technique::raycast_parameters(
-      work.scene, work.options, texel_format(work.scene.grid->format).stored_maximum);
-  parameters_ = constant_buffer(gl, std::as_bytes(std::span(&parameters, 1)));
+  parameters_ = constant_buffer(
+      gl, technique::raycast_parameters(work.scene, work.options,
+                                        texel_format(work.scene.grid->format).stored_maximum));
 }
 
 void VolumeData::bind(const Api& gl) const {

@@ -112,6 +112,7 @@ Constants constants_of(const measure::VolumeWork& work) {
       .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated,
       .leaps = work.options.skip == technique::Skip::distance,
       .adapt = work.options.adapt > 0,
+      .precision = work.options.precision == technique::Precision::fp64 ? 64 : 32,
       .long_rays = technique::has_long_rays(work.scene)};
 }
 
@@ -120,6 +121,10 @@ std::optional<std::string> volume_unsupported(const Api& gl, const measure::Volu
       (gl.ARB_shader_storage_buffer_object == 0 || gl.ARB_shading_language_420pack == 0)) {
     return "storage blocks need OpenGL 4.3 or GL_ARB_shader_storage_buffer_object and "
            "GL_ARB_shading_language_420pack";
+  }
+  // Doubles came with 4.0, but below 4.3 the sources are compiled as GLSL 3.30 (program.cpp).
+  if (work.options.precision == technique::Precision::fp64 && gl.VERSION_4_3 == 0) {
+    return "precision fp64 needs OpenGL 4.3";
   }
   const scene::VoxelGrid& grid = *work.scene.grid;
   const auto [nx, ny, nz] = grid.size;

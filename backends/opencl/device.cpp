@@ -14,7 +14,6 @@
 #include "backends/opencl/techniques.hpp"
 #include "backends/opencl/volume_data.hpp"
 #include "core/error.hpp"
-#include "technique/volume/brick_kinds.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
@@ -57,7 +56,9 @@ class Device final : public measure::Device {
       : info_(std::move(found.info)),
         session_(open_session({found.device, info_})),
         is_gpu_((checked([&] { return found.device.getInfo<CL_DEVICE_TYPE>(); }) &
-                 CL_DEVICE_TYPE_GPU) != 0) {}
+                 CL_DEVICE_TYPE_GPU) != 0),
+        has_doubles_(checked([&] { return found.device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>(); }) !=
+                     0) {}
 
   [[nodiscard]] const record::Device& info() const override { return info_; }
   [[nodiscard]] std::optional<std::string> unsupported(const measure::Work& work) const override;
@@ -72,6 +73,7 @@ class Device final : public measure::Device {
   record::Device info_;
   Session session_;
   bool is_gpu_;
+  bool has_doubles_;
   mutable Programs programs_{session_};
   mutable std::map<scene::VoxelFormat, double> filter_errors_;
   VolumeCache volumes_;
@@ -153,11 +155,11 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
                        draws_particles ? "particles" : "volumes");
   }
   if (particles != nullptr) return particle_defect(session_, work.technique, *particles);
-  if (auto reason = technique::quadrature_reason(work.technique, volume->scene.quadrature)) {
+  if (auto reason = technique::raycast_reason(work.technique, volume->scene, volume->options)) {
     return reason;
   }
-  if (auto reason = technique::adapt_reason(work.technique, volume->scene, volume->options)) {
-    return reason;
+  if (volume->options.precision == technique::Precision::fp64 && !has_doubles_) {
+    return "precision fp64 needs cl_khr_fp64, which the device lacks";
   }
   if (volume->options.sampler == Sampler::hardware) {
     if (auto defect = image_defect(*volume->scene.grid)) return defect;

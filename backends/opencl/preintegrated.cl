@@ -1,6 +1,7 @@
 // Quadrature preintegrated: one step along which the value runs straight from front to back
 // (portable/volume_preintegration.h, technique::preintegrated_pairs); the algorithm of
 // src/technique/volume/raycast/preintegrated.glsl.
+#if TRI_PRECISION == 32
 
 // `gathered`, premultiplied colour and opacity, with a piece of the step behind it. `depth` is the piece's
 // optical depth in powers of two, a0 … a2 its colour over the share of that depth passed.
@@ -59,3 +60,5 @@ TRI_FN float4 preintegrated(__constant float4* table, __global const float4* pai
   return with_part_of_cell(table, gathered, last_cell, (float)last, to,
                            per_cell * fabs(to - (float)last));
 }
+
+#endif

@@ -4,6 +4,34 @@
 // a·b+c is rounded twice, as on every other backend.
 #pragma OPENCL FP_CONTRACT OFF
 
+#if TRI_PRECISION == 64
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+typedef double real;
+typedef double2 real2;
+typedef double3 real3;
+typedef double4 real4;
+#define TRI_REAL2(v) convert_double2(v)
+#define TRI_REAL3(v) convert_double3(v)
+#define TRI_REAL4(v) convert_double4(v)
+// An entry of the table, and a pixel: both floats.
+#define TRI_ENTRY(v) convert_double4(v)
+#define TRI_FLOAT4(v) convert_float4(v)
+#define TRI_HIGH_WORD(x) ((int)(as_long(x) >> 32))
+#define TRI_WITH_HIGH_WORD(x, word) as_double(((long)(word) << 32) | (as_long(x) & 0xffffffffL))
+#define TRI_LN2 0.69314718055994530942
+#define TRI_2_OVER_LN2 2.8853900817779268147
+#else
+typedef float real;
+typedef float2 real2;
+typedef float3 real3;
+typedef float4 real4;
+#define TRI_REAL2(v) convert_float2(v)
+#define TRI_REAL3(v) convert_float3(v)
+#define TRI_REAL4(v) convert_float4(v)
+#define TRI_ENTRY(v) (v)
+#define TRI_FLOAT4(v) (v)
+#endif
+
 // A call in a loop keeps PoCL's compiler from vectorising it, and it inlines nothing unless told.
 #define TRI_FN static inline __attribute__((always_inline))
 #define TRI_FLOAT2 float2
@@ -15,14 +43,17 @@
 #define TRI_SQRT(x) sqrt(x)
 #define TRI_INT(x) ((int)(x))
 #define TRI_TO_FLOAT(x) ((float)(x))
+#define TRI_TO_REAL(x) ((real)(x))
+#define TRI_MAKE_REAL2(x, y) ((real2)((x), (y)))
+#define TRI_RATIO(a, b) ((real)(a) / (real)(b))
 #define TRI_PRECISE
 
 // For |x| < 2³¹, by conversions: PoCL's floor() and ceil() are calls.
-TRI_FN float tri_floor(float x) {
-  float whole = (float)(int)x;
+TRI_FN real tri_floor(real x) {
+  real whole = (real)(int)x;
   return whole > x ? whole - 1.0f : whole;
 }
-TRI_FN float tri_ceil(float x) {
-  float whole = (float)(int)x;
+TRI_FN real tri_ceil(real x) {
+  real whole = (real)(int)x;
   return whole < x ? whole + 1.0f : whole;
 }

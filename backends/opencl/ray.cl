@@ -12,25 +12,25 @@
 // technique::BrickKind.
 
 typedef struct {
-  float3 p0;    // where the ray enters the box, voxels
-  float3 g;     // one step, voxels
-  float3 d;     // unit direction, world
-  float steps;  // length inside the box, steps
+  real3 p0;    // where the ray enters the box, voxels
+  real3 g;     // one step, voxels
+  real3 d;     // unit direction, world
+  real steps;  // length inside the box, steps
 } Ray;
 
 TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {
-  float2 ndc = (2.0f * (convert_float2(pixel) + 0.5f)) / convert_float2(u->viewport.xy) - 1.0f;
-  float3 d = u->ray_centre.xyz + ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz;
+  real2 ndc = (2.0f * (TRI_REAL2(pixel) + 0.5f)) / TRI_REAL2(u->viewport.xy) - 1.0f;
+  real3 d = u->ray_centre.xyz + ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz;
   d = d / sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-  float3 v = d * u->inverse_spacing.xyz;
+  real3 v = d * u->inverse_spacing.xyz;
   // Where the ray begins: on a plane between eye and box where that is far away, else at the eye.
-  float3 origin = u->eye.xyz + (u->value_map.z * (ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz)) *
+  real3 origin = u->eye.xyz + (u->value_map.z * (ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz)) *
                                    u->inverse_spacing.xyz;
-  float2 x = tri_slab(origin.x, v.x, (float)u->volume_size.x);
-  float2 y = tri_slab(origin.y, v.y, (float)u->volume_size.y);
-  float2 z = tri_slab(origin.z, v.z, (float)u->volume_size.z);
-  float t0 = max(max(x.x, y.x), max(z.x, 0.0f));
-  float t1 = min(min(x.y, y.y), z.y);
+  real2 x = tri_slab(origin.x, v.x, (real)u->volume_size.x);
+  real2 y = tri_slab(origin.y, v.y, (real)u->volume_size.y);
+  real2 z = tri_slab(origin.z, v.z, (real)u->volume_size.z);
+  real t0 = max(max(x.x, y.x), max(z.x, TRI_TO_REAL(0)));
+  real t1 = min(min(x.y, y.y), z.y);
   Ray ray;
   ray.d = d;
   ray.g = v * u->eye.w;
@@ -62,16 +62,16 @@ typedef struct {
 typedef struct {
   int3 brick;
   int3 direction;  // −1 or +1 per axis
-  float3 inverse_g;
-  float leave;  // where the ray leaves the brick, steps
+  real3 inverse_g;
+  real leave;  // where the ray leaves the brick, steps
   int axis;     // through which face
   int outside;  // rounding led out of the grid: the rest of the ray is taken as visible
   int merged;   // whether the run found last is one of samples to be merged
 } Walk;
 
 TRI_FN void aim(__constant Parameters* u, Walk* walk, const Ray* ray) {
-  float3 face = convert_float3((walk->brick + max(walk->direction, (int3)(0))) * u->brick_grid.w);
-  float3 at = (face - ray->p0) * walk->inverse_g;
+  real3 face = TRI_REAL3((walk->brick + max(walk->direction, (int3)(0))) * u->brick_grid.w);
+  real3 at = (face - ray->p0) * walk->inverse_g;
   at.x = ray->g.x == 0.0f ? 3.0e38f : at.x;
   at.y = ray->g.y == 0.0f ? 3.0e38f : at.y;
   at.z = ray->g.z == 0.0f ? 3.0e38f : at.z;
@@ -81,7 +81,7 @@ TRI_FN void aim(__constant Parameters* u, Walk* walk, const Ray* ray) {
 
 TRI_FN Walk start_walk(__constant Parameters* u, const Ray* ray) {
   Walk walk;
-  walk.brick = clamp(convert_int3(ray->p0 / (float)u->brick_grid.w), (int3)(0),
+  walk.brick = clamp(convert_int3(ray->p0 / (real)u->brick_grid.w), (int3)(0),
                      u->brick_grid.xyz - 1);
   walk.direction = (int3)(ray->g.x < 0.0f ? -1 : 1, ray->g.y < 0.0f ? -1 : 1,
                           ray->g.z < 0.0f ? -1 : 1);
@@ -114,7 +114,7 @@ TRI_FN int kind(__constant Parameters* u, __global const int* brick_reach, const
 // The first sample at or behind `limit` that lies beyond the brick. A sample within rounding of the
 // face may be counted to either side: the brick's border of one voxel covers half a voxel of error.
 TRI_FN int samples_before(const Walk* walk, int limit) {
-  if (walk->outside || !(walk->leave < (float)limit)) return limit;
+  if (walk->outside || !(walk->leave < (real)limit)) return limit;
   return clamp((int)tri_ceil(walk->leave - 0.5f), 0, limit);
 }
 
@@ -146,43 +146,43 @@ TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_reach, 
 
 // What leaps need to know of a ray.
 typedef struct {
-  float3 p0;  // where the ray enters, from where the bricks begin (technique::BrickLayout::of_cells)
-  float3 inverse_g;
-  float edge;  // of a brick, voxels
-  float inverse_edge;
+  real3 p0;  // where the ray enters, from where the bricks begin (technique::BrickLayout::of_cells)
+  real3 inverse_g;
+  real edge;  // of a brick, voxels
+  real inverse_edge;
 } Walk;
 
 // A ray that runs along a face takes 10²⁰ steps to the next: never, without dividing by zero.
-TRI_FN float inverse_step(float g) {
+TRI_FN real inverse_step(real g) {
   return 1.0f / (fabs(g) > 1.0e-20f ? g : 1.0e-20f);
 }
 
 TRI_FN Walk start_walk(__constant Parameters* u, const Ray* ray) {
   Walk walk;
   walk.inverse_g =
-      (float3)(inverse_step(ray->g.x), inverse_step(ray->g.y), inverse_step(ray->g.z));
+      (real3)(inverse_step(ray->g.x), inverse_step(ray->g.y), inverse_step(ray->g.z));
   walk.p0 = TRI_LEAPS ? ray->p0 - 0.5f : ray->p0;
-  walk.edge = (float)u->brick_grid.w;
+  walk.edge = (real)u->brick_grid.w;
   walk.inverse_edge = 1.0f / walk.edge;
   return walk;
 }
 
-TRI_FN int brick_at(float p, float inverse_edge, int bricks) {
+TRI_FN int brick_at(real p, real inverse_edge, int bricks) {
   int brick = (int)(p * inverse_edge);
   return brick < 0 ? 0 : (brick < bricks ? brick : bricks - 1);
 }
 
 // Where a ray leaves the bricks fewer than `reach` away from `brick` along one axis, steps.
-TRI_FN float crossing(float p0, float inverse_g, float edge, int brick, int reach) {
+TRI_FN real crossing(real p0, real inverse_g, real edge, int brick, int reach) {
   int face = inverse_g < 0.0f ? brick - reach + 1 : brick + reach;
-  return ((float)face * edge - p0) * inverse_g;
+  return ((real)face * edge - p0) * inverse_g;
 }
 
 // The first sample after the i-th that lies beyond the cube of bricks that are like that of the
 // i-th; `end` at most. Each leap starts from its sample's own position: nothing drifts.
 TRI_FN int leap(__constant Parameters* u, __global const int* brick_reach, const Walk* walk,
                 const Ray* ray, int i, int end, int* visible) {
-  float along = (float)i + 0.5f;
+  real along = (real)i + 0.5f;
   int4 grid = u->brick_grid;
   int x = brick_at(walk->p0.x + along * ray->g.x, walk->inverse_edge, grid.x);
   int y = brick_at(walk->p0.y + along * ray->g.y, walk->inverse_edge, grid.y);
@@ -190,12 +190,12 @@ TRI_FN int leap(__constant Parameters* u, __global const int* brick_reach, const
   int signed_reach = brick_reach[x + grid.x * (y + grid.y * z)];
   *visible = signed_reach > 0;
   int reach = *visible ? signed_reach : -signed_reach;
-  float at_x = crossing(walk->p0.x, walk->inverse_g.x, walk->edge, x, reach);
-  float at_y = crossing(walk->p0.y, walk->inverse_g.y, walk->edge, y, reach);
-  float at_z = crossing(walk->p0.z, walk->inverse_g.z, walk->edge, z, reach);
-  float leave = at_x < at_y ? at_x : at_y;
+  real at_x = crossing(walk->p0.x, walk->inverse_g.x, walk->edge, x, reach);
+  real at_y = crossing(walk->p0.y, walk->inverse_g.y, walk->edge, y, reach);
+  real at_z = crossing(walk->p0.z, walk->inverse_g.z, walk->edge, z, reach);
+  real leave = at_x < at_y ? at_x : at_y;
   leave = at_z < leave ? at_z : leave;
-  if (!(leave < (float)end)) return end;
+  if (!(leave < (real)end)) return end;
   int next = (int)tri_ceil(leave - 0.5f);
   next = next > i ? next : i + 1;
   return next < end ? next : end;

@@ -9,42 +9,42 @@
 // TRI_ADAPT, and those of volume.cl.
 
 // Headlight shading (scene::Shading) of a colour at p: d is the world direction of the ray.
-TRI_FN float4 shade(__constant Parameters* u, TRI_VOLUME volume, float4 colour, float3 p,
-                    float3 d) {
+TRI_FN real4 shade(__constant Parameters* u, TRI_VOLUME volume, real4 colour, real3 p,
+                    real3 d) {
   Positions at;
-  float value[TRI_LANES];
+  real value[TRI_LANES];
   int lanes = TRI_WHOLE_VECTORS(6);
   for (int k = 0; k < lanes; ++k) {
-    float side = (k & 1) == 0 ? 1.0f : -1.0f;
+    real side = (k & 1) == 0 ? 1.0f : -1.0f;
     at.x[k] = p.x + (k >> 1 == 0 ? side : 0.0f);
     at.y[k] = p.y + (k >> 1 == 1 ? side : 0.0f);
     at.z[k] = p.z + (k >> 1 == 2 ? side : 0.0f);
   }
   fetch(u, volume, &at, lanes, value);
-  float3 g = (float3)(value[0] - value[1], value[2] - value[3], value[4] - value[5]);
+  real3 g = (real3)(value[0] - value[1], value[2] - value[3], value[4] - value[5]);
   g *= 0.5f * u->inverse_spacing.w * u->inverse_spacing.xyz;
-  float cosine = fabs(g.x * d.x + g.y * d.y + g.z * d.z) /
+  real cosine = fabs(g.x * d.x + g.y * d.y + g.z * d.z) /
                  max(sqrt(g.x * g.x + g.y * g.y + g.z * g.z), u->ray_up.w);
-  float highlight = cosine;
+  real highlight = cosine;
   for (int i = 0; i < u->volume_size.w; ++i) highlight *= highlight;
   colour.xyz = colour.xyz * (u->shading.x + u->shading.y * cosine) + u->shading.z * highlight;
   return colour;
 }
 
 // Colours and opacities per voxel length of n values, linear between the table's 256 entries.
-TRI_FN void classify(__constant float4* table, const float* value, int n, float4* colour,
-                     float* alpha) {
+TRI_FN void classify(__constant float4* table, const real* value, int n, real4* colour,
+                     real* alpha) {
   int entry[TRI_BATCH];
-  float weight[TRI_BATCH];
+  real weight[TRI_BATCH];
   for (int k = 0; k < n; ++k) {
-    float position = tri_table_position(value[k]);
+    real position = tri_table_position(value[k]);
     int below = (int)position;
     entry[k] = below < 254 ? below : 254;
-    weight[k] = position - (float)entry[k];
+    weight[k] = position - (real)entry[k];
   }
   for (int k = 0; k < n; ++k) {
-    float4 a = table[entry[k]];
-    float4 b = table[entry[k] + 1];
+    real4 a = TRI_ENTRY(table[entry[k]]);
+    real4 b = TRI_ENTRY(table[entry[k] + 1]);
     colour[k] = a + weight[k] * (b - a);
     alpha[k] = colour[k].w;
   }
@@ -52,38 +52,38 @@ TRI_FN void classify(__constant float4* table, const float* value, int n, float4
 
 // What a ray has gathered so far.
 typedef struct {
-  float4 sum;  // premultiplied colour; w is not used
-  float transmittance;
+  real4 sum;  // premultiplied colour; w is not used
+  real transmittance;
 } Gathered;
 
 // Composites the first n of the samples that begin with the i-th; 1 where the ray ends among them.
 TRI_FN int composite(__constant Parameters* u, TRI_VOLUME volume, const Ray* ray, int i, int n,
-                     const float4* colour, const float* alpha, Gathered* gathered,
+                     const real4* colour, const real* alpha, Gathered* gathered,
                      Counts* counts) {
   int lanes = TRI_WHOLE_VECTORS(n);
-  float most = 0.0f;
+  real most = 0.0f;
   for (int k = 0; k < lanes; ++k) most = alpha[k] > most ? alpha[k] : most;
   if (!(most > 0.0f)) {
     counts->samples += (uint)n;
     return 0;
   }
-  float step_voxels = TRI_FAULT == FAULT_UNCORRECTED_OPACITY ? 1.0f : u->ray_centre.w;
-  float opacity[TRI_BATCH];
+  real step_voxels = TRI_FAULT == FAULT_UNCORRECTED_OPACITY ? 1.0f : u->ray_centre.w;
+  real opacity[TRI_BATCH];
   for (int k = 0; k < lanes; ++k) {
     opacity[k] = tri_opacity(alpha[k], step_voxels * tri_step_share(ray->steps, i + k));
   }
   for (int k = 0; k < n; ++k) {
-    float4 c = colour[k];
+    real4 c = colour[k];
 #if TRI_COUNT
     counts->samples++;
     if (alpha[k] > 0.0f) counts->nonzero++;
 #endif
 #if TRI_SHADING
     if (alpha[k] > 0.0f) {
-      c = shade(u, volume, c, ray->p0 + ((float)(i + k) + 0.5f) * ray->g, ray->d);
+      c = shade(u, volume, c, ray->p0 + ((real)(i + k) + 0.5f) * ray->g, ray->d);
     }
 #endif
-    float weight = gathered->transmittance * opacity[k];
+    real weight = gathered->transmittance * opacity[k];
     gathered->sum += weight * c;
     gathered->transmittance -= weight;
     if (gathered->transmittance < u->ray_right.w) {
@@ -99,11 +99,11 @@ TRI_FN int take_batch(__constant Parameters* u, TRI_VOLUME volume, __constant fl
                       const Ray* ray, int i, int n, Gathered* gathered, Counts* counts) {
   int lanes = TRI_WHOLE_VECTORS(n);
   Positions p;
-  float value[TRI_BATCH];
-  float4 colour[TRI_BATCH];
-  float alpha[TRI_BATCH];
+  real value[TRI_BATCH];
+  real4 colour[TRI_BATCH];
+  real alpha[TRI_BATCH];
   for (int k = 0; k < lanes; ++k) {
-    float along = (float)(i + k) + 0.5f;
+    real along = (real)(i + k) + 0.5f;
     p.x[k] = ray->p0.x + along * ray->g.x;
     p.y[k] = ray->p0.y + along * ray->g.y;
     p.z[k] = ray->p0.z + along * ray->g.z;
@@ -125,14 +125,14 @@ TRI_FN int take_batch(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 // for little; 1 where the ray ends there.
 TRI_FN int take_merged(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                        const Ray* ray, int i, int stop, Gathered* gathered, Counts* counts) {
-  float begin = (float)i;
-  float end = (float)stop < ray->steps ? (float)stop : ray->steps;
-  float along = max(0.5f * (begin + end), begin + 0.5f);
-  float3 middle = ray->p0 + along * ray->g;
+  real begin = (real)i;
+  real end = (real)stop < ray->steps ? (real)stop : ray->steps;
+  real along = max(0.5f * (begin + end), begin + 0.5f);
+  real3 middle = ray->p0 + along * ray->g;
   Positions p;
-  float value[TRI_LANES];
-  float4 colour[TRI_BATCH];
-  float alpha[TRI_BATCH];
+  real value[TRI_LANES];
+  real4 colour[TRI_BATCH];
+  real alpha[TRI_BATCH];
   p.x[0] = middle.x;
   p.y[0] = middle.y;
   p.z[0] = middle.z;
@@ -144,8 +144,8 @@ TRI_FN int take_merged(__constant Parameters* u, TRI_VOLUME volume, __constant f
 #if TRI_SHADING
     colour[0] = shade(u, volume, colour[0], middle, ray->d);
 #endif
-    float step_voxels = TRI_FAULT == FAULT_UNCORRECTED_OPACITY ? 1.0f : u->ray_centre.w;
-    float weight = gathered->transmittance * tri_opacity(alpha[0], step_voxels * (end - begin));
+    real step_voxels = TRI_FAULT == FAULT_UNCORRECTED_OPACITY ? 1.0f : u->ray_centre.w;
+    real weight = gathered->transmittance * tri_opacity(alpha[0], step_voxels * (end - begin));
     gathered->sum += weight * colour[0];
     gathered->transmittance -= weight;
   }
@@ -164,17 +164,17 @@ TRI_FN int take_steps(__constant Parameters* u, TRI_VOLUME volume, __constant fl
                       Gathered* gathered, Counts* counts) {
   int lanes = TRI_WHOLE_VECTORS(n + 1);
   Positions p;
-  float value[TRI_LANES];
-  float4 step[TRI_BATCH];
+  real value[TRI_LANES];
+  real4 step[TRI_BATCH];
   for (int k = 0; k < lanes; ++k) {
-    float along = (float)(i + k);
+    real along = (real)(i + k);
     along = along < ray->steps ? along : ray->steps;
     p.x[k] = ray->p0.x + along * ray->g.x;
     p.y[k] = ray->p0.y + along * ray->g.y;
     p.z[k] = ray->p0.z + along * ray->g.z;
   }
   fetch(u, volume, &p, lanes, value);
-  float step_voxels = TRI_FAULT == FAULT_UNCORRECTED_OPACITY ? 1.0f : u->ray_centre.w;
+  real step_voxels = TRI_FAULT == FAULT_UNCORRECTED_OPACITY ? 1.0f : u->ray_centre.w;
   for (int k = 0; k < n; ++k) {
     step[k] = preintegrated(table, pairs, value[k], value[k + 1],
                             step_voxels * tri_step_share(ray->steps, i + k));
@@ -184,9 +184,9 @@ TRI_FN int take_steps(__constant Parameters* u, TRI_VOLUME volume, __constant fl
     if (step[k].w > 0.0f) {
       counts->nonzero++;
 #if TRI_SHADING
-      float begin = (float)(i + k);
-      float end = begin + 1.0f < ray->steps ? begin + 1.0f : ray->steps;
-      float4 straight = (float4)(step[k].xyz / step[k].w, step[k].w);
+      real begin = (real)(i + k);
+      real end = begin + 1.0f < ray->steps ? begin + 1.0f : ray->steps;
+      real4 straight = (real4)(step[k].xyz / step[k].w, step[k].w);
       straight = shade(u, volume, straight, ray->p0 + (0.5f * (begin + end)) * ray->g, ray->d);
       step[k].xyz = step[k].w * straight.xyz;
 #endif
@@ -225,9 +225,9 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
   Ray ray = make_ray(u, pixel);
   int count = tri_sample_count(ray.steps);
 #if TRI_FAULT == FAULT_EXTRA_SAMPLE
-  if (count > 0) ray.steps = (float)++count;
+  if (count > 0) ray.steps = (real)++count;
 #endif
-  Gathered gathered = {(float4)(0.0f), 1.0f};
+  Gathered gathered = {(real4)(0.0f), 1.0f};
   Counts counts = {0u, 0u, 0u, 0u, 0u};
   int skipping = skips(u, brick_reach);
   Walk walk;
@@ -262,8 +262,9 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 #if TRI_SPEED_OF_LIGHT
   gathered.transmittance += gathered.sum.w;
 #endif
-  image[at] = (float4)(gathered.sum.xyz, 1.0f - gathered.transmittance) +
-              gathered.transmittance * u->background;
+  real4 colour = (real4)(gathered.sum.xyz, 1.0f - gathered.transmittance) +
+                 gathered.transmittance * u->background;
+  image[at] = TRI_FLOAT4(colour);
 #if TRI_COUNT
   store_counts(counters + 8 * at, &counts, count);
 #endif

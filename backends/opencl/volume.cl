@@ -32,16 +32,16 @@ __constant sampler_t linear_sampler =
 
 // Positions in voxels, voxel centres at i+½.
 typedef struct {
-  float x[TRI_LANES];
-  float y[TRI_LANES];
-  float z[TRI_LANES];
+  real x[TRI_LANES];
+  real y[TRI_LANES];
+  real z[TRI_LANES];
 } Positions;
 
-TRI_FN float clamp_coordinate(float q, float most) {
+TRI_FN real clamp_coordinate(real q, real most) {
   return q > 0.0f ? (q < most ? q : most) : 0.0f;
 }
 
-TRI_FN float rounded_weight(float f) {
+TRI_FN real rounded_weight(real f) {
 #if TRI_FAULT == FAULT_COARSE_FILTER
   return tri_floor(f * 256.0f + 0.5f) / 256.0f;
 #else
@@ -51,54 +51,54 @@ TRI_FN float rounded_weight(float f) {
 
 #if TRI_MANUAL_SAMPLER
 // Trilinear among the eight voxels of which the first is at `v`.
-TRI_FN float trilinear(TRI_VOLUME v, int row, int slice, float fx, float fy, float fz) {
+TRI_FN real trilinear(TRI_VOLUME v, int row, int slice, real fx, real fy, real fz) {
   TRI_VOXEL4 near_pairs = (TRI_VOXEL4)(vload2(0, v), vload2(0, v + row));
   TRI_VOXEL4 far_pairs = (TRI_VOXEL4)(vload2(0, v + slice), vload2(0, v + slice + row));
-  float4 lo = convert_float4(near_pairs);
-  float4 hi = convert_float4(far_pairs);
-  float4 z = lo + fz * (hi - lo);
-  float2 y = z.xy + fy * (z.zw - z.xy);
+  real4 lo = TRI_REAL4(near_pairs);
+  real4 hi = TRI_REAL4(far_pairs);
+  real4 z = lo + fz * (hi - lo);
+  real2 y = z.xy + fy * (z.zw - z.xy);
   return y.x + fx * (y.y - y.x);
 }
 #endif
 
 // Normalised values at the first n positions.
-TRI_FN void fetch(__constant Parameters* u, TRI_VOLUME volume, Positions* p, int n, float* value) {
+TRI_FN void fetch(__constant Parameters* u, TRI_VOLUME volume, Positions* p, int n, real* value) {
 #if TRI_FAULT == FAULT_HALF_VOXEL_SHIFT
   for (int k = 0; k < n; ++k) p->x[k] += 0.5f;
 #endif
 #if TRI_FAULT == FAULT_FLIPPED_AXIS
-  for (int k = 0; k < n; ++k) p->y[k] = (float)u->volume_size.y - p->y[k];
+  for (int k = 0; k < n; ++k) p->y[k] = (real)u->volume_size.y - p->y[k];
 #endif
-  float scale = u->value_map.x;
-  float offset = u->value_map.y;
+  real scale = u->value_map.x;
+  real offset = u->value_map.y;
 #if TRI_MANUAL_SAMPLER
   // Within the border q = p + ½ is not negative: truncation is floor. Clamping q is clamping to the
   // edge.
-  float sx = (float)u->volume_size.x;
-  float sy = (float)u->volume_size.y;
-  float sz = (float)u->volume_size.z;
+  real sx = (real)u->volume_size.x;
+  real sy = (real)u->volume_size.y;
+  real sz = (real)u->volume_size.z;
   int row = u->volume_size.x + 2;
   int slice = row * (u->volume_size.y + 2);
   int first[TRI_LANES];
   for (int k = 0; k < n; ++k) {
-    float qx = clamp_coordinate(p->x[k] + 0.5f, sx);
-    float qy = clamp_coordinate(p->y[k] + 0.5f, sy);
-    float qz = clamp_coordinate(p->z[k] + 0.5f, sz);
+    real qx = clamp_coordinate(p->x[k] + 0.5f, sx);
+    real qy = clamp_coordinate(p->y[k] + 0.5f, sy);
+    real qz = clamp_coordinate(p->z[k] + 0.5f, sz);
     int ix = (int)qx;
     int iy = (int)qy;
     int iz = (int)qz;
     first[k] = ix + row * iy + slice * iz;
-    p->x[k] = rounded_weight(qx - (float)ix);
-    p->y[k] = rounded_weight(qy - (float)iy);
-    p->z[k] = rounded_weight(qz - (float)iz);
+    p->x[k] = rounded_weight(qx - (real)ix);
+    p->y[k] = rounded_weight(qy - (real)iy);
+    p->z[k] = rounded_weight(qz - (real)iz);
   }
   for (int k = 0; k < n; ++k) {
     value[k] = trilinear(volume + first[k], row, slice, p->x[k], p->y[k], p->z[k]) * scale + offset;
   }
 #else
   for (int k = 0; k < n; ++k) {
-    float4 q = (float4)(p->x[k], p->y[k], p->z[k], 0.0f);
+    real4 q = (real4)(p->x[k], p->y[k], p->z[k], 0.0f);
 #if TRI_FAULT == FAULT_COARSE_FILTER
     q = floor((q - 0.5f) * 256.0f + 0.5f) / 256.0f + 0.5f;
 #endif

@@ -39,6 +39,7 @@ Constants constants_of(const Session& session, const measure::VolumeWork& work) 
           .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated,
           .leaps = work.options.skip == technique::Skip::distance,
           .adapt = work.options.adapt > 0,
+          .precision = work.options.precision,
           .fault = work.options.fault,
           .batch = session.batch};
 }
@@ -57,7 +58,7 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
   const VolumeCache::Entry& volume =
       volumes.get(session, *work.scene.grid, constants.sampler,
                   technique::brick_layout(work.scene, work.options.skip, work.options.adapt));
-  const technique::RaycastParameters parameters = technique::raycast_parameters(
+  const std::vector<std::byte> parameters = technique::raycast_parameters(
       work.scene, work.options, stored_maximum(constants.voxel, constants.sampler));
   checked([&] {
     volume_ = volume.volume;
@@ -76,7 +77,7 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
                        static_cast<std::size_t>(technique::drawn_pixels(width_, height_, stride)));
     counters_ =
         cl::Buffer(session.context, CL_MEM_WRITE_ONLY, counts_.size() * sizeof(std::uint32_t));
-    parameters_ = upload_bytes(session, std::as_bytes(std::span(&parameters, 1)));
+    parameters_ = upload_bytes(session, parameters);
     timed_.push_back(launch(timed, technique::drawn_columns(width_, stride)));
     counting_.push_back(launch(counting, width_));
   });

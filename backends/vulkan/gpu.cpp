@@ -39,7 +39,8 @@ Gpu open_gpu(const vk::raii::PhysicalDevice& physical) {
       .largePoints = offered.largePoints,
       .pipelineStatisticsQuery = offered.pipelineStatisticsQuery,
       .vertexPipelineStoresAndAtomics = offered.vertexPipelineStoresAndAtomics,
-      .fragmentStoresAndAtomics = offered.fragmentStoresAndAtomics};
+      .fragmentStoresAndAtomics = offered.fragmentStoresAndAtomics,
+      .shaderFloat64 = offered.shaderFloat64};
   constexpr float priority = 1.0F;
   const vk::DeviceQueueCreateInfo queue{
       .queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};

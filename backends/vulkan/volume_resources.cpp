@@ -32,9 +32,9 @@ double stored_maximum(scene::VoxelFormat format) {
 }
 
 Buffer upload_parameters(const Gpu& gpu, const measure::VolumeWork& work) {
-  const technique::RaycastParameters parameters = technique::raycast_parameters(
-      work.scene, work.options, stored_maximum(work.scene.grid->format));
-  return make_buffer(gpu, std::as_bytes(std::span(&parameters, 1)),
+  return make_buffer(gpu,
+                     technique::raycast_parameters(work.scene, work.options,
+                                                   stored_maximum(work.scene.grid->format)),
                      vk::BufferUsageFlagBits::eUniformBuffer);
 }
 
@@ -179,7 +179,8 @@ Constants constants_of(const measure::VolumeWork& work) {
 std::string_view raycast_spirv(std::string_view shader, const measure::VolumeWork& work,
                                Pass pass) {
   const std::size_t dot = shader.find('.');
-  return spirv(fmt::format("{}{}{}{}.spv", shader.substr(0, dot),
+  return spirv(fmt::format("{}{}{}{}{}.spv", shader.substr(0, dot),
+                           work.options.precision == technique::Precision::fp64 ? "_fp64" : "",
                            technique::has_long_rays(work.scene) ? "_long" : "",
                            pass == Pass::counting ? "_counting" : "", shader.substr(dot)));
 }

@@ -5,7 +5,6 @@
 #include "backends/vulkan/filter_probe.hpp"
 #include "backends/vulkan/support.hpp"
 #include "backends/vulkan/volume_resources.hpp"
-#include "technique/volume/brick_kinds.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -44,8 +43,10 @@ std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWo
                                          std::string_view technique, Needs needs) {
   constexpr std::uint64_t pixel_bytes = 4 * sizeof(float);
   const scene::VolumeScene& scene = work.scene;
-  if (auto reason = technique::quadrature_reason(technique, scene.quadrature)) return reason;
-  if (auto reason = technique::adapt_reason(technique, scene, work.options)) return reason;
+  if (auto reason = technique::raycast_reason(technique, scene, work.options)) return reason;
+  if (work.options.precision == technique::Precision::fp64 && !gpu.features.shaderFloat64) {
+    return "precision fp64 needs shaderFloat64, which the device lacks";
+  }
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
   if (auto reason = format_reason(gpu, work)) return reason;

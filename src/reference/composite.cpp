@@ -76,7 +76,9 @@ Pixel Compositor::finish() const {
   for (std::size_t channel = 0; channel < 4; ++channel) {
     const double rounding = model_.compositing_error * sums *
                             (std::abs(pixel.rgba[channel]) + error[channel] + lost[channel]);
-    pixel.bound = std::max(pixel.bound, error[channel] + lost[channel] + rounding + model_.adapt);
+    const double computed = error[channel] + lost[channel] + rounding + model_.adapt;
+    const double stored = model_.output_error * (std::abs(pixel.rgba[channel]) + computed);
+    pixel.bound = std::max(pixel.bound, computed + stored);
   }
   return pixel;
 }

@@ -57,6 +57,9 @@ const std::vector<Factor>& volume_factors() {
       number("adapt", 0, 0.5, "0", Decides::how_it_is_made,
              "error that may be spent on taking the samples of a nearly homogeneous brick as one; "
              "needs skip bricks"),
+      choice("precision", {"fp32", "fp64"}, "fp32", Decides::how_it_is_made,
+             "what rays, interpolation and compositing are computed in; fp64 needs sampler manual, "
+             "which auto then is"),
       text("camera", "orbit_y:1/8", "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED, or own"),
       text("viewport", "256", "N for NxN, or WxH, in pixels, or own"),
   };

@@ -142,10 +142,18 @@ scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
   };
 }
 
+// No device's sampler interpolates in double precision, and floats would round integers.
+measure::VolumePath default_path(const measure::Device& device, scene::VoxelFormat native,
+                                 technique::Precision precision) {
+  if (precision == technique::Precision::fp64) return {native, technique::Sampler::manual};
+  return device.default_path(native);
+}
+
 measure::Work VolumeSuite::work(Configuration& configuration, const measure::Device& device) {
+  const technique::Precision precision = technique::precision(configuration.at("precision"));
   measure::VolumePath path;
   const auto choose = [&](scene::VoxelFormat native) {
-    path = device.default_path(native);
+    path = default_path(device, native, precision);
     if (configuration.at("voxel") != "auto")
       path.voxel = scene::voxel_format(configuration.at("voxel"));
     return path.voxel;
@@ -163,7 +171,8 @@ measure::Work VolumeSuite::work(Configuration& configuration, const measure::Dev
               .options = {.sampler = path.sampler,
                           .skip = technique::skip(configuration.at("skip")),
                           .ert = levels_of(configuration, loaded.stress).ert(),
-                          .adapt = levels_of(configuration, loaded.stress).adapt()}}};
+                          .adapt = levels_of(configuration, loaded.stress).adapt(),
+                          .precision = precision}}};
 }
 
 measure::Work VolumeSuite::calibration(technique::Work kind) {
@@ -187,10 +196,15 @@ measure::Work VolumeSuite::calibration(technique::Work kind) {
 }
 
 // A step of the voxel format where it cannot hold the data's own values, in normalised value; else
-// 0.
+// 0. Integers that are stored as floats are rounded when they are normalised, to floats below 1:
+// that is less than single precision does to them anyway.
 double storage_step(const Configuration& configuration, scene::VoxelFormat native) {
   if (configuration.at("voxel") == "auto") return 0;
   const scene::VoxelFormat format = scene::voxel_format(configuration.at("voxel"));
+  if (format == scene::VoxelFormat::f32 && native != format &&
+      technique::precision(configuration.at("precision")) == technique::Precision::fp64) {
+    return 0x1.0p-24;
+  }
   if (scene::bytes_of(format) >= scene::bytes_of(native)) return 0;
   return format == scene::VoxelFormat::u8 ? 1.0 / 255 : 1.0 / 65535;
 }
@@ -204,7 +218,8 @@ VolumeSuite::Judged VolumeSuite::judged(const Configuration& configuration,
       error_model(pictured, {.ert = levels_of(configuration, loaded.stress).ert(),
                              .adapt = levels_of(configuration, loaded.stress).adapt(),
                              .filter_weight_error = probed == precision.end() ? 0 : probed->second,
-                             .storage_step = storage_step(configuration, loaded.native)});
+                             .storage_step = storage_step(configuration, loaded.native),
+                             .precision = technique::precision(configuration.at("precision"))});
   return {std::move(pictured), model};
 }
 
@@ -224,6 +239,7 @@ std::string VolumeSuite::truth_key(const Configuration& configuration,
                   model.value_error, model.filter_weight_error, model.table_error,
                   model.opacity_error, model.compositing_error, model.ert);
   if (model.adapt > 0) key += fmt::format(" adapt {:a}", model.adapt);
+  if (model.output_error > 0) key += fmt::format(" output {:a}", model.output_error);
   // What a stress case brings besides is not among the factors.
   if (stress_data(configuration.at("data"))) {
     key += " frame " + core::content_hash(describe_frame(pictured, model.ert, model.adapt).dump());

@@ -11,7 +11,11 @@
 namespace triptych::volume_suite {
 namespace {
 
-constexpr double unit_roundoff = 0x1.0p-24;
+constexpr double float_roundoff = 0x1.0p-24;
+
+double unit_roundoff(technique::Precision precision) {
+  return precision == technique::Precision::fp64 ? 0x1.0p-52 : float_roundoff;
+}
 
 double largest_stored(scene::VoxelFormat format) {
   switch (format) {
@@ -26,7 +30,7 @@ double largest_stored(scene::VoxelFormat format) {
 }
 
 // A length in the largest number of voxels that it may be along an axis.
-double position_error(const scene::VolumeScene& scene) {
+double position_error(const scene::VolumeScene& scene, double u) {
   const scene::VoxelGrid& grid = *scene.grid;
   const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
   const scene::Box box = scene.box();
@@ -43,28 +47,33 @@ double position_error(const scene::VolumeScene& scene) {
     const double aspect = static_cast<double>(scene.width) / scene.height;
     error += 4 * plane / voxel * half * std::hypot(aspect, 1.0) + 6 * farthest;
   }
-  return unit_roundoff * error;
+  return u * error;
 }
 
 }  // namespace
 
 reference::ErrorModel error_model(const scene::VolumeScene& scene, const PathPrecision& path) {
+  const bool fp64 = path.precision == technique::Precision::fp64;
+  const double u = unit_roundoff(path.precision);
   const scene::VoxelGrid& grid = *scene.grid;
   const double format_range = std::abs(grid.scale) * largest_stored(grid.format);
   const double magnitude = format_range + std::abs(grid.offset);
   const bool preintegrated = scene.quadrature == scene::Quadrature::preintegrated;
-  const double filter =
-      std::exp2(std::ceil(std::log2(std::max(path.filter_weight_error, unit_roundoff))));
+  const double filter = std::exp2(std::ceil(std::log2(std::max(path.filter_weight_error, u))));
   return {
-      .position_error_voxels = position_error(scene),
-      .value_error = 13 * unit_roundoff * std::max(magnitude, 1.0) + path.storage_step / 2 +
-                     filter * format_range,
+      .position_error_voxels = position_error(scene, u),
+      .value_error =
+          13 * u * std::max(magnitude, 1.0) + path.storage_step / 2 + filter * format_range,
       .filter_weight_error = filter,
-      .table_error = (preintegrated ? 4 : 3) * unit_roundoff,
-      .opacity_error = (preintegrated ? 32 : 14) * unit_roundoff,
-      .compositing_error = 4 * unit_roundoff,
+      .table_error = (preintegrated ? 4 : 3) * u,
+      .opacity_error = (preintegrated ? 32
+                        : fp64        ? 18
+                                      : 14) *
+                       u,
+      .compositing_error = 4 * u,
       .ert = path.ert,
       .adapt = path.adapt,
+      .output_error = fp64 ? 2 * float_roundoff : 0,
   };
 }
 

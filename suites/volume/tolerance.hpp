@@ -4,6 +4,7 @@
 
 #include "reference/volume.hpp"
 #include "scene/volume_scene.hpp"
+#include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::volume_suite {
 
@@ -13,6 +14,7 @@ struct PathPrecision {
   double adapt = 0;                // what merged samples may cost (technique::brick_kinds)
   double filter_weight_error = 0;  // of the device's sampler, as probed (measure::Device)
   double storage_step = 0;  // normalised value per step of a voxel format too small for the data
+  technique::Precision precision = technique::Precision::fp32;
 };
 
 // u = 2⁻²⁴, the unit roundoff of float; every basic operation errs by at most u relative
@@ -54,6 +56,14 @@ struct PathPrecision {
 //   the one without is what all other terms are about. A merged sample's own arithmetic is theirs:
 //   the exponent of its opacity has the same two factors, and its number is one of many.
 // compositing, relative per sample. weight u, product u, sum u, transmittance u: 4u.
+//
+// Precision fp64: the same counts, as the kernels are the same text, with u = 2⁻⁵². That is twice
+// the unit roundoff of double, for the truth is computed in doubles as well and may err by as much
+// as the device. Three things differ.
+//   The parameters come in doubles and the eye is not rounded, which the count above includes.
+//   opacity. tri_opacity is stated to 12u: 12u + 4u + 2u = 18u.
+//   output. A channel is rounded to float when it is stored, and so is the truth's picture: 2·2⁻²⁴
+//   of the channel. In fp32 compositing has rounded it already.
 [[nodiscard]] reference::ErrorModel error_model(const scene::VolumeScene& scene,
                                                 const PathPrecision& path);
 

@@ -13,11 +13,13 @@ namespace triptych::contract {
 inline void expect_within_bound(measure::Device& device, const measure::Work& work) {
   const auto& volume = std::get<measure::VolumeWork>(work.scene);
   const measure::VolumePath path{volume.scene.grid->format, volume.options.sampler};
-  const reference::Truth truth = reference::render_volume(
-      volume.scene, volume_suite::error_model(
-                        volume.scene, {.ert = volume.options.ert,
-                                       .adapt = volume.options.adapt,
-                                       .filter_weight_error = device.filter_weight_error(path)}));
+  const volume_suite::PathPrecision precision{
+      .ert = volume.options.ert,
+      .adapt = volume.options.adapt,
+      .filter_weight_error = device.filter_weight_error(path),
+      .precision = volume.options.precision};
+  const reference::Truth truth =
+      reference::render_volume(volume.scene, volume_suite::error_model(volume.scene, precision));
   const core::Image image = draw(device, work);
   for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
     ASSERT_LE(std::abs(static_cast<double>(image.rgba[i]) - truth.rgba[i]), truth.bound[i / 4])

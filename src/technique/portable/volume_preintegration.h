@@ -8,6 +8,8 @@
 // c(y) = a0 + a1·P1(y) + a2·P2(y). The light of the piece is then
 //   D·∫c(y)·e^(−Dy) dy = (1 − e^(−D))·(a0 − a1·L + a2·(1 − 3L/z)),   z = D/2,  L = coth z − 1/z,
 // for ∫Pn(y)·e^(−Dy) dy = (−1)ⁿ·e^(−z)·i_n(z), i_n the modified spherical Bessel functions.
+// In single precision only: what it looks up is tabulated in floats.
+#if TRI_PRECISION == 32
 
 // log2(1 − alpha) averaged while alpha runs straight from a to b. With m what is left of 1 in the middle
 // and r = |b − a|/2m, the mean of ln(m·(1 − r·x)) over −1 ≤ x ≤ 1 is ln m − Σ r^2n/(2n(2n+1)); six terms
@@ -41,3 +43,5 @@ TRI_FN float tri_attenuation(float z, float opacity) {
   float langevin = 2.0f / opacity - 1.0f - 1.0f / z;
   return z < 2.0f ? near_zero : z / langevin - 3.0f;
 }
+
+#endif

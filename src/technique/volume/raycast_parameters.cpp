@@ -8,17 +8,69 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "core/error.hpp"
+#include "technique/volume/brick_kinds.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/extra_work.hpp"
 
 namespace triptych::technique {
 namespace {
 
-std::array<float, 4> pack(const glm::dvec3& v, double w) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
-          static_cast<float>(w)};
+template <class Real>
+std::array<Real, 4> pack(double x, double y, double z, double w) {
+  return {static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z), static_cast<Real>(w)};
+}
+
+template <class Real>
+std::array<Real, 4> pack(const glm::dvec3& v, double w) {
+  return pack<Real>(v.x, v.y, v.z, w);
+}
+
+// A texel of a UNORM texture is k/maximum rounded to float. In single precision the division is
+// part of the scale; in double precision the shader finds k again, which loses nothing.
+template <class Real>
+std::array<Real, 4> value_map(const scene::VoxelGrid& grid, double stored_maximum, double plane) {
+  if constexpr (sizeof(Real) == sizeof(double)) {
+    return {grid.scale, grid.offset, plane, stored_maximum > 1 ? stored_maximum : 0};
+  }
+  return pack<Real>(grid.scale * stored_maximum, grid.offset, plane, 0);
+}
+
+template <class Real>
+BasicRaycastParameters<Real> parameters_of(const scene::VolumeScene& scene,
+                                           const RaycastOptions& options, double stored_maximum) {
+  const scene::VoxelGrid& grid = *scene.grid;
+  const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
+  const double half = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360);
+  const double aspect = static_cast<double>(scene.width) / scene.height;
+  const BrickLayout layout = brick_layout(scene, options.skip);
+  const auto bricks = brick_counts(grid.size, layout);
+  const double plane = ray_plane(scene);
+  const scene::Shading& light = scene.shading;
+  const auto& background = scene.background;
+  return {
+      .eye = pack<Real>((scene.camera.eye + plane * scene.camera.forward) / spacing,
+                        scene.step_world()),
+      .ray_centre = pack<Real>(scene.camera.forward, scene.step_voxels),
+      .ray_right = pack<Real>(scene.camera.right() * (half * aspect), options.ert),
+      .ray_up = pack<Real>(scene.camera.up * half, light.gradient_floor),
+      .inverse_spacing = pack<Real>(1.0 / spacing, scene.smallest_spacing()),
+      .value_map = value_map<Real>(grid, stored_maximum, plane),
+      .shading = pack<Real>(light.ambient, light.diffuse, light.specular, 0),
+      .background = {background[0], background[1], background[2], background[3]},
+      .volume_size = {grid.size[0], grid.size[1], grid.size[2],
+                      std::countr_zero(static_cast<unsigned>(light.exponent))},
+      .brick_grid = {bricks[0], bricks[1], bricks[2], options.skip == Skip::none ? 0 : layout.edge},
+      .viewport = {scene.width, scene.height, options.extra_work_stride, again_from(scene.width)},
+  };
+}
+
+template <class Real>
+std::vector<std::byte> bytes_of(const BasicRaycastParameters<Real>& parameters) {
+  const auto bytes = std::as_bytes(std::span(&parameters, 1));
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
@@ -37,6 +89,9 @@ std::string_view name_of(Skip skip) {
   }
   return {};
 }
+std::string_view name_of(Precision precision) {
+  return precision == Precision::fp32 ? "fp32" : "fp64";
+}
 
 Sampler sampler(std::string_view name) {
   if (name == "hardware") return Sampler::hardware;
@@ -51,13 +106,34 @@ Skip skip(std::string_view name) {
   throw core::InputError(fmt::format("skip '{}': expected none, bricks or distance", name));
 }
 
-std::optional<std::string> quadrature_reason(std::string_view technique,
-                                             scene::Quadrature quadrature) {
-  if (technique != "speed_of_light" || quadrature == scene::Quadrature::midpoint) {
-    return std::nullopt;
+Precision precision(std::string_view name) {
+  if (name == "fp32") return Precision::fp32;
+  if (name == "fp64") return Precision::fp64;
+  throw core::InputError(fmt::format("precision '{}': expected fp32 or fp64", name));
+}
+
+std::optional<std::string> raycast_reason(std::string_view technique,
+                                          const scene::VolumeScene& scene,
+                                          const RaycastOptions& options) {
+  const bool preintegrated = scene.quadrature == scene::Quadrature::preintegrated;
+  if (technique == "speed_of_light" && preintegrated) {
+    return "speed_of_light bounds the midpoint rule: its fetches and look-ups are not those of "
+           "quadrature preintegrated";
   }
-  return "speed_of_light bounds the midpoint rule: its fetches and look-ups are not those of "
-         "quadrature preintegrated";
+  if (auto reason = adapt_reason(technique, scene, options)) return reason;
+  if (options.precision == Precision::fp32) return std::nullopt;
+  if (technique == "speed_of_light") {
+    return "speed_of_light bounds precision fp32: it fetches, and computes nothing of note";
+  }
+  if (preintegrated) {
+    return "quadrature preintegrated looks up integrals in single precision: precision fp64 is for "
+           "quadrature midpoint";
+  }
+  if (options.sampler == Sampler::hardware) {
+    return "a device's sampler interpolates in single precision at best: precision fp64 is for "
+           "sampler manual";
+  }
+  return std::nullopt;
 }
 
 double ray_plane(const scene::VolumeScene& scene) {
@@ -72,32 +148,11 @@ double ray_plane(const scene::VolumeScene& scene) {
   return nearest > far_in_diagonals * glm::length(box.hi - box.lo) ? nearest : 0;
 }
 
-RaycastParameters raycast_parameters(const scene::VolumeScene& scene, const RaycastOptions& options,
-                                     double stored_maximum) {
-  const scene::VoxelGrid& grid = *scene.grid;
-  const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
-  const double half = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360);
-  const double aspect = static_cast<double>(scene.width) / scene.height;
-  const BrickLayout layout = brick_layout(scene, options.skip);
-  const auto bricks = brick_counts(grid.size, layout);
-  const double plane = ray_plane(scene);
-  const scene::Shading& light = scene.shading;
-  return {
-      .eye = pack((scene.camera.eye + plane * scene.camera.forward) / spacing, scene.step_world()),
-      .ray_centre = pack(scene.camera.forward, scene.step_voxels),
-      .ray_right = pack(scene.camera.right() * (half * aspect), options.ert),
-      .ray_up = pack(scene.camera.up * half, light.gradient_floor),
-      .inverse_spacing = pack(1.0 / spacing, scene.smallest_spacing()),
-      .value_map = {static_cast<float>(grid.scale * stored_maximum),
-                    static_cast<float>(grid.offset), static_cast<float>(plane), 0},
-      .shading = {static_cast<float>(light.ambient), static_cast<float>(light.diffuse),
-                  static_cast<float>(light.specular), 0},
-      .background = scene.background,
-      .volume_size = {grid.size[0], grid.size[1], grid.size[2],
-                      std::countr_zero(static_cast<unsigned>(light.exponent))},
-      .brick_grid = {bricks[0], bricks[1], bricks[2], options.skip == Skip::none ? 0 : layout.edge},
-      .viewport = {scene.width, scene.height, options.extra_work_stride, again_from(scene.width)},
-  };
+std::vector<std::byte> raycast_parameters(const scene::VolumeScene& scene,
+                                          const RaycastOptions& options, double stored_maximum) {
+  return options.precision == Precision::fp64
+             ? bytes_of(parameters_of<double>(scene, options, stored_maximum))
+             : bytes_of(parameters_of<float>(scene, options, stored_maximum));
 }
 
 }  // namespace triptych::technique

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/volume_scene.hpp"
 
@@ -16,14 +17,16 @@ enum class Sampler : std::uint8_t { hardware, manual };  // who interpolates bet
 // What empty space is skipped by: nothing; a walk from brick to brick; leaps over whole cubes of
 // bricks of one kind, as far as the next brick of the other kind allows (brick_reach.hpp).
 enum class Skip : std::uint8_t { none, bricks, distance };
+// What everything between the parameters and the picture is computed in: rays, positions,
+// interpolation, colours, opacities, compositing. Voxels, the transfer function's entries and the
+// picture are floats with either.
+enum class Precision : std::uint8_t { fp32, fp64 };
 [[nodiscard]] std::string_view name_of(Sampler sampler);
 [[nodiscard]] std::string_view name_of(Skip skip);
-[[nodiscard]] Sampler sampler(std::string_view name);  // throws InputError
-[[nodiscard]] Skip skip(std::string_view name);        // throws InputError
-
-// Why the technique cannot take the quadrature; empty where it can.
-[[nodiscard]] std::optional<std::string> quadrature_reason(std::string_view technique,
-                                                           scene::Quadrature quadrature);
+[[nodiscard]] std::string_view name_of(Precision precision);
+[[nodiscard]] Sampler sampler(std::string_view name);      // throws InputError
+[[nodiscard]] Skip skip(std::string_view name);            // throws InputError
+[[nodiscard]] Precision precision(std::string_view name);  // throws InputError
 
 // Faults that can be planted to prove that the gate catches them. Kernels take the number as a
 // compile-time constant, so that an unplanted kernel holds no trace of them.
@@ -42,33 +45,45 @@ struct RaycastOptions {
   Skip skip = Skip::bricks;
   double ert = 1.0 / 512;  // stop below this transmittance; 0: never
   double adapt = 0;        // error that merging samples within bricks may make (brick_kinds.hpp)
+  Precision precision = Precision::fp32;
   Fault fault = Fault::none;
   // 1/extra_work_stride of the image is drawn a second time (volume/extra_work.hpp): a planted
   // slowdown of as much by real work; 0: none.
   int extra_work_stride = 0;
 };
 
-// Mirrors parameters.glsl (std140) and parameters.cl: four-byte scalars in groups of four only.
-// Lengths along a ray are counted in steps, positions in voxels (voxel centres at i+½).
-struct RaycastParameters {
-  std::array<float, 4> eye;  // xyz: eye/spacing; w: h, the step in world units
-  std::array<float, 4>
-      ray_centre;  // xyz: forward, world; w: h / smallest spacing, the step in voxels
-  std::array<float, 4> ray_right;        // xyz: right · aspect · tan(fov/2); w: ERT ε
-  std::array<float, 4> ray_up;           // xyz: up · tan(fov/2); w: gradient floor
-  std::array<float, 4> inverse_spacing;  // xyz: 1/spacing; w: smallest spacing
-  // x, y: normalised = stored·x + y; z: ray_plane; w: 0
-  std::array<float, 4> value_map;
-  std::array<float, 4> shading;             // ambient, diffuse, specular, 0
-  std::array<float, 4> background;          // premultiplied RGBA
+// Why the technique cannot draw this scene with these options on any device; empty where it can.
+[[nodiscard]] std::optional<std::string> raycast_reason(std::string_view technique,
+                                                        const scene::VolumeScene& scene,
+                                                        const RaycastOptions& options);
+
+// Mirrors parameters.glsl (std140) and parameters.cl: numbers in groups of four only. Real is float
+// or, for Precision::fp64, double. Lengths along a ray are counted in steps, positions in voxels
+// (voxel centres at i+½).
+template <class Real>
+struct BasicRaycastParameters {
+  using Four = std::array<Real, 4>;
+  Four eye;              // xyz: eye/spacing; w: h, the step in world units
+  Four ray_centre;       // xyz: forward, world; w: h / smallest spacing, the step in voxels
+  Four ray_right;        // xyz: right · aspect · tan(fov/2); w: ERT ε
+  Four ray_up;           // xyz: up · tan(fov/2); w: gradient floor
+  Four inverse_spacing;  // xyz: 1/spacing; w: smallest spacing
+  // x, y: normalised = stored·x + y; z: ray_plane; w: with doubles, what a texel is to be
+  // multiplied by to be the integer that is stored, and 0 where it is that already; else 0
+  Four value_map;
+  Four shading;                             // ambient, diffuse, specular, 0
+  Four background;                          // premultiplied RGBA
   std::array<std::int32_t, 4> volume_size;  // voxels; w: log2 of the specular exponent
   std::array<std::int32_t, 4>
       brick_grid;  // bricks per axis; w: brick edge in voxels, 0: no skipping
   // width, height; stride and again of tri_drawn_column
   std::array<std::int32_t, 4> viewport;
 };
+using RaycastParameters = BasicRaycastParameters<float>;
 static_assert(sizeof(RaycastParameters) == std::size_t{11} * 16);
 static_assert(offsetof(RaycastParameters, volume_size) == std::size_t{8} * 16);
+static_assert(sizeof(BasicRaycastParameters<double>) == std::size_t{8} * 32 + std::size_t{3} * 16);
+static_assert(offsetof(BasicRaycastParameters<double>, volume_size) == std::size_t{8} * 32);
 
 // Distance from the eye along the view axis, in world units, of the plane on which rays begin: the
 // box's nearest corner, where that is far away. Float coordinates of a far eye would be off by
@@ -77,11 +92,12 @@ static_assert(offsetof(RaycastParameters, volume_size) == std::size_t{8} * 16);
 // Of the box: nearer, an eye costs less than 1e-4 of its size.
 inline constexpr double far_in_diagonals = 16;
 
-// The stored integer of a u8 or u16 grid arrives in a shader as itself (buffer) or over its maximum
-// (UNORM texture): `stored_maximum` is 1 or 255 or 65535 accordingly.
-[[nodiscard]] RaycastParameters raycast_parameters(const scene::VolumeScene& scene,
-                                                   const RaycastOptions& options,
-                                                   double stored_maximum);
+// The bytes of the parameters in the options' precision. The stored integer of a u8 or u16 grid
+// arrives in a shader as itself (buffer) or over its maximum (UNORM texture): `stored_maximum` is 1
+// or 255 or 65535 accordingly.
+[[nodiscard]] std::vector<std::byte> raycast_parameters(const scene::VolumeScene& scene,
+                                                        const RaycastOptions& options,
+                                                        double stored_maximum);
 
 // The counters a counting kernel leaves per pixel, in this order.
 inline constexpr std::array<std::string_view, 7> raycast_counters{

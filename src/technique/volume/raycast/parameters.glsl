@@ -1,21 +1,21 @@
 // Mirrors technique::RaycastParameters (raycast_parameters.hpp), where the meaning of each field stands.
 // The backend's prelude defines TRI_BINDING(n) and the compile-time constants
 //   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT, TRI_PREINTEGRATED, TRI_LEAPS, TRI_ADAPT (integers),
-// which may be specialization constants, and the macros TRI_COUNT (0 or 1)
+// which may be specialization constants, and the macros TRI_PRECISION (bits of a `real`: 32 or 64), TRI_COUNT (0 or 1)
 // and TRI_LONG_RAYS (0 or 1: technique::has_long_rays). Where it also defines the macro TRI_OPACITY_FORM, that is
 // technique::opacity_form of the step.
 #ifndef TRI_OPACITY_FORM
 #define TRI_OPACITY_FORM 0
 #endif
 layout(std140) TRI_BINDING(0) uniform Parameters {
-  vec4 eye;
-  vec4 ray_centre;
-  vec4 ray_right;
-  vec4 ray_up;
-  vec4 inverse_spacing;
-  vec4 value_map;
-  vec4 shading;
-  vec4 background;
+  real4 eye;
+  real4 ray_centre;
+  real4 ray_right;
+  real4 ray_up;
+  real4 inverse_spacing;
+  real4 value_map;
+  real4 shading;
+  real4 background;
   ivec4 volume_size;
   ivec4 brick_grid;
   ivec4 viewport;

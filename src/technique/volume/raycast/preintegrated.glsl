@@ -1,5 +1,6 @@
 // Quadrature preintegrated: one step along which the value runs straight from front to back
 // (portable/volume_preintegration.h, technique::preintegrated_pairs).
+#if TRI_PRECISION == 32
 
 // Puts a piece of the step behind what is gathered: premultiplied colour and opacity. `depth` is its optical
 // depth in powers of two, a0 … a2 its colour over the share of that depth passed.
@@ -54,3 +55,5 @@ vec4 preintegrated(float front, float back, float length) {
   }
   return gathered;
 }
+
+#endif

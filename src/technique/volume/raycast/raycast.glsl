@@ -17,74 +17,86 @@ uint count_terminated = 0u;
 // What every sample needs of the parameters, loaded once per ray: a uniform named inside the loop is
 // loaded again for every sample by compilers that do not move loads out of loops.
 struct Grid {
-  vec3 inverse_size;
-  ivec3 last;      // largest index per axis
-  vec2 value_map;
+  real3 inverse_size;
+  ivec3 last;           // largest index per axis
+  real2 value_map;
+  real stored_maximum;  // in double precision, of voxels that are integers; else 0
 };
 
 Grid load_grid() {
   Grid grid;
-  grid.inverse_size = 1.0 / vec3(u.volume_size.xyz);
+  grid.inverse_size = 1.0 / real3(u.volume_size.xyz);
   grid.last = u.volume_size.xyz - 1;
   grid.value_map = u.value_map.xy;
+  grid.stored_maximum = u.value_map.w;
   return grid;
 }
 
+// What is stored. A texel of u8 or u16 is its integer over the largest one, rounded to float: doubles get
+// the integer itself.
+real voxel(Grid grid, ivec3 at) {
+  float texel = texelFetch(volume_texture, at, 0).r;
+#if TRI_PRECISION == 64
+  if (grid.stored_maximum > 0.0) return floor(real(texel) * grid.stored_maximum + 0.5);
+#endif
+  return texel;
+}
+
 // Trilinear by hand: texels floor(q), floor(q)+1 with q = p − ½, clamped to the edge.
-float fetch_manual(Grid grid, vec3 p) {
-  vec3 q = p - 0.5;
-  vec3 base = floor(q);
-  vec3 f = q - base;
+real fetch_manual(Grid grid, real3 p) {
+  real3 q = p - 0.5;
+  real3 base = floor(q);
+  real3 f = q - base;
   if (TRI_FAULT == fault_coarse_filter) f = floor(f * 256.0 + 0.5) / 256.0;
   ivec3 a = clamp(ivec3(base), ivec3(0), grid.last);
   ivec3 b = clamp(ivec3(base) + 1, ivec3(0), grid.last);
-  float v000 = texelFetch(volume_texture, ivec3(a.x, a.y, a.z), 0).r;
-  float v100 = texelFetch(volume_texture, ivec3(b.x, a.y, a.z), 0).r;
-  float v010 = texelFetch(volume_texture, ivec3(a.x, b.y, a.z), 0).r;
-  float v110 = texelFetch(volume_texture, ivec3(b.x, b.y, a.z), 0).r;
-  float v001 = texelFetch(volume_texture, ivec3(a.x, a.y, b.z), 0).r;
-  float v101 = texelFetch(volume_texture, ivec3(b.x, a.y, b.z), 0).r;
-  float v011 = texelFetch(volume_texture, ivec3(a.x, b.y, b.z), 0).r;
-  float v111 = texelFetch(volume_texture, ivec3(b.x, b.y, b.z), 0).r;
-  vec4 x0 = vec4(v000, v010, v001, v011);
-  vec4 x1 = vec4(v100, v110, v101, v111);
-  vec4 x = x0 + f.x * (x1 - x0);
-  vec2 y = x.xz + f.y * (x.yw - x.xz);
+  real v000 = voxel(grid, ivec3(a.x, a.y, a.z));
+  real v100 = voxel(grid, ivec3(b.x, a.y, a.z));
+  real v010 = voxel(grid, ivec3(a.x, b.y, a.z));
+  real v110 = voxel(grid, ivec3(b.x, b.y, a.z));
+  real v001 = voxel(grid, ivec3(a.x, a.y, b.z));
+  real v101 = voxel(grid, ivec3(b.x, a.y, b.z));
+  real v011 = voxel(grid, ivec3(a.x, b.y, b.z));
+  real v111 = voxel(grid, ivec3(b.x, b.y, b.z));
+  real4 x0 = real4(v000, v010, v001, v011);
+  real4 x1 = real4(v100, v110, v101, v111);
+  real4 x = x0 + f.x * (x1 - x0);
+  real2 y = x.xz + f.y * (x.yw - x.xz);
   return y.x + f.z * (y.y - y.x);
 }
 
-float fetch_hardware(Grid grid, vec3 p) {
+real fetch_hardware(Grid grid, real3 p) {
   if (TRI_FAULT == fault_coarse_filter) {
-    vec3 q = p - 0.5;
+    real3 q = p - 0.5;
     p = floor(q) + floor(fract(q) * 256.0 + 0.5) / 256.0 + 0.5;
   }
-  return textureLod(volume_texture, p * grid.inverse_size, 0.0).r;
+  return textureLod(volume_texture, vec3(p * grid.inverse_size), 0.0).r;
 }
 
 // Normalised value at p.
-float field(Grid grid, vec3 p) {
+real field(Grid grid, real3 p) {
   if (TRI_FAULT == fault_half_voxel_shift) p.x += 0.5;
-  if (TRI_FAULT == fault_flipped_axis) p.y = float(grid.last.y + 1) - p.y;
-  float stored = TRI_MANUAL_SAMPLER == 1 ? fetch_manual(grid, p) : fetch_hardware(grid, p);
+  if (TRI_FAULT == fault_flipped_axis) p.y = real(grid.last.y + 1) - p.y;
+  real stored = TRI_MANUAL_SAMPLER == 1 ? fetch_manual(grid, p) : fetch_hardware(grid, p);
   return stored * grid.value_map.x + grid.value_map.y;
 }
 
-vec4 transfer(float x) {
-  float position = tri_table_position(x);
+real4 transfer(real x) {
+  real position = tri_table_position(x);
   int k = min(int(position), 254);
-  vec4 a = texelFetch(transfer_texture, k, 0);
-  vec4 b = texelFetch(transfer_texture, k + 1, 0);
-  return a + (position - float(k)) * (b - a);
+  real4 a = real4(texelFetch(transfer_texture, k, 0));
+  real4 b = real4(texelFetch(transfer_texture, k + 1, 0));
+  return a + (position - real(k)) * (b - a);
 }
 
 // Headlight shading (scene::Shading): d is the world direction of the ray.
-vec3 shade(Grid grid, vec3 colour, vec3 p, vec3 d) {
-  vec3 g = vec3(field(grid, p + vec3(1, 0, 0)) - field(grid, p - vec3(1, 0, 0)),
-                field(grid, p + vec3(0, 1, 0)) - field(grid, p - vec3(0, 1, 0)),
-                field(grid, p + vec3(0, 0, 1)) - field(grid, p - vec3(0, 0, 1)));
+real3 shade(Grid grid, real3 colour, real3 p, real3 d) {
+  real3 g = real3(field(grid, p + real3(1, 0, 0)) - field(grid, p - real3(1, 0, 0)),
+                  field(grid, p + real3(0, 1, 0)) - field(grid, p - real3(0, 1, 0)),
+                  field(grid, p + real3(0, 0, 1)) - field(grid, p - real3(0, 0, 1)));
   g *= 0.5 * u.inverse_spacing.w * u.inverse_spacing.xyz;
-  float cosine = abs(dot(g, d)) / max(sqrt(dot(g, g)), u.ray_up.w);
-  float highlight = cosine;
+  real cosine = abs(dot(g, d)) / max(sqrt(dot(g, g)), u.ray_up.w);
+  real highlight = cosine;
 #if TRI_LONG_RAYS
   // Of constant length, hence written out by compilers: no pass of a loop (raycast()).
   for (int i = 0; i < 31; ++i) highlight *= i < u.volume_size.w ? highlight : 1.0;
@@ -95,26 +107,26 @@ vec3 shade(Grid grid, vec3 colour, vec3 p, vec3 d) {
 }
 
 struct Ray {
-  vec3 p0;      // where the ray enters the box, voxels
-  vec3 g;       // one step, voxels
-  vec3 d;       // unit direction, world
-  float steps;  // length inside the box, steps
+  real3 p0;    // where the ray enters the box, voxels
+  real3 g;     // one step, voxels
+  real3 d;     // unit direction, world
+  real steps;  // length inside the box, steps
 };
 
 Ray make_ray(ivec2 pixel) {
-  vec2 ndc = (2.0 * (vec2(pixel) + 0.5)) / vec2(u.viewport.xy) - 1.0;
-  vec3 d = u.ray_centre.xyz + ndc.x * u.ray_right.xyz - ndc.y * u.ray_up.xyz;
+  real2 ndc = (2.0 * (real2(pixel) + 0.5)) / real2(u.viewport.xy) - 1.0;
+  real3 d = u.ray_centre.xyz + ndc.x * u.ray_right.xyz - ndc.y * u.ray_up.xyz;
   d = d / sqrt(dot(d, d));
-  vec3 v = d * u.inverse_spacing.xyz;
-  vec3 size = vec3(u.volume_size.xyz);
+  real3 v = d * u.inverse_spacing.xyz;
+  real3 size = real3(u.volume_size.xyz);
   // Where the ray begins: on a plane between eye and box where that is far away, else at the eye.
-  vec3 origin = u.eye.xyz +
-                (u.value_map.z * (ndc.x * u.ray_right.xyz - ndc.y * u.ray_up.xyz)) * u.inverse_spacing.xyz;
-  vec2 x = tri_slab(origin.x, v.x, size.x);
-  vec2 y = tri_slab(origin.y, v.y, size.y);
-  vec2 z = tri_slab(origin.z, v.z, size.z);
-  float t0 = max(max(x.x, y.x), max(z.x, 0.0));
-  float t1 = min(min(x.y, y.y), z.y);
+  real3 origin = u.eye.xyz +
+                 (u.value_map.z * (ndc.x * u.ray_right.xyz - ndc.y * u.ray_up.xyz)) * u.inverse_spacing.xyz;
+  real2 x = tri_slab(origin.x, v.x, size.x);
+  real2 y = tri_slab(origin.y, v.y, size.y);
+  real2 z = tri_slab(origin.z, v.z, size.z);
+  real t0 = max(max(x.x, y.x), max(z.x, 0.0));
+  real t1 = min(min(x.y, y.y), z.y);
   Ray ray;
   ray.d = d;
   ray.g = v * u.eye.w;
@@ -129,10 +141,10 @@ Ray make_ray(ivec2 pixel) {
 struct Walk {
   ivec3 brick;
   ivec3 direction;  // −1 or +1 per axis
-  vec3 first;       // steps
-  vec3 spacing;     // steps; 0 where the ray never crosses
-  vec3 at;          // where the ray crosses the brick's far face of each axis, steps
-  float leave;      // where it leaves the brick: the least of them
+  real3 first;      // steps
+  real3 spacing;    // steps; 0 where the ray never crosses
+  real3 at;         // where the ray crosses the brick's far face of each axis, steps
+  real leave;       // where it leaves the brick: the least of them
   bool visible;     // also true outside the grid, where rounding can lead: that rest of a ray is sampled
   int kind;         // technique::BrickKind of a visible brick, with TRI_ADAPT
   bool outside;
@@ -141,7 +153,7 @@ struct Walk {
 
 void enter(inout Walk walk) {
   ivec3 size = walk.size;
-  walk.at = walk.first + vec3(walk.brick) * walk.spacing;
+  walk.at = walk.first + real3(walk.brick) * walk.spacing;
   walk.leave = min(walk.at.x, min(walk.at.y, walk.at.z));
   // As unsigned numbers, negative indices are beyond the end too.
   walk.outside = any(greaterThanEqual(uvec3(walk.brick), uvec3(size)));
@@ -152,17 +164,17 @@ void enter(inout Walk walk) {
 }
 
 Walk start_walk(Ray ray) {
-  float edge = float(u.brick_grid.w);
+  real edge = real(u.brick_grid.w);
   Walk walk;
   walk.size = u.brick_grid.xyz;
   walk.brick = clamp(ivec3(floor(ray.p0 / edge)), ivec3(0), walk.size - 1);
   walk.direction = ivec3(ray.g.x < 0.0 ? -1 : 1, ray.g.y < 0.0 ? -1 : 1, ray.g.z < 0.0 ? -1 : 1);
-  vec3 inverse_g = 1.0 / ray.g;
+  real3 inverse_g = 1.0 / ray.g;
   walk.spacing = edge * inverse_g;
-  walk.first = (edge * vec3(max(walk.direction, ivec3(0))) - ray.p0) * inverse_g;
-  bvec3 parallel = equal(ray.g, vec3(0.0));
-  walk.spacing = mix(walk.spacing, vec3(0.0), parallel);
-  walk.first = mix(walk.first, vec3(3.0e38), parallel);
+  walk.first = (edge * real3(max(walk.direction, ivec3(0))) - ray.p0) * inverse_g;
+  bvec3 parallel = equal(ray.g, real3(0.0));
+  walk.spacing = mix(walk.spacing, real3(0.0), parallel);
+  walk.first = mix(walk.first, real3(3.0e38), parallel);
   enter(walk);
   return walk;
 }
@@ -177,7 +189,7 @@ void next_brick(inout Walk walk) {
 // The first sample at or behind `limit` that lies beyond the brick. A sample within rounding of the face
 // may be counted to either side: the brick's border of one voxel covers half a voxel of error.
 int samples_before(Walk walk, int limit) {
-  return walk.outside || !(walk.leave < float(limit)) ? limit : clamp(int(ceil(walk.leave - 0.5)), 0, limit);
+  return walk.outside || !(walk.leave < real(limit)) ? limit : clamp(int(ceil(walk.leave - 0.5)), 0, limit);
 }
 
 // Narrows [begin, end) to the next run of visible bricks of one kind at or after begin; empty at the end of the
@@ -202,19 +214,19 @@ ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
 // Leaps over whole cubes of bricks of one kind (technique::Skip::distance). Each starts from its sample's
 // own position, so nothing drifts.
 struct Leaps {
-  vec3 p0;            // where the ray enters, from where the bricks begin: the first voxel's centre
-  vec3 inverse_g;
-  float edge;         // of a brick, voxels
-  float inverse_edge;
-  ivec3 size;         // bricks per axis
+  real3 p0;    // where the ray enters, from where the bricks begin: the first voxel's centre
+  real3 inverse_g;
+  real edge;   // of a brick, voxels
+  real inverse_edge;
+  ivec3 size;  // bricks per axis
 };
 
 Leaps make_leaps(Ray ray) {
   Leaps leaps;
   leaps.p0 = ray.p0 - 0.5;
   // A ray that runs along a face takes 10²⁰ steps to the next: never, without dividing by zero.
-  leaps.inverse_g = 1.0 / mix(ray.g, vec3(1.0e-20), lessThan(abs(ray.g), vec3(1.0e-20)));
-  leaps.edge = float(u.brick_grid.w);
+  leaps.inverse_g = 1.0 / mix(ray.g, real3(1.0e-20), lessThan(abs(ray.g), real3(1.0e-20)));
+  leaps.edge = real(u.brick_grid.w);
   leaps.inverse_edge = 1.0 / leaps.edge;
   leaps.size = u.brick_grid.xyz;
   return leaps;
@@ -229,16 +241,16 @@ struct Leap {
 };
 
 Leap leap(Leaps leaps, Ray ray, int i, int end) {
-  vec3 p = leaps.p0 + (float(i) + 0.5) * ray.g;
+  real3 p = leaps.p0 + (real(i) + 0.5) * ray.g;
   ivec3 brick = clamp(ivec3(p * leaps.inverse_edge), ivec3(0), leaps.size - 1);
   int signed_reach = brick_visible[brick.x + leaps.size.x * (brick.y + leaps.size.y * brick.z)];
   int reach = abs(signed_reach);
-  ivec3 face = brick + mix(ivec3(reach), ivec3(1 - reach), lessThan(leaps.inverse_g, vec3(0.0)));
-  vec3 at = (vec3(face) * leaps.edge - leaps.p0) * leaps.inverse_g;
-  float leave = min(at.x, min(at.y, at.z));
+  ivec3 face = brick + mix(ivec3(reach), ivec3(1 - reach), lessThan(leaps.inverse_g, real3(0.0)));
+  real3 at = (real3(face) * leaps.edge - leaps.p0) * leaps.inverse_g;
+  real leave = min(at.x, min(at.y, at.z));
   // No brick has reach 0: it is what a fragment that is drawn for its neighbours' sake reads on llvmpipe
   // (Mesa 22.3). Else that one would go from sample to sample, and all wait for it.
-  int next = reach > 0 && leave < float(end) ? int(ceil(leave - 0.5)) : end;
+  int next = reach > 0 && leave < real(end) ? int(ceil(leave - 0.5)) : end;
   return Leap(signed_reach > 0, clamp(next, i + 1, end));
 }
 
@@ -276,13 +288,13 @@ bool skips(Ray ray) {
 }
 
 struct Light {
-  vec3 colour;          // premultiplied
-  float transmittance;
+  real3 colour;          // premultiplied
+  real transmittance;
 };
 
 // One sample at p. `whole`: it stands for a whole step, else for `share` of one.
-void add_sample(inout Light light, Grid grid, Ray ray, vec3 p, bool whole, float steps) {
-  vec4 c = transfer(field(grid, p));
+void add_sample(inout Light light, Grid grid, Ray ray, real3 p, bool whole, real steps) {
+  real4 c = transfer(field(grid, p));
   if (TRI_COUNT == 1) count_samples++;
   if (TRI_SPEED_OF_LIGHT == 1) {
     light.colour += c.rgb;
@@ -290,34 +302,36 @@ void add_sample(inout Light light, Grid grid, Ray ray, vec3 p, bool whole, float
   } else if (c.a > 0.0) {
     if (TRI_COUNT == 1) count_nonzero++;
     if (TRI_SHADING == 1) c.rgb = shade(grid, c.rgb, p, ray.d);
-    float opacity = whole ? tri_opacity_by_form(c.a, steps, TRI_OPACITY_FORM) : tri_opacity(c.a, steps);
-    float weight = light.transmittance * opacity;
+    real opacity = whole ? tri_opacity_by_form(c.a, steps, TRI_OPACITY_FORM) : tri_opacity(c.a, steps);
+    real weight = light.transmittance * opacity;
     light.colour += weight * c.rgb;
     light.transmittance -= weight;
   }
 }
 
+#if TRI_PRECISION == 32
 // The step of the ray from `begin` to `end`, in steps, between whose values the field runs straight; it is
 // `length` voxels long, which is not always what `begin` and `end` say (a planted fault).
-void add_segment(inout Light light, Grid grid, Ray ray, float begin, float end, float front, float back,
-                 float length) {
-  vec4 segment = preintegrated(front, back, length);
+void add_segment(inout Light light, Grid grid, Ray ray, real begin, real end, real front, real back,
+                 real length) {
+  real4 segment = preintegrated(front, back, length);
   if (TRI_COUNT == 1) count_samples++;
   if (segment.a > 0.0) {
     if (TRI_COUNT == 1) count_nonzero++;
     if (TRI_SHADING == 1) {
-      vec3 middle = ray.p0 + (0.5 * (begin + end)) * ray.g;
+      real3 middle = ray.p0 + (0.5 * (begin + end)) * ray.g;
       segment.rgb = segment.a * shade(grid, segment.rgb / segment.a, middle, ray.d);
     }
     light.colour += light.transmittance * segment.rgb;
     light.transmittance -= light.transmittance * segment.a;
   }
 }
+#endif
 
 // How far a ray has got.
 struct March {
   Light light;
-  float front;        // the value where the next step begins; with TRI_PREINTEGRATED only
+  real front;         // the value where the next step begins; with TRI_PREINTEGRATED only
   int i;              // the next sample
   int stop;           // the end of the run of visible samples
   int count;          // the end of the ray; 0 once nothing more is to be taken, as is `stop`
@@ -325,7 +339,7 @@ struct March {
 };
 
 // Ends the ray where nothing behind can be seen any more.
-void end_in_the_dark(inout March m, float enough) {
+void end_in_the_dark(inout March m, real enough) {
   if (TRI_SPEED_OF_LIGHT == 0 && m.light.transmittance < enough) {
     if (TRI_COUNT == 1) count_terminated = 1u;
     m.last_visible = false;
@@ -335,16 +349,18 @@ void end_in_the_dark(inout March m, float enough) {
 }
 
 // The i-th sample or step.
-void advance(inout March m, Grid grid, Ray ray, float step_voxels, float enough) {
+void advance(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
+#if TRI_PRECISION == 32
   if (TRI_PREINTEGRATED == 1) {
-    float end = min(float(m.i + 1), ray.steps);
-    float back = field(grid, ray.p0 + end * ray.g);
-    float length = step_voxels * tri_step_share(ray.steps, m.i);
-    add_segment(m.light, grid, ray, float(m.i), end, m.front, back, length);
+    real end = min(real(m.i + 1), ray.steps);
+    real back = field(grid, ray.p0 + end * ray.g);
+    real length = step_voxels * tri_step_share(ray.steps, m.i);
+    add_segment(m.light, grid, ray, real(m.i), end, m.front, back, length);
     m.front = back;
   }
+#endif
   if (TRI_PREINTEGRATED == 0) {
-    add_sample(m.light, grid, ray, ray.p0 + (float(m.i) + 0.5) * ray.g, true, step_voxels);
+    add_sample(m.light, grid, ray, ray.p0 + (real(m.i) + 0.5) * ray.g, true, step_voxels);
   }
   end_in_the_dark(m, enough);
   ++m.i;
@@ -352,10 +368,10 @@ void advance(inout March m, Grid grid, Ray ray, float step_voxels, float enough)
 
 // The samples of the run as one in the middle of their way (technique::brick_kinds); not before the first of
 // them, which may be the ray's last and stand for little.
-void advance_merged(inout March m, Grid grid, Ray ray, float step_voxels, float enough) {
-  float begin = float(m.i);
-  float end = min(float(m.stop), ray.steps);
-  float middle = max(0.5 * (begin + end), begin + 0.5);
+void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
+  real begin = real(m.i);
+  real end = min(real(m.stop), ray.steps);
+  real middle = max(0.5 * (begin + end), begin + 0.5);
   add_sample(m.light, grid, ray, ray.p0 + middle * ray.g, false, step_voxels * (end - begin));
   m.i = m.stop;
   end_in_the_dark(m, enough);
@@ -371,11 +387,11 @@ void advance_merged(inout March m, Grid grid, Ray ray, float step_voxels, float 
 vec4 raycast(ivec2 pixel) {
   Ray ray = make_ray(pixel);
   Grid grid = load_grid();
-  March m = March(Light(vec3(0.0), 1.0), 0.0, 0, 0, tri_sample_count(ray.steps), false);
-  if (TRI_FAULT == fault_extra_sample && m.count > 0) { m.count += 1; ray.steps = float(m.count); }
+  March m = March(Light(real3(0.0), 1.0), 0.0, 0, 0, tri_sample_count(ray.steps), false);
+  if (TRI_FAULT == fault_extra_sample && m.count > 0) { m.count += 1; ray.steps = real(m.count); }
   int last = m.count - 1;  // the sample that may stand for less than a step: it is taken after the loops
-  float step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
-  float enough = u.ray_right.w;
+  real step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
+  real enough = u.ray_right.w;
   bool skipping = skips(ray);
   Walk walk;
   Leaps leaps;
@@ -393,7 +409,7 @@ vec4 raycast(ivec2 pixel) {
     m.last_visible = m.stop == m.count && m.i < m.stop;
     // A partial step of a straight line is no other work than a whole one: it needs no special place.
     if (TRI_PREINTEGRATED == 0) m.stop = min(m.stop, last);
-    if (TRI_PREINTEGRATED == 1) m.front = field(grid, ray.p0 + float(m.i) * ray.g);
+    if (TRI_PREINTEGRATED == 1) m.front = field(grid, ray.p0 + real(m.i) * ray.g);
     while (m.i < m.stop) {
       advance(m, grid, ray, step_voxels, enough);
 #if TRI_LONG_RAYS
@@ -405,8 +421,8 @@ vec4 raycast(ivec2 pixel) {
     if (TRI_PREINTEGRATED == 0 && m.last_visible) m.count = 0;
   }
   if (TRI_PREINTEGRATED == 0 && m.last_visible) {
-    float steps = step_voxels * tri_step_share(ray.steps, last);
-    add_sample(m.light, grid, ray, ray.p0 + (float(last) + 0.5) * ray.g, false, steps);
+    real steps = step_voxels * tri_step_share(ray.steps, last);
+    add_sample(m.light, grid, ray, ray.p0 + (real(last) + 0.5) * ray.g, false, steps);
     if (TRI_COUNT == 1 && TRI_SPEED_OF_LIGHT == 0 && m.light.transmittance < enough) count_terminated = 1u;
   }
 #if TRI_COUNT
@@ -420,5 +436,5 @@ vec4 raycast(ivec2 pixel) {
   counters[at + 5] = count_terminated;
   counters[at + 6] = uint(total) - count_samples;
 #endif
-  return vec4(m.light.colour, 1.0 - m.light.transmittance) + m.light.transmittance * u.background;
+  return vec4(real4(m.light.colour, 1.0 - m.light.transmittance) + m.light.transmittance * u.background);
 }
