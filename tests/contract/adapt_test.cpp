@@ -113,19 +113,7 @@ TEST(Adapt, V1IsExactWithOneSampleARay) {
       const record::Counts counts = counts_of(device, work);
       // The last step's middle may lie beyond the box, where there is no brick.
       EXPECT_LE(counts.at("samples"), 2 * counts.at("rays_hit"));
-      const core::Image image = draw(device, work);
-      const auto model = volume_suite::error_model(analytic.scene, {});
-      const core::Image bound = reference::render_volume(analytic.scene, model).bound_image();
-      for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-          const auto exact = analytic.exact(x, y);
-          for (std::size_t c = 0; c < 4; ++c) {
-            ASSERT_NEAR(image.pixel(x, y)[c], exact.rgba[c],
-                        exact.model_error + static_cast<double>(bound.pixel(x, y)[c]))
-                << x << ' ' << y;
-          }
-        }
-      }
+      expect_closed_form(device, work, analytic);
     }
   });
 }

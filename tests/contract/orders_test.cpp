@@ -8,6 +8,7 @@
 #include "reference/volume.hpp"
 #include "suites/volume/tolerance.hpp"
 #include "under_test.hpp"
+#include "volume_truth.hpp"
 
 namespace triptych::contract {
 namespace {
@@ -77,19 +78,7 @@ TEST(Orders, V1IsExactForEveryStep) {
     for (const double step : {0.125, 0.3, 1.0, 2.0, 7.7, 100.0}) {
       SCOPED_TRACE(step);
       const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v1_constant, 16, step);
-      const core::Image image = draw(device, work_of(device, analytic.scene));
-      const auto model = volume_suite::error_model(analytic.scene, {});
-      const core::Image bound = reference::render_volume(analytic.scene, model).bound_image();
-      for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-          const auto exact = analytic.exact(x, y);
-          for (std::size_t c = 0; c < 4; ++c) {
-            ASSERT_NEAR(image.pixel(x, y)[c], exact.rgba[c],
-                        exact.model_error + static_cast<double>(bound.pixel(x, y)[c]))
-                << x << ' ' << y;
-          }
-        }
-      }
+      expect_closed_form(device, work_of(device, analytic.scene), analytic);
     }
   });
 }
