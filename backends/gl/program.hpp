@@ -17,6 +17,7 @@ struct Constants {
   int opacity_form = 0;  // technique::opacity_form of the step
   bool preintegrated = false;
   bool leaps = false;
+  bool adapt = false;
   int precision = 32;      // bits of a number: 32 or 64
   bool long_rays = false;  // technique::has_long_rays
 };

@@ -38,7 +38,8 @@ Texture transfer_texture(const Api& gl, const scene::TransferFunction& function)
 
 // One word where nothing is skipped: the kernel is the same and never reads it.
 Buffer brick_buffer(const Api& gl, const measure::VolumeWork& work) {
-  const std::vector<std::int32_t> map = technique::brick_map(work.scene, work.options.skip);
+  const std::vector<std::int32_t> map =
+      technique::brick_map(work.scene, work.options.skip, work.options.adapt);
   return constant_buffer(gl, std::as_bytes(std::span(map)));
 }
 

@@ -111,6 +111,7 @@ Constants constants_of(const measure::VolumeWork& work) {
           work.options.fault == technique::Fault::uncorrected_opacity ? 1 : work.scene.step_voxels),
       .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated,
       .leaps = work.options.skip == technique::Skip::distance,
+      .adapt = work.options.adapt > 0,
       .precision = work.options.precision == technique::Precision::fp64 ? 64 : 32,
       .long_rays = technique::has_long_rays(work.scene)};
 }

@@ -22,6 +22,7 @@ struct Constants {
   bool speed_of_light = false;
   bool preintegrated = false;
   bool leaps = false;  // technique::Skip::distance
+  bool adapt = false;
   technique::Precision precision = technique::Precision::fp32;
   technique::Fault fault = technique::Fault::none;
   int batch = 1;

@@ -5,9 +5,11 @@
 // brick gives it to: no matter for an image to which invisible bricks add nothing, which is the same
 // bit for bit with leaps, with a walk and without bricks. With skip bricks, the build that counts, and
 // speed_of_light, which adds up every colour that it fetches, walk; with skip distance (TRI_LEAPS) all leap.
+// So do all walk where samples are merged by bricks (TRI_ADAPT): a merged one stands for its bricks' way alone.
 //
 // brick_reach: n > 0 where all bricks fewer than n away (the greatest distance along any axis) are
-// visible, n < 0 where all fewer than −n away are invisible (brick_reach.hpp).
+// visible, n < 0 where all fewer than −n away are invisible (brick_reach.hpp). With TRI_ADAPT:
+// technique::BrickKind.
 
 typedef struct {
   real3 p0;    // where the ray enters the box, voxels
@@ -40,7 +42,7 @@ TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {
 // Whether there is anything to skip. The build that counts walks through a full volume too.
 TRI_FN int skips(__constant Parameters* u, __global const int* brick_reach) {
   int4 grid = u->brick_grid;
-  if (TRI_COUNT && !TRI_LEAPS) return grid.w > 0;
+  if (TRI_ADAPT || (TRI_COUNT && !TRI_LEAPS)) return grid.w > 0;
   return grid.w > 0 && brick_reach[0] < max(grid.x, max(grid.y, grid.z));
 }
 
@@ -53,7 +55,7 @@ typedef struct {
   uint terminated;
 } Counts;
 
-#if (TRI_COUNT || TRI_SPEED_OF_LIGHT) && !TRI_LEAPS
+#if (TRI_COUNT || TRI_SPEED_OF_LIGHT || TRI_ADAPT) && !TRI_LEAPS
 
 // A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed
 // from the brick's index, not accumulated, so that they do not drift.
@@ -64,6 +66,7 @@ typedef struct {
   real leave;  // where the ray leaves the brick, steps
   int axis;     // through which face
   int outside;  // rounding led out of the grid: the rest of the ray is taken as visible
+  int merged;   // whether the run found last is one of samples to be merged
 } Walk;
 
 TRI_FN void aim(__constant Parameters* u, Walk* walk, const Ray* ray) {
@@ -84,6 +87,7 @@ TRI_FN Walk start_walk(__constant Parameters* u, const Ray* ray) {
                           ray->g.z < 0.0f ? -1 : 1);
   walk.inverse_g = 1.0f / ray->g;
   walk.outside = 0;
+  walk.merged = 0;
   aim(u, &walk, ray);
   return walk;
 }
@@ -96,11 +100,15 @@ TRI_FN void next_brick(__constant Parameters* u, Walk* walk, const Ray* ray) {
   aim(u, walk, ray);
 }
 
-TRI_FN int visible(__constant Parameters* u, __global const int* brick_reach, const Walk* walk) {
-  if (walk->outside) return 1;
+// Of the walk's brick: technique::BrickKind.
+#define KIND_INVISIBLE 0
+#define KIND_SAMPLED 1
+#define KIND_MERGED 2  // and beyond
+TRI_FN int kind(__constant Parameters* u, __global const int* brick_reach, const Walk* walk) {
+  if (walk->outside) return KIND_SAMPLED;
   int index = walk->brick.x +
               u->brick_grid.x * (walk->brick.y + u->brick_grid.y * walk->brick.z);
-  return brick_reach[index] > 0;
+  return TRI_ADAPT ? brick_reach[index] : brick_reach[index] > 0;
 }
 
 // The first sample at or behind `limit` that lies beyond the brick. A sample within rounding of the
@@ -110,20 +118,25 @@ TRI_FN int samples_before(const Walk* walk, int limit) {
   return clamp((int)tri_ceil(walk->leave - 0.5f), 0, limit);
 }
 
-// Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the
-// ray.
+// Narrows [begin, end) to the next run of visible bricks of one kind at or after begin; empty at the
+// end of the ray. A brick of kind KIND_MERGED itself is a run of its own.
 TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_reach, Walk* walk,
                      const Ray* ray, int begin, int end, Counts* counts) {
-  while (begin < end && !visible(u, brick_reach, walk)) {
+  int here = kind(u, brick_reach, walk);
+  while (begin < end && here == KIND_INVISIBLE) {
     begin = max(begin, samples_before(walk, end));
     next_brick(u, walk, ray);
+    here = kind(u, brick_reach, walk);
     counts->bricks_visited++;
     counts->bricks_skipped++;
   }
   int stop = begin;
-  while (stop < end && visible(u, brick_reach, walk)) {
+  int first = here;
+  walk->merged = first >= KIND_MERGED;
+  while (stop < end && here == first && !(first == KIND_MERGED && stop > begin)) {
     stop = max(stop, samples_before(walk, end));
     next_brick(u, walk, ray);
+    here = kind(u, brick_reach, walk);
     counts->bricks_visited++;
   }
   return (int2)(begin, stop);

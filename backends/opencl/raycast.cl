@@ -5,8 +5,8 @@
 // A batch is fetched and classified whole and composited sample by sample, so a ray may fetch a few
 // samples beyond its end; what is composited and counted is the same for every size of the batch.
 //
-// Compile-time constants: TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, TRI_PREINTEGRATED, TRI_LEAPS, and
-// those of volume.cl.
+// Compile-time constants: TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, TRI_PREINTEGRATED, TRI_LEAPS,
+// TRI_ADAPT, and those of volume.cl.
 
 // Headlight shading (scene::Shading) of a colour at p: d is the world direction of the ray.
 TRI_FN real4 shade(__constant Parameters* u, TRI_VOLUME volume, real4 colour, real3 p,
@@ -119,6 +119,41 @@ TRI_FN int take_batch(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 #endif
 }
 
+#if TRI_ADAPT
+// Takes the samples from the i-th on and before `stop` as one in the middle of their way
+// (technique::brick_kinds), but not before the first of them, which may be the ray's last and stand
+// for little; 1 where the ray ends there.
+TRI_FN int take_merged(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
+                       const Ray* ray, int i, int stop, Gathered* gathered, Counts* counts) {
+  real begin = (real)i;
+  real end = (real)stop < ray->steps ? (real)stop : ray->steps;
+  real along = max(0.5f * (begin + end), begin + 0.5f);
+  real3 middle = ray->p0 + along * ray->g;
+  Positions p;
+  real value[TRI_LANES];
+  real4 colour[TRI_BATCH];
+  real alpha[TRI_BATCH];
+  p.x[0] = middle.x;
+  p.y[0] = middle.y;
+  p.z[0] = middle.z;
+  fetch(u, volume, &p, 1, value);
+  classify(table, value, 1, colour, alpha);
+  counts->samples++;
+  if (alpha[0] > 0.0f) {
+    counts->nonzero++;
+#if TRI_SHADING
+    colour[0] = shade(u, volume, colour[0], middle, ray->d);
+#endif
+    real step_voxels = TRI_FAULT == FAULT_UNCORRECTED_OPACITY ? 1.0f : u->ray_centre.w;
+    real weight = gathered->transmittance * tri_opacity(alpha[0], step_voxels * (end - begin));
+    gathered->sum += weight * colour[0];
+    gathered->transmittance -= weight;
+  }
+  counts->terminated = gathered->transmittance < u->ray_right.w;
+  return (int)counts->terminated;
+}
+#endif
+
 #if TRI_PREINTEGRATED
 // Steps per batch: one value more than steps is fetched.
 #define TRI_STEPS_PER_BATCH (TRI_BATCH > 1 ? TRI_BATCH - 1 : 1)
@@ -206,6 +241,12 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
       i = run.x;
       stop = run.y;
     }
+#if TRI_ADAPT
+    if (walk.merged && i < stop) {
+      ended = take_merged(u, volume, table, &ray, i, stop, &gathered, &counts);
+      i = stop;
+    }
+#endif
     while (i < stop && !ended) {
 #if TRI_PREINTEGRATED
       int n = min(stop - i, TRI_STEPS_PER_BATCH);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "technique/volume/brick_kinds.hpp"
 #include "technique/volume/brick_reach.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/extra_work.hpp"
@@ -21,6 +22,14 @@ const std::vector<std::string_view> source_files{
 constexpr std::size_t group_width = 16;
 constexpr std::size_t group_height = 4;
 
+// Leaps are what skip bricks is timed by, too (ray.cl).
+std::vector<std::int32_t> brick_map(const technique::BrickRanges& ranges,
+                                    const measure::VolumeWork& work) {
+  if (work.options.adapt > 0) return brick_kinds(ranges, work.scene, work.options.adapt);
+  return technique::brick_reach(ranges.counts,
+                                technique::brick_visibility(ranges, work.scene.transfer_function));
+}
+
 }  // namespace
 
 Constants constants_of(const Session& session, const measure::VolumeWork& work) {
@@ -29,6 +38,7 @@ Constants constants_of(const Session& session, const measure::VolumeWork& work) 
           .shading = work.scene.shading.enabled,
           .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated,
           .leaps = work.options.skip == technique::Skip::distance,
+          .adapt = work.options.adapt > 0,
           .precision = work.options.precision,
           .fault = work.options.fault,
           .batch = session.batch};
@@ -47,20 +57,19 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
   const cl::Program counting = programs.get(program_source(source_files), constants.options());
   const VolumeCache::Entry& volume =
       volumes.get(session, *work.scene.grid, constants.sampler,
-                  technique::brick_layout(work.scene, work.options.skip));
+                  technique::brick_layout(work.scene, work.options.skip, work.options.adapt));
   const std::vector<std::byte> parameters = technique::raycast_parameters(
       work.scene, work.options, stored_maximum(constants.voxel, constants.sampler));
   checked([&] {
     volume_ = volume.volume;
     table_ = upload_bytes(session, std::as_bytes(std::span(work.scene.transfer_function.entries)));
-    const auto visible = technique::brick_visibility(volume.ranges, work.scene.transfer_function);
-    const auto reach = technique::brick_reach(volume.ranges.counts, visible);
+    const std::vector<std::int32_t> map = brick_map(volume.ranges, work);
     std::vector<std::array<float, 4>> pairs(1);  // read by nothing with another quadrature
     if (constants.preintegrated) {
       pairs = technique::preintegrated_pairs(work.scene.transfer_function);
     }
     pairs_ = upload_bytes(session, std::as_bytes(std::span(pairs)));
-    bricks_ = upload_bytes(session, std::as_bytes(std::span(reach)));
+    bricks_ = upload_bytes(session, std::as_bytes(std::span(map)));
     const int stride = work.options.extra_work_stride;
     image_ =
         cl::Buffer(session.context, CL_MEM_WRITE_ONLY,

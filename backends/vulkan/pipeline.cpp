@@ -47,9 +47,9 @@ std::string code_hash(std::string_view code, const Constants& constants) {
   std::string text(code);
   text += fmt::format(
       "manual_sampler={} shading={} speed_of_light={} fault={} opacity_form={} "
-      "preintegrated={} leaps={}",
+      "preintegrated={} leaps={} adapt={}",
       constants.manual_sampler, constants.shading, constants.speed_of_light, constants.fault,
-      constants.opacity_form, constants.preintegrated, constants.leaps);
+      constants.opacity_form, constants.preintegrated, constants.leaps, constants.adapt);
   return core::content_hash(text);
 }
 

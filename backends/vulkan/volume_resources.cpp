@@ -40,7 +40,8 @@ Buffer upload_parameters(const Gpu& gpu, const measure::VolumeWork& work) {
 
 Buffer upload_bricks(const Gpu& gpu, const measure::VolumeWork& work) {
   // Read by nothing when nothing is skipped.
-  const std::vector<std::int32_t> map = technique::brick_map(work.scene, work.options.skip);
+  const std::vector<std::int32_t> map =
+      technique::brick_map(work.scene, work.options.skip, work.options.adapt);
   return make_buffer(gpu, std::as_bytes(std::span(map)), vk::BufferUsageFlagBits::eStorageBuffer);
 }
 
@@ -171,7 +172,8 @@ Constants constants_of(const measure::VolumeWork& work) {
                               ? technique::opacity_form(1)
                               : technique::opacity_form(work.scene.step_voxels),
           .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated ? 1 : 0,
-          .leaps = work.options.skip == technique::Skip::distance ? 1 : 0};
+          .leaps = work.options.skip == technique::Skip::distance ? 1 : 0,
+          .adapt = work.options.adapt > 0 ? 1 : 0};
 }
 
 std::string_view raycast_spirv(std::string_view shader, const measure::VolumeWork& work,

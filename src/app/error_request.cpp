@@ -19,13 +19,14 @@
 namespace triptych::app {
 namespace {
 
-constexpr std::array<const char*, 4> chosen_factors{"ert", "quadrature", "skip", "step"};
+constexpr std::array<const char*, 5> chosen_factors{"adapt", "ert", "quadrature", "skip", "step"};
 
 const measure::Factor& factor_of(const measure::Suite& suite, std::string_view name) {
   const auto found = std::ranges::find(suite.factors(), name, &measure::Factor::name);
   if (found == suite.factors().end()) {
-    throw core::InputError(fmt::format(
-        "--error chooses step, quadrature, ert and skip; suite {} has no {}", suite.name(), name));
+    throw core::InputError(
+        fmt::format("--error chooses step, quadrature, ert, skip and adapt; suite {} has no {}",
+                    suite.name(), name));
   }
   return *found;
 }
@@ -69,12 +70,15 @@ measure::Plan plan_within_error(const measure::Plan& plan, measure::SuiteWithTru
   const measure::Factor& ert = factor_of(suite, "ert");
   const double enough =
       std::clamp(rounded_down(judge::termination_share * error), ert.minimum, ert.maximum);
+  const double merged =
+      std::min(rounded_down(judge::merging_share * error), factor_of(suite, "adapt").maximum);
   measure::Plan request = plan;
   request.name = fmt::format("{} within {}", plan.name, error);
   request.configurations.clear();
   request.varied.assign(chosen_factors.begin(), chosen_factors.end());
   std::set<std::string> seen;
   for (measure::Configuration candidate : plan.configurations) {
+    candidate["adapt"] = "0";
     if (!seen.insert(scene_of(suite, candidate)).second) continue;
     if (!suite.missing_data(candidate).empty()) {
       request.configurations.push_back(candidate);  // told of as skipped when it is measured
@@ -106,6 +110,11 @@ measure::Plan plan_within_error(const measure::Plan& plan, measure::SuiteWithTru
         candidate["skip"] = skip;
         request.configurations.push_back(candidate);
       }
+      if (quadrature != "midpoint") continue;  // no other has samples to merge, nor any other skip
+      candidate["skip"] = "bricks";
+      candidate["adapt"] = fmt::format("{}", merged);
+      request.configurations.push_back(candidate);
+      candidate["adapt"] = "0";
     }
     if (!any) {
       throw core::InputError(fmt::format("--error {}: no step of {} is short enough", error,

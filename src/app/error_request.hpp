@@ -12,14 +12,15 @@
 
 namespace triptych::app {
 
-// What the request decides: `step`, `quadrature`, `ert` and `skip`. Whatever the plan says of them
-// is not looked at.
+// What the request decides: `step`, `quadrature`, `ert`, `skip` and `adapt`. Whatever the plan says
+// of them is not looked at.
 //
 // The plan with each of its scenes in these candidates: for every quadrature the longest step that
 // keeps the step's share of the error, by the truth on its lattice against the limit on the same
 // rays – those of the picture at no more than 48 pixels a side – early termination by its own
-// share, and every mode of skipping. Throws InputError for a suite without such factors, for an
-// error that is not positive and for a scene where no step is short enough.
+// share, every mode of skipping, and merged samples where there are any to merge. Throws InputError
+// for a suite without such factors, for an error that is not positive and for a scene where no step
+// is short enough.
 [[nodiscard]] measure::Plan plan_within_error(const measure::Plan& plan,
                                               measure::SuiteWithTruth& suite, double error,
                                               const std::function<void(const std::string&)>& tell);

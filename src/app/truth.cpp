@@ -14,7 +14,7 @@ namespace {
 // loads the data to know that it has not changed.
 std::string memory_key(const record::Record& record) {
   std::string key = record.suite + " " + record.scene;
-  for (const char* factor : {"ert", "voxel", "precision", "ray"}) {
+  for (const char* factor : {"ert", "adapt", "voxel", "precision", "ray"}) {
     const auto found = record.factors.find(factor);
     if (found != record.factors.end()) key += " " + found->second;
   }

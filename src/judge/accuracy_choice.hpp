@@ -11,11 +11,12 @@
 namespace triptych::judge {
 
 // Of a requested error E, root mean square, the step may take 0.7 and early termination 0.25: at
-// transmittance ε it takes at most ε of any channel, so ε = E/4. Both lie the same way in the worst
-// case; what is left is for rounding, storage and for what a coarse picture does not tell of a fine
-// one.
+// transmittance ε it takes at most ε of any channel, so ε = E/4. Merged samples may take a
+// thirty-second, as what pays is nearly free. All lie the same way in the worst case; what is left
+// is for rounding, storage and for what a coarse picture does not tell of a fine one.
 inline constexpr double step_share = 0.7;
 inline constexpr double termination_share = 0.25;
+inline constexpr double merging_share = 1.0 / 32;
 
 struct StepLimits {
   double shortest = 1.0 / 64;

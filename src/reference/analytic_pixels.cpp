@@ -242,6 +242,14 @@ Shell shell_of(const Setting& setting) {
   return {.reach = reach, .inner = 127.5 / 255.0 * reach, .outer = 216.5 / 255.0 * reach};
 }
 
+Wave wave_of(const Setting& setting) {
+  const double length = setting.extent.z;
+  // Of the stored value (½ + 255·g)/256 for an amplitude of 1.
+  const double slope = 255.0 / 256.0 * 0.5 * std::numbers::pi / length * setting.voxel;
+  const double amplitude = std::min(1.0, 0.9 * scene::Shading{}.gradient_floor / slope);
+  return {.length = length, .amplitude = amplitude, .steepest = amplitude * slope};
+}
+
 AnalyticPixel constant_pixel(const Setting& setting, int x, int y) {
   const double length = chord_of(setting, x, y).length();
   // The table's float is taken as the truth, so only the colour's own rounding would be left; it is
@@ -330,6 +338,38 @@ AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
   const auto channels = of_one_colour(setting, depth, 1.0);
   const double error = chord.length() > 0 ? table_error(setting, chord.length()) : 0.0;
   return finish(setting, channels, error);
+}
+
+// Colours are c·(ambient + diffuse·l) + specular·lⁿ, l = |direction · z|·steepest/floor·sin(πz/L):
+// the gradient is that of the wave itself, the model's error what central differences make of it.
+AnalyticPixel wave_pixel(const Setting& setting, int x, int y) {
+  const Chord chord = chord_of(setting, x, y);
+  const Wave wave = wave_of(setting);
+  const scene::Shading light;
+  const double tau = setting.medium.largest;
+  const double length = chord.length();
+  const double k = std::numbers::pi / wave.length;
+  const double phase = k * z_at(setting, chord, chord.begin);
+  const double rate = k * chord.direction.z;
+  const double brightest = std::abs(chord.direction.z) * wave.steepest / light.gradient_floor;
+  std::array<Radiance, 3> channels = of_one_colour(setting, tau, length);
+  const double diffuse = light.diffuse * brightest * v9_lit_wave(tau, 1, phase, rate, length);
+  const double specular = light.specular * std::pow(brightest, light.exponent) *
+                          v9_lit_wave(tau, light.exponent, phase, rate, length);
+  for (std::size_t i = 0; i < 3; ++i) {
+    channels[i].colour =
+        light.ambient * channels[i].colour + diffuse * setting.medium.colour(0.5)[i] + specular;
+  }
+  if (!(length > 0)) return finish(setting, channels, 0.0);
+  const double width = k * setting.layer_z;
+  const double stored = wave.amplitude + 1.0 / 256;
+  const double inside = brightest * width * width * (1.0 / 6.0 + 1.0 / 8.0) +
+                        rounding * stored / light.gradient_floor;
+  const double halves = std::min(length, setting.layer_z / std::abs(chord.direction.z));
+  const double steepness = light.diffuse + light.specular * light.exponent;
+  return finish(setting, channels,
+                steepness * (channels[0].opacity * inside + tau * halves * brightest * width / 2) +
+                    table_error(setting, length));
 }
 
 }  // namespace triptych::reference

@@ -25,6 +25,7 @@ Medium medium_of(AnalyticProblem problem, const Setting& setting) {
   Medium medium;
   switch (problem) {
     case AnalyticProblem::v1_constant:
+    case AnalyticProblem::v9_wave:
       medium = {[=](double) { return 1.5 * depth; }, constant, 1.5 * depth, 0, 0};
       break;
     case AnalyticProblem::v2_ramp:
@@ -86,6 +87,10 @@ double stored_g(AnalyticProblem problem, const Setting& setting, const std::arra
   if (problem == AnalyticProblem::v6_layers) return centre.z < 0.5 * setting.extent.z ? 0.0 : 1.0;
   if (problem == AnalyticProblem::v7_shell) {
     return std::min(1.0, glm::length(centre - 0.5 * setting.extent) / shell_of(setting).reach);
+  }
+  if (problem == AnalyticProblem::v9_wave) {
+    const Wave wave = wave_of(setting);
+    return wave.amplitude * 0.5 * (1.0 - std::cos(std::numbers::pi * centre.z / wave.length));
   }
   if (problem == AnalyticProblem::v8_trilinear) return heights_product(setting, centre);
   if (problem != AnalyticProblem::v4_gaussian) return centre.z / setting.extent.z;
@@ -156,6 +161,8 @@ PixelOf pixel_of(AnalyticProblem problem) {
       return shell_pixel;
     case AnalyticProblem::v8_trilinear:
       return trilinear_pixel;
+    case AnalyticProblem::v9_wave:
+      return wave_pixel;
   }
   return nullptr;
 }
@@ -182,6 +189,8 @@ std::string_view name_of(AnalyticProblem problem) {
       return "v7_shell";
     case AnalyticProblem::v8_trilinear:
       return "v8_trilinear";
+    case AnalyticProblem::v9_wave:
+      return "v9_wave";
   }
   return {};
 }
@@ -191,6 +200,10 @@ std::optional<AnalyticProblem> analytic_problem(std::string_view name) {
     if (name_of(problem) == name) return problem;
   }
   return std::nullopt;
+}
+
+bool is_shaded(AnalyticProblem problem) {
+  return problem == AnalyticProblem::v9_wave;
 }
 
 AnalyticScene analytic_scene(AnalyticProblem problem, const AnalyticOptions& options) {
@@ -217,6 +230,7 @@ AnalyticScene analytic_scene(AnalyticProblem problem, const AnalyticOptions& opt
   analytic.scene.height = options.height;
   analytic.scene.step_voxels = options.step_voxels;
   analytic.scene.background = options.background;
+  analytic.scene.shading.enabled = is_shaded(problem);
   analytic.exact = [setting = std::shared_ptr<const Setting>(std::move(setting)),
                     pixel = pixel_of(problem)](int x, int y) { return pixel(*setting, x, y); };
   return analytic;

@@ -47,6 +47,14 @@ struct Shell {
 };
 [[nodiscard]] Shell shell_of(const Setting& setting);
 
+// v9_wave.
+struct Wave {
+  double length;     // L, half a period
+  double amplitude;  // a: of g from the lowest to the highest
+  double steepest;   // gradient of the stored value per smallest spacing
+};
+[[nodiscard]] Wave wave_of(const Setting& setting);
+
 // Pixel (x, y) by each closed form, composited over the background.
 [[nodiscard]] AnalyticPixel constant_pixel(const Setting& setting, int x, int y);
 [[nodiscard]] AnalyticPixel linear_pixel(const Setting& setting, int x, int y);
@@ -55,5 +63,6 @@ struct Shell {
 [[nodiscard]] AnalyticPixel gaussian_pixel(const Setting& setting, int x, int y);
 [[nodiscard]] AnalyticPixel shell_pixel(const Setting& setting, int x, int y);
 [[nodiscard]] AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y);
+[[nodiscard]] AnalyticPixel wave_pixel(const Setting& setting, int x, int y);
 
 }  // namespace triptych::reference

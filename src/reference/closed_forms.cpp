@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -82,6 +83,36 @@ double v5_atmosphere_depth(double tau0, double scale_height, double z0, double z
 Radiance v6_layers(double tau1, double colour1, double length1, double tau2, double colour2,
                    double length2) {
   return over(v1_constant(tau1, colour1, length1), v1_constant(tau2, colour2, length2));
+}
+
+double v9_difference_factor(double k, double delta) {
+  return std::sin(k * delta) / (k * delta);
+}
+
+namespace {
+
+// ∫ cos(phase + rate·t)·τ·e^(−τt) dt over [0, length].
+double lit_cosine(double tau, double phase, double rate, double length) {
+  const std::complex<double> exponent{-tau, rate};
+  const std::complex<double> integral =
+      std::polar(1.0, phase) * (std::exp(exponent * length) - 1.0) / exponent;
+  return tau * integral.real();
+}
+
+}  // namespace
+
+double v9_lit_wave(double tau, int power, double phase, double rate, double length) {
+  if (power == 1) return lit_cosine(tau, phase - pi / 2, rate, length);
+  // sinⁿx = 2⁻ⁿ·[C(n, n/2) + 2·Σ (−1)ʲ·C(n, n/2 − j)·cos 2jx], j = 1 … n/2.
+  double binomial = 1.0;  // C(n, k)
+  double sum = 0.0;
+  for (int k = 0; k <= power / 2; ++k) {
+    const int j = power / 2 - k;
+    const double cosine = lit_cosine(tau, 2 * j * phase, 2 * j * rate, length);
+    sum += (j % 2 == 0 ? 1.0 : -1.0) * (j == 0 ? 1.0 : 2.0) * binomial * cosine;
+    binomial *= static_cast<double>(power - k) / (k + 1);
+  }
+  return std::ldexp(sum, -power);
 }
 
 double erfcx(double x) {

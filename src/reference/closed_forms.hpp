@@ -2,7 +2,7 @@
 // Rays whose emission–absorption integral is known in closed form:
 //   I = ∫ c·τ·exp(−∫τ) dt,   A = 1 − exp(−∫τ),
 // τ the extinction per unit length (so per whatever unit the lengths below are in), c the straight
-// colour. All are derived from that definition by the substitution named beside them; V1 … V6 are
+// colour. All are derived from that definition by the substitution named beside them; V1 … V9 are
 // the numbers under which the problems are known in this project (Etiene et al. 2014 verify volume
 // renderers by such problems).
 
@@ -53,6 +53,15 @@ struct LinearSegment {
 // V6: two homogeneous layers, the first in front.
 [[nodiscard]] Radiance v6_layers(double tau1, double colour1, double length1, double tau2,
                                  double colour2, double length2);
+
+// V9: what a central difference over Δ to either side makes of the derivative of sin(kx), as a
+// factor: (sin k(x+Δ) − sin k(x−Δ))/2Δ = k·cos(kx) · sin(kΔ)/(kΔ).
+[[nodiscard]] double v9_difference_factor(double k, double delta);
+
+// V9's light: ∫ sinⁿ(phase + rate·t)·τ·e^(−τt) dt over [0, length] for n = 1 or n even, by the
+// Fourier sum of sinⁿ and ∫ e^(i(φ+ωt))·e^(−τt) dt = e^(iφ)·(e^((iω−τ)·length) − 1)/(iω − τ). τ >
+// 0.
+[[nodiscard]] double v9_lit_wave(double tau, int power, double phase, double rate, double length);
 
 // Scaled complementary error function e^(x²)·erfc(x), x ≥ 0.
 [[nodiscard]] double erfcx(double x);

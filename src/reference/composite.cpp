@@ -32,14 +32,15 @@ bool Compositor::add(const Looked& looked, const StepOpacity& opacity) {
   largest_ = std::min(largest_ * (1.0 - opacity.lo) + rounding, 1.0);
   smallest_ = std::max(smallest_ * (1.0 - opacity.hi) - rounding, 0.0);
   const std::size_t index = samples_.size() - 1;
-  if (first_stop_ == never && smallest_ < model_.ert) first_stop_ = index;
-  if (last_stop_ == never && largest_ < model_.ert) last_stop_ = index;
+  if (first_stop_ == never && smallest_ - model_.adapt < model_.ert) first_stop_ = index;
+  if (last_stop_ == never && largest_ < model_.ert && model_.adapt == 0) last_stop_ = index;
   return largest_ > invisible;
 }
 
 Pixel Compositor::finish() const {
   Pixel pixel;
   pixel.rgba = background_;
+  pixel.bound = model_.adapt;
   if (samples_.empty()) return pixel;
   std::array<double, 4> error{};
   std::array<double, 4> lost{};
@@ -54,8 +55,9 @@ Pixel Compositor::finish() const {
       const double colour_error = channel < 3 ? sample.colour_error[channel] : 0.0;
       const double behind = pixel.rgba[channel];
       if (may_stop_here) {
-        const double left = std::min(sample.front * (1.0 - opacity_lo), model_.ert);
-        lost[channel] = std::max(lost[channel], left * std::abs(behind - background_[channel]));
+        const double left = std::min(sample.front * (1.0 - opacity_lo) + model_.adapt, model_.ert);
+        const double unseen = std::abs(behind - background_[channel]) + model_.adapt;
+        lost[channel] = std::max(lost[channel], left * unseen);
       }
       // A rounded transmittance scales what lies behind; opacity is one minus the transmittance
       // left, so there it scales what is not covered, and no sum of small weights absorbs it.
@@ -74,7 +76,7 @@ Pixel Compositor::finish() const {
   for (std::size_t channel = 0; channel < 4; ++channel) {
     const double rounding = model_.compositing_error * sums *
                             (std::abs(pixel.rgba[channel]) + error[channel] + lost[channel]);
-    const double computed = error[channel] + lost[channel] + rounding;
+    const double computed = error[channel] + lost[channel] + rounding + model_.adapt;
     const double stored = model_.output_error * (std::abs(pixel.rgba[channel]) + computed);
     pixel.bound = std::max(pixel.bound, computed + stored);
   }

@@ -45,7 +45,9 @@ class Compositor {
   std::vector<Sample> samples_;
   double largest_ = 1;   // of the transmittance a device may have reached …
   double smallest_ = 1;  // … and the smallest
-  // A device with early termination stops behind one of the samples first_stop_ … last_stop_.
+  // A device with early termination stops behind one of the samples first_stop_ … last_stop_. One
+  // that takes samples together has a transmittance that is off by as much as the picture, may stop
+  // as early as that allows, and as late as its last sample.
   std::size_t first_stop_ = 0;
   std::size_t last_stop_ = 0;
 };

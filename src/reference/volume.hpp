@@ -21,8 +21,9 @@ struct ErrorModel {
   double compositing_error = 0;    // of each multiply–add into colour and transmittance, relative
                                    // and of each operation of shading
   double ert = 0;                  // ε at which a device may stop
-  double output_error = 0;         // of a finished channel, relative: where it is stored coarser
-                                   // than it was computed
+  double adapt = 0;         // how far it may move any channel by taking samples together, absolute
+  double output_error = 0;  // of a finished channel, relative: where it is stored coarser
+                            // than it was computed
 };
 
 struct Truth {

@@ -54,6 +54,9 @@ const std::vector<Factor>& volume_factors() {
       number("ert", 0, 0.5, "0.001953125", Decides::how_it_is_made,
              "transmittance below which a ray ends; 0: never. The default is half an 8-bit step",
              {std::string(own_level)}),
+      number("adapt", 0, 0.5, "0", Decides::how_it_is_made,
+             "error that may be spent on taking the samples of a nearly homogeneous brick as one; "
+             "needs skip bricks"),
       choice("precision", {"fp32", "fp64"}, "fp32", Decides::how_it_is_made,
              "what rays, interpolation and compositing are computed in; fp64 needs sampler manual, "
              "which auto then is"),

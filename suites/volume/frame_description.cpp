@@ -17,21 +17,23 @@ Json shading_json(const scene::Shading& shading) {
 
 }  // namespace
 
-Json describe_frame(const scene::VolumeScene& scene, double ert) {
+Json describe_frame(const scene::VolumeScene& scene, double ert, double adapt) {
   const scene::VoxelGrid& grid = *scene.grid;
-  return {{"viewport", {scene.width, scene.height}},
-          {"camera", measure::camera_json(scene.camera)},
-          {"volume",
-           {{"size", grid.size},
-            {"spacing", grid.spacing},
-            {"range", {grid.range_lo, grid.range_hi}},
-            {"step_voxels", scene.step_voxels},
-            {"quadrature",
-             scene.quadrature == scene::Quadrature::preintegrated ? "preintegrated" : "midpoint"},
-            {"transfer_function", scene.transfer_function.entries},
-            {"background", scene.background},
-            {"ert", ert},
-            {"shading", shading_json(scene.shading)}}}};
+  Json frame{{"viewport", {scene.width, scene.height}},
+             {"camera", measure::camera_json(scene.camera)},
+             {"volume",
+              {{"size", grid.size},
+               {"spacing", grid.spacing},
+               {"range", {grid.range_lo, grid.range_hi}},
+               {"step_voxels", scene.step_voxels},
+               {"quadrature", scene.quadrature == scene::Quadrature::preintegrated ? "preintegrated"
+                                                                                   : "midpoint"},
+               {"transfer_function", scene.transfer_function.entries},
+               {"background", scene.background},
+               {"ert", ert},
+               {"shading", shading_json(scene.shading)}}}};
+  if (adapt > 0) frame["volume"]["adapt"] = adapt;
+  return frame;
 }
 
 }  // namespace triptych::volume_suite

@@ -6,7 +6,8 @@
 namespace triptych::volume_suite {
 
 // "viewport", "camera" and "volume" of frame.json: everything from which another program can draw
-// the same frame.
-[[nodiscard]] nlohmann::json describe_frame(const scene::VolumeScene& scene, double ert);
+// the same frame. "adapt" where it is not 0.
+[[nodiscard]] nlohmann::json describe_frame(const scene::VolumeScene& scene, double ert,
+                                            double adapt);
 
 }  // namespace triptych::volume_suite

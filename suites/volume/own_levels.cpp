@@ -24,6 +24,10 @@ double OwnLevels::ert() const {
   return is_stress("ert") ? stress_->ert : measure::as_number({{"ert", value("ert")}}, "ert");
 }
 
+double OwnLevels::adapt() const {
+  return measure::as_number(configuration_, "adapt");
+}
+
 bool OwnLevels::shaded() const {
   return is_stress("shading") ? stress_->shaded : value("shading") == "gradient";
 }

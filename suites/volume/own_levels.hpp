@@ -21,6 +21,7 @@ class OwnLevels {
 
   [[nodiscard]] double step() const;
   [[nodiscard]] double ert() const;
+  [[nodiscard]] double adapt() const;
   [[nodiscard]] bool shaded() const;
   [[nodiscard]] scene::Quadrature quadrature() const;
   [[nodiscard]] std::array<int, 2> viewport() const;

@@ -170,13 +170,14 @@ measure::Work VolumeSuite::work(Configuration& configuration, const measure::Dev
   }
   configuration["voxel"] = scene::name_of(path.voxel);
   configuration["sampler"] = technique::name_of(path.sampler);
-  return {
-      .technique = configuration.at("technique"),
-      .scene = measure::VolumeWork{.scene = scene(configuration, loaded),
-                                   .options = {.sampler = path.sampler,
-                                               .skip = technique::skip(configuration.at("skip")),
-                                               .ert = levels_of(configuration, loaded.stress).ert(),
-                                               .precision = precision}}};
+  return {.technique = configuration.at("technique"),
+          .scene = measure::VolumeWork{
+              .scene = scene(configuration, loaded),
+              .options = {.sampler = path.sampler,
+                          .skip = technique::skip(configuration.at("skip")),
+                          .ert = levels_of(configuration, loaded.stress).ert(),
+                          .adapt = levels_of(configuration, loaded.stress).adapt(),
+                          .precision = precision}}};
 }
 
 measure::Work VolumeSuite::calibration(technique::Work kind) {
@@ -220,6 +221,7 @@ VolumeSuite::Judged VolumeSuite::judged(const Configuration& configuration,
   const auto probed = precision.find("filter_weight_error");
   const reference::ErrorModel model =
       error_model(pictured, {.ert = levels_of(configuration, loaded.stress).ert(),
+                             .adapt = levels_of(configuration, loaded.stress).adapt(),
                              .filter_weight_error = probed == precision.end() ? 0 : probed->second,
                              .storage_step = storage_step(configuration, loaded.native),
                              .precision = technique::precision(configuration.at("precision"))});
@@ -241,18 +243,19 @@ std::string VolumeSuite::truth_key(const Configuration& configuration,
                   reference::volume_version, pictured.grid->hash, model.position_error_voxels,
                   model.value_error, model.filter_weight_error, model.table_error,
                   model.opacity_error, model.compositing_error, model.ert);
+  if (model.adapt > 0) key += fmt::format(" adapt {:a}", model.adapt);
   if (model.output_error > 0) key += fmt::format(" output {:a}", model.output_error);
   // What a stress case brings besides is not among the factors.
   if (stress_data(configuration.at("data"))) {
-    key += " frame " + core::content_hash(describe_frame(pictured, model.ert).dump());
+    key += " frame " + core::content_hash(describe_frame(pictured, model.ert, model.adapt).dump());
   }
   return key;
 }
 
 nlohmann::json VolumeSuite::describe(const Configuration& configuration) {
   const Loaded& loaded = load_as_it_is(configuration);
-  return describe_frame(scene(configuration, loaded),
-                        levels_of(configuration, loaded.stress).ert());
+  return describe_frame(scene(configuration, loaded), levels_of(configuration, loaded.stress).ert(),
+                        levels_of(configuration, loaded.stress).adapt());
 }
 
 std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& configuration) {
@@ -265,6 +268,7 @@ std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& 
   if (configuration.at("skip") == "distance") {
     result.insert(result.end(), stress->when_leaping.begin(), stress->when_leaping.end());
   }
+  if (levels_of(configuration, stress).adapt() > 0) return result;  // near them, not these bits
   result.push_back({"the bits of the picture without skipping",
                     record::SamePicture{.changed = {{"skip", "none"}}}});
   return result;
@@ -292,8 +296,10 @@ measure::Limit VolumeSuite::limit(const Configuration& configuration) {
 std::optional<core::Image> VolumeSuite::closed_form(const Configuration& configuration) {
   const auto analytic = analytic_data(configuration.at("data"));
   const bool own = configuration.at("transfer_function") == own_transfer_function;
-  if (!analytic || !own || configuration.at("shading") != "none") return std::nullopt;
-  return analytic_picture(*analytic, scene(configuration, load_as_it_is(configuration)));
+  if (!analytic || !own) return std::nullopt;
+  const scene::VolumeScene pictured = scene(configuration, load_as_it_is(configuration));
+  if (pictured.shading.enabled != reference::is_shaded(analytic->problem)) return std::nullopt;
+  return analytic_picture(*analytic, pictured);
 }
 
 }  // namespace

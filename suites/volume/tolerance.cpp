@@ -72,6 +72,7 @@ reference::ErrorModel error_model(const scene::VolumeScene& scene, const PathPre
                        u,
       .compositing_error = 4 * u,
       .ert = path.ert,
+      .adapt = path.adapt,
       .output_error = fp64 ? 2 * float_roundoff : 0,
   };
 }

@@ -11,6 +11,7 @@ namespace triptych::volume_suite {
 // What of a path decides its precision.
 struct PathPrecision {
   double ert = 0;                  // ε at which rays may end
+  double adapt = 0;                // what merged samples may cost (technique::brick_kinds)
   double filter_weight_error = 0;  // of the device's sampler, as probed (measure::Device)
   double storage_step = 0;  // normalised value per step of a voxel format too small for the data
   technique::Precision precision = technique::Precision::fp32;
@@ -50,6 +51,10 @@ struct PathPrecision {
 //   step 2u: 14u. Preintegrated: the logarithm's mean (8u and 3u of its series), a piece's length
 //   (share 2u, division by the difference of two positions 4u, product 2u), the exponential 8u, and
 //   three pieces put together, 1u each for product and sum: 32u.
+// adapt. Itself: technique/volume/brick_kinds.hpp derives it between two pictures of one device,
+// and
+//   the one without is what all other terms are about. A merged sample's own arithmetic is theirs:
+//   the exponent of its opacity has the same two factors, and its number is one of many.
 // compositing, relative per sample. weight u, product u, sum u, transmittance u: 4u.
 //
 // Precision fp64: the same counts, as the kernels are the same text, with u = 2⁻⁵². That is twice

@@ -1,5 +1,5 @@
-// V1–V7 on real devices: the closed forms at the order of convergence that the quadrature must
-// show.
+// V1–V7 and V9 on real devices: the closed forms at the order of convergence that the quadrature
+// must show.
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "reference/volume.hpp"
 #include "suites/volume/tolerance.hpp"
 #include "under_test.hpp"
+#include "volume_truth.hpp"
 
 namespace triptych::contract {
 namespace {
@@ -44,21 +45,21 @@ double rms_error(const core::Image& image, const Exact& exact) {
   return std::sqrt(sum / (4.0 * static_cast<double>(image.pixel_count())));
 }
 
-// Least-squares slope of log error over log step.
-double fitted_order(const std::vector<double>& errors) {
+// Least-squares slope of log error over log size, of the step or of the voxels.
+double fitted_order(const std::vector<double>& sizes, const std::vector<double>& errors) {
   double sx = 0;
   double sy = 0;
   double sxx = 0;
   double sxy = 0;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double x = std::log(steps[i]);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double x = std::log(sizes[i]);
     const double y = std::log(errors[i]);
     sx += x;
     sy += y;
     sxx += x * x;
     sxy += x * y;
   }
-  const auto n = static_cast<double>(steps.size());
+  const auto n = static_cast<double>(sizes.size());
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
@@ -69,7 +70,7 @@ double order_on(measure::Device& device, AnalyticProblem problem, int size) {
     const core::Image image = draw(device, work_of(device, analytic.scene));
     errors.push_back(rms_error(image, [&](int x, int y) { return analytic.exact(x, y).rgba; }));
   }
-  return fitted_order(errors);
+  return fitted_order(steps, errors);
 }
 
 TEST(Orders, V1IsExactForEveryStep) {
@@ -77,19 +78,7 @@ TEST(Orders, V1IsExactForEveryStep) {
     for (const double step : {0.125, 0.3, 1.0, 2.0, 7.7, 100.0}) {
       SCOPED_TRACE(step);
       const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v1_constant, 16, step);
-      const core::Image image = draw(device, work_of(device, analytic.scene));
-      const auto model = volume_suite::error_model(analytic.scene, {});
-      const core::Image bound = reference::render_volume(analytic.scene, model).bound_image();
-      for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-          const auto exact = analytic.exact(x, y);
-          for (std::size_t c = 0; c < 4; ++c) {
-            ASSERT_NEAR(image.pixel(x, y)[c], exact.rgba[c],
-                        exact.model_error + static_cast<double>(bound.pixel(x, y)[c]))
-                << x << ' ' << y;
-          }
-        }
-      }
+      expect_closed_form(device, work_of(device, analytic.scene), analytic);
     }
   });
 }
@@ -113,7 +102,7 @@ double order_against_limit(measure::Device& device, AnalyticProblem problem, int
     errors.push_back(rms_error(draw(device, work_of(device, analytic.scene)),
                                [&](int x, int y) { return exact.pixel(x, y); }));
   }
-  return fitted_order(errors);
+  return fitted_order(steps, errors);
 }
 
 TEST(Orders, V4IsOfSecondOrder) {
@@ -127,6 +116,45 @@ TEST(Orders, V7IsLimitedByItsFaces) {
     const double order = order_against_limit(device, AnalyticProblem::v7_shell, 24);
     EXPECT_GT(order, 0.4);
     EXPECT_LT(order, 1.8);
+  });
+}
+
+// The shaded picture of a device against the wave's own gradient: as far as its lattice is from the
+// limit of the step, its bound from the lattice, and central differences from the gradient.
+double wave_error_on(measure::Device& device, int size) {
+  const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v9_wave, size, 0.25);
+  constexpr double tolerance = 1e-7;
+  const core::Image image = draw(device, work_of(device, analytic.scene));
+  const core::Image limit = reference::render_volume_converged(analytic.scene, tolerance).image();
+  const reference::Truth truth =
+      reference::render_volume(analytic.scene, volume_suite::error_model(analytic.scene, {}));
+  const core::Image lattice = truth.image();
+  const core::Image bound = truth.bound_image();
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const auto exact = analytic.exact(x, y);
+      for (std::size_t c = 0; c < 4; ++c) {
+        const auto step =
+            static_cast<double>(std::abs(lattice.pixel(x, y)[c] - limit.pixel(x, y)[c]));
+        EXPECT_NEAR(
+            image.pixel(x, y)[c], exact.rgba[c],
+            exact.model_error + step + tolerance + static_cast<double>(bound.pixel(x, y)[c]))
+            << x << ' ' << y;
+      }
+    }
+  }
+  return rms_error(image, [&](int x, int y) { return analytic.exact(x, y).rgba; });
+}
+
+TEST(Orders, V9GradientIsOfSecondOrderInTheVoxelSize) {
+  on_every_device([](measure::Device& device) {
+    std::vector<double> spacings;
+    std::vector<double> errors;
+    for (const int size : {8, 16, 32}) {
+      spacings.push_back(1.0 / size);
+      errors.push_back(wave_error_on(device, size));
+    }
+    EXPECT_GE(fitted_order(spacings, errors), 1.9);
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "reference/analytic_scenes.hpp"
 #include "reference/volume.hpp"
 #include "suites/volume/tolerance.hpp"
 #include "under_test.hpp"
@@ -15,6 +16,7 @@ inline void expect_within_bound(measure::Device& device, const measure::Work& wo
   const measure::VolumePath path{volume.scene.grid->format, volume.options.sampler};
   const volume_suite::PathPrecision precision{
       .ert = volume.options.ert,
+      .adapt = volume.options.adapt,
       .filter_weight_error = device.filter_weight_error(path),
       .precision = volume.options.precision};
   const reference::Truth truth =
@@ -23,6 +25,25 @@ inline void expect_within_bound(measure::Device& device, const measure::Work& wo
   for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
     ASSERT_LE(std::abs(static_cast<double>(image.rgba[i]) - truth.rgba[i]), truth.bound[i / 4])
         << "pixel " << i / 4 % 64 << ' ' << i / 4 / 64 << " channel " << i % 4;
+  }
+}
+
+// Every channel of every pixel of `work`, a scene's picture, within its closed form's own error and
+// the bound of fp32, without early termination.
+inline void expect_closed_form(measure::Device& device, const measure::Work& work,
+                               const reference::AnalyticScene& analytic) {
+  const core::Image image = draw(device, work);
+  const auto model = volume_suite::error_model(analytic.scene, {});
+  const core::Image bound = reference::render_volume(analytic.scene, model).bound_image();
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const auto exact = analytic.exact(x, y);
+      for (std::size_t c = 0; c < 4; ++c) {
+        ASSERT_NEAR(image.pixel(x, y)[c], exact.rgba[c],
+                    exact.model_error + static_cast<double>(bound.pixel(x, y)[c]))
+            << x << ' ' << y;
+      }
+    }
   }
 }
 

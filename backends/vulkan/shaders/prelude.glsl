@@ -10,3 +10,4 @@ layout(constant_id = 4) const int opacity_form = 0;
 #define TRI_OPACITY_FORM opacity_form
 layout(constant_id = 5) const int TRI_PREINTEGRATED = 0;
 layout(constant_id = 6) const int TRI_LEAPS = 0;
+layout(constant_id = 7) const int TRI_ADAPT = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "technique/volume/brick_kinds.hpp"
 #include "technique/volume/brick_reach.hpp"
 
 namespace triptych::technique {
@@ -22,9 +23,10 @@ Span with_border(int b, int n, const BrickLayout& layout) {
 
 }  // namespace
 
-BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip) {
+BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip, double adapt) {
   BrickLayout layout;
   if (skip == Skip::distance) layout = {.edge = 2, .border = 0, .of_cells = true};
+  if (adapt > 0 && scene.shading.enabled) layout.border += 1;
   if (scene.quadrature == scene::Quadrature::preintegrated) {
     const double half = scene.step_voxels / 2;
     const double farther = layout.of_cells ? std::ceil(half) : std::floor(half + 0.75);
@@ -104,9 +106,10 @@ std::vector<std::uint32_t> brick_visibility(const BrickRanges& ranges,
   return visible;
 }
 
-std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip) {
+std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip, double adapt) {
   if (skip == Skip::none) return {1};
-  const BrickRanges ranges = brick_ranges(*scene.grid, brick_layout(scene, skip));
+  const BrickRanges ranges = brick_ranges(*scene.grid, brick_layout(scene, skip, adapt));
+  if (adapt > 0) return brick_kinds(ranges, scene, adapt);
   const auto visible = brick_visibility(ranges, scene.transfer_function);
   if (skip == Skip::distance) return brick_reach(ranges.counts, visible);
   return {visible.begin(), visible.end()};

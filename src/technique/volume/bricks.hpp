@@ -31,7 +31,10 @@ struct BrickLayout {
 //   be: a midpoint sample reads their own voxels alone, a preintegrated step ⌈s/2⌉ beyond. A sample
 //   that rounding takes across a face reads others with a weight of that rounding, at most 1e-3,
 //   which is less than the table entry by which visibility is widened.
-[[nodiscard]] BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip);
+// `adapt` (RaycastOptions): shading reads one voxel farther, and what it reads has to lie in the
+//   range as well where samples are merged.
+[[nodiscard]] BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip,
+                                       double adapt = 0);
 
 [[nodiscard]] std::array<int, 3> brick_counts(const std::array<int, 3>& size,
                                               const BrickLayout& layout);
@@ -50,8 +53,9 @@ struct BrickRanges {
 [[nodiscard]] std::vector<std::uint32_t> brick_visibility(const BrickRanges& ranges,
                                                           const scene::TransferFunction& function);
 
-// What the kernels are given: 1 or 0 per brick for Skip::bricks, brick_reach for Skip::distance;
-// one word that nothing reads for Skip::none.
-[[nodiscard]] std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip);
+// What the kernels are given: 1 or 0 per brick for Skip::bricks, or with `adapt` brick_kinds;
+// brick_reach for Skip::distance; one word that nothing reads for Skip::none.
+[[nodiscard]] std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip,
+                                                  double adapt = 0);
 
 }  // namespace triptych::technique

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "technique/volume/brick_kinds.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/extra_work.hpp"
 
@@ -119,6 +120,7 @@ std::optional<std::string> raycast_reason(std::string_view technique,
     return "speed_of_light bounds the midpoint rule: its fetches and look-ups are not those of "
            "quadrature preintegrated";
   }
+  if (auto reason = adapt_reason(technique, scene, options)) return reason;
   if (options.precision == Precision::fp32) return std::nullopt;
   if (technique == "speed_of_light") {
     return "speed_of_light bounds precision fp32: it fetches, and computes nothing of note";

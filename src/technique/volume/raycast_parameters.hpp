@@ -44,6 +44,7 @@ struct RaycastOptions {
   Sampler sampler = Sampler::manual;
   Skip skip = Skip::bricks;
   double ert = 1.0 / 512;  // stop below this transmittance; 0: never
+  double adapt = 0;        // error that merging samples within bricks may make (brick_kinds.hpp)
   Precision precision = Precision::fp32;
   Fault fault = Fault::none;
   // 1/extra_work_stride of the image is drawn a second time (volume/extra_work.hpp): a planted

@@ -130,6 +130,34 @@ TEST(ClosedForms, LayersDependOnTheirOrder) {
   EXPECT_NEAR(behind.opacity, front.opacity, 1e-15);
 }
 
+TEST(ClosedForms, DifferenceFactorIsThatOfASine) {
+  for (const double k : {0.1, 1.0, 3.0}) {
+    for (const double delta : {0.01, 0.5, 1.0}) {
+      const double x = 0.7;
+      const double difference =
+          (std::sin(k * (x + delta)) - std::sin(k * (x - delta))) / (2 * delta);
+      EXPECT_NEAR(v9_difference_factor(k, delta), difference / (k * std::cos(k * x)), 1e-13);
+    }
+  }
+}
+
+TEST(ClosedForms, LitWaveMatchesQuadrature) {
+  for (const int power : {1, 2, 16}) {
+    for (const double tau : {0.05, 1.0, 9.0}) {
+      for (const double rate : {-1.3, 0.0, 0.2}) {
+        const double phase = 1.4;
+        const double numeric = quadrature(
+            [&](double t) {
+              return std::pow(std::sin(phase + rate * t), power) * tau * std::exp(-tau * t);
+            },
+            0, 2.0);
+        EXPECT_NEAR(v9_lit_wave(tau, power, phase, rate, 2.0), numeric, 1e-13)
+            << power << ' ' << tau << ' ' << rate;
+      }
+    }
+  }
+}
+
 TEST(ClosedForms, ScaledErfcMatchesQuadrature) {
   // erfcx(x) = 2/√π·∫₀^∞ e^(−s² − 2xs) ds
   for (const double x : {0.0, 0.3, 1.0, 1.999, 2.0, 3.0, 5.0, 12.0, 1e3, 1e8}) {

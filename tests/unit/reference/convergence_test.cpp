@@ -132,6 +132,17 @@ TEST(Convergence, BlobIsOfSecondOrderInTheVoxelSize) {
   EXPECT_GE(fitted_order(sizes, errors), 1.9);
 }
 
+TEST(Convergence, AWaveIsOfSecondOrderInTheVoxelSize) {
+  std::vector<double> sizes;
+  std::vector<double> errors;
+  for (const int size : {16, 32, 64}) {
+    const AnalyticScene analytic = analytic_scene(AnalyticProblem::v9_wave, options(size));
+    sizes.push_back(1.0 / size);
+    errors.push_back(difference(analytic, render_volume_converged(analytic.scene, 1e-7)).rms);
+  }
+  EXPECT_GE(fitted_order(sizes, errors), 1.95);
+}
+
 TEST(Convergence, LayersAreLimitedByTheirEdge) {
   const double order = order_against_closed_form(AnalyticProblem::v6_layers, 12);
   EXPECT_GT(order, 0.4);

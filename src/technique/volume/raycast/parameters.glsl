@@ -1,6 +1,6 @@
 // Mirrors technique::RaycastParameters (raycast_parameters.hpp), where the meaning of each field stands.
 // The backend's prelude defines TRI_BINDING(n) and the compile-time constants
-//   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT, TRI_PREINTEGRATED, TRI_LEAPS (integers),
+//   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT, TRI_PREINTEGRATED, TRI_LEAPS, TRI_ADAPT (integers),
 // which may be specialization constants, and the macros TRI_PRECISION (bits of a `real`: 32 or 64), TRI_COUNT (0 or 1)
 // and TRI_LONG_RAYS (0 or 1: technique::has_long_rays). Where it also defines the macro TRI_OPACITY_FORM, that is
 // technique::opacity_form of the step.
@@ -23,7 +23,8 @@ layout(std140) TRI_BINDING(0) uniform Parameters {
 
 TRI_BINDING(1) uniform sampler3D volume_texture;
 TRI_BINDING(2) uniform sampler1D transfer_texture;  // 256 RGBA32F entries, read by texelFetch
-// 1 for a visible brick, 0 for another; with TRI_LEAPS what technique::brick_reach says of it.
+// 1 for a visible brick, 0 for another; with TRI_LEAPS what technique::brick_reach says of it, with TRI_ADAPT its
+// technique::BrickKind.
 layout(std430) TRI_BINDING(3) readonly buffer Bricks { int brick_visible[]; };
 // Read with TRI_PREINTEGRATED only: technique::preintegrated_pairs.
 layout(std430) TRI_BINDING(6) readonly buffer Pairs { vec4 pairs[]; };

@@ -146,6 +146,7 @@ struct Walk {
   real3 at;         // where the ray crosses the brick's far face of each axis, steps
   real leave;       // where it leaves the brick: the least of them
   bool visible;     // also true outside the grid, where rounding can lead: that rest of a ray is sampled
+  int kind;         // technique::BrickKind of a visible brick, with TRI_ADAPT
   bool outside;
   ivec3 size;       // bricks per axis
 };
@@ -157,7 +158,9 @@ void enter(inout Walk walk) {
   // As unsigned numbers, negative indices are beyond the end too.
   walk.outside = any(greaterThanEqual(uvec3(walk.brick), uvec3(size)));
   int index = walk.brick.x + size.x * (walk.brick.y + size.y * walk.brick.z);
-  walk.visible = walk.outside || brick_visible[walk.outside ? 0 : index] != 0;
+  int kind = walk.outside ? 1 : brick_visible[walk.outside ? 0 : index];
+  walk.visible = kind != 0;
+  walk.kind = TRI_ADAPT == 1 ? kind : 1;
 }
 
 Walk start_walk(Ray ray) {
@@ -189,15 +192,18 @@ int samples_before(Walk walk, int limit) {
   return walk.outside || !(walk.leave < real(limit)) ? limit : clamp(int(ceil(walk.leave - 0.5)), 0, limit);
 }
 
-// Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the ray.
-ivec2 next_run(inout Walk walk, int begin, int end) {
+// Narrows [begin, end) to the next run of visible bricks of one kind at or after begin; empty at the end of the
+// ray. `merged`: the run is to be taken as one sample. A brick of kind 2 is a run of its own.
+ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
   while (begin < end && !walk.visible) {
     begin = max(begin, samples_before(walk, end));
     next_brick(walk);
     if (TRI_COUNT == 1) { count_bricks_visited++; count_bricks_skipped++; }
   }
   int stop = begin;
-  while (stop < end && walk.visible) {
+  int kind = walk.kind;
+  merged = kind >= 2;
+  while (stop < end && walk.visible && walk.kind == kind && !(kind == 2 && stop > begin)) {
     stop = max(stop, samples_before(walk, end));
     next_brick(walk);
     if (TRI_COUNT == 1) count_bricks_visited++;
@@ -332,6 +338,16 @@ struct March {
   bool last_visible;  // the ray's last sample lies in the run
 };
 
+// Ends the ray where nothing behind can be seen any more.
+void end_in_the_dark(inout March m, real enough) {
+  if (TRI_SPEED_OF_LIGHT == 0 && m.light.transmittance < enough) {
+    if (TRI_COUNT == 1) count_terminated = 1u;
+    m.last_visible = false;
+    m.stop = 0;
+    m.count = 0;
+  }
+}
+
 // The i-th sample or step.
 void advance(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
 #if TRI_PRECISION == 32
@@ -346,13 +362,19 @@ void advance(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
   if (TRI_PREINTEGRATED == 0) {
     add_sample(m.light, grid, ray, ray.p0 + (real(m.i) + 0.5) * ray.g, true, step_voxels);
   }
-  if (TRI_SPEED_OF_LIGHT == 0 && m.light.transmittance < enough) {
-    if (TRI_COUNT == 1) count_terminated = 1u;
-    m.last_visible = false;
-    m.stop = 0;
-    m.count = 0;
-  }
+  end_in_the_dark(m, enough);
   ++m.i;
+}
+
+// The samples of the run as one in the middle of their way (technique::brick_kinds); not before the first of
+// them, which may be the ray's last and stand for little.
+void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
+  real begin = real(m.i);
+  real end = min(real(m.stop), ray.steps);
+  real middle = max(0.5 * (begin + end), begin + 0.5);
+  add_sample(m.light, grid, ray, ray.p0 + middle * ray.g, false, step_voxels * (end - begin));
+  m.i = m.stop;
+  end_in_the_dark(m, enough);
 }
 
 // Premultiplied RGBA of the pixel. Three habits of compilers for CPUs shape these loops. They run a block
@@ -377,11 +399,13 @@ vec4 raycast(ivec2 pixel) {
   if (skipping && TRI_LEAPS == 1) leaps = make_leaps(ray);
   while (m.i < m.count) {
     m.stop = m.count;
+    bool merged = false;
     if (skipping) {
-      ivec2 run = TRI_LEAPS == 1 ? next_run_by_leaps(leaps, ray, m.i, m.count) : next_run(walk, m.i, m.count);
+      ivec2 run = TRI_LEAPS == 1 ? next_run_by_leaps(leaps, ray, m.i, m.count) : next_run(walk, m.i, m.count, merged);
       m.i = run.x;
       m.stop = run.y;
     }
+    if (TRI_ADAPT == 1 && merged && m.i < m.stop) advance_merged(m, grid, ray, step_voxels, enough);
     m.last_visible = m.stop == m.count && m.i < m.stop;
     // A partial step of a straight line is no other work than a whole one: it needs no special place.
     if (TRI_PREINTEGRATED == 0) m.stop = min(m.stop, last);
