@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "core/image_io.hpp"
 #include "judge/image_metrics.hpp"
@@ -77,13 +78,34 @@ std::string technique_names(const SameBits& group) {
   return fmt::format("{}{}", fmt::join(names, ", "), names.size() > 1 ? ": the same bits" : "");
 }
 
+// In what a picture was made differently from others of its scene: each factor of which the group
+// does not hold every level seen there. The technique has a line of its own.
+std::string made_by(const SameBits& group, const std::vector<const record::Record*>& of_scene) {
+  std::map<std::string, std::set<std::string>> seen;
+  std::map<std::string, std::set<std::string>> here;
+  for (const record::Record* record : of_scene) {
+    for (const auto& [factor, level] : record->factors) seen[factor].insert(level);
+  }
+  for (const record::Record* record : group) {
+    for (const auto& [factor, level] : record->factors) here[factor].insert(level);
+  }
+  std::string text;
+  for (const auto& [factor, levels] : here) {
+    if (factor == "technique" || levels.size() == seen[factor].size()) continue;
+    text += fmt::format("<br>{}: {}", escape(factor),
+                        escape(fmt::format("{}", fmt::join(levels, ", "))));
+  }
+  return text;
+}
+
 std::string device_panel(const record::Store& store, const SameBits& group,
+                         const std::vector<const record::Record*>& of_scene,
                          const judge::TruthPair& pair) {
   const record::Record& record = *group.front();
   const Image image = core::decode_exr(store.image(record.image));
   const judge::ImageComparison result = judge::compare(image, pair.truth, pair.bound);
-  const std::string title =
-      fmt::format("{}<br>{}", escape(record.device), escape(technique_names(group)));
+  const std::string title = fmt::format("{}<br>{}{}", escape(record.device),
+                                        escape(technique_names(group)), made_by(group, of_scene));
   if (result.size_mismatch) {
     return fmt::format("<figure>{}<figcaption>{}<br>wrong size</figcaption></figure>",
                        picture(image, record.device), title);
@@ -126,9 +148,9 @@ std::string scenes_section(const record::Store& store, const PlanData& plan,
     text += fmt::format(
         "<h4>{}</h4><div class=\"panels\"><figure>{}<figcaption>the truth<br>double "
         "precision</figcaption></figure>",
-        escape(scene_title(plan, *records.front())), picture(first.truth, "the truth"));
+        escape(picture_title(plan, *records.front())), picture(first.truth, "the truth"));
     for (const SameBits& group : grouped_by_bits(records)) {
-      text += device_panel(store, group, truth(*group.front()));
+      text += device_panel(store, group, records, truth(*group.front()));
     }
     text += "</div>\n";
   }

@@ -33,6 +33,8 @@ struct PlanData {
 // The factors that tell a record's scene from the plan's others, "data=…, camera=…"; all that its
 // configuration names where the plan has one scene only. The technique is never among them.
 [[nodiscard]] std::string scene_title(const PlanData& plan, const record::Record& record);
+// The same without the factors that decide only how the picture is made.
+[[nodiscard]] std::string picture_title(const PlanData& plan, const record::Record& record);
 
 // What all scenes of the plan have in common; empty when that is nothing.
 [[nodiscard]] std::string common_factors(const PlanData& plan);

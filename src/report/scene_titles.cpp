@@ -9,10 +9,10 @@ namespace {
 
 using Factors = std::map<std::string, std::string>;
 
-// "camera=…,data=…" of a configuration, without the technique.
-Factors named_factors(const record::Record& record) {
+// "camera=…,data=…" of a configuration or scene, without the technique.
+Factors named_factors(const std::string& key) {
   Factors factors;
-  std::istringstream text(record.configuration);
+  std::istringstream text(key);
   for (std::string part; std::getline(text, part, ',');) {
     const auto equals = part.find('=');
     if (equals == std::string::npos || part.starts_with("technique=")) continue;
@@ -27,7 +27,7 @@ Factors shared(const PlanData& plan) {
   std::map<std::string, std::set<std::string>> values;
   std::map<std::string, std::size_t> named;
   for (const record::Record& record : plan.records) {
-    for (const auto& [name, value] : named_factors(record)) {
+    for (const auto& [name, value] : named_factors(record.configuration)) {
       values[name].insert(value);
       ++named[name];
     }
@@ -47,13 +47,24 @@ std::string joined(const Factors& factors) {
   return text;
 }
 
+// What tells it from the plan's others; all of it where that is nothing.
+std::string without_shared(const PlanData& plan, const Factors& factors) {
+  Factors own = factors;
+  for (const auto& [name, value] : shared(plan)) own.erase(name);
+  return joined(own.empty() ? factors : own);
+}
+
 }  // namespace
 
 std::string scene_title(const PlanData& plan, const record::Record& record) {
-  Factors own = named_factors(record);
-  const Factors all = own;
-  for (const auto& [name, value] : shared(plan)) own.erase(name);
-  return joined(own.empty() ? all : own);
+  return without_shared(plan, named_factors(record.configuration));
+}
+
+std::string picture_title(const PlanData& plan, const record::Record& record) {
+  Factors own = named_factors(record.configuration);
+  const Factors of_scene = named_factors(record.scene);
+  std::erase_if(own, [&](const auto& factor) { return !of_scene.contains(factor.first); });
+  return without_shared(plan, own);
 }
 
 std::string common_factors(const PlanData& plan) {
