@@ -239,12 +239,42 @@ void confirm_suspects(const CheckArguments& arguments, const Registry& registry,
   judge::take_back_unconfirmed(result, judge_store(arguments, store, truths).result);
 }
 
+// Files that are not here are no fault of a device or a driver, whatever it measured when they
+// were: what only they keep from being judged is a skip, with the same reason.
+void excuse_absent_data(const measure::Suite& suite, const std::vector<record::Record>& records,
+                        judge::GateResult& result) {
+  const auto absent = [&](const record::Record* record) {
+    return record->outcome == record::Outcome::skipped &&
+           !suite.missing_data(record->factors).empty();
+  };
+  for (judge::Finding& finding : result.findings) {
+    if (finding.verdict != judge::Verdict::cannot_judge) continue;
+    std::vector<const record::Record*> about;
+    for (const record::Record& record : records) {
+      const bool device = finding.device.empty() || finding.device == record.device;
+      const bool configuration =
+          finding.configuration.empty() || finding.configuration == record.configuration;
+      if (device && configuration) about.push_back(&record);
+    }
+    if (!about.empty() && std::ranges::all_of(about, absent)) {
+      finding.verdict = judge::Verdict::skipped;
+    }
+  }
+}
+
 core::ExitCode check(const CheckArguments& arguments) {
   const Registry registry = make_registry();
   require_store(arguments.store);
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
   auto [run, result] = judge_store(arguments, store, truths);
+  std::vector<record::Record> records = store.records(run);
+  std::erase_if(records, [&](const record::Record& record) {
+    return !arguments.device.empty() && record.device != arguments.device;
+  });
+  if (!records.empty()) {
+    excuse_absent_data(registry.find_suite()(records.front().suite), records, result);
+  }
   if (is_of_times(arguments.check) && !arguments.device.empty() &&
       result.exit_code() == core::ExitCode::regression) {
     confirm_suspects(arguments, registry, result);

@@ -90,7 +90,8 @@ TRI_FN real tri_1m_exp2(real z) {
 
 // log2(1 − alpha) for alpha in [0, 1), without cancellation for small alpha:
 // log(m) = 2·atanh((m−1)/(m+1)) on m in [√½, √2), where m − 1 is −alpha itself while no exponent is
-// split off. Truncating after t⁹ errs below 3e-10 relative; rounding below 6u, as in double precision.
+// split off. Truncating after t⁹ errs below 3e-10 relative. Tried for every float: below 5.2u, with a
+// division that rounds correctly; the 2.5 ulp that the languages allow it would add 4u.
 TRI_FN float tri_log2_1m(float alpha) {
   float y = 1.0f - alpha;
   int bits = TRI_AS_INT(y);
@@ -105,6 +106,7 @@ TRI_FN float tri_log2_1m(float alpha) {
 
 // 1 − 2^z for z ≤ 0, without cancellation for small |z|: with n = round(z), 2^z = 2^n·(1 + w) and
 // 1 − 2^z = (1 − 2^n) − 2^n·w, w = 2^(z−n) − 1 by its series to degree 7 (error below 2e-9 relative).
+// Tried for every float: below 2.3u.
 TRI_FN float tri_1m_exp2(float z) {
   float c = z > -126.0f ? z : -126.0f;
   float n = TRI_FLOOR(c + 0.5f);
@@ -118,8 +120,10 @@ TRI_FN float tri_1m_exp2(float z) {
 #endif
 
 // Opacity of `steps` voxel lengths whose single one has opacity alpha: 1 − (1 − alpha)^steps.
-// Exact for alpha = 0 and alpha = 1 (steps > 0); relative error below 8u in single and
-// 12u in double precision: 6u of the logarithm, u of the product, 5u of the exponential.
+// Exact for alpha = 0 and alpha = 1 (steps > 0). Relative error: in double precision below 12u, 6u of the
+// logarithm, u of the product, 5u of the exponential. In single precision below 8u: an error of z is
+// multiplied by κ(z) = |z|·ln 2·2^z/(1 − 2^z) ≤ 1, and 6.2u·κ(z) and the exponential's own error at z
+// together, tried for every float z, are below 7.97u.
 TRI_FN real tri_opacity(real alpha, real steps) {
   if (!(alpha > 0.0f) || !(steps > 0.0f)) return TRI_TO_REAL(0);
   if (alpha >= 1.0f) return TRI_TO_REAL(1);

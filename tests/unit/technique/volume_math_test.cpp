@@ -18,8 +18,8 @@ using Wide = long double;
 struct Single {
   using Real = float;
   static constexpr Wide roundoff = 0x1p-24L;
-  static constexpr Wide logarithm = 6;
-  static constexpr Wide exponential = 5;
+  static constexpr Wide logarithm = 5.2L;
+  static constexpr Wide exponential = 2.3L;
   static constexpr Wide opacity = 8;
   static Real log2_1m(Real alpha) { return portable::tri_log2_1m(alpha); }
   static Real one_minus_exp2(Real z) { return portable::tri_1m_exp2(z); }
