@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <unordered_map>
-
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "record/store_file.hpp"
+#include "record/store_records.hpp"
 #include "record/store_values.hpp"
 
 namespace triptych::record {
@@ -23,172 +21,6 @@ std::string text_of(const std::map<std::string, std::string>& map, const char* f
 
 std::map<std::string, std::string> map_of(const std::string& text) {
   return Json::parse(text).get<std::map<std::string, std::string>>();
-}
-
-// --- one record
-// ------------------------------------------------------------------------------------------
-
-// The same columns in the same order for writing and reading. What a record can derive (clock,
-// frames, medians) is written beside them for people's queries and never read back.
-constexpr std::string_view record_columns =
-    "run, suite, plan, configuration, scene, technique, device, outcome, reason, planted, "
-    "device_clock_trusted, warm_up_frames, frames_per_100ms, loop_wall_ns, loop_frames, "
-    "prepare_ns, overhead_ns, peak_memory_bytes, image, data_hash, kernel_hash, benchmark_json";
-constexpr std::string_view derived_columns =
-    "clock, frames, median_ns, median_wall_ns, median_device_ns";
-
-std::optional<double> median(const std::vector<double>& samples) {
-  const std::optional<Summary> summary = summarise(samples);
-  if (!summary) return std::nullopt;
-  return summary->median;
-}
-
-std::int64_t insert_row(const SQLite::Database& database, const Record& r) {
-  const auto columns = std::ranges::count(record_columns, ',') + 1;
-  const auto derived = std::ranges::count(derived_columns, ',') + 1;
-  std::string places = "?";
-  for (auto i = columns + derived; i > 1; --i) places += ", ?";
-  execute(database,
-          fmt::format("INSERT INTO record ({}, {}) VALUES ({})", record_columns, derived_columns,
-                      places),
-          r.run, r.suite, r.plan, r.configuration, r.scene, r.technique, r.device,
-          name_of(r.outcome), r.reason, r.planted, r.device_clock_trusted, r.warm_up_frames,
-          r.frames_per_100ms, r.loop_wall_ns, r.loop_frames, r.prepare_ns, r.overhead_ns,
-          r.peak_memory_bytes, r.image, r.data_hash, r.kernel_hash, r.benchmark_json,  //
-          r.clock(), r.time_ns().size(), median(r.time_ns()), median(r.wall_ns),
-          median(r.device_ns));
-  return database.getLastInsertRowid();
-}
-
-void read_row(SQLite::Statement& row, std::int64_t& seq, Record& r) {
-  std::uint64_t number = 0;
-  std::string outcome_name;
-  Reader reader(row);
-  reader >> number >> r.run >> r.suite >> r.plan >> r.configuration >> r.scene >> r.technique >>
-      r.device >> outcome_name >> r.reason >> r.planted >> r.device_clock_trusted >>
-      r.warm_up_frames >> r.frames_per_100ms >> r.loop_wall_ns >> r.loop_frames >> r.prepare_ns >>
-      r.overhead_ns >> r.peak_memory_bytes >> r.image >> r.data_hash >> r.kernel_hash >>
-      r.benchmark_json;
-  seq = static_cast<std::int64_t>(number);
-  r.outcome = outcome(outcome_name);
-}
-
-// --- the tables under a record or a device
-// ---------------------------------------------------------------------------
-
-template <typename Value>
-void insert_map(const SQLite::Database& database, std::string_view table, std::int64_t owner,
-                const std::map<std::string, Value>& map) {
-  if (map.empty()) return;
-  SQLite::Statement insert(database, fmt::format("INSERT INTO {} VALUES (?, ?, ?)", table));
-  for (const auto& [name, value] : map) {
-    Binder(insert) << owner << name << value;
-    insert.exec();
-    insert.reset();
-  }
-}
-
-void insert_samples(const SQLite::Database& database, std::int64_t record, std::string_view clock,
-                    const std::vector<double>& samples) {
-  SQLite::Statement insert(database, "INSERT INTO sample VALUES (?, ?, ?, ?)");
-  for (std::size_t frame = 0; frame < samples.size(); ++frame) {
-    Binder(insert) << record << clock << frame << samples[frame];
-    insert.exec();
-    insert.reset();
-  }
-}
-
-void insert_times(const SQLite::Database& database, std::int64_t seq, const Record& r) {
-  insert_samples(database, seq, "wall", r.wall_ns);
-  insert_samples(database, seq, "device", r.device_ns);
-  SQLite::Statement insert(database, "INSERT INTO round VALUES (?, ?, ?)");
-  for (std::size_t round = 0; round < r.rounds_ns.size(); ++round) {
-    Binder(insert) << seq << round << r.rounds_ns[round];
-    insert.exec();
-    insert.reset();
-  }
-}
-
-std::int64_t seq_of(const SQLite::Database& database, const Record& r) {
-  SQLite::Statement row = prepared(
-      database, "SELECT seq FROM record WHERE run = ? AND configuration = ? AND device = ?", r.run,
-      r.configuration, r.device);
-  if (!row.executeStep()) {
-    throw core::InputError(fmt::format("run {} has no record of {} on {} whose times could change",
-                                       r.run, r.configuration, r.device));
-  }
-  return row.getColumn(0).getInt64();
-}
-
-using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
-
-template <typename Value>
-void read_map(const SQLite::Database& database, std::string_view table, std::string_view run,
-              const RecordsBySeq& records, std::map<std::string, Value> Record::*map) {
-  SQLite::Statement rows = prepared(
-      database,
-      fmt::format("SELECT t.record, t.name, t.value FROM record r JOIN {} t ON t.record = r.seq "
-                  "WHERE r.run = ?",
-                  table),
-      run);
-  while (rows.executeStep()) {
-    std::uint64_t seq = 0;
-    std::string name;
-    Reader reader(rows);
-    reader >> seq >> name;
-    reader >> (records.at(static_cast<std::int64_t>(seq))->*map)[name];
-  }
-}
-
-void read_samples(const SQLite::Database& database, std::string_view run,
-                  const RecordsBySeq& records) {
-  SQLite::Statement rows =
-      prepared(database,
-               "SELECT s.record, s.clock, s.ns FROM record r JOIN sample s ON s.record = r.seq "
-               "WHERE r.run = ? ORDER BY s.record, s.clock, s.frame",
-               run);
-  while (rows.executeStep()) {
-    std::uint64_t seq = 0;
-    std::string clock;
-    double ns = 0;
-    Reader(rows) >> seq >> clock >> ns;
-    Record& record = *records.at(static_cast<std::int64_t>(seq));
-    (clock == "device" ? record.device_ns : record.wall_ns).push_back(ns);
-  }
-}
-
-// A store that was read but never written since lacks the table: its records know no rounds.
-void read_rounds(const SQLite::Database& database, std::string_view run,
-                 const RecordsBySeq& records) {
-  if (!database.tableExists("round")) return;
-  SQLite::Statement rows =
-      prepared(database,
-               "SELECT t.record, t.ns FROM record r JOIN round t ON t.record = r.seq "
-               "WHERE r.run = ? ORDER BY t.record, t.round",
-               run);
-  while (rows.executeStep()) {
-    std::uint64_t seq = 0;
-    double ns = 0;
-    Reader(rows) >> seq >> ns;
-    records.at(static_cast<std::int64_t>(seq))->rounds_ns.push_back(ns);
-  }
-}
-
-// As of rounds.
-void read_same_as(const SQLite::Database& database, std::string_view run,
-                  const RecordsBySeq& records) {
-  if (!database.tableExists("same_as")) return;
-  SQLite::Statement rows =
-      prepared(database,
-               "SELECT t.record, t.configuration FROM record r JOIN same_as t ON t.record = r.seq "
-               "WHERE r.run = ?",
-               run);
-  while (rows.executeStep()) {
-    std::uint64_t seq = 0;
-    Reader reader(rows);
-    reader >> seq;
-    reader >> records.at(static_cast<std::int64_t>(seq))->same_as;
-  }
 }
 
 Run read_run(SQLite::Statement& row) {
@@ -309,28 +141,12 @@ void Store::add_record(const Record& r) {
     state_->require_run(r.run);
     execute(database, "DELETE FROM record WHERE run = ? AND configuration = ? AND device = ?",
             r.run, r.configuration, r.device);
-    const std::int64_t seq = insert_row(database, r);
-    insert_times(database, seq, r);
-    insert_map(database, "factor", seq, r.factors);
-    insert_map(database, "counter", seq, r.counters);
-    insert_map(database, "statistic", seq, r.statistics);
-    insert_map(database, "precision", seq, r.precision);
-    if (!r.same_as.empty()) execute(database, "INSERT INTO same_as VALUES (?, ?)", seq, r.same_as);
+    insert_record(database, r);
   });
 }
 
 void Store::update_times(const Record& r) {
-  state_->write([&] {
-    const SQLite::Database& database = state_->database;
-    const std::int64_t seq = seq_of(database, r);
-    execute(database, "DELETE FROM sample WHERE record = ?", seq);
-    execute(database, "DELETE FROM round WHERE record = ?", seq);
-    execute(database,
-            "UPDATE record SET frames = ?, median_ns = ?, median_wall_ns = ?, median_device_ns = ? "
-            "WHERE seq = ?",
-            r.time_ns().size(), median(r.time_ns()), median(r.wall_ns), median(r.device_ns), seq);
-    insert_times(database, seq, r);
-  });
+  state_->write([&] { replace_times(state_->database, r); });
 }
 
 void Store::set_truth(const TruthImage& truth) {
@@ -388,26 +204,8 @@ std::vector<Store::DeviceEntry> Store::devices(std::string_view run) const {
 std::vector<Record> Store::records(std::string_view run) const {
   return on_store(state_->file, [&] {
     // One view of the file for all queries, whoever writes meanwhile.
-    const SQLite::Database& database = state_->database;
     SQLite::Transaction snapshot(state_->database, SQLite::TransactionBehavior::DEFERRED);
-    std::vector<Record> records;
-    std::vector<std::int64_t> seqs;
-    SQLite::Statement rows =
-        prepared(database,
-                 fmt::format("SELECT seq, {} FROM record WHERE run = ? ORDER BY device, seq",
-                             record_columns),
-                 run);
-    while (rows.executeStep()) read_row(rows, seqs.emplace_back(), records.emplace_back());
-    RecordsBySeq by_seq;
-    for (std::size_t i = 0; i < records.size(); ++i) by_seq[seqs[i]] = &records[i];
-    read_samples(database, run, by_seq);
-    read_rounds(database, run, by_seq);
-    read_same_as(database, run, by_seq);
-    read_map(database, "factor", run, by_seq, &Record::factors);
-    read_map(database, "counter", run, by_seq, &Record::counters);
-    read_map(database, "statistic", run, by_seq, &Record::statistics);
-    read_map(database, "precision", run, by_seq, &Record::precision);
-    return records;
+    return read_records(state_->database, run);
   });
 }
 

@@ -1,12 +1,14 @@
 #pragma once
-// Values in and out of SQL statements. Used by store.cpp alone.
+// Values in and out of SQL statements. Used by store.cpp and store_records.cpp alone.
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
 
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -106,6 +108,19 @@ template <typename... Values>
 void execute(const SQLite::Database& database, const std::string& sql, const Values&... values) {
   SQLite::Statement statement = prepared(database, sql, values...);
   while (statement.executeStep()) {
+  }
+}
+
+// Rows (owner, name, value).
+template <typename Value>
+void insert_map(const SQLite::Database& database, std::string_view table, std::int64_t owner,
+                const std::map<std::string, Value>& map) {
+  if (map.empty()) return;
+  SQLite::Statement insert(database, fmt::format("INSERT INTO {} VALUES (?, ?, ?)", table));
+  for (const auto& [name, value] : map) {
+    Binder(insert) << owner << name << value;
+    insert.exec();
+    insert.reset();
   }
 }
 

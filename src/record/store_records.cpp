@@ -1,0 +1,188 @@
+// Records in the tables of docs/store.md.
+
+#include "record/store_records.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+
+#include "core/error.hpp"
+#include "record/store_values.hpp"
+
+namespace triptych::record {
+namespace {
+
+// The same columns in the same order for writing and reading. What a record can derive (clock,
+// frames, medians) is written beside them for people's queries and never read back.
+constexpr std::string_view record_columns =
+    "run, suite, plan, configuration, scene, technique, device, outcome, reason, planted, "
+    "device_clock_trusted, warm_up_frames, frames_per_100ms, loop_wall_ns, loop_frames, "
+    "prepare_ns, overhead_ns, peak_memory_bytes, image, data_hash, kernel_hash, benchmark_json";
+constexpr std::string_view derived_columns =
+    "clock, frames, median_ns, median_wall_ns, median_device_ns";
+
+std::optional<double> median(const std::vector<double>& samples) {
+  const std::optional<Summary> summary = summarise(samples);
+  if (!summary) return std::nullopt;
+  return summary->median;
+}
+
+std::int64_t insert_row(const SQLite::Database& database, const Record& r) {
+  const auto columns = std::ranges::count(record_columns, ',') + 1;
+  const auto derived = std::ranges::count(derived_columns, ',') + 1;
+  std::string places = "?";
+  for (auto i = columns + derived; i > 1; --i) places += ", ?";
+  execute(database,
+          fmt::format("INSERT INTO record ({}, {}) VALUES ({})", record_columns, derived_columns,
+                      places),
+          r.run, r.suite, r.plan, r.configuration, r.scene, r.technique, r.device,
+          name_of(r.outcome), r.reason, r.planted, r.device_clock_trusted, r.warm_up_frames,
+          r.frames_per_100ms, r.loop_wall_ns, r.loop_frames, r.prepare_ns, r.overhead_ns,
+          r.peak_memory_bytes, r.image, r.data_hash, r.kernel_hash, r.benchmark_json,  //
+          r.clock(), r.time_ns().size(), median(r.time_ns()), median(r.wall_ns),
+          median(r.device_ns));
+  return database.getLastInsertRowid();
+}
+
+void read_row(SQLite::Statement& row, std::int64_t& seq, Record& r) {
+  std::uint64_t number = 0;
+  std::string outcome_name;
+  Reader reader(row);
+  reader >> number >> r.run >> r.suite >> r.plan >> r.configuration >> r.scene >> r.technique >>
+      r.device >> outcome_name >> r.reason >> r.planted >> r.device_clock_trusted >>
+      r.warm_up_frames >> r.frames_per_100ms >> r.loop_wall_ns >> r.loop_frames >> r.prepare_ns >>
+      r.overhead_ns >> r.peak_memory_bytes >> r.image >> r.data_hash >> r.kernel_hash >>
+      r.benchmark_json;
+  seq = static_cast<std::int64_t>(number);
+  r.outcome = outcome(outcome_name);
+}
+
+void insert_samples(const SQLite::Database& database, std::int64_t record, std::string_view clock,
+                    const std::vector<double>& samples) {
+  SQLite::Statement insert(database, "INSERT INTO sample VALUES (?, ?, ?, ?)");
+  for (std::size_t frame = 0; frame < samples.size(); ++frame) {
+    Binder(insert) << record << clock << frame << samples[frame];
+    insert.exec();
+    insert.reset();
+  }
+}
+
+void insert_times(const SQLite::Database& database, std::int64_t seq, const Record& r) {
+  insert_samples(database, seq, "wall", r.wall_ns);
+  insert_samples(database, seq, "device", r.device_ns);
+  SQLite::Statement insert(database, "INSERT INTO round VALUES (?, ?, ?)");
+  for (std::size_t round = 0; round < r.rounds_ns.size(); ++round) {
+    Binder(insert) << seq << round << r.rounds_ns[round];
+    insert.exec();
+    insert.reset();
+  }
+}
+
+std::int64_t seq_of(const SQLite::Database& database, const Record& r) {
+  SQLite::Statement row = prepared(
+      database, "SELECT seq FROM record WHERE run = ? AND configuration = ? AND device = ?", r.run,
+      r.configuration, r.device);
+  if (!row.executeStep()) {
+    throw core::InputError(fmt::format("run {} has no record of {} on {} whose times could change",
+                                       r.run, r.configuration, r.device));
+  }
+  return row.getColumn(0).getInt64();
+}
+
+using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
+
+using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
+
+// Calls `read(record, row)` for every row of a table under the run's records; `columns` are those
+// behind the first, which names the record. A table that came after version 1 of the schema is
+// missing from a store that was read but never written since: its records have no such rows.
+template <typename Read>
+void read_rows(const SQLite::Database& database, std::string_view table, std::string_view columns,
+               std::string_view order, std::string_view run, const RecordsBySeq& records,
+               const Read& read) {
+  if (!database.tableExists(std::string(table))) return;
+  SQLite::Statement rows = prepared(
+      database,
+      fmt::format("SELECT t.record, {} FROM record r JOIN {} t ON t.record = r.seq WHERE r.run = ? "
+                  "ORDER BY {}",
+                  columns, table, order),
+      run);
+  while (rows.executeStep()) {
+    std::uint64_t seq = 0;
+    Reader reader(rows);
+    reader >> seq;
+    read(*records.at(static_cast<std::int64_t>(seq)), reader);
+  }
+}
+
+template <typename Value>
+void read_map(const SQLite::Database& database, std::string_view table, std::string_view run,
+              const RecordsBySeq& records, std::map<std::string, Value> Record::*map) {
+  read_rows(database, table, "t.name, t.value", "t.record", run, records,
+            [map](Record& record, Reader& row) {
+              std::string name;
+              row >> name;
+              row >> (record.*map)[name];
+            });
+}
+
+void read_times(const SQLite::Database& database, std::string_view run,
+                const RecordsBySeq& records) {
+  read_rows(database, "sample", "t.clock, t.ns", "t.record, t.clock, t.frame", run, records,
+            [](Record& record, Reader& row) {
+              std::string clock;
+              double ns = 0;
+              row >> clock >> ns;
+              (clock == "device" ? record.device_ns : record.wall_ns).push_back(ns);
+            });
+  read_rows(database, "round", "t.ns", "t.record, t.round", run, records,
+            [](Record& record, Reader& row) { row >> record.rounds_ns.emplace_back(); });
+}
+
+}  // namespace
+
+void insert_record(const SQLite::Database& database, const Record& r) {
+  const std::int64_t seq = insert_row(database, r);
+  insert_times(database, seq, r);
+  insert_map(database, "factor", seq, r.factors);
+  insert_map(database, "counter", seq, r.counters);
+  insert_map(database, "statistic", seq, r.statistics);
+  insert_map(database, "precision", seq, r.precision);
+  if (!r.same_as.empty()) execute(database, "INSERT INTO same_as VALUES (?, ?)", seq, r.same_as);
+}
+
+void replace_times(const SQLite::Database& database, const Record& r) {
+  const std::int64_t seq = seq_of(database, r);
+  execute(database, "DELETE FROM sample WHERE record = ?", seq);
+  execute(database, "DELETE FROM round WHERE record = ?", seq);
+  execute(database,
+          "UPDATE record SET frames = ?, median_ns = ?, median_wall_ns = ?, median_device_ns = ? "
+          "WHERE seq = ?",
+          r.time_ns().size(), median(r.time_ns()), median(r.wall_ns), median(r.device_ns), seq);
+  insert_times(database, seq, r);
+}
+
+std::vector<Record> read_records(const SQLite::Database& database, std::string_view run) {
+  std::vector<Record> records;
+  std::vector<std::int64_t> seqs;
+  SQLite::Statement rows = prepared(
+      database,
+      fmt::format("SELECT seq, {} FROM record WHERE run = ? ORDER BY device, seq", record_columns),
+      run);
+  while (rows.executeStep()) read_row(rows, seqs.emplace_back(), records.emplace_back());
+  RecordsBySeq by_seq;
+  for (std::size_t i = 0; i < records.size(); ++i) by_seq[seqs[i]] = &records[i];
+  read_times(database, run, by_seq);
+  read_map(database, "factor", run, by_seq, &Record::factors);
+  read_map(database, "counter", run, by_seq, &Record::counters);
+  read_map(database, "statistic", run, by_seq, &Record::statistics);
+  read_map(database, "precision", run, by_seq, &Record::precision);
+  read_rows(database, "same_as", "t.configuration", "t.record", run, by_seq,
+            [](Record& record, Reader& row) { row >> record.same_as; });
+  return records;
+}
+
+}  // namespace triptych::record
