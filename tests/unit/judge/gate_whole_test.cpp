@@ -1,0 +1,195 @@
+// What the gate says of runs and baselines that are not whole.
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "core/image_io.hpp"
+#include "gate_fixture.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using core::ExitCode;
+using testing::AllOf;
+using testing::HasSubstr;
+
+TEST_F(GateTest, NoBaselinesNamesTheCommandThatMakesThem) {
+  add_run("a");
+  const GateResult result = gate("a");
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
+  ASSERT_EQ(with(result, Verdict::cannot_judge).size(), 1U) << text(result);
+  EXPECT_THAT(with(result, Verdict::cannot_judge).at(0).message,
+              HasSubstr("triptych accept volume/quick --reason"));
+}
+
+TEST_F(GateTest, AWrongPictureIsSeenWithoutBaselines) {
+  add_run("a", wrong_image_on("vulkan:lavapipe"));
+  EXPECT_EQ(gate("a").exit_code(), ExitCode::regression);
+}
+
+TEST_F(GateTest, EmptyRunCannotBeJudged) {
+  add_run("a");
+  (void)accept_run("a");
+  EXPECT_EQ(gate("unknown").exit_code(), ExitCode::cannot_judge);
+  EXPECT_THAT(text(gate("unknown")), HasSubstr("nothing was measured"));
+}
+
+TEST_F(GateTest, ARunOfAnotherPlanCannotBeJudged) {
+  add_run("a");
+  (void)accept_run("a");
+  request_.plan = "volume/paper";
+  EXPECT_EQ(gate("a").exit_code(), ExitCode::cannot_judge);
+}
+
+TEST_F(GateTest, DeviceThatIsNotAskedForIsLeftOut) {
+  add_run("a");
+  (void)accept_run("a");
+  add_run("b", wrong_image_on("vulkan:lavapipe"));
+  request_.devices = {"gl:*", "opencl:*"};
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
+  request_.devices = {"metal:*"};
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge);
+}
+
+TEST_F(GateTest, RequiredDeviceMustHaveMeasured) {
+  add_run("a");
+  (void)accept_run("a");
+  request_.required_devices = {"vulkan:*", "gl:softpipe"};
+  const GateResult result = gate("a");
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
+  ASSERT_EQ(with(result, Verdict::cannot_judge).size(), 1U);
+  EXPECT_THAT(with(result, Verdict::cannot_judge).at(0).message,
+              HasSubstr("the required device gl:softpipe"));
+}
+
+TEST_F(GateTest, ADeletedPictureCannotBeJudgedBy) {
+  add_run("a");
+  (void)accept_run("a");
+  std::filesystem::remove_all(baseline("images"));
+  const GateResult result = gate("a");
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
+  EXPECT_EQ(with(result, Verdict::cannot_judge).size(), 2U);
+}
+
+TEST_F(GateTest, AReplacedPictureIsAnError) {
+  add_run("a");
+  (void)accept_run("a");
+  for (const auto& entry : std::filesystem::directory_iterator(baseline("images"))) {
+    core::write_file(std::string_view("version https://git-lfs"), entry.path());
+  }
+  EXPECT_THROW((void)gate("a"), core::InputError);
+}
+
+TEST_F(GateTest, APictureOfAnotherSceneIsAnError) {
+  add_run("a");
+  (void)accept_run("a");
+  const std::filesystem::directory_iterator first(baseline("images"));
+  core::write_file(core::encode_exr(core::Image(8, 6)), first->path());
+  EXPECT_THROW((void)gate("a"), core::InputError);
+}
+
+TEST_F(GateTest, DeletedCountersCannotBeJudgedBy) {
+  add_run("a");
+  (void)accept_run("a");
+  std::filesystem::remove(baseline("counters.json"));
+  EXPECT_EQ(gate("a").exit_code(), ExitCode::cannot_judge);
+}
+
+TEST_F(GateTest, DeletedTimingsCannotBeJudgedBy) {
+  add_run("a");
+  (void)accept_run("a");
+  std::filesystem::remove_all(baseline("timings"));
+  EXPECT_EQ(gate("a").exit_code(), ExitCode::cannot_judge);
+}
+
+TEST_F(GateTest, CorruptBaselineIsAnErrorWithItsLine) {
+  add_run("a");
+  (void)accept_run("a");
+  std::ofstream(baseline("counters.json"))
+      << "{\n \"x\": {\n  \"samples\": {\"gl:a\": \"many\"}}}\n";
+  try {
+    (void)gate("a");
+    FAIL() << "no error";
+  } catch (const core::InputError& error) {
+    EXPECT_EQ(error.place().line, 3);
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("counters.json"), HasSubstr("/x/samples/gl:a")));
+  }
+}
+
+TEST_F(GateTest, ARenamedFileDoesNotSpeakForAnotherDevice) {
+  add_run("a");
+  (void)accept_run("a");
+  std::filesystem::rename(device_file("bits", "gl"), device_file("bits", "vulkan"));
+  EXPECT_THROW((void)gate("a"), core::InputError);
+}
+
+TEST_F(GateTest, MissingRowsAreNamed) {
+  add_run("a");
+  (void)accept_run("a");
+  store_.add_run({"part", plan, "2026-02-02T00:00:00Z", {}});
+  for (record::Record record : store_.records("a")) {
+    record.run = "part";
+    if (record.device == "opencl:pocl" && record.configuration != bricks_)
+      store_.add_record(record);
+  }
+  for (const auto& entry : store_.devices("a")) {
+    if (entry.device.id == "opencl:pocl") store_.add_device("part", entry.device, {});
+  }
+  const GateResult result = gate("part");
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
+  const auto missing = with(result, Verdict::cannot_judge);
+  ASSERT_EQ(missing.size(), 1U) << text(result);
+  EXPECT_THAT(missing[0].message, AllOf(HasSubstr("1 of 4"), HasSubstr(bricks_)));
+}
+
+TEST_F(GateTest, EveryUnhappyOutcomeIsARegressionOnce) {
+  add_run("a");
+  (void)accept_run("a");
+  using record::Outcome;
+  for (const Outcome outcome : {Outcome::failed, Outcome::crashed, Outcome::hung, Outcome::lost}) {
+    const std::string run(record::name_of(outcome));
+    add_run(run, [&](record::Record& record, core::Image&) {
+      if (record.device != "gl:llvmpipe-egl" || record.configuration != plain_) return;
+      record.outcome = outcome;
+      record.reason = "because";
+    });
+    const auto wrong = with(gate(run), Verdict::regression);
+    ASSERT_EQ(wrong.size(), 1U);
+    EXPECT_EQ(wrong[0].message, run + ": because");
+    EXPECT_EQ(wrong[0].check, Check::image);
+  }
+}
+
+TEST_F(GateTest, SkippedIsSkippedUnlessTheSameDeviceDidItBefore) {
+  const auto skip = [](record::Record& record, core::Image&) {
+    if (record.configuration != bricks_) return;
+    record.outcome = record::Outcome::skipped;
+    record.reason = "no bricks here";
+  };
+  add_run("a", skip);
+  (void)accept_run("a");
+  const GateResult result = gate("a");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  EXPECT_EQ(with(result, Verdict::skipped, Check::image).size(), 3U);
+  EXPECT_THAT(with(result, Verdict::skipped, Check::image).at(0).message,
+              HasSubstr("no bricks here"));
+
+  add_run("whole");
+  (void)accept_run("whole");
+  EXPECT_EQ(gate("a").exit_code(), ExitCode::cannot_judge);
+}
+
+TEST_F(GateTest, PlantedFaultIsNamed) {
+  add_run("a");
+  (void)accept_run("a");
+  add_run("b", [](record::Record& record, core::Image& image) {
+    wrong_image_on("vulkan:lavapipe")(record, image);
+    if (record.device == "vulkan:lavapipe") record.planted = "swap_axes";
+  });
+  EXPECT_THAT(with(gate("b"), Verdict::regression).at(0).message,
+              HasSubstr("[planted: swap_axes]"));
+}
+
+}  // namespace
+}  // namespace triptych::judge
