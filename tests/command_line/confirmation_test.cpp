@@ -83,6 +83,21 @@ TEST_F(Confirmation, AllSlowInOneLaunchIsNoPassEither) {
   EXPECT_NE(result.output.find(taken_back), std::string::npos) << result.output;
 }
 
+// A slow day is no failure, and no pass: where stored runs scatter nothing can be told.
+TEST_F(Confirmation, TooNoisyToTellIsASkip) {
+  for (const double speed : {0.6, 1.5, 0.8, 1.9}) {
+    const std::string store = fmt::format("--store noisy{}.sqlite", speed);
+    ASSERT_EQ(program.run("run plan --device 'null:*' " + store, script(speed, 9)).code, 0);
+    ASSERT_EQ(program.run("accept plan --reason noise --baselines baselines " + store).code, 0);
+  }
+  const Result result = check(1.1, 1.1);
+  EXPECT_EQ(result.code, 77) << result.output;
+  EXPECT_NE(result.output.find("settle it with triptych compare"), std::string::npos)
+      << result.output;
+  EXPECT_EQ(program.run("gate plan --baselines baselines --store s.sqlite", script(1.1, 50)).code,
+            2);
+}
+
 // It takes findings back and never adds any.
 TEST_F(Confirmation, ASecondLaunchAddsNoSuspect) {
   const Result result = check(1, 1.25, "--plant 'slowdown:25@*skip=none*'");
