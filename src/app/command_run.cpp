@@ -108,9 +108,8 @@ Told run_and_tell(const RunArguments& arguments) {
       result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
   if (result.taken_over > 0) {
     fmt::print(
-        "{} of them took over the frames of another configuration that their scene cannot tell "
-        "from "
-        "them; --measure-every measures them too\n",
+        "{} of them took over another configuration's frames, which their scene cannot tell "
+        "apart; --measure-every measures them too\n",
         result.taken_over);
   }
   if (result.unsettled > 0) {

@@ -240,12 +240,13 @@ void confirm_suspects(const CheckArguments& arguments, const Registry& registry,
 }
 
 // Files that are not here are no fault of a device or a driver, whatever it measured when they
-// were: what only they keep from being judged is a skip, with the same reason.
-void excuse_absent_data(const measure::Suite& suite, const std::vector<record::Record>& records,
+// were: what only they keep from being judged is a skip, with the same reason. `records`: of the
+// devices that were judged.
+void excuse_absent_data(const Registry& registry, const std::vector<record::Record>& records,
                         judge::GateResult& result) {
   const auto absent = [&](const record::Record* record) {
     return record->outcome == record::Outcome::skipped &&
-           !suite.missing_data(record->factors).empty();
+           !registry.find_suite()(record->suite).missing_data(record->factors).empty();
   };
   for (judge::Finding& finding : result.findings) {
     if (finding.verdict != judge::Verdict::cannot_judge) continue;
@@ -280,12 +281,15 @@ core::ExitCode check(const CheckArguments& arguments) {
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
   auto [run, result] = judge_store(arguments, store, truths);
-  std::vector<record::Record> records = store.records(run);
-  std::erase_if(records, [&](const record::Record& record) {
-    return !arguments.device.empty() && record.device != arguments.device;
+  const bool undecided = std::ranges::any_of(result.findings, [](const judge::Finding& finding) {
+    return finding.verdict == judge::Verdict::cannot_judge;
   });
-  if (!records.empty()) {
-    excuse_absent_data(registry.find_suite()(records.front().suite), records, result);
+  if (undecided) {
+    std::vector<record::Record> records = store.records(run);
+    std::erase_if(records, [&](const record::Record& record) {
+      return !arguments.device.empty() && record.device != arguments.device;
+    });
+    excuse_absent_data(registry, records, result);
   }
   excuse_noise(result);
   if (is_of_times(arguments.check) && !arguments.device.empty() &&

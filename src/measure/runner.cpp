@@ -10,6 +10,7 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "measure/device_run.hpp"
@@ -270,12 +271,13 @@ class Measuring {
 
   // Rounds after the first were of frames of its own alone.
   void share_rounds() {
+    std::map<std::pair<std::string_view, std::string_view>, const record::Record*> own;
     for (const record::Record& record : records_) {
-      if (record.same_as.empty()) measured_[{record.device, record.configuration}] = record;
+      if (record.same_as.empty()) own[{record.device, record.configuration}] = &record;
     }
     for (record::Record& record : records_) {
       if (record.same_as.empty()) continue;
-      take_over(record, measured_.at({record.device, record.same_as}));
+      take_over(record, *own.at({record.device, record.same_as}));
       context_.store.update_times(record);
     }
   }
