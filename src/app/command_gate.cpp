@@ -34,6 +34,7 @@ struct AcceptArguments {
   std::string baselines = default_baselines().string();
   std::string reason;
   std::string only;
+  bool forget_times = false;
 };
 
 core::ExitCode gate(const GateArguments& arguments) {
@@ -68,6 +69,7 @@ core::ExitCode accept(const AcceptArguments& arguments) {
       .reason = arguments.reason,
       .only = arguments.only,
       .date = today(),
+      .forget_times = arguments.forget_times,
       .truth = [&](const record::Record& record) { return truths.of(record).truth; }};
   const judge::GateRequest judged = request_of(truths, arguments.plan);
   // Errors against the limit and scores are baselines of the plans made for them.
@@ -118,6 +120,8 @@ void add_gate_commands(Commands& commands) {
   add_run_plan(*accepting, accepted->plan);
   accepting->add_option("--reason", accepted->reason, "Why; kept in history.json")->required();
   accepting->add_option("--only", accepted->only, "Glob over configurations");
+  accepting->add_flag("--forget-times", accepted->forget_times,
+                      "Drop the times that were accepted before on the devices of this run");
   accepting->add_option("--store", accepted->store)->capture_default_str();
   accepting->add_option("--baselines", accepted->baselines, "Folder of the baselines");
 }

@@ -166,10 +166,10 @@ void update_bits(const record::Record& record, Json& table) {
   }
 }
 
-void update_timings(const record::Record& record, Json& table) {
+void update_timings(const record::Record& record, bool forget, Json& table) {
   if (record.time_ns().empty()) return;
   Json& runs = table[record.configuration];
-  if (!runs.is_array()) runs = Json::array();
+  if (!runs.is_array() || forget) runs = Json::array();
   Json kept = Json::array();
   for (const Json& entry : runs) {
     if (entry.value("run", "") != record.run) kept.push_back(entry);
@@ -186,7 +186,7 @@ void update_timings(const record::Record& record, Json& table) {
   runs = std::move(kept);
 }
 
-void write_device_files(const Accepted& accepted, const record::Device& device,
+void write_device_files(const Accepted& accepted, const record::Device& device, bool forget_times,
                         const Layout& layout, std::vector<std::string>& lines) {
   Update bits(layout.bits(device), layout.folder);
   Update statistics(layout.statistics(device), layout.folder);
@@ -203,7 +203,7 @@ void write_device_files(const Accepted& accepted, const record::Device& device,
     update_bits(record, bits_table);
     statistics_table[record.configuration] = record.statistics;
     tells_statistics = tells_statistics || !record.statistics.empty();
-    update_timings(record, timings_table);
+    update_timings(record, forget_times, timings_table);
   }
   bits.write(2, lines);
   if (tells_statistics) statistics.write(3, lines);
@@ -352,7 +352,7 @@ std::vector<std::string> accept(const record::Store& store, const std::string& r
     scores.write(2, lines);
   }
   for (const auto& [id, device] : accepted.devices) {
-    write_device_files(accepted, device, layout, lines);
+    write_device_files(accepted, device, request.forget_times, layout, lines);
   }
   append_history(accepted, run, request, layout, lines);
   return lines;

@@ -132,6 +132,9 @@ struct AcceptRequest {
   std::string reason;  // must not be blank
   std::string only;    // glob over configuration keys; empty: all
   std::string date;    // ISO
+  // Drops the times stored before of what was measured, on these device keys: a machine that has
+  // changed, or runs made beside other work.
+  bool forget_times = false;
   // The truth of a scene, as for the gate.
   std::function<core::Image(const record::Record&)> truth;
   // The limit of a record's scene, nullptr where it has none; nothing: no errors are stored.
@@ -143,7 +146,7 @@ struct AcceptRequest {
 // Writes what a run measured as the new baselines; returns one line per changed file, each followed
 // by its changed values ("  PATH: OLD → NEW", the first 40 of a file). Refuses (InputError) a blank
 // reason, a run with planted faults, a run that measured nothing. Timings are appended (the last 20
-// runs per device key are kept), everything else is replaced. Each file is written aside and
+// runs per device key are kept) unless the old are to be forgotten, everything else is replaced. Each file is written aside and
 // renamed, so that a full disk or a kill leaves the old one whole.
 [[nodiscard]] std::vector<std::string> accept(const record::Store& store, const std::string& run,
                                               const std::filesystem::path& root,

@@ -135,6 +135,22 @@ TEST_F(AcceptTest, KeepsTheLastTwentyTimings) {
   EXPECT_EQ(runs.back()["run"], "21");
 }
 
+TEST_F(AcceptTest, ForgetsTimesWhereItIsAskedTo) {
+  add_run("a");
+  (void)accept_run("a");
+  add_run("b", [](record::Record& record, core::Image&) {
+    if (record.device == "gl:llvmpipe-egl") record.outcome = record::Outcome::failed;
+  });
+  (void)accept_run("b", {}, true);
+  const auto runs = [&](const char* api) {
+    return read(device_file("timings", api))["configurations"][plain_];
+  };
+  ASSERT_EQ(runs("opencl").size(), 1U);
+  EXPECT_EQ(runs("opencl")[0]["run"], "b");
+  ASSERT_EQ(runs("gl").size(), 1U);
+  EXPECT_EQ(runs("gl")[0]["run"], "a");
+}
+
 TEST_F(AcceptTest, RefusesWhatIsNoBaseline) {
   add_run("planted", [](record::Record& record, core::Image&) {
     if (record.configuration == bricks_) record.planted = "slowdown:20";

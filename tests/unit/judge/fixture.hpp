@@ -34,7 +34,8 @@ class JudgeTest : public testing::Test {
   // Twelve measured records (fifteen with anchors), times with 0.5 % noise around a level per
   // configuration.
   void add_run(const std::string& run, const Tweak& tweak = {});
-  std::vector<std::string> accept_run(const std::string& run, const std::string& only = {});
+  std::vector<std::string> accept_run(const std::string& run, const std::string& only = {},
+                                      bool forget_times = false);
   // Eight records of anchors/frozen on each device, with as much noise, `factor` times as long as
   // usual.
   void add_anchors(const std::string& run, double factor);
