@@ -15,12 +15,17 @@ CLI::App* Commands::add(const std::string& name, const std::string& summary,
 
 void PlanArguments::add_to(CLI::App& command) {
   command.add_option("PLAN", plan, "A YAML file, or SUITE/PLAN such as volume/quick")->required();
+  choice.add_to(command);
+}
+
+void PlanChoice::add_to(CLI::App& command) {
   command.add_option("--set", set,
                      "factor=a,b: replaces the plan's values of a factor (repeatable)");
   command.add_option("--shard", shard, "i/n: only the i-th of n parts of the plan");
 }
 
-measure::Plan PlanArguments::load(const measure::FindSuite& find_suite) const {
+measure::Plan PlanChoice::load(const std::string& plan,
+                               const measure::FindSuite& find_suite) const {
   measure::Plan loaded = measure::load_plan(plan, parse_overrides(set), find_suite);
   if (!shard.empty()) {
     int index = 0;

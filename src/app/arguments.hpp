@@ -22,14 +22,25 @@ struct Commands {
                 std::function<core::ExitCode()> run);
 };
 
-struct PlanArguments {
-  std::string plan;
+// What is taken of a plan.
+struct PlanChoice {
   std::vector<std::string> set;  // "factor=a,b"
   std::string shard;             // "i/n"
 
   void add_to(CLI::App& command);
   // Throws core::InputError.
-  [[nodiscard]] measure::Plan load(const measure::FindSuite& find_suite) const;
+  [[nodiscard]] measure::Plan load(const std::string& plan,
+                                   const measure::FindSuite& find_suite) const;
+};
+
+struct PlanArguments {
+  std::string plan;
+  PlanChoice choice;
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] measure::Plan load(const measure::FindSuite& find_suite) const {
+    return choice.load(plan, find_suite);
+  }
 };
 
 // "factor=a,b" → {factor, {a, b}}; throws core::InputError.

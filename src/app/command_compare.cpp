@@ -102,7 +102,7 @@ ComparisonCommand command_of(const CompareArguments& arguments, const measure::P
   if (!arguments.b_program.empty()) command.sides += " --b-program " + quoted(arguments.b_program);
   for (const std::string& plant : arguments.plants) command.sides += " --plant " + quoted(plant);
   // What the command line set to one value is no longer varied, but must be said again.
-  for (const auto& [factor, values] : parse_overrides(arguments.plan.set)) {
+  for (const auto& [factor, values] : parse_overrides(arguments.plan.choice.set)) {
     if (std::ranges::find(command.varied, factor) == command.varied.end()) {
       command.varied.push_back(factor);
     }

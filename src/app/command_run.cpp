@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -12,13 +13,15 @@
 #include "app/measuring.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
+#include "judge/anchor.hpp"
 #include "measure/process.hpp"
 
 namespace triptych::app {
 namespace {
 
 struct RunArguments {
-  PlanArguments plan;
+  std::vector<std::string> plans;
+  PlanChoice choice;
   std::vector<std::string> devices;
   std::string store = "triptych.sqlite";
   bool resume = false;
@@ -72,39 +75,10 @@ bool tell_cheapest(const Registry& registry, const measure::Suite& suite, record
   return all;
 }
 
-struct Told {
-  measure::RunResult result;
-  bool error_kept = true;  // a requested error, by every device in every scene
-};
-
-// Measures as the arguments say and says in one line how it went.
-Told run_and_tell(const RunArguments& arguments) {
-  const Registry registry = make_registry();
-  measure::Plan plan = arguments.plan.load(registry.find_suite());
-  if (arguments.error) {
-    plan = plan_within_error(plan, registry.suite(plan.suite), *arguments.error,
-                             [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
-  }
-  const std::vector<std::string> devices =
-      choose_devices(list_devices(registry), arguments.devices);
-  require_writable(std::filesystem::path(arguments.store).parent_path());
-  record::Store store(arguments.store, record::Store::Mode::append);
-  const measure::RunOptions options{
-      .protocol = {.measure_every = arguments.measure_every},
-      .limit = std::chrono::seconds(arguments.limit_s),
-      .resume = arguments.resume,
-      .rounds = arguments.rounds,
-      .budget = arguments.budget_s ? std::optional(std::chrono::seconds(*arguments.budget_s))
-                                   : std::nullopt,
-      .plants = parse_plants(arguments.plants),
-      .worker_command = {own_program(), "worker", "--device"},
-  };
-  Told told;
-  measure::RunResult& result = told.result;
-  result = measure::run_plan(plan, devices, registry.suite(plan.suite), store, options, show);
+void tell(const measure::Plan& plan, const measure::RunResult& result, const std::string& store) {
   fmt::print(
       "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
-      plan.name, result.run, arguments.store, result.measured, result.skipped, result.failed,
+      plan.name, result.run, store, result.measured, result.skipped, result.failed,
       result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
   if (result.taken_over > 0) {
     fmt::print(
@@ -118,32 +92,95 @@ Told run_and_tell(const RunArguments& arguments) {
         "SECONDS --resume goes on with them\n",
         result.unsettled);
   }
+}
+
+// A factor belongs to one suite, an error to its scenes.
+void refuse_for_several(const RunArguments& arguments) {
+  if (arguments.plans.size() < 2) return;
+  if (!arguments.choice.set.empty()) {
+    throw core::InputError("--set changes one plan: give it alone, or a YAML file for each");
+  }
+  if (arguments.error) throw core::InputError("--error asks of one plan: give it alone");
+}
+
+std::vector<measure::Plan> load_plans(const RunArguments& arguments, const Registry& registry) {
+  refuse_for_several(arguments);
+  std::vector<measure::Plan> plans;
+  for (const std::string& name : arguments.plans) {
+    plans.push_back(arguments.choice.load(name, registry.find_suite()));
+    if (!arguments.error) continue;
+    plans.back() =
+        plan_within_error(plans.back(), registry.suite(plans.back().suite), *arguments.error,
+                          [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
+  }
+  return plans;
+}
+
+measure::RunOptions options_of(const RunArguments& arguments) {
+  return {
+      .protocol = {.measure_every = arguments.measure_every},
+      .limit = std::chrono::seconds(arguments.limit_s),
+      .resume = arguments.resume,
+      .rounds = arguments.rounds,
+      .budget = arguments.budget_s ? std::optional(std::chrono::seconds(*arguments.budget_s))
+                                   : std::nullopt,
+      .plants = parse_plants(arguments.plants),
+      .worker_command = {own_program(), "worker", "--device"},
+  };
+}
+
+struct Told {
+  std::vector<measure::RunResult> results;  // in the order of the plans
+  bool error_kept = true;                   // a requested error, by every device in every scene
+};
+
+// Measures as the arguments say and says in a few lines how it went.
+Told run_and_tell(const RunArguments& arguments) {
+  const Registry registry = make_registry();
+  const std::vector<measure::Plan> plans = load_plans(arguments, registry);
+  const std::vector<std::string> devices =
+      choose_devices(list_devices(registry), arguments.devices);
+  require_writable(std::filesystem::path(arguments.store).parent_path());
+  record::Store store(arguments.store, record::Store::Mode::append);
+  const measure::RunOptions options = options_of(arguments);
+  std::vector<measure::PlannedRun> runs;
+  runs.reserve(plans.size());
+  for (const measure::Plan& plan : plans) {
+    runs.push_back({plan, registry.suite(plan.suite), options});
+  }
+  Told told{.results = measure::run_plans(runs, devices, store, show)};
+  for (std::size_t i = 0; i < plans.size(); ++i) tell(plans[i], told.results[i], arguments.store);
   if (arguments.error) {
-    told.error_kept =
-        tell_cheapest(registry, registry.suite(plan.suite), store, result.run, *arguments.error);
+    told.error_kept = tell_cheapest(registry, runs.front().suite, store, told.results.front().run,
+                                    *arguments.error);
   }
   return told;
 }
 
+bool has_told(const measure::RunResult& result) {
+  return result.measured + result.failed > 0;
+}
+
 core::ExitCode run(const RunArguments& arguments) {
-  const auto [result, error_kept] = run_and_tell(arguments);
-  const bool told = result.measured + result.failed > 0 && error_kept;
+  const auto [results, error_kept] = run_and_tell(arguments);
+  const bool told = std::ranges::all_of(results, has_told) && error_kept;
   return told ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
 // As a CTest fixture: a configuration that failed fails the test – but for a stress case, whose
 // score tells of it – and nothing but skips skips it. A correlation between devices is drawn from
 // one store, anchors and plan.
-core::ExitCode run_as_test(const RunArguments& arguments) {
-  if (arguments.plan.plan.ends_with("/correlation")) {
-    RunArguments anchors = arguments;
-    anchors.plan = {.plan = "anchors/frozen"};
-    if (const auto code = run_as_test(anchors); code != core::ExitCode::pass) return code;
+core::ExitCode run_as_test(RunArguments arguments) {
+  const std::string plan = arguments.plans.front();
+  if (plan.ends_with("/correlation")) {
+    arguments.plans.insert(arguments.plans.begin(), std::string(judge::anchors_plan));
   }
-  const measure::RunResult result = run_and_tell(arguments).result;
-  const bool scored = arguments.plan.plan.ends_with("/stress");
-  if (result.failed > 0 && !scored) return core::ExitCode::regression;
-  return result.measured + result.failed > 0 ? core::ExitCode::pass : core::ExitCode::skip;
+  const auto results = run_and_tell(arguments).results;
+  const bool scored = plan.ends_with("/stress");
+  const bool failed = std::ranges::any_of(
+      results, [](const measure::RunResult& result) { return result.failed > 0; });
+  if (failed && !scored) return core::ExitCode::regression;
+  return std::ranges::all_of(results, has_told) ? core::ExitCode::pass : core::ExitCode::skip;
 }
 
 core::ExitCode serve(const std::string& device) {
@@ -171,7 +208,12 @@ void add_worker_command(Commands& commands) {
 }
 
 void add_run_options(CLI::App& command, RunArguments& arguments) {
-  arguments.plan.add_to(command);
+  command
+      .add_option(
+          "PLAN", arguments.plans,
+          "A YAML file, or SUITE/PLAN such as volume/quick; the rounds of several alternate")
+      ->required();
+  arguments.choice.add_to(command);
   command.add_option("--device", arguments.devices,
                      "Glob over device ids (repeatable; default: all)");
   command.add_option("--store", arguments.store, "SQLite file for the records")
@@ -200,20 +242,23 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
 
 }  // namespace
 
-int measure_plan(const std::string& plan, const std::vector<std::string>& devices,
-                 const std::string& store) {
+std::vector<int> measure_plans(const std::vector<std::string>& plans,
+                               const std::vector<std::string>& devices, const std::string& store) {
   RunArguments arguments;
-  arguments.plan.plan = plan;
+  arguments.plans = plans;
   arguments.devices = devices;
   arguments.store = store;
-  const measure::RunResult result = run_and_tell(arguments).result;
-  return result.measured + result.failed;
+  std::vector<int> told;
+  for (const measure::RunResult& result : run_and_tell(arguments).results) {
+    told.push_back(result.measured + result.failed);
+  }
+  return told;
 }
 
 core::ExitCode measure_as_test(const std::string& plan, const std::string& device,
                                const std::string& store) {
   RunArguments arguments;
-  arguments.plan.plan = plan;
+  arguments.plans = {plan};
   arguments.devices = {device};
   arguments.store = store;
   arguments.resume = true;

@@ -48,10 +48,11 @@ void print_devices(const record::Store& store, const std::string& run) {
 core::ExitCode validate(const ValidateArguments& arguments) {
   require_writable(arguments.out);
   const std::string file = (std::filesystem::path(arguments.out) / "validation.sqlite").string();
-  for (const char* plan : plans) {
-    if (measure_plan(plan, arguments.devices, file) == 0) {
-      throw core::NotSupported(fmt::format("{}: the devices asked for can do none of it", plan));
-    }
+  const std::vector<int> told =
+      measure_plans({plans.begin(), plans.end()}, arguments.devices, file);
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    if (told[i] > 0) continue;
+    throw core::NotSupported(fmt::format("{}: the devices asked for can do none of it", plans[i]));
   }
   const Registry registry = make_registry();
   record::Store store(file, record::Store::Mode::append);

@@ -211,26 +211,24 @@ void measure_runs(const EvaluationMaterial& material, const Registry& registry,
                   record::Store& store, const TellStep& tell) {
   const measure::Stopwatch stopwatch;
   const measure::Plan anchors = measure::load_plan(judge::anchors_plan, {}, registry.find_suite());
-  const auto run = [&](const measure::Plan& plan, double percent) {
+  const measure::RunOptions plain{.limit = material.limit, .worker_command = worker_command()};
+  const auto run = [&](double percent) {
     const bool late =
         material.budget && stopwatch.seconds() >= static_cast<double>(material.budget->count());
     if (late) return;
-    measure::RunOptions options{.limit = material.limit, .worker_command = worker_command()};
-    tell(fmt::format("{} with {} % planted", plan.name, percent));
-    const auto measured = [&](const measure::Plan& what) {
-      static_cast<void>(measure::run_plan(what, material.devices, registry.suite(what.suite), store,
-                                          options, {}));
-    };
-    measured(anchors);
+    measure::RunOptions options = plain;
     if (percent > 0) options.plants.push_back({.fault = fault_of(percent), .only = {}});
-    measured(plan);
+    std::vector<measure::PlannedRun> runs{{anchors, registry.suite(anchors.suite), plain}};
+    for (const measure::Plan& plan : material.plans) {
+      runs.push_back({plan, registry.suite(plan.suite), options});
+    }
+    tell(fmt::format("runs with {} % planted", percent));
+    static_cast<void>(measure::run_plans(runs, material.devices, store, {}));
   };
   for (int round = 0; round < material.rounds; ++round) {
-    for (const measure::Plan& plan : material.plans) {
-      run(plan, 0);
-      if (round >= material.planted_rounds) continue;
-      for (const double percent : material.sizes) run(plan, percent);
-    }
+    run(0);
+    if (round >= material.planted_rounds) continue;
+    for (const double percent : material.sizes) run(percent);
   }
 }
 

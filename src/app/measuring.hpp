@@ -8,15 +8,17 @@
 
 namespace triptych::app {
 
-// Measures a plan on the devices of some globs into a new run, as `triptych run` does and tells it.
-// The number of configurations measured or failed. Throws as measure::run_plan does.
-[[nodiscard]] int measure_plan(const std::string& plan, const std::vector<std::string>& devices,
-                               const std::string& store);
+// Measures plans together on the devices of some globs, each into a new run, as `triptych run` does
+// and tells it. The number of configurations measured or failed of each. Throws as
+// measure::run_plans does.
+[[nodiscard]] std::vector<int> measure_plans(const std::vector<std::string>& plans,
+                                             const std::vector<std::string>& devices,
+                                             const std::string& store);
 
 // As a CTest fixture does: a plan on one device, by a worker of its own, into the store's latest
-// run of the plan or a new one; the anchors before it where a correlation will be drawn. A
+// run of the plan or a new one; the anchors with it where a correlation will be drawn. A
 // configuration that failed makes it a regression, nothing but skips a skip. Throws as
-// measure::run_plan does.
+// measure::run_plans does.
 [[nodiscard]] core::ExitCode measure_as_test(const std::string& plan, const std::string& device,
                                              const std::string& store);
 

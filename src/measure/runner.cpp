@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -170,6 +171,7 @@ class Measuring {
 
   // Everything once, by the whole protocol.
   void first_round() {
+    const Stopwatch stopwatch;
     Report report(1, context_.plan.configurations.size() * devices_.size(), tell_);
     std::vector<std::pair<std::string, std::vector<const Configuration*>>> work;
     work.reserve(devices_.size());
@@ -180,43 +182,27 @@ class Measuring {
       for (const Configuration* configuration : configurations) {
         measure(device, *configuration, report);
       }
-      if (!goes_on()) leave(device);
+      if (most_rounds() == 1) leave(device);
     }
+    if (most_rounds() > 1) remember_records();
+    result_.wall_ns += stopwatch.ns();
   }
 
-  // The timed frames again, of what is not settled.
-  void further_rounds(const Stopwatch& run) {
-    if (!goes_on()) return;
-    remember_records();
-    const auto order =
-        context_.options.budget ? RoundOrder::doubtful_first : RoundOrder::as_measured;
-    const auto spent = [&] {
-      return context_.options.budget && run.elapsed() >= *context_.options.budget;
-    };
-    for (std::size_t round = 2; round <= most_rounds(); ++round) {
-      const std::vector<std::size_t> chosen = next_round(records_, most_rounds(), order);
-      Report report(static_cast<int>(round), chosen.size(), tell_);
-      for (const std::size_t each : chosen) {
-        if (spent()) return;
-        once_more(records_[each], report);
-      }
+  // The timed frames again, of what is not settled; `run` is the time since the first round began.
+  void further_round(std::size_t round, const Stopwatch& run) {
+    if (round > most_rounds()) return;
+    const Stopwatch stopwatch;
+    const auto& budget = context_.options.budget;
+    const auto order = budget ? RoundOrder::doubtful_first : RoundOrder::as_measured;
+    const std::vector<std::size_t> chosen = next_round(records_, most_rounds(), order);
+    Report report(static_cast<int>(round), chosen.size(), tell_);
+    for (const std::size_t each : chosen) {
+      if (budget && run.elapsed() >= *budget) break;
+      once_more(records_[each], report);
     }
+    result_.wall_ns += stopwatch.ns();
   }
 
-  [[nodiscard]] RunResult conclude(double wall_ns) {
-    share_rounds();
-    while (!open_.empty()) leave(open_.begin()->first);
-    result_.unsettled =
-        static_cast<int>(std::ranges::count_if(records_, [](const record::Record& record) {
-          return record.outcome == record::Outcome::measured && record.same_as.empty() &&
-                 !is_settled(record);
-        }));
-    result_.wall_ns = wall_ns;
-    result_.overhead_ns = wall_ns - work_ns_;
-    return std::move(result_);
-  }
-
- private:
   [[nodiscard]] std::size_t most_rounds() const {
     constexpr std::size_t most_within_budget = 32;
     if (!context_.plan.timed || !context_.options.protocol.timed) return 1;
@@ -224,8 +210,22 @@ class Measuring {
     return context_.options.budget ? most_within_budget
                                    : static_cast<std::size_t>(context_.plan.rounds);
   }
-  [[nodiscard]] bool goes_on() const { return most_rounds() > 1; }
 
+  [[nodiscard]] RunResult conclude() {
+    const Stopwatch stopwatch;
+    share_rounds();
+    while (!open_.empty()) leave(open_.begin()->first);
+    result_.unsettled =
+        static_cast<int>(std::ranges::count_if(records_, [](const record::Record& record) {
+          return record.outcome == record::Outcome::measured && record.same_as.empty() &&
+                 !is_settled(record);
+        }));
+    result_.wall_ns += stopwatch.ns();
+    result_.overhead_ns = result_.wall_ns - work_ns_;
+    return std::move(result_);
+  }
+
+ private:
   DeviceRun& on(const std::string& device) {
     auto& entry = open_[device];
     if (!entry) entry = std::make_unique<DeviceRun>(context_, device);
@@ -329,19 +329,35 @@ class Measuring {
 
 }  // namespace
 
+std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
+                                 const std::vector<std::string>& devices, record::Store& store,
+                                 const std::function<void(const Progress&)>& on_progress) {
+  const Stopwatch run;
+  for (const PlannedRun& each : runs) refuse_bad_options(each.options);
+  InterruptGuard interrupts;
+  std::deque<RunContext> contexts;  // each Measuring refers to its own
+  std::deque<Measuring> all;
+  for (const auto& [plan, suite, options] : runs) {
+    contexts.push_back({plan, suite, store, options, interrupts,
+                        open_run(plan, store, options.resume), kinds_of(plan)});
+    all.emplace_back(contexts.back(), devices, on_progress).first_round();
+  }
+  std::size_t most = 1;
+  for (const Measuring& each : all) most = std::max(most, each.most_rounds());
+  for (std::size_t round = 2; round <= most; ++round) {
+    for (Measuring& each : all) each.further_round(round, run);
+  }
+  std::vector<RunResult> results;
+  results.reserve(all.size());
+  for (Measuring& each : all) results.push_back(each.conclude());
+  return results;
+}
+
 RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices, const Suite& suite,
                    record::Store& store, const RunOptions& options,
                    const std::function<void(const Progress&)>& on_progress) {
-  const Stopwatch run;
-  refuse_bad_options(options);
-  InterruptGuard interrupts;
-  const RunContext context{plan,          suite,      store,
-                           options,       interrupts, open_run(plan, store, options.resume),
-                           kinds_of(plan)};
-  Measuring measuring(context, devices, on_progress);
-  measuring.first_round();
-  measuring.further_rounds(run);
-  return measuring.conclude(run.ns());
+  const PlannedRun alone{plan, suite, options};
+  return std::move(run_plans({&alone, 1}, devices, store, on_progress).front());
 }
 
 }  // namespace triptych::measure

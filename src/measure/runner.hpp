@@ -6,6 +6,7 @@
 #include <functional>
 #include <iosfwd>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,8 +32,8 @@ struct RunOptions {
   bool resume = false;  // continue the plan's latest run: what has a record is left alone
   // Rounds over the plan at most, instead of the plan's own number.
   std::optional<int> rounds;
-  // Of the whole run: rounds go on until then, of the most doubtful configurations first. The first
-  // round is made whatever the budget.
+  // Of the whole run, the plans beside it included: rounds go on until then, of the most doubtful
+  // configurations first. The first round is made whatever the budget.
   std::optional<std::chrono::seconds> budget;
   std::vector<Plant> plants;
   // Command that starts a worker for a device; the device id is appended. It must call
@@ -69,19 +70,33 @@ struct RunResult {
   int measured = 0;
   int taken_over = 0;  // of those, by another configuration's frames (measure/twins.hpp)
   int skipped = 0;
-  int failed = 0;     // failed, crashed, hung or lost
-  int unsettled = 0;  // of several rounds: measured, but the quietest was not seen again
-  double wall_ns = 0;
+  int failed = 0;          // failed, crashed, hung or lost
+  int unsettled = 0;       // of several rounds: measured, but the quietest was not seen again
+  double wall_ns = 0;      // without what was measured of other plans meanwhile
   double overhead_ns = 0;  // of wall_ns, what was neither opening devices, preparing nor frames
 };
 
-// Every configuration of the plan on every device, devices one after the other so that none
+// One plan of those that are measured together.
+struct PlannedRun {
+  const Plan& plan;
+  const Suite& suite;
+  const RunOptions& options;
+};
+
+// Every configuration of each plan on every device, devices one after the other so that none
 // disturbs another's timing; then, as the plan or the options ask, further rounds of timed frames
-// over what is not settled (measure/rounds.hpp). A crash, a hang or a lost device costs one
-// configuration; a device whose worker cannot be started twice in a row costs the device, each of
-// its configurations failed with the reason. Throws InputError for an unknown fault, for an
+// over what is not settled (measure/rounds.hpp). The plans' rounds alternate, so that anchors and
+// what they judge see the same minutes of a machine and a configuration's rounds lie as far apart
+// as can be. A crash, a hang or a lost device costs one configuration; a device whose worker cannot
+// be started twice in a row costs the device, each of its configurations failed with the reason.
+// One result per plan, each of a run of its own. Throws InputError for an unknown fault, for an
 // environment that forbids measuring, and for a resumed run whose device has changed; IoError when
 // the store cannot be written; Interrupted.
+[[nodiscard]] std::vector<RunResult> run_plans(
+    std::span<const PlannedRun> runs, const std::vector<std::string>& devices, record::Store& store,
+    const std::function<void(const Progress&)>& on_progress);
+
+// One alone.
 [[nodiscard]] RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices,
                                  const Suite& suite, record::Store& store,
                                  const RunOptions& options,

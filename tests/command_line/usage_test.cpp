@@ -49,6 +49,7 @@ TEST(Usage, AnOverrideThatIsWrong) {
   const Program program;
   expect_refused(program.run("list volume/quick --set stepp=1"), 3, "did you mean 'step'?");
   expect_refused(program.run("list volume/quick --set step"), 3, "expected factor=value");
+  expect_refused(program.run("run volume/quick particles/quick --set step=1"), 3, "one plan");
   expect_refused(program.run("list volume/quick --set viewport=0"), 3, "viewport '0'");
   expect_refused(program.run("list volume/quick --shard 3/2"), 3, "expected i/n");
 }

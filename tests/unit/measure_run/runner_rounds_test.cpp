@@ -1,5 +1,7 @@
 // Runs of several rounds: a machine that was busy during the first shows in no record.
 
+#include <array>
+
 #include "tests/unit/measure_run/run_fixture.hpp"
 
 namespace triptych::measure {
@@ -67,6 +69,33 @@ TEST_F(RunRounds, ABudgetGoesOnUntilAllIsSettled) {
   options.budget = std::chrono::seconds(60);
   EXPECT_EQ(run(small_plan()).unsettled, 0);
   EXPECT_THAT(told, SizeIs(3 * 4));
+}
+
+TEST_F(RunRounds, ThoseOfPlansMeasuredTogetherAlternate) {
+  Plan one = plan({{"technique", {"raycast"}}, {"data", {"cube"}}, {"camera", {"orbit_x:1/2"}}});
+  Plan other = plan({{"technique", {"raycast"}}, {"data", {"cube"}}, {"camera", {"orbit_y:1/2"}}});
+  one.rounds = 2;
+  other.rounds = 3;
+  record::Store store = open_store();
+  const std::array together{PlannedRun{one, suite, options}, PlannedRun{other, suite, options}};
+  const auto results =
+      run_plans(together, {"null:scripted"}, store,
+                [this](const Progress& told_of) { told.push_back(told_of.configuration); });
+  ASSERT_THAT(results, SizeIs(2));
+  EXPECT_NE(results[0].run, results[1].run);
+  EXPECT_EQ(results[0].measured, 2);
+  EXPECT_EQ(results[1].measured, 2);
+  const std::vector<std::string> first(told.begin(), told.begin() + 2);
+  const std::vector<std::string> second(told.begin() + 2, told.begin() + 4);
+  EXPECT_NE(first, second);
+  std::vector<std::string> expected;
+  for (const auto* part : {&first, &second, &first, &second, &second}) {
+    expected.insert(expected.end(), part->begin(), part->end());
+  }
+  EXPECT_EQ(told, expected);
+  for (const record::Record& record : records(results[1].run)) {
+    EXPECT_THAT(record.rounds_ns, SizeIs(3));
+  }
 }
 
 TEST_F(RunRounds, AResumedRunGoesOnWithItsRounds) {
