@@ -9,63 +9,10 @@
 #include <numeric>
 #include <utility>
 
+#include "technique/particles/division.hpp"
+
 namespace triptych::technique {
 namespace {
-
-// A regular grid over the centres, of about cubic cells.
-class Grid {
- public:
-  explicit Grid(const scene::ParticleSet& set) {
-    glm::dvec3 lo(std::numeric_limits<double>::infinity());
-    glm::dvec3 hi(-std::numeric_limits<double>::infinity());
-    for (const auto& sphere : set.spheres) {
-      const glm::dvec3 centre{sphere[0], sphere[1], sphere[2]};
-      lo = glm::min(lo, centre);
-      hi = glm::max(hi, centre);
-    }
-    lo_ = lo;
-    const glm::dvec3 size = hi - lo;
-    const double wanted = static_cast<double>(set.count()) / particles_per_cell;
-    edge_ = edge_for(size, std::max(wanted, 1.0));
-    const auto parts = [&](double length) {
-      return static_cast<std::uint32_t>(std::floor(length / edge_)) + 1;
-    };
-    counts_ = {parts(size.x), parts(size.y), parts(size.z)};
-  }
-
-  [[nodiscard]] double edge() const { return edge_; }
-  [[nodiscard]] std::size_t cells() const {
-    return std::size_t{counts_[0]} * counts_[1] * counts_[2];
-  }
-  [[nodiscard]] std::uint32_t cell_of(const std::array<float, 4>& sphere) const {
-    std::array<std::uint32_t, 3> at{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto index = static_cast<std::size_t>(axis);
-      const double place = (static_cast<double>(sphere[index]) - lo_[axis]) / edge_;
-      at[index] = std::min(static_cast<std::uint32_t>(std::max(place, 0.0)), counts_[index] - 1);
-    }
-    return at[0] + counts_[0] * (at[1] + counts_[1] * at[2]);
-  }
-
- private:
-  // The edge at which about `wanted` cells fill the box; axes too short to be divided do not count.
-  static double edge_for(const glm::dvec3& size, double wanted) {
-    const double longest = std::max({size.x, size.y, size.z});
-    if (!(longest > 0)) return 1;
-    double low = longest / 2e6;
-    double high = 2 * longest;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = std::sqrt(low * high);
-      const glm::dvec3 parts = glm::floor(size / middle) + 1.0;
-      (parts.x * parts.y * parts.z > wanted ? low : high) = middle;
-    }
-    return high;
-  }
-
-  glm::dvec3 lo_{};
-  double edge_ = 1;
-  std::array<std::uint32_t, 3> counts_{1, 1, 1};
-};
 
 // Places in the set, ascending by id; empty where they already are as they stand.
 std::vector<std::uint32_t> by_id(const scene::ParticleSet& set) {
@@ -80,7 +27,7 @@ std::vector<std::uint32_t> by_id(const scene::ParticleSet& set) {
 // A cell with more particles than this becomes several, so that one crowded place stays divisible.
 constexpr std::uint32_t longest_run = 4 * particles_per_cell;
 
-// Particles of one cell of the grid, consecutive by id.
+// Particles of one part, consecutive by id.
 struct Run {
   glm::vec3 lo{std::numeric_limits<float>::infinity()};
   glm::vec3 hi{-std::numeric_limits<float>::infinity()};
@@ -93,7 +40,10 @@ struct Run {
 class Runs {
  public:
   explicit Runs(const scene::ParticleScene& scene)
-      : scene_(scene), set_(*scene.particles), grid_(set_), by_id_(by_id(set_)) {
+      : scene_(scene),
+        set_(*scene.particles),
+        division_(scene, particles_per_cell),
+        by_id_(by_id(set_)) {
     make_runs();
     measure();
     sort_front_to_back();
@@ -120,12 +70,6 @@ class Runs {
   }
 
  private:
-  // 0 for what is too large for a cell of the grid, else the cell's number + 1.
-  [[nodiscard]] std::uint32_t key_of(std::uint32_t place) const {
-    const bool too_large = 2 * static_cast<double>(scene_.radius(place)) > grid_.edge();
-    return too_large ? 0 : grid_.cell_of(set_.spheres[place]) + 1;
-  }
-
   // Calls visit(place in the set, its run) by ascending id. A run's count is that of its particles
   // visited before, and the visitor's to raise.
   template <typename Visit>
@@ -134,16 +78,18 @@ class Runs {
     std::vector<std::uint32_t> filling = first_run_;
     for (std::uint32_t i = 0; i < set_.count(); ++i) {
       const std::uint32_t place = by_id_.empty() ? i : by_id_[i];
-      std::uint32_t& run = filling[key_of(place)];
+      std::uint32_t& run = filling[division_.part_of(place)];
       if (runs_[run].count == longest_run) ++run;
       visit(place, runs_[run]);
     }
   }
 
-  // As many for each key as it needs.
+  // As many for each part as it needs.
   void make_runs() {
-    first_run_.resize(grid_.cells() + 1);
-    for (std::uint32_t place = 0; place < set_.count(); ++place) ++first_run_[key_of(place)];
+    first_run_.resize(division_.parts());
+    for (std::uint32_t place = 0; place < set_.count(); ++place) {
+      ++first_run_[division_.part_of(place)];
+    }
     std::uint32_t runs = 0;
     for (std::uint32_t& entry : first_run_) {
       const std::uint32_t needed = (entry + longest_run - 1) / longest_run;
@@ -190,10 +136,10 @@ class Runs {
 
   const scene::ParticleScene& scene_;
   const scene::ParticleSet& set_;
-  Grid grid_;
+  Division division_;
   std::vector<std::uint32_t> by_id_;
-  std::vector<std::uint32_t> first_run_;  // by key
-  std::vector<Run> runs_;                 // by key, then id
+  std::vector<std::uint32_t> first_run_;  // by part
+  std::vector<Run> runs_;                 // by part, then id
   std::ptrdiff_t large_ = 0;              // of the first runs
   std::vector<std::uint32_t> front_to_back_;
 };

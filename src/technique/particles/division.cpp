@@ -1,0 +1,231 @@
+#include "technique/particles/division.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace triptych::technique {
+namespace {
+
+// The edge at which about `wanted` cells fill the box; axes too short to be divided do not count.
+double edge_for(const glm::dvec3& size, double wanted) {
+  const double longest = std::max({size.x, size.y, size.z});
+  if (!(longest > 0)) return 1;
+  double low = longest / 2e6;
+  double high = 2 * longest;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = std::sqrt(low * high);
+    const glm::dvec3 parts = glm::floor(size / middle) + 1.0;
+    (parts.x * parts.y * parts.z > wanted ? low : high) = middle;
+  }
+  return high;
+}
+
+// In loops over the four numbers of a sphere, as a compiler makes those one instruction each; the
+// fourth is of no use to boxes.
+using Four = std::array<float, 4>;
+
+struct Box {
+  Four lo = filled(std::numeric_limits<float>::infinity());
+  Four hi = filled(-std::numeric_limits<float>::infinity());
+
+  void add(const Four& centre, float reach) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      lo[k] = std::min(lo[k], centre[k] - reach);
+      hi[k] = std::max(hi[k], centre[k] + reach);
+    }
+  }
+  void add(const Box& other) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      lo[k] = std::min(lo[k], other.lo[k]);
+      hi[k] = std::max(hi[k], other.hi[k]);
+    }
+  }
+  [[nodiscard]] float size(std::size_t axis) const { return hi[axis] - lo[axis]; }
+  // Half of its surface.
+  [[nodiscard]] double surface() const {
+    const double x = static_cast<double>(size(0));
+    const double y = static_cast<double>(size(1));
+    const double z = static_cast<double>(size(2));
+    return x * y + y * z + z * x;
+  }
+
+ private:
+  static constexpr Four filled(float value) { return {value, value, value, value}; }
+};
+
+// Spheres and the box around them.
+struct Group {
+  std::uint32_t count = 0;
+  Box box;
+
+  void add(const Group& other) {
+    count += other.count;
+    box.add(other.box);
+  }
+  [[nodiscard]] double cost() const { return count == 0 ? 0 : count * box.surface(); }
+};
+
+struct Plane {
+  std::size_t axis = 0;
+  float at = 0;
+};
+
+// Planes are tried at sixteenths of the way from the first centre to the last.
+constexpr std::size_t slices = 16;
+using Slices = std::array<Group, slices>;
+
+// The slice before which a plane leaves the least cost, and that cost; slice 0: none is below
+// `most`.
+std::pair<std::size_t, double> cheapest(const Slices& parts, double most) {
+  std::array<double, slices> below_cost{};
+  Group below;
+  for (std::size_t i = 0; i < slices; ++i) {
+    below_cost[i] = below.cost();
+    below.add(parts[i]);
+  }
+  std::pair<std::size_t, double> best{0, most};
+  Group above;
+  for (std::size_t i = slices - 1; i > 0; --i) {
+    above.add(parts[i]);
+    const double both = below_cost[i] + above.cost();
+    if (both < best.second) best = {i, both};
+  }
+  return best;
+}
+
+class PlaneSearch {
+ public:
+  PlaneSearch(const scene::ParticleScene& scene, std::span<const std::uint32_t> places) {
+    const std::vector<Four>& spheres = scene.particles->spheres;
+    for (const std::uint32_t place : places) centres_.add(spheres[place], 0);
+    Four slices_per_length{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float size = centres_.size(axis);
+      if (size > 0) slices_per_length[axis] = float{slices} / size;
+    }
+    for (const std::uint32_t place : places) {
+      const Four& sphere = spheres[place];
+      const float radius = scene.radius(place);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float slice = (sphere[axis] - centres_.lo[axis]) * slices_per_length[axis];
+        Group& group = by_axis_[axis][std::min(static_cast<std::size_t>(slice), slices - 1)];
+        ++group.count;
+        group.box.add(sphere, radius);
+      }
+    }
+  }
+
+  // The plane that saves most, where that is more than the price of a part.
+  [[nodiscard]] std::optional<Plane> best(double price) const {
+    Group all;
+    for (const Group& group : by_axis_[0]) all.add(group);
+    double least = all.cost() - price * all.box.surface();
+    std::optional<Plane> best;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto [slice, cost] = cheapest(by_axis_[axis], least);
+      if (slice == 0) continue;
+      least = cost;
+      const float share = static_cast<float>(slice) / float{slices};
+      best = {axis, centres_.lo[axis] + share * centres_.size(axis)};
+    }
+    return best;
+  }
+
+ private:
+  Box centres_;
+  std::array<Slices, 3> by_axis_{};
+};
+
+}  // namespace
+
+Grid::Grid(const scene::ParticleSet& set, std::size_t per_cell) {
+  glm::dvec3 lo(std::numeric_limits<double>::infinity());
+  glm::dvec3 hi(-std::numeric_limits<double>::infinity());
+  for (const auto& sphere : set.spheres) {
+    const glm::dvec3 centre{sphere[0], sphere[1], sphere[2]};
+    lo = glm::min(lo, centre);
+    hi = glm::max(hi, centre);
+  }
+  lo_ = lo;
+  const glm::dvec3 size = hi - lo;
+  const double wanted = static_cast<double>(set.count()) / static_cast<double>(per_cell);
+  edge_ = edge_for(size, std::max(wanted, 1.0));
+  const auto parts = [&](double length) {
+    return static_cast<std::uint32_t>(std::floor(length / edge_)) + 1;
+  };
+  counts_ = {parts(size.x), parts(size.y), parts(size.z)};
+}
+
+std::uint32_t Grid::cell_of(const std::array<float, 4>& sphere) const {
+  std::array<std::uint32_t, 3> at{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto index = static_cast<std::size_t>(axis);
+    const double place = (static_cast<double>(sphere[index]) - lo_[axis]) / edge_;
+    at[index] = std::min(static_cast<std::uint32_t>(std::max(place, 0.0)), counts_[index] - 1);
+  }
+  return at[0] + counts_[0] * (at[1] + counts_[1] * at[2]);
+}
+
+Division::Division(const scene::ParticleScene& scene, std::size_t per_cell)
+    : scene_(scene),
+      grid_(*scene.particles, per_cell),
+      price_(static_cast<double>(per_cell) / 2),
+      nodes_(std::size_t{grid_.cells()} + 1) {
+  const auto count = static_cast<std::uint32_t>(scene.particles->count());
+  // Places by cell of the grid: `ends` begin as the cells' beginnings.
+  std::vector<std::uint32_t> ends(nodes_.size());
+  for (std::uint32_t place = 0; place < count; ++place) ++ends[undivided_part_of(place)];
+  std::uint32_t begin = 0;
+  for (std::uint32_t& end : ends) begin += std::exchange(end, begin);
+  std::vector<std::uint32_t> places(count);
+  for (std::uint32_t place = 0; place < count; ++place) {
+    places[ends[undivided_part_of(place)]++] = place;
+  }
+  for (std::uint32_t cell = 1; cell < ends.size(); ++cell) {
+    divide({cell, std::span(places).subspan(ends[cell - 1], ends[cell] - ends[cell - 1])});
+  }
+}
+
+std::uint32_t Division::undivided_part_of(std::uint32_t place) const {
+  const bool too_large = 2 * static_cast<double>(scene_.radius(place)) > grid_.edge();
+  return too_large ? 0 : grid_.cell_of(scene_.particles->spheres[place]) + 1;
+}
+
+std::uint32_t Division::part_of(std::uint32_t place) const {
+  std::uint32_t part = undivided_part_of(place);
+  while (nodes_[part].axis != Node::whole) {
+    const Node& node = nodes_[part];
+    const bool above = scene_.particles->spheres[place][node.axis] >= node.plane;
+    part = node.below + (above ? 1 : 0);
+  }
+  return part;
+}
+
+void Division::divide(Crowd all) {
+  std::vector<Crowd> open{all};
+  while (!open.empty()) {
+    const Crowd crowd = open.back();
+    open.pop_back();
+    // No plane saves more than all there is.
+    if (static_cast<double>(crowd.places.size()) <= price_) continue;
+    const std::optional<Plane> plane = PlaneSearch(scene_, crowd.places).best(price_);
+    if (!plane) continue;
+    const auto above = std::ranges::partition(crowd.places, [&](std::uint32_t place) {
+      return scene_.particles->spheres[place][plane->axis] < plane->at;
+    });
+    const std::size_t below = crowd.places.size() - above.size();
+    if (below == 0 || above.empty()) continue;  // by rounding
+    const auto child = static_cast<std::uint32_t>(nodes_.size());
+    nodes_[crowd.node] = {
+        .axis = static_cast<std::uint32_t>(plane->axis), .plane = plane->at, .below = child};
+    nodes_.resize(nodes_.size() + 2);
+    open.push_back({child, crowd.places.first(below)});
+    open.push_back({child + 1, crowd.places.subspan(below)});
+  }
+}
+
+}  // namespace triptych::technique
