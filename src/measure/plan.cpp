@@ -11,6 +11,7 @@
 #include "measure/plan_combinations.hpp"
 #include "measure/plan_values.hpp"
 #include "measure/plan_yaml.hpp"
+#include "record/factor_list.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -168,14 +169,14 @@ Plan default_plan(const Suite& suite, const Overrides& overrides) {
 }
 
 std::string configuration_key(const Suite& suite, const Configuration& configuration) {
-  std::string key;
-  for (const auto& [name, value] : configuration) {  // a map: sorted by name
+  Configuration named = configuration;
+  std::erase_if(named, [&](const auto& level) {
+    const auto& [name, value] = level;
     const auto factor = std::ranges::find(suite.factors(), name, &Factor::name);
     const bool always = name == "technique" || name == "data" || name == "camera";
-    if (!always && factor != suite.factors().end() && standard_of(*factor) == value) continue;
-    key += fmt::format("{}{}={}", key.empty() ? "" : ",", name, value);
-  }
-  return key;
+    return !always && factor != suite.factors().end() && standard_of(*factor) == value;
+  });
+  return record::factor_list(named);
 }
 
 void keep_shard(Plan& plan, int index, int count) {

@@ -61,12 +61,13 @@ std::string canonical_choice(const Factor& factor, const PlacedText& value) {
                                      suggestion(value.text, factor.levels)));
 }
 
-// Keys of configurations are lists of name=value; a value must not look like two.
+// A configuration is one line, of a list, a table or a baseline.
 std::string canonical_text(const Factor& factor, const PlacedText& value) {
-  if (value.text.empty() || value.text.find_first_of(",=\n\r") != std::string::npos) {
-    throw core::InputError(value.place, fmt::format("'{}': a value is not empty and has no comma, "
-                                                    "'=' or line break; found '{}'",
-                                                    factor.name, value.text));
+  if (value.text.empty() || value.text.find_first_of("\n\r") != std::string::npos) {
+    throw core::InputError(value.place,
+                           fmt::format("'{}': a value is not empty and has no line break; found "
+                                       "'{}'",
+                                       factor.name, value.text));
   }
   return value.text;
 }
