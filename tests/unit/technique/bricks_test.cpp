@@ -10,13 +10,15 @@
 namespace triptych::technique {
 namespace {
 
-// A function that is opaque over one stretch of its table only.
+// A function that is opaque over one stretch of its table only, or transparent over it only: bricks
+// at a corner as well as within may then be the empty ones.
 scene::TransferFunction stretch(core::Random& random) {
   scene::TransferFunction function;
   const std::size_t begin = random.bits() % 256;
-  const std::size_t length = 1 + random.bits() % 256;
-  for (std::size_t k = begin; k < std::min<std::size_t>(begin + length, 256); ++k) {
-    function.entries[k][3] = 0.5F;
+  const std::size_t end = begin + 1 + random.bits() % 128;
+  const bool opaque = random.bits() % 2 == 0;
+  for (std::size_t k = 0; k < 256; ++k) {
+    function.entries[k][3] = (begin <= k && k < end) == opaque ? 0.5F : 0.0F;
   }
   return function;
 }
