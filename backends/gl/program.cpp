@@ -102,7 +102,7 @@ std::string shared_source(const Api& gl, std::string_view constant_lines,
                           std::span<const std::string_view> files) {
   std::string source = version_lines(gl).append(constant_lines).append(embedded("prelude.glsl"));
   source.append(technique::source("prelude.glsl"));
-  for (const std::string_view file : files) source.append(technique::source(file));
+  for (const std::string_view file : files) source.append(technique::whole_source(file));
   return source;
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "backends/vulkan/colour_target.hpp"
 #include "backends/vulkan/draw_pipeline.hpp"
 #include "backends/vulkan/errors.hpp"
 #include "backends/vulkan/frames.hpp"
@@ -18,43 +19,6 @@ constexpr std::string_view fragment_shader = "anchor_raster.frag.spv";
 constexpr vk::Format target_format = vk::Format::eR8G8B8A8Unorm;
 constexpr std::uint32_t edge = technique::anchor_shape::raster_edge;
 constexpr vk::Rect2D everything{.extent = {edge, edge}};
-
-vk::QueryPipelineStatisticFlags draw_statistics() {
-  using enum vk::QueryPipelineStatisticFlagBits;
-  return eInputAssemblyVertices | eInputAssemblyPrimitives | eVertexShaderInvocations |
-         eClippingInvocations | eClippingPrimitives | eFragmentShaderInvocations;
-}
-
-// Begins with zeros and leaves the target ready to be copied from.
-vk::raii::RenderPass make_render_pass(const Gpu& gpu) {
-  const vk::AttachmentDescription target{.format = target_format,
-                                         .loadOp = vk::AttachmentLoadOp::eClear,
-                                         .storeOp = vk::AttachmentStoreOp::eStore,
-                                         .stencilLoadOp = vk::AttachmentLoadOp::eDontCare,
-                                         .stencilStoreOp = vk::AttachmentStoreOp::eDontCare,
-                                         .initialLayout = vk::ImageLayout::eUndefined,
-                                         .finalLayout = vk::ImageLayout::eTransferSrcOptimal};
-  const vk::AttachmentReference colour{.attachment = 0,
-                                       .layout = vk::ImageLayout::eColorAttachmentOptimal};
-  const vk::SubpassDescription subpass{.pipelineBindPoint = vk::PipelineBindPoint::eGraphics,
-                                       .colorAttachmentCount = 1,
-                                       .pColorAttachments = &colour};
-  return {gpu.device, vk::RenderPassCreateInfo{.attachmentCount = 1,
-                                               .pAttachments = &target,
-                                               .subpassCount = 1,
-                                               .pSubpasses = &subpass}};
-}
-
-vk::raii::Framebuffer make_framebuffer(const Gpu& gpu, const vk::raii::RenderPass& pass,
-                                       const Image& target) {
-  const vk::ImageView view = target.view();
-  return {gpu.device, vk::FramebufferCreateInfo{.renderPass = *pass,
-                                                .attachmentCount = 1,
-                                                .pAttachments = &view,
-                                                .width = edge,
-                                                .height = edge,
-                                                .layers = 1}};
-}
 
 class RasterFrames final : public measure::Prepared {
  public:
@@ -90,8 +54,8 @@ RasterFrames::RasterFrames(const Gpu& gpu, const Instance& instance,
       target_(gpu, vk::ImageType::e2D, target_format, {edge, edge, 1},
               vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc),
       layout_(make_layout(gpu, {})),
-      render_pass_(make_render_pass(gpu)),
-      framebuffer_(make_framebuffer(gpu, render_pass_, target_)),
+      render_pass_(colour_pass(gpu, target_format, vk::AttachmentLoadOp::eClear)),
+      framebuffer_(colour_framebuffer(gpu, render_pass_, target_)),
       pipeline_(make_draw_pipeline(
           gpu, layout_, render_pass_,
           {.stages = {{vk::ShaderStageFlagBits::eVertex, spirv(vertex_shader)},

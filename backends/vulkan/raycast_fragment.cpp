@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "backends/vulkan/colour_target.hpp"
 #include "backends/vulkan/draw_pipeline.hpp"
 #include "backends/vulkan/errors.hpp"
 #include "backends/vulkan/frames.hpp"
@@ -16,43 +17,6 @@ namespace {
 constexpr std::string_view vertex_shader = "raycast_fragment.vert.spv";
 constexpr std::string_view fragment_shader = "raycast_fragment.frag";
 constexpr vk::Format target_format = vk::Format::eR32G32B32A32Sfloat;
-
-vk::QueryPipelineStatisticFlags draw_statistics() {
-  using enum vk::QueryPipelineStatisticFlagBits;
-  return eInputAssemblyVertices | eInputAssemblyPrimitives | eVertexShaderInvocations |
-         eClippingInvocations | eClippingPrimitives | eFragmentShaderInvocations;
-}
-
-// Keeps nothing of the target's old content and leaves it ready to be copied from.
-vk::raii::RenderPass make_render_pass(const Gpu& gpu) {
-  const vk::AttachmentDescription target{.format = target_format,
-                                         .loadOp = vk::AttachmentLoadOp::eDontCare,
-                                         .storeOp = vk::AttachmentStoreOp::eStore,
-                                         .stencilLoadOp = vk::AttachmentLoadOp::eDontCare,
-                                         .stencilStoreOp = vk::AttachmentStoreOp::eDontCare,
-                                         .initialLayout = vk::ImageLayout::eUndefined,
-                                         .finalLayout = vk::ImageLayout::eTransferSrcOptimal};
-  const vk::AttachmentReference colour{.attachment = 0,
-                                       .layout = vk::ImageLayout::eColorAttachmentOptimal};
-  const vk::SubpassDescription subpass{.pipelineBindPoint = vk::PipelineBindPoint::eGraphics,
-                                       .colorAttachmentCount = 1,
-                                       .pColorAttachments = &colour};
-  return {gpu.device, vk::RenderPassCreateInfo{.attachmentCount = 1,
-                                               .pAttachments = &target,
-                                               .subpassCount = 1,
-                                               .pSubpasses = &subpass}};
-}
-
-vk::raii::Framebuffer make_framebuffer(const Gpu& gpu, const vk::raii::RenderPass& pass,
-                                       const Image& target) {
-  const vk::ImageView view = target.view();
-  return {gpu.device, vk::FramebufferCreateInfo{.renderPass = *pass,
-                                                .attachmentCount = 1,
-                                                .pAttachments = &view,
-                                                .width = target.extent().width,
-                                                .height = target.extent().height,
-                                                .layers = 1}};
-}
 
 // A full-screen triangle without vertex buffers.
 vk::raii::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout,
@@ -110,8 +74,8 @@ FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
                static_cast<std::uint32_t>(work.scene.height), 1},
               vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc),
       resources_(gpu, work, nullptr),
-      render_pass_(make_render_pass(gpu)),
-      framebuffer_(make_framebuffer(gpu, render_pass_, target_)),
+      render_pass_(colour_pass(gpu, target_format, vk::AttachmentLoadOp::eDontCare)),
+      framebuffer_(colour_framebuffer(gpu, render_pass_, target_)),
       pipeline_(make_pipeline(gpu, resources_.layout(), render_pass_, target_.extent(), timed_code_,
                               constants_)),
       counting_pipeline_(nullptr),

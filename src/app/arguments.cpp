@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+
+#include "record/factor_list.hpp"
 
 namespace triptych::app {
 
@@ -19,8 +22,10 @@ void PlanArguments::add_to(CLI::App& command) {
 }
 
 void PlanChoice::add_to(CLI::App& command) {
-  command.add_option("--set", set,
-                     "factor=a,b: replaces the plan's values of a factor (repeatable)");
+  command.add_option(
+      "--set", set,
+      "factor=a,b: replaces the plan's values of a factor (repeatable); a comma within a "
+      "value is spelled %2C");
   command.add_option("--shard", shard, "i/n: only the i-th of n parts of the plan");
 }
 
@@ -47,13 +52,11 @@ measure::Overrides parse_overrides(const std::vector<std::string>& set) {
     if (equals == std::string::npos || equals == 0 || equals + 1 == each.size()) {
       throw core::InputError(fmt::format("--set {}: expected factor=value or factor=a,b", each));
     }
-    std::vector<std::string> values{""};
-    for (const char c : each.substr(equals + 1)) {
-      if (c == ',') {
-        values.emplace_back();
-      } else {
-        values.back() += c;
-      }
+    std::vector<std::string> values;
+    for (std::size_t begin = equals + 1; begin <= each.size();) {
+      const std::size_t end = std::min(each.find(',', begin), each.size());
+      values.push_back(record::unescaped(std::string_view(each).substr(begin, end - begin)));
+      begin = end + 1;
     }
     overrides.emplace_back(each.substr(0, equals), std::move(values));
   }

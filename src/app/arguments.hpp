@@ -43,7 +43,8 @@ struct PlanArguments {
   }
 };
 
-// "factor=a,b" → {factor, {a, b}}; throws core::InputError.
+// "factor=a,b" → {factor, {a, b}}, each value as record::escaped spells it or plainly; throws
+// core::InputError.
 [[nodiscard]] measure::Overrides parse_overrides(const std::vector<std::string>& set);
 
 // "FAULT" or "FAULT@GLOB".

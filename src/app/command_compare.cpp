@@ -85,22 +85,17 @@ void show(const ComparisonProgress& progress) {
              progress.left.count(), terminal ? "" : "\n");
 }
 
-std::string quoted(const std::string& text) {
-  const bool plain = std::ranges::all_of(text, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) ||
-           std::string_view(":,=_./#-").find(c) != std::string_view::npos;
-  });
-  return plain ? text : "'" + text + "'";
-}
-
 ComparisonCommand command_of(const CompareArguments& arguments, const measure::Plan& plan) {
   ComparisonCommand command{
       .plan = arguments.plan.plan,
-      .sides = fmt::format("--a {} --b {}", quoted(arguments.a), quoted(arguments.b)),
+      .sides = fmt::format("--a {} --b {}", shell_word(arguments.a), shell_word(arguments.b)),
       .varied = plan.varied};
-  if (!arguments.a_program.empty()) command.sides += " --a-program " + quoted(arguments.a_program);
-  if (!arguments.b_program.empty()) command.sides += " --b-program " + quoted(arguments.b_program);
-  for (const std::string& plant : arguments.plants) command.sides += " --plant " + quoted(plant);
+  if (!arguments.a_program.empty())
+    command.sides += " --a-program " + shell_word(arguments.a_program);
+  if (!arguments.b_program.empty())
+    command.sides += " --b-program " + shell_word(arguments.b_program);
+  for (const std::string& plant : arguments.plants)
+    command.sides += " --plant " + shell_word(plant);
   // What the command line set to one value is no longer varied, but must be said again.
   for (const auto& [factor, values] : parse_overrides(arguments.plan.choice.set)) {
     if (std::ranges::find(command.varied, factor) == command.varied.end()) {

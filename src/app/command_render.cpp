@@ -128,7 +128,8 @@ void add_render_command(Commands& commands) {
                    [arguments] { return render(*arguments); });
   command->add_option("SUITE", arguments->suite, "volume")->required();
   command->add_option("--device", arguments->device, "Device id or a glob for one")->required();
-  command->add_option("--set", arguments->set, "factor=value (repeatable)");
+  command->add_option("--set", arguments->set,
+                      "factor=value (repeatable); a comma in it is spelled %2C");
   command->add_option("--out", arguments->out, "Folder to write into")->required();
   command->add_option("--error", arguments->error,
                       "Root mean square error against the scene's limit: chooses the fastest step, "

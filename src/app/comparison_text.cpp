@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "core/json.hpp"
+#include "record/factor_list.hpp"
 
 namespace triptych::app {
 namespace {
@@ -16,9 +19,10 @@ using judge::DifferenceKind;
 
 // The command that measures this configuration alone, as long as it takes.
 std::string settle(const Compared& compared, const ComparisonCommand& command) {
-  std::string text = fmt::format("triptych compare {} {}", command.plan, command.sides);
+  std::string text = fmt::format("triptych compare {} {}", shell_word(command.plan), command.sides);
   for (const std::string& factor : command.varied) {
-    text += fmt::format(" --set {}={}", factor, compared.configuration.at(factor));
+    const std::string level = record::factor_list({{factor, compared.configuration.at(factor)}});
+    text += " --set " + shell_word(level);
   }
   return text;
 }
@@ -159,6 +163,17 @@ core::Json to_json(const Compared& compared, const ComparisonCommand& command) {
 }
 
 }  // namespace
+
+std::string shell_word(const std::string& text) {
+  const bool plain = std::ranges::all_of(text, [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) ||
+           std::string_view(":,=_./#-%").find(c) != std::string_view::npos;
+  });
+  if (plain && !text.empty()) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
 
 std::string to_text(const ComparisonResult& result, const ComparisonCommand& command) {
   std::string text = fmt::format("a: {}\nb: {}\nratios are time of b over time of a\n",

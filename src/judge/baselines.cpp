@@ -138,6 +138,15 @@ auto find_optional(const Table& table, const std::string& name) {
 
 }  // namespace
 
+std::string_view common_clock(const record::Record& record, std::span<const StoredTiming> stored) {
+  const auto told = [&](const StoredTiming& timing) {
+    return timing.median_by(record.clock()).has_value();
+  };
+  return stored.empty() || std::ranges::any_of(stored, told) || record.wall_ns.empty()
+             ? record.clock()
+             : "wall";
+}
+
 // What was read so far, by file.
 struct Baselines::Cache {
   Layout layout;

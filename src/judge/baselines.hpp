@@ -22,6 +22,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,12 @@ struct StoredTiming {
     return which == "wall" ? median_wall_ns : std::nullopt;
   }
 };
+
+// Times by different clocks are not compared: the clock that the record counts by, or the wall
+// clock, by which everything is timed, where no stored run of its configuration has a time by that
+// one. A clock that a busy machine made doubtful once is no reason to judge nothing.
+[[nodiscard]] std::string_view common_clock(const record::Record& record,
+                                            std::span<const StoredTiming> stored);
 
 // All that is stored of one device's times.
 struct StoredDevice {

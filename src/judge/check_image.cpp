@@ -9,6 +9,7 @@
 #include "judge/anchor.hpp"
 #include "judge/image_metrics.hpp"
 #include "judge/run_view.hpp"
+#include "record/factor_list.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -84,24 +85,12 @@ std::string fault(const ImageComparison& comparison, const core::Image& image,
   return comparison.pixels == 0 ? std::string("the picture is empty") : std::string();
 }
 
-// The factors named in a canonical "factor=value,…" text.
-std::set<std::string> factor_names(std::string_view key) {
-  std::set<std::string> names;
-  while (!key.empty()) {
-    const auto end = std::min(key.find(','), key.size());
-    const std::string_view item = key.substr(0, end);
-    const auto equals = item.find('=');
-    if (equals != std::string_view::npos) names.emplace(item.substr(0, equals));
-    key.remove_prefix(std::min(end + 1, key.size()));
-  }
-  return names;
-}
-
 // Nothing but the scene and the technique is set: every device takes the path it prefers.
 bool on_default_path(const record::Record& record) {
-  const std::set<std::string> scene = factor_names(record.scene);
-  return std::ranges::all_of(factor_names(record.configuration), [&](const std::string& name) {
-    return name == "technique" || scene.contains(name);
+  const auto scene = record::parse_factor_list(record.scene);
+  const auto named = record::parse_factor_list(record.configuration);
+  return std::ranges::all_of(named, [&](const auto& level) {
+    return level.first == "technique" || scene.contains(level.first);
   });
 }
 

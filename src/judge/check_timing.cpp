@@ -46,19 +46,6 @@ Resolutions resolutions(const RunView& view) {
   return result;
 }
 
-// Times by different clocks are not compared: the record's own, or the wall clock, by which
-// everything is timed, where no stored run has a time by that one. A clock that a busy machine made
-// doubtful once is no reason to judge nothing.
-std::string_view common_clock(const record::Record& record,
-                              const std::vector<StoredTiming>& stored) {
-  const auto told = [&](const StoredTiming& timing) {
-    return timing.median_by(record.clock()).has_value();
-  };
-  return stored.empty() || std::ranges::any_of(stored, told) || record.wall_ns.empty()
-             ? record.clock()
-             : "wall";
-}
-
 // A record that can be judged, with what it is judged by.
 struct Judged {
   const record::Record* record;

@@ -30,13 +30,7 @@ std::vector<double> runs_by(std::string_view clock, const Stored& stored,
   return result;
 }
 
-// Times by different clocks are not compared: the record's own, or the wall clock, by which
-// everything is timed, where the other side has nothing by that one.
-std::string_view common_clock(const record::Record& record, const Stored& stored) {
-  if (!runs_by(record.clock(), stored, record.configuration).empty()) return record.clock();
-  return "wall";
-}
-
+// As common_clock with what is stored.
 std::string_view common_clock(const record::Record& a, const record::Record& b) {
   return a.clock() == b.clock() ? a.clock() : "wall";
 }
@@ -156,7 +150,7 @@ class Pairs {
     const VariancePrior scatter_b = scatter_between_runs(of_b);
     for (const record::Record* record : records_.at(device.id)) {
       if (!of_a.contains(record->configuration)) continue;
-      const std::string_view clock = common_clock(*record, of_a);
+      const std::string_view clock = common_clock(*record, of_a.at(record->configuration));
       const auto runs_a = runs_by(clock, of_a, record->configuration);
       if (runs_a.empty() || record->time_ns_by(clock).empty()) {
         ++(is_anchor(*record) ? pair.unlike_anchors : pair.unlike_clocks);

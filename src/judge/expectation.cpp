@@ -5,21 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <string_view>
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
+#include "record/factor_list.hpp"
 
 namespace triptych::judge {
 namespace {
-
-std::string text_of(const record::Changed& changed) {
-  std::string text;
-  for (const auto& [factor, value] : changed) {
-    text += fmt::format("{}{}={}", text.empty() ? "" : ",", factor, value);
-  }
-  return text;
-}
 
 // Where a pixel of this picture lies in the other one.
 struct Place {
@@ -118,7 +110,8 @@ std::string unmet_rule(const record::SamePicture& rule, const record::Record& re
                        StressRun& run, const FindTruth& truth) {
   const record::Record* other = run.other(record, rule.changed);
   const core::Image* theirs = other == nullptr ? nullptr : run.picture(*other);
-  if (theirs == nullptr) return fmt::format("there is no picture with {}", text_of(rule.changed));
+  if (theirs == nullptr)
+    return fmt::format("there is no picture with {}", record::factor_list(rule.changed));
   const core::Image& mine = *run.picture(record);
   if (!fits(rule, mine, *theirs)) {
     return fmt::format("{}x{} pixels at ({}, {}) do not lie in the other's {}x{}", mine.width,
@@ -131,7 +124,7 @@ std::string unmet_rule(const record::SamePicture& rule, const record::Record& re
     two.bound = truth(*other).bound;
   }
   const std::string fault = SameJudge(rule, one, two).fault();
-  return fault.empty() ? fault : fmt::format("{} of {}", fault, text_of(rule.changed));
+  return fault.empty() ? fault : fmt::format("{} of {}", fault, record::factor_list(rule.changed));
 }
 
 std::string unmet_rule(const record::OneColour& rule, const record::Record& record, StressRun& run,
@@ -158,11 +151,11 @@ std::string unmet_rule(const record::CountAtMost& rule, const record::Record& re
     const auto unit =
         other == nullptr ? record::Counts::const_iterator{} : other->counters.find(rule.of);
     if (other == nullptr || unit == other->counters.end()) {
-      return fmt::format("{} was not counted with {}", rule.of, text_of(rule.changed));
+      return fmt::format("{} was not counted with {}", rule.of, record::factor_list(rule.changed));
     }
     most *= static_cast<double>(unit->second);
     limit += fmt::format(" × {} {}", unit->second, rule.of);
-    if (!rule.changed.empty()) limit += " with " + text_of(rule.changed);
+    if (!rule.changed.empty()) limit += " with " + record::factor_list(rule.changed);
   }
   if (static_cast<double>(count->second) <= most) return {};
   return fmt::format("{} {}, at most {} allowed", count->second, rule.counter, limit);
@@ -178,26 +171,14 @@ std::string unmet_rule(const record::MayBeRefused& /*rule*/, const record::Recor
 StressRun::StressRun(const record::Store& store, const std::vector<record::Record>& records)
     : store_(store) {
   for (const record::Record& record : records) {
-    index_.emplace(std::pair(record.device, factors_of(record)), &record);
+    index_.emplace(std::pair(record.device, record::parse_factor_list(record.configuration)),
+                   &record);
   }
-}
-
-StressRun::Factors StressRun::factors_of(const record::Record& record) {
-  Factors factors;
-  std::string_view key = record.configuration;
-  while (!key.empty()) {
-    const std::size_t end = std::min(key.find(','), key.size());
-    const std::string_view item = key.substr(0, end);
-    const std::size_t equals = std::min(item.find('='), item.size());
-    factors.emplace(item.substr(0, equals), item.substr(std::min(equals + 1, item.size())));
-    key.remove_prefix(std::min(end + 1, key.size()));
-  }
-  return factors;
 }
 
 const record::Record* StressRun::other(const record::Record& record,
                                        const record::Changed& changed) const {
-  Factors factors = factors_of(record);
+  Factors factors = record::parse_factor_list(record.configuration);
   for (const auto& [factor, value] : changed) factors[factor] = value;
   const auto found = index_.find({record.device, factors});
   return found == index_.end() ? nullptr : found->second;

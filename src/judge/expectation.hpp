@@ -23,7 +23,6 @@ class StressRun {
 
  private:
   using Factors = std::map<std::string, std::string>;
-  [[nodiscard]] static Factors factors_of(const record::Record& record);
 
   const record::Store& store_;
   std::map<std::pair<std::string, Factors>, const record::Record*> index_;  // by device and key

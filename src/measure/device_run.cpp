@@ -42,7 +42,11 @@ DeviceRun::DeviceRun(const RunContext& context, std::string device)
     : context_(context),
       device_(std::move(device)),
       cache_(device_),
-      environment_(worker_environment(device_, cache_)) {
+      seat_({.device = device_,
+             .command = context.options.worker_command,
+             .environment = worker_environment(device_, cache_),
+             .limit = context.options.start_limit},
+            context.interrupts) {
   remember();
 }
 
@@ -52,8 +56,8 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
           .configuration = configuration,
           .protocol = protocol(),
           .plants = context_.plants_for(key, device_)};
-  Done done =
-      ensure_worker() ? ask(job, on_loading) : Done{ended(record::Outcome::failed, no_worker_)};
+  Done done = ensure_worker() ? ask(job, on_loading)
+                              : Done{ended(record::Outcome::failed, seat_.why_closed())};
   record::Record& record = done.record;
   record.run = context_.run;
   record.suite = context_.plan.suite;
@@ -70,7 +74,7 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
 DeviceRun::Round DeviceRun::round(const Configuration& configuration, const std::string& key,
                                   int warm_up_frames, const OnLoading& on_loading) {
   if (!ensure_worker()) {
-    return {.turn = ended_turn(record::Outcome::failed, no_worker_), .work_ns = 0};
+    return {.turn = ended_turn(record::Outcome::failed, seat_.why_closed()), .work_ns = 0};
   }
   const Stopwatch stopwatch;
   const std::array requests{
@@ -89,8 +93,7 @@ DeviceRun::Round DeviceRun::round(const Configuration& configuration, const std:
 }
 
 void DeviceRun::finish() {
-  if (worker_) worker_->finish();
-  worker_.reset();
+  seat_.finish();
 }
 
 // A resumed run goes on with the clocks it began with: records of one run rest on one verdict.
@@ -109,33 +112,11 @@ Protocol DeviceRun::protocol() const {
 }
 
 bool DeviceRun::ensure_worker() {
-  constexpr int most_attempts = 2;
-  for (int attempt = 0; !worker_ && no_worker_.empty(); ++attempt) {
-    std::string reason = start_worker();
-    if (!reason.empty() && attempt + 1 >= most_attempts) no_worker_ = std::move(reason);
-  }
-  return worker_ != nullptr;
-}
-
-std::string DeviceRun::start_worker() {
-  std::vector<std::string> command = context_.options.worker_command;
-  command.push_back(device_);
-  std::unique_ptr<WorkerLink> worker;
-  try {
-    worker = std::make_unique<WorkerLink>(command, environment_, context_.interrupts);
-  } catch (const core::IoError& error) {
-    return fmt::format("{} cannot be opened: {}", device_, error.what());
-  }
-  const Start start{.suite = context_.plan.suite, .kinds = context_.kinds, .clocks = clocks_};
-  const Stopwatch opening;
-  const auto greeting = worker->greet(start, context_.options.start_limit);
-  opening_ns_ += opening.ns();
-  if (const auto* reason = std::get_if<std::string>(&greeting)) {
-    return fmt::format("{} cannot be opened: {}", device_, *reason);
-  }
-  greet(std::get<Hello>(greeting));
-  worker_ = std::move(worker);
-  return {};
+  return seat_.open(
+      [this] {
+        return Start{.suite = context_.plan.suite, .kinds = context_.kinds, .clocks = clocks_};
+      },
+      [this](const Hello& hello) { greet(hello); });
 }
 
 void DeviceRun::greet(const Hello& hello) {
@@ -156,7 +137,7 @@ Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
   auto reply = exchange(to_message(job), as_answer, on_loading);
   if (const auto* lost = std::get_if<Ended>(&reply)) return {ended(lost->outcome, lost->reason)};
   Answer& answer = std::get<Answer>(reply);
-  if (answer.record.outcome == record::Outcome::lost) worker_.reset();
+  if (answer.record.outcome == record::Outcome::lost) seat_.vacate();
   Done done{.record = std::move(answer.record),
             .exr = std::move(answer.exr),
             .work_ns = answer.worker_ns - answer.record.overhead_ns};
@@ -170,14 +151,14 @@ Turn DeviceRun::turn(const Message& message, const OnLoading& on_loading) {
     return ended_turn(lost->outcome, lost->reason);
   }
   Turn& turn = std::get<Turn>(reply);
-  if (turn.outcome == record::Outcome::lost) worker_.reset();
+  if (turn.outcome == record::Outcome::lost) seat_.vacate();
   return std::move(turn);
 }
 
 template <typename As>
 auto DeviceRun::exchange(const Message& message, As as, const OnLoading& on_loading)
     -> std::variant<typename std::invoke_result_t<As, Message>::value_type, Ended> {
-  WorkerLink::Reply reply = worker_->ask(message, context_.options.limit, on_loading);
+  WorkerLink::Reply reply = seat_.worker().ask(message, context_.options.limit, on_loading);
   std::optional<Ended> ended;
   if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
     ended = {record::Outcome::crashed, std::move(died->reason)};
@@ -191,7 +172,7 @@ auto DeviceRun::exchange(const Message& message, As as, const OnLoading& on_load
       ended = {record::Outcome::failed, error.what()};
     }
   }
-  worker_.reset();
+  seat_.vacate();
   return std::move(*ended);
 }
 

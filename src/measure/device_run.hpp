@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -13,7 +12,7 @@
 #include "measure/environment.hpp"
 #include "measure/interrupt.hpp"
 #include "measure/runner.hpp"
-#include "measure/worker_link.hpp"
+#include "measure/worker_seat.hpp"
 
 namespace triptych::measure {
 
@@ -64,15 +63,13 @@ class DeviceRun {
   void finish();
 
   // Opening the driver and calibrating its clocks is the device's work, not ours.
-  [[nodiscard]] double opening_ns() const { return opening_ns_; }
+  [[nodiscard]] double opening_ns() const { return seat_.opening_ns(); }
 
  private:
   void remember();
   [[nodiscard]] Protocol protocol() const;
-  // False when no worker can be had, now or later; the reason is then in no_worker_.
+  // As WorkerSeat::open.
   bool ensure_worker();
-  // Empty when a worker has said hello, else why not.
-  [[nodiscard]] std::string start_worker();
   void greet(const Hello& hello);
   [[nodiscard]] Done ask(const Job& job, const OnLoading& on_loading);
   [[nodiscard]] Turn turn(const Message& message, const OnLoading& on_loading);
@@ -89,12 +86,9 @@ class DeviceRun {
   const RunContext& context_;
   std::string device_;
   CacheFolder cache_;
-  std::vector<std::string> environment_;
+  WorkerSeat seat_;
   std::optional<record::Device> known_;
   std::vector<record::ClockTrust> clocks_;
-  double opening_ns_ = 0;
-  std::unique_ptr<WorkerLink> worker_;
-  std::string no_worker_;
 };
 
 }  // namespace triptych::measure

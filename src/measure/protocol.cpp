@@ -15,6 +15,7 @@
 #include "measure/benchmark_loop.hpp"
 #include "measure/clock.hpp"
 #include "measure/stopwatch.hpp"
+#include "record/benchmark_entries.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -174,7 +175,7 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   add_counts(entries, record.counters);
   add_counts(entries, record.statistics);
   add_counts(entries, {{"device_clock_trusted", record.device_clock_trusted ? 1U : 0U}});
-  record.benchmark_json = entries.dump();
+  record.benchmark_json = record::pack_benchmark_entries(entries);
   record.image = image_hash(result.image);
   record.kernel_hash = prepared.kernel_hash();
   record.outcome = record::Outcome::measured;

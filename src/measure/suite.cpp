@@ -1,20 +1,16 @@
 #include "measure/suite.hpp"
 
+#include "record/factor_list.hpp"
+
 namespace triptych::measure {
 
 std::string scene_key(const Suite& suite, const Configuration& configuration) {
-  std::string key;
-  for (const auto& [name, value] : configuration) {
-    for (const Factor& factor : suite.factors()) {
-      if (factor.name == name && factor.of_scene) {
-        if (!key.empty()) key += ',';
-        key += name;
-        key += '=';
-        key += value;
-      }
-    }
+  Configuration of_scene;
+  for (const Factor& factor : suite.factors()) {
+    const auto found = configuration.find(factor.name);
+    if (factor.of_scene && found != configuration.end()) of_scene.insert(*found);
   }
-  return key;
+  return record::factor_list(of_scene);
 }
 
 }  // namespace triptych::measure

@@ -13,7 +13,7 @@
 #include "core/hash.hpp"
 #include "measure/clock.hpp"
 #include "measure/environment.hpp"
-#include "measure/worker_link.hpp"
+#include "measure/worker_seat.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -90,37 +90,37 @@ bool device_clock_holds(std::span<const Block> blocks) {
 // A side with the worker that serves it just now.
 class Turns::Seat {
  public:
-  Seat(Side side, SideOptions side_options, const TurnOptions& options, InterruptGuard& interrupts)
+  Seat(Side side, const SideOptions& of, const TurnOptions& options, InterruptGuard& interrupts)
       : side_(side),
-        side_options_(std::move(side_options)),
         options_(options),
-        interrupts_(interrupts),
-        cache_(cache_name(side_options_)),
-        environment_(environment_of(side_options_, cache_)) {}
+        cache_(cache_name(of)),
+        seat_({.device = of.device,
+               .command = of.command,
+               .environment = environment_of(of, cache_),
+               .limit = options.start_limit},
+              interrupts) {}
 
   [[nodiscard]] const Hello& hello() const { return hello_; }
-  [[nodiscard]] const std::string& why_closed() const { return why_closed_; }
+  [[nodiscard]] const std::string& why_closed() const { return seat_.why_closed(); }
 
-  // False when no worker can be had, now or later; the reason is then in why_closed().
+  // As WorkerSeat::open. Further workers rest on the first one's verdict on the clocks.
   bool open() {
-    constexpr int most_attempts = 2;
-    for (int attempt = 0; !worker_ && why_closed_.empty(); ++attempt) {
-      std::string reason = start();
-      if (!reason.empty() && attempt + 1 >= most_attempts) why_closed_ = std::move(reason);
-    }
-    return worker_ != nullptr;
+    return seat_.open(
+        [this] {
+          return Start{.suite = options_.suite, .kinds = options_.kinds, .clocks = hello_.clocks};
+        },
+        [this](const Hello& hello) {
+          if (hello_.device.id.empty()) hello_ = hello;
+        });
   }
 
-  void close() {
-    if (worker_) worker_->finish();
-    worker_.reset();
-  }
+  void close() { seat_.finish(); }
 
   // Throws SideEnded unless a message of the wanted kind comes back.
   template <typename As>
   auto ask(const Message& message, As as, const OnLoading& on_loading) {
-    if (!open()) throw SideEnded(side_, record::Outcome::failed, why_closed_);
-    WorkerLink::Reply reply = worker_->ask(message, options_.limit, on_loading);
+    if (!open()) throw SideEnded(side_, record::Outcome::failed, why_closed());
+    WorkerLink::Reply reply = seat_.worker().ask(message, options_.limit, on_loading);
     if (const auto* died = std::get_if<WorkerLink::Died>(&reply)) {
       give_up(record::Outcome::crashed, died->reason);
     }
@@ -140,7 +140,7 @@ class Turns::Seat {
   // Throws SideEnded for an outcome that is none of a measured configuration.
   void require_measured(record::Outcome outcome, const std::string& reason) {
     if (outcome == record::Outcome::measured) return;
-    if (outcome == record::Outcome::lost) worker_.reset();
+    if (outcome == record::Outcome::lost) seat_.vacate();
     throw SideEnded(side_, outcome, reason);
   }
 
@@ -162,56 +162,30 @@ class Turns::Seat {
   }
 
   void release() {
-    if (worker_) static_cast<void>(turn(to_message(Release{})));
+    if (seat_.occupied()) static_cast<void>(turn(to_message(Release{})));
   }
 
  private:
   [[noreturn]] void give_up(record::Outcome outcome, const std::string& reason) {
-    worker_.reset();
+    seat_.vacate();
     throw SideEnded(side_, outcome, reason);
   }
 
-  // Empty when a worker has said hello, else why not.
-  std::string start() {
-    std::vector<std::string> command = side_options_.command;
-    command.push_back(side_options_.device);
-    const auto closed = [this](std::string_view reason) {
-      return fmt::format("{} cannot be opened: {}", side_options_.device, reason);
-    };
-    try {
-      auto worker = std::make_unique<WorkerLink>(command, environment_, interrupts_);
-      // Further workers rest on the first one's verdict on the clocks.
-      const auto greeting =
-          worker->greet({.suite = options_.suite, .kinds = options_.kinds, .clocks = hello_.clocks},
-                        options_.start_limit);
-      if (const auto* reason = std::get_if<std::string>(&greeting)) return closed(*reason);
-      if (hello_.device.id.empty()) hello_ = std::get<Hello>(greeting);
-      worker_ = std::move(worker);
-    } catch (const core::IoError& error) {
-      return closed(error.what());
-    }
-    return {};
-  }
-
   Side side_;
-  SideOptions side_options_;
   const TurnOptions& options_;
-  InterruptGuard& interrupts_;
   CacheFolder cache_;
-  std::vector<std::string> environment_;
+  WorkerSeat seat_;
   Hello hello_;
-  std::unique_ptr<WorkerLink> worker_;
-  std::string why_closed_;
 };
 
-Turns::Turns(TurnOptions options, SideOptions a, SideOptions b)
+Turns::Turns(TurnOptions options, const SideOptions& a, const SideOptions& b)
     : options_(std::move(options)), random_(options_.seed) {
   if (const auto reason = forbids_measuring()) throw core::InputError(*reason);
   for (const SideOptions* side : {&a, &b}) {
     if (const auto reason = forbids_measuring(side->environment)) throw core::InputError(*reason);
   }
-  seats_[0] = std::make_unique<Seat>(Side::a, std::move(a), options_, interrupts_);
-  seats_[1] = std::make_unique<Seat>(Side::b, std::move(b), options_, interrupts_);
+  seats_[0] = std::make_unique<Seat>(Side::a, a, options_, interrupts_);
+  seats_[1] = std::make_unique<Seat>(Side::b, b, options_, interrupts_);
   // Clocks are calibrated one after the other: neither disturbs the other's.
   for (const auto& each : seats_) {
     if (!each->open()) throw core::NotSupported(each->why_closed());

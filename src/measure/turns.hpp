@@ -79,7 +79,7 @@ class Turns {
  public:
   // Opens both. Throws InputError for an environment that forbids measuring, NotSupported with the
   // reason when a side cannot be opened.
-  Turns(TurnOptions options, SideOptions a, SideOptions b);
+  Turns(TurnOptions options, const SideOptions& a, const SideOptions& b);
   ~Turns();
   Turns(const Turns&) = delete;
   Turns& operator=(const Turns&) = delete;

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "record/benchmark_entries.hpp"
 
 namespace triptych::report {
 
@@ -20,12 +21,8 @@ std::string benchmark_json(const record::Store& store, const std::string& run) {
   }
   core::Json benchmarks = core::Json::array();
   for (const record::Record& record : store.records(run)) {
-    if (record.benchmark_json.empty()) continue;
-    const core::Json entries = core::Json::parse(record.benchmark_json);
-    if (entries.is_array()) {
-      for (const core::Json& entry : entries) benchmarks.push_back(entry);
-    } else {
-      benchmarks.push_back(entries);
+    for (core::Json& entry : record::unpack_benchmark_entries(record.benchmark_json)) {
+      benchmarks.push_back(std::move(entry));
     }
   }
   return core::Json{{"context", context}, {"benchmarks", benchmarks}}.dump(2) + "\n";

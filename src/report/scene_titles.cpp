@@ -1,7 +1,7 @@
 #include <map>
 #include <set>
-#include <sstream>
 
+#include "record/factor_list.hpp"
 #include "report/page_sections.hpp"
 
 namespace triptych::report {
@@ -11,13 +11,8 @@ using Factors = std::map<std::string, std::string>;
 
 // "camera=…,data=…" of a configuration or scene, without the technique.
 Factors named_factors(const std::string& key) {
-  Factors factors;
-  std::istringstream text(key);
-  for (std::string part; std::getline(text, part, ',');) {
-    const auto equals = part.find('=');
-    if (equals == std::string::npos || part.starts_with("technique=")) continue;
-    factors[part.substr(0, equals)] = part.substr(equals + 1);
-  }
+  Factors factors = record::parse_factor_list(key);
+  factors.erase("technique");
   return factors;
 }
 

@@ -1,17 +1,12 @@
 #include "suites/volume/plain_work.hpp"
 
-#include <algorithm>
-
 #include "technique/volume/bricks.hpp"
 
 namespace triptych::volume_suite {
 namespace {
 
 bool no_brick_is_empty(const scene::VolumeScene& scene, technique::Skip skip) {
-  const technique::BrickRanges ranges =
-      technique::brick_ranges(*scene.grid, technique::brick_layout(scene, skip));
-  return std::ranges::all_of(technique::brick_visibility(ranges, scene.transfer_function),
-                             [](std::uint32_t visible) { return visible != 0; });
+  return !technique::any_brick_is_empty(scene, technique::brick_layout(scene, skip));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "reference/analytic_scenes.hpp"
 #include "reference/volume.hpp"
 #include "suites/volume/tolerance.hpp"
+#include "tests/support/fitted_order.hpp"
 #include "under_test.hpp"
 #include "volume_truth.hpp"
 
@@ -45,24 +46,6 @@ double rms_error(const core::Image& image, const Exact& exact) {
   return std::sqrt(sum / (4.0 * static_cast<double>(image.pixel_count())));
 }
 
-// Least-squares slope of log error over log size, of the step or of the voxels.
-double fitted_order(const std::vector<double>& sizes, const std::vector<double>& errors) {
-  double sx = 0;
-  double sy = 0;
-  double sxx = 0;
-  double sxy = 0;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    const double x = std::log(sizes[i]);
-    const double y = std::log(errors[i]);
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
-  }
-  const auto n = static_cast<double>(sizes.size());
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
-}
-
 double order_on(measure::Device& device, AnalyticProblem problem, int size) {
   std::vector<double> errors;
   for (const double step : steps) {
@@ -70,7 +53,7 @@ double order_on(measure::Device& device, AnalyticProblem problem, int size) {
     const core::Image image = draw(device, work_of(device, analytic.scene));
     errors.push_back(rms_error(image, [&](int x, int y) { return analytic.exact(x, y).rgba; }));
   }
-  return fitted_order(steps, errors);
+  return test::fitted_order(steps, errors);
 }
 
 TEST(Orders, V1IsExactForEveryStep) {
@@ -102,7 +85,7 @@ double order_against_limit(measure::Device& device, AnalyticProblem problem, int
     errors.push_back(rms_error(draw(device, work_of(device, analytic.scene)),
                                [&](int x, int y) { return exact.pixel(x, y); }));
   }
-  return fitted_order(steps, errors);
+  return test::fitted_order(steps, errors);
 }
 
 TEST(Orders, V4IsOfSecondOrder) {
@@ -154,7 +137,7 @@ TEST(Orders, V9GradientIsOfSecondOrderInTheVoxelSize) {
       spacings.push_back(1.0 / size);
       errors.push_back(wave_error_on(device, size));
     }
-    EXPECT_GE(fitted_order(spacings, errors), 1.9);
+    EXPECT_GE(test::fitted_order(spacings, errors), 1.9);
   });
 }
 

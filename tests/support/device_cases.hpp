@@ -84,4 +84,15 @@ inline double largest_difference(const core::Image& a, const core::Image& b) {
   return largest;
 }
 
+// A frame of any purpose draws what a timed one draws, and so does a timed one after the others.
+inline void expect_one_picture(measure::Prepared& prepared) {
+  using measure::Purpose;
+  static_cast<void>(prepared.frame(Purpose::timing));
+  const core::Image timed = prepared.image();
+  for (const Purpose purpose : {Purpose::statistics, Purpose::counters, Purpose::timing}) {
+    static_cast<void>(prepared.frame(purpose));
+    EXPECT_EQ(prepared.image(), timed);
+  }
+}
+
 }  // namespace triptych::test

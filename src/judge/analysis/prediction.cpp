@@ -14,9 +14,9 @@ namespace triptych::judge::analysis {
 namespace {
 
 // What decides the structure of what is drawn, in both suites.
-constexpr std::array<std::string_view, 9> structure_factors{
-    "camera", "colour", "culling",           "data",        "ert",
-    "fov",    "skip",   "transfer_function", "radius_scale"};
+constexpr std::array<std::string_view, 11> structure_factors{
+    "adapt",     "camera",       "colour", "culling",          "data", "ert", "fov",
+    "precision", "radius_scale", "skip",   "transfer_function"};
 
 bool is_structure(const std::string& factor) {
   return std::ranges::find(structure_factors, factor) != structure_factors.end();

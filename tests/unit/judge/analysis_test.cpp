@@ -189,6 +189,28 @@ TEST(Analysis, LinesPerStructurePredictWhatIsLinearThere) {
   EXPECT_EQ(prediction.trained + prediction.held_out, dataset.observations.size());
 }
 
+// A precision multiplies every time, and merged samples are no number of samples: neither is a term
+// of a line.
+TEST(Analysis, PrecisionAndAdaptPartTheLines) {
+  const Dataset dataset = factorial(
+      {{"data", {"x"}},
+       {"precision", {"fp32", "fp64"}},
+       {"adapt", {"0", "0.001", "0.01"}},
+       {"device", {"a", "b"}},
+       {"viewport", {"32", "48", "64", "96", "128"}}},
+      [](const Factors& at) {
+        const double side = std::stod(at.at("viewport"));
+        const double precision = at.at("precision") == "fp64" ? 3 : 1;
+        const double adapt = at.at("adapt") == "0" ? 1 : at.at("adapt") == "0.01" ? 0.4 : 0.9;
+        return precision * adapt * ((at.at("device") == "a" ? 1 : 4) + side * side / 1e3);
+      });
+  const PredictionOutcome outcome = predict(dataset, 1);
+  ASSERT_TRUE(outcome.prediction);
+  EXPECT_EQ(outcome.prediction->structure, (std::vector<std::string>{"adapt", "precision"}));
+  EXPECT_EQ(outcome.prediction->structures, 6U);
+  EXPECT_NEAR(*outcome.prediction->line_least, 1, 1e-9);
+}
+
 TEST(Analysis, TooLittleToPredictFrom) {
   const PredictionOutcome outcome = predict(anscombe(), 1);
   EXPECT_FALSE(outcome.prediction);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "fake_suite.hpp"
+#include "record/factor_list.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -214,8 +215,8 @@ TEST_F(PlanTest, NestedListsAndMappings) {
               AllOf(StartsWith(at(2, 7)), HasSubstr("mapping")));
 }
 
-TEST_F(PlanTest, ValueThatWouldBreakAKey) {
-  EXPECT_THAT(refusal("suite: fake\ndata: ['a,step=2']\n"), HasSubstr("no comma"));
+TEST_F(PlanTest, ValueThatWouldBreakALine) {
+  EXPECT_THAT(refusal("suite: fake\ndata: [\"a\\nb\"]\n"), HasSubstr("no line break"));
 }
 
 TEST_F(PlanTest, Suite) {
@@ -293,6 +294,15 @@ TEST_F(PlanTest, KeyNamesWhatIsNotDefault) {
   configuration["sampler"] = "manual";
   EXPECT_EQ(configuration_key(suite_, configuration),
             "camera=orbit_y:0/8,data=cube,sampler=manual,step=0.5,technique=raycast");
+}
+
+TEST_F(PlanTest, ValuesWithSeparatorsDoNotLookLikeTwo) {
+  const Plan plan = load("suite: fake\ndata: ['a,step=2', a]\nstep: [1, 2]\n");
+  EXPECT_THAT(values(plan, "data"), ElementsAre("a,step=2", "a,step=2", "a", "a"));
+  const Configuration& first = plan.configurations.front();
+  EXPECT_EQ(configuration_key(suite_, first),
+            "camera=orbit_y:0/8,data=a%2Cstep%3D2,technique=raycast");
+  EXPECT_EQ(record::parse_factor_list(scene_key(suite_, first)).at("data"), "a,step=2");
 }
 
 TEST_F(PlanTest, KeysOfAPlanAreDistinct) {

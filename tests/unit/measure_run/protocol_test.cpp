@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "record/benchmark_entries.hpp"
 #include "tests/unit/measure_run/scripted_prepared.hpp"
 
 namespace triptych::measure {
@@ -153,7 +154,8 @@ TEST(Protocol, ATrustedClockThatLeavesOutTheWorkOfThisConfigurationIsNotBelieved
   const record::Record record = measured(prepared, {}, trusting(Work::compute)).record;
   EXPECT_EQ(record.clock(), "wall");
   EXPECT_THAT(record.device_ns, Each(0.009 * ms));
-  EXPECT_EQ(core::Json::parse(record.benchmark_json).at(0).at("device_clock_trusted"), 0);
+  EXPECT_EQ(
+      record::unpack_benchmark_entries(record.benchmark_json).at(0).at("device_clock_trusted"), 0);
 }
 
 TEST(Protocol, AnErrorOfAFrameComesOutAsItWas) {
@@ -170,7 +172,7 @@ TEST(Protocol, AnErrorOfAFrameComesOutAsItWas) {
 TEST(Protocol, BenchmarkEntriesCarrySamplesStatisticsAndCountsAsFlatKeys) {
   ScriptedPrepared prepared([](int n) { return frame_of((50 + n) * ms, (49 + n) * ms); });
   const record::Record record = measured(prepared, {}, trusting(Work::compute)).record;
-  const auto entries = core::Json::parse(record.benchmark_json);
+  const auto entries = record::unpack_benchmark_entries(record.benchmark_json);
   ASSERT_TRUE(entries.is_array());
   std::vector<double> samples;
   for (const auto& entry : entries) {

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "core/json.hpp"
+#include "record/benchmark_entries.hpp"
 #include "tests/unit/measure_run/run_fixture.hpp"
 
 namespace triptych::measure {
@@ -62,8 +63,9 @@ TEST_F(RunTest, ARecordTellsEverythingAboutItsConfiguration) {
   EXPECT_TRUE(record.statistics.contains("compute_invocations"));
   EXPECT_FALSE(record.data_hash.empty() || record.kernel_hash.empty());
   EXPECT_TRUE(record.precision.contains("filter_weight_error"));
-  EXPECT_THAT(core::Json::parse(record.benchmark_json).at(0).at("name").get<std::string>(),
-              testing::StartsWith("null:scripted/" + record.configuration));
+  EXPECT_THAT(
+      record::unpack_benchmark_entries(record.benchmark_json).at(0).at("name").get<std::string>(),
+      testing::StartsWith("null:scripted/" + record.configuration));
 }
 
 TEST_F(RunTest, ThePictureLiesInTheStoreUnderTheHashOfItsBits) {

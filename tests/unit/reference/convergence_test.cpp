@@ -8,6 +8,7 @@
 
 #include "reference/analytic_scenes.hpp"
 #include "reference/volume.hpp"
+#include "tests/support/fitted_order.hpp"
 
 namespace triptych::reference {
 namespace {
@@ -44,24 +45,6 @@ AnalyticOptions options(int size, double step = 1) {
   return o;
 }
 
-// Least-squares slope of log₂ error over log₂ h.
-double fitted_order(const std::vector<double>& steps, const std::vector<double>& errors) {
-  double sx = 0;
-  double sy = 0;
-  double sxx = 0;
-  double sxy = 0;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double x = std::log2(steps[i]);
-    const double y = std::log2(errors[i]);
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
-  }
-  const auto n = static_cast<double>(steps.size());
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
-}
-
 const std::vector<double> halvings{1, 0.5, 0.25, 0.125};
 const std::vector<double> more_halvings{1, 0.5, 0.25, 0.125, 0.0625};
 
@@ -71,7 +54,7 @@ double order_against_closed_form(AnalyticProblem problem, int size) {
     const AnalyticScene analytic = analytic_scene(problem, options(size, step));
     errors.push_back(difference(analytic, render_volume(analytic.scene)).rms);
   }
-  return fitted_order(halvings, errors);
+  return test::fitted_order(halvings, errors);
 }
 
 TEST(Convergence, ConstantMediumIsExactForEveryStep) {
@@ -112,7 +95,7 @@ double order_against_limit(AnalyticProblem problem, int size, const std::vector<
     }
     errors.push_back(std::sqrt(sum));
   }
-  return fitted_order(steps, errors);
+  return test::fitted_order(steps, errors);
 }
 
 // The blob's grid is not its closed form, so the order in the step is taken against the grid's own
@@ -129,7 +112,7 @@ TEST(Convergence, BlobIsOfSecondOrderInTheVoxelSize) {
     sizes.push_back(1.0 / size);
     errors.push_back(difference(analytic, render_volume(analytic.scene)).rms);
   }
-  EXPECT_GE(fitted_order(sizes, errors), 1.9);
+  EXPECT_GE(test::fitted_order(sizes, errors), 1.9);
 }
 
 TEST(Convergence, AWaveIsOfSecondOrderInTheVoxelSize) {
@@ -140,7 +123,7 @@ TEST(Convergence, AWaveIsOfSecondOrderInTheVoxelSize) {
     sizes.push_back(1.0 / size);
     errors.push_back(difference(analytic, render_volume_converged(analytic.scene, 1e-7)).rms);
   }
-  EXPECT_GE(fitted_order(sizes, errors), 1.95);
+  EXPECT_GE(test::fitted_order(sizes, errors), 1.95);
 }
 
 TEST(Convergence, LayersAreLimitedByTheirEdge) {
@@ -169,7 +152,7 @@ TEST(Convergence, AShellIsOfSecondOrderInTheVoxelSize) {
     sizes.push_back(1.0 / size);
     errors.push_back(difference(analytic, render_volume_converged(analytic.scene, 1e-6)).rms);
   }
-  EXPECT_GE(fitted_order(sizes, errors), 1.8);
+  EXPECT_GE(test::fitted_order(sizes, errors), 1.8);
 }
 
 TEST(Convergence, LayersSeenFromBehindAreReversed) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "particle_text.hpp"
 #include "raw_files.hpp"
 #include "scene/particles.hpp"
 #include "support/temporary_folder.hpp"
@@ -13,27 +14,9 @@ namespace triptych::scene {
 namespace {
 
 using test::TemporaryFolder;
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-using Sphere = std::array<float, 4>;
-
-ParticleSet load(const std::string& name, const std::string& text,
-                 ColourKind colour = ColourKind::rgba8, const std::string& suffix = "") {
-  const TemporaryFolder folder;
-  folder.write(name, text);
-  return load_particles(name + suffix, colour, {folder.path()});
-}
-
-void expect_refused(const std::string& name, const std::string& text, const std::string& place,
-                    const std::string& expectation, const std::string& suffix = "") {
-  SCOPED_TRACE(text);
-  EXPECT_THAT(
-      [&] { load(name, text, ColourKind::rgba8, suffix); },
-      ThrowsMessage<core::InputError>(AllOf(HasSubstr(name + place), HasSubstr(expectation))));
-}
 
 std::string replaced(std::string text, const std::string& old, const std::string& with) {
   return text.replace(text.find(old), old.size(), with);

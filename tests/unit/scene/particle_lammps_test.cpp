@@ -3,34 +3,12 @@
 
 #include <string>
 
-#include "core/error.hpp"
-#include "scene/particles.hpp"
-#include "support/temporary_folder.hpp"
+#include "particle_text.hpp"
 
 namespace triptych::scene {
 namespace {
 
-using test::TemporaryFolder;
-using testing::AllOf;
 using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
-
-using Sphere = std::array<float, 4>;
-
-ParticleSet load(const std::string& name, const std::string& text,
-                 ColourKind colour = ColourKind::rgba8, const std::string& suffix = "") {
-  const TemporaryFolder folder;
-  return load_particles(folder.write(name, text).string() + suffix, colour);
-}
-
-void expect_refused(const std::string& name, const std::string& text, const std::string& place,
-                    const std::string& expectation, const std::string& suffix = "") {
-  SCOPED_TRACE(text);
-  EXPECT_THAT(
-      [&] { load(name, text, ColourKind::rgba8, suffix); },
-      ThrowsMessage<core::InputError>(AllOf(HasSubstr(name + place), HasSubstr(expectation))));
-}
 
 std::string dump(const std::string& columns, const std::string& count, const std::string& rows,
                  const std::string& box = "pp pp pp\n10 20\n-5 5\n0 4\n") {

@@ -1,0 +1,49 @@
+#include "measure/worker_seat.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/error.hpp"
+#include "measure/stopwatch.hpp"
+
+namespace triptych::measure {
+
+bool WorkerSeat::open(const std::function<Start()>& start,
+                      const std::function<void(const Hello&)>& greeted) {
+  constexpr int most_attempts = 2;
+  for (int attempt = 0; !occupied() && why_closed_.empty(); ++attempt) {
+    std::string reason = try_to_open(start(), greeted);
+    if (!reason.empty() && attempt + 1 >= most_attempts) why_closed_ = std::move(reason);
+  }
+  return occupied();
+}
+
+void WorkerSeat::finish() {
+  if (worker_) worker_->finish();
+  worker_.reset();
+}
+
+std::string WorkerSeat::try_to_open(const Start& start,
+                                    const std::function<void(const Hello&)>& greeted) {
+  std::vector<std::string> command = setup_.command;
+  command.push_back(setup_.device);
+  const auto closed = [this](std::string_view reason) {
+    return fmt::format("{} cannot be opened: {}", setup_.device, reason);
+  };
+  std::unique_ptr<WorkerLink> worker;
+  try {
+    worker = std::make_unique<WorkerLink>(command, setup_.environment, interrupts_);
+  } catch (const core::IoError& error) {
+    return closed(error.what());
+  }
+  const Stopwatch opening;
+  const auto greeting = worker->greet(start, setup_.limit);
+  opening_ns_ += opening.ns();
+  if (const auto* reason = std::get_if<std::string>(&greeting)) return closed(*reason);
+  greeted(std::get<Hello>(greeting));
+  worker_ = std::move(worker);
+  return {};
+}
+
+}  // namespace triptych::measure

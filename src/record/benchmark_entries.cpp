@@ -1,0 +1,54 @@
+#include "record/benchmark_entries.hpp"
+
+#include "core/json.hpp"
+
+namespace triptych::record {
+namespace {
+
+using core::Json;
+constexpr const char* patches_key = "merge_patches";
+
+// What makes `to` of `from`: the values that are new or other, null for those that are gone.
+Json patch(const Json& from, const Json& to) {
+  Json changes = Json::object();
+  for (const auto& [key, value] : to.items()) {
+    const auto before = from.find(key);
+    // 1 and 1.0 are equal numbers but not the same text.
+    if (before == from.end() || before->type() != value.type() || *before != value) {
+      changes[key] = value;
+    }
+  }
+  for (const auto& [key, value] : from.items()) {
+    if (!to.contains(key)) changes[key] = nullptr;
+  }
+  return changes;
+}
+
+}  // namespace
+
+std::string pack_benchmark_entries(const Json& entries) {
+  if (entries.empty()) return {};
+  Json patches = Json::array();
+  Json before = Json::object();
+  for (const Json& entry : entries) {
+    patches.push_back(patch(before, entry));
+    before = entry;
+  }
+  return Json{{patches_key, std::move(patches)}}.dump();
+}
+
+Json unpack_benchmark_entries(std::string_view text) {
+  if (text.empty()) return Json::array();
+  Json kept = Json::parse(text);
+  if (kept.is_array()) return kept;
+  if (!kept.contains(patches_key)) return Json::array({std::move(kept)});
+  Json entries = Json::array();
+  Json entry = Json::object();
+  for (const Json& changes : kept.at(patches_key)) {
+    entry.merge_patch(changes);
+    entries.push_back(entry);
+  }
+  return entries;
+}
+
+}  // namespace triptych::record

@@ -1,0 +1,151 @@
+// A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed from the
+// brick's index, not accumulated, so that they do not drift: the ray leaves brick b through a face of
+// axis a at first[a] + b[a]·spacing[a].
+struct Walk {
+  ivec3 brick;
+  ivec3 direction;  // −1 or +1 per axis
+  real3 first;      // steps
+  real3 spacing;    // steps; 0 where the ray never crosses
+  real3 at;         // where the ray crosses the brick's far face of each axis, steps
+  real leave;       // where it leaves the brick: the least of them
+  bool visible;     // also true outside the grid, where rounding can lead: that rest of a ray is sampled
+  int kind;         // technique::BrickKind of a visible brick, with TRI_ADAPT
+  bool outside;
+  ivec3 size;       // bricks per axis
+};
+
+void enter(inout Walk walk) {
+  ivec3 size = walk.size;
+  walk.at = walk.first + real3(walk.brick) * walk.spacing;
+  walk.leave = min(walk.at.x, min(walk.at.y, walk.at.z));
+  // As unsigned numbers, negative indices are beyond the end too.
+  walk.outside = any(greaterThanEqual(uvec3(walk.brick), uvec3(size)));
+  int index = walk.brick.x + size.x * (walk.brick.y + size.y * walk.brick.z);
+  int kind = walk.outside ? 1 : brick_visible[walk.outside ? 0 : index];
+  walk.visible = kind != 0;
+  walk.kind = TRI_ADAPT == 1 ? kind : 1;
+}
+
+Walk start_walk(Ray ray) {
+  real edge = real(u.brick_grid.w);
+  Walk walk;
+  walk.size = u.brick_grid.xyz;
+  walk.brick = clamp(ivec3(floor(ray.p0 / edge)), ivec3(0), walk.size - 1);
+  walk.direction = ivec3(ray.g.x < 0.0 ? -1 : 1, ray.g.y < 0.0 ? -1 : 1, ray.g.z < 0.0 ? -1 : 1);
+  real3 inverse_g = 1.0 / ray.g;
+  walk.spacing = edge * inverse_g;
+  walk.first = (edge * real3(max(walk.direction, ivec3(0))) - ray.p0) * inverse_g;
+  bvec3 parallel = equal(ray.g, real3(0.0));
+  walk.spacing = mix(walk.spacing, real3(0.0), parallel);
+  walk.first = mix(walk.first, real3(3.0e38), parallel);
+  enter(walk);
+  return walk;
+}
+
+void next_brick(inout Walk walk) {
+  bool x = walk.at.x <= walk.leave;
+  bool y = !x && walk.at.y <= walk.leave;
+  walk.brick += walk.direction * ivec3(x, y, !x && !y);
+  enter(walk);
+}
+
+// The first sample at or behind `limit` that lies beyond the brick. A sample within rounding of the face
+// may be counted to either side: the brick's border of one voxel covers half a voxel of error.
+int samples_before(Walk walk, int limit) {
+  return walk.outside || !(walk.leave < real(limit)) ? limit : clamp(int(ceil(walk.leave - 0.5)), 0, limit);
+}
+
+// Narrows [begin, end) to the next run of visible bricks of one kind at or after begin; empty at the end of the
+// ray. `merged`: the run is to be taken as one sample. A brick of kind 2 is a run of its own.
+ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
+  while (begin < end && !walk.visible) {
+    begin = max(begin, samples_before(walk, end));
+    next_brick(walk);
+    if (TRI_COUNT == 1) { count_bricks_visited++; count_bricks_skipped++; }
+  }
+  int stop = begin;
+  int kind = walk.kind;
+  merged = kind >= 2;
+  while (stop < end && walk.visible && walk.kind == kind && !(kind == 2 && stop > begin)) {
+    stop = max(stop, samples_before(walk, end));
+    next_brick(walk);
+    if (TRI_COUNT == 1) count_bricks_visited++;
+  }
+  return ivec2(begin, stop);
+}
+
+// Leaps over whole cubes of bricks of one kind (technique::Skip::distance). Each starts from its sample's
+// own position, so nothing drifts.
+struct Leaps {
+  real3 p0;    // where the ray enters, from where the bricks begin: the first voxel's centre
+  real3 inverse_g;
+  real edge;   // of a brick, voxels
+  real inverse_edge;
+  ivec3 size;  // bricks per axis
+};
+
+Leaps make_leaps(Ray ray) {
+  Leaps leaps;
+  leaps.p0 = ray.p0 - 0.5;
+  // A ray that runs along a face takes 10²⁰ steps to the next: never, without dividing by zero.
+  leaps.inverse_g = 1.0 / mix(ray.g, real3(1.0e-20), lessThan(abs(ray.g), real3(1.0e-20)));
+  leaps.edge = real(u.brick_grid.w);
+  leaps.inverse_edge = 1.0 / leaps.edge;
+  leaps.size = u.brick_grid.xyz;
+  return leaps;
+}
+
+// brick_reach of the brick that holds sample i, and the first sample behind it that lies beyond the cube of
+// bricks that are like that one; `end` at most. A sample within rounding of a face may be counted to
+// either side, as by a walk.
+struct Leap {
+  bool visible;
+  int next;
+};
+
+Leap leap(Leaps leaps, Ray ray, int i, int end) {
+  real3 p = leaps.p0 + (real(i) + 0.5) * ray.g;
+  ivec3 brick = clamp(ivec3(p * leaps.inverse_edge), ivec3(0), leaps.size - 1);
+  int signed_reach = brick_visible[brick.x + leaps.size.x * (brick.y + leaps.size.y * brick.z)];
+  int reach = abs(signed_reach);
+  ivec3 face = brick + mix(ivec3(reach), ivec3(1 - reach), lessThan(leaps.inverse_g, real3(0.0)));
+  real3 at = (real3(face) * leaps.edge - leaps.p0) * leaps.inverse_g;
+  real leave = min(at.x, min(at.y, at.z));
+  // No brick has reach 0: it is what a fragment that is drawn for its neighbours' sake reads on llvmpipe
+  // (Mesa 22.3). Else that one would go from sample to sample, and all wait for it.
+  int next = reach > 0 && leave < real(end) ? int(ceil(leave - 0.5)) : end;
+  return Leap(signed_reach > 0, clamp(next, i + 1, end));
+}
+
+// As next_run.
+ivec2 next_run_by_leaps(Leaps leaps, Ray ray, int begin, int end) {
+  Leap ahead = Leap(false, begin);
+  while (begin < end && !ahead.visible) {
+    begin = ahead.next;
+    if (begin < end) {
+      ahead = leap(leaps, ray, begin, end);
+      if (TRI_COUNT == 1) {
+        count_bricks_visited++;
+        if (!ahead.visible) count_bricks_skipped++;
+      }
+    }
+  }
+  int stop = begin;
+  while (stop < end && ahead.visible) {
+    stop = ahead.next;
+    if (stop < end) {
+      ahead = leap(leaps, ray, stop, end);
+      if (TRI_COUNT == 1 && ahead.visible) count_bricks_visited++;
+    }
+  }
+  return ivec2(begin, stop);
+}
+
+// Whether there is anything to skip; leaps see at a glance that a volume is full. The 0 is dressed up as
+// something of the ray: of a condition on parameters alone lavapipe (Mesa 22.3) makes a shader of its own,
+// with their values inlined, anew in every submission. That takes up to 1.5 ms.
+bool skips(Ray ray) {
+  int longest = max(u.brick_grid.x, max(u.brick_grid.y, u.brick_grid.z));
+  int nothing = min(0, int(ray.steps));
+  return u.brick_grid.w > nothing && (TRI_LEAPS == 0 || brick_visible[0] < longest);
+}
