@@ -38,9 +38,9 @@ record::Run new_run(const Plan& plan) {
 }
 
 // The kinds of work whose clocks are needed.
-std::vector<std::string> kinds_of(const Plan& plan) {
+std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
   std::set<std::string> kinds;
-  if (!plan.timed) return {};
+  if (!plan.timed || !protocol.timed) return {};
   for (const Configuration& configuration : plan.configurations) {
     kinds.emplace(technique::name_of(technique::technique(configuration.at("technique")).work));
   }
@@ -335,9 +335,13 @@ RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices, co
   const Stopwatch run;
   refuse_bad_options(options);
   InterruptGuard interrupts;
-  const RunContext context{plan,          suite,      store,
-                           options,       interrupts, open_run(plan, store, options.resume),
-                           kinds_of(plan)};
+  const RunContext context{plan,
+                           suite,
+                           store,
+                           options,
+                           interrupts,
+                           open_run(plan, store, options.resume),
+                           kinds_of(plan, options.protocol)};
   Measuring measuring(context, devices, on_progress);
   measuring.first_round();
   measuring.further_rounds(run);
