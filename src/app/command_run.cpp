@@ -29,6 +29,7 @@ struct RunArguments {
   std::optional<int> rounds;
   std::optional<int> budget_s;
   bool measure_every = false;
+  bool untimed = false;
   std::vector<std::string> plants;
   std::optional<double> error;
 };
@@ -118,7 +119,7 @@ std::vector<measure::Plan> load_plans(const RunArguments& arguments, const Regis
 
 measure::RunOptions options_of(const RunArguments& arguments) {
   return {
-      .protocol = {.measure_every = arguments.measure_every},
+      .protocol = {.timed = !arguments.untimed, .measure_every = arguments.measure_every},
       .limit = std::chrono::seconds(arguments.limit_s),
       .resume = arguments.resume,
       .rounds = arguments.rounds,
@@ -223,14 +224,22 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                   "Seconds after which a configuration counts as hung")
       ->capture_default_str()
       ->check(CLI::Range(1, 86400));
+  CLI::Option* rounds =
+      command
+          .add_option(
+              "--rounds", arguments.rounds,
+              "Passes over the plan at most (default: the plan's); what is settled is left out")
+          ->check(CLI::Range(1, 99));
+  CLI::Option* budget =
+      command
+          .add_option("--budget", arguments.budget_s,
+                      "Seconds for the run: rounds until then, the most doubtful first")
+          ->check(CLI::Range(1, 1000000));
   command
-      .add_option("--rounds", arguments.rounds,
-                  "Passes over the plan at most (default: the plan's); what is settled is left out")
-      ->check(CLI::Range(1, 99));
-  command
-      .add_option("--budget", arguments.budget_s,
-                  "Seconds for the run: rounds until then, the most doubtful first")
-      ->check(CLI::Range(1, 1000000));
+      .add_flag("--untimed", arguments.untimed,
+                "One frame for the picture and one for the counters: no times, no statistics")
+      ->excludes(rounds)
+      ->excludes(budget);
   command.add_flag("--measure-every", arguments.measure_every,
                    "Measure configurations too that their scene cannot tell from one before");
   command.add_option(
@@ -271,9 +280,11 @@ void add_run_commands(Commands& commands) {
                                    [arguments] { return run(*arguments); });
   add_run_options(*command, *arguments);
   command->add_flag("--resume", arguments->resume, "Go on with the plan's latest run in the store");
-  command->add_option("--error", arguments->error,
-                      "Root mean square error against the limit of each scene: measures only what "
-                      "keeps it, chooses step, quadrature, ert and skip, and tells the fastest");
+  command
+      ->add_option("--error", arguments->error,
+                   "Root mean square error against the limit of each scene: measures only what "
+                   "keeps it, chooses step, quadrature, ert and skip, and tells the fastest")
+      ->excludes("--untimed");
 
   auto tested = std::make_shared<RunArguments>();
   tested->resume = true;  // every device adds its part to the run that test-start began

@@ -68,15 +68,20 @@ struct PlanTests {
   fs::path store;
 };
 
+// Errors and their orders need no times, whose measuring takes minutes.
+bool is_untimed(const PlanTests& plan) {
+  return plan.plan.ends_with("/accuracy");
+}
+
 // What is judged of a plan. One for correlation is held against other devices; its pictures and
 // times are of the kinds that the other plans judge.
 std::vector<std::string_view> checks_of(const PlanTests& plan, bool pictures) {
   if (plan.plan.ends_with("/correlation")) return {"correlation"};
   // One frame each: no times, no statistics; a stress case's picture is judged by its score.
   if (plan.plan.ends_with("/stress")) return {"counters", "stress"};
+  if (is_untimed(plan)) return {"image", "counters", "accuracy"};
   std::vector<std::string_view> result(checks.begin(), checks.end());
   if (!pictures) std::erase(result, "image");
-  if (plan.plan.ends_with("/accuracy")) result.push_back("accuracy");
   return result;
 }
 
@@ -104,13 +109,15 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
   for (const record::Device& device : devices) measured.push_back(plan.stem + "." + device.id);
   for (const record::Device& device : devices) {
     const std::string fixture = plan.stem + "." + device.id;
-    tests.push_back(
-        {.name = plan.stem + ".measure." + device.id,
-         .command = {"test-measure", plan.plan, "--device", device.id, "--store", store},
-         .labels = {plan.suite, "measure", "device", device.api, device.id},
-         .requires_fixtures = {plan.stem},
-         .sets_up = fixture,
-         .lock = device.id});
+    std::vector<std::string> measure{"test-measure", plan.plan, "--device",
+                                     device.id,      "--store", store};
+    if (is_untimed(plan)) measure.push_back("--untimed");
+    tests.push_back({.name = plan.stem + ".measure." + device.id,
+                     .command = std::move(measure),
+                     .labels = {plan.suite, "measure", "device", device.api, device.id},
+                     .requires_fixtures = {plan.stem},
+                     .sets_up = fixture,
+                     .lock = device.id});
     for (const std::string_view check : own_checks) {
       tests.push_back(
           {.name = fmt::format("{}.{}.{}", plan.stem, check, device.id),

@@ -137,10 +137,9 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
     if (limit == nullptr) continue;
     const core::Image picture = truths.picture_of(record);
     const auto found = judge::picture_error(picture, truths.of(record).truth, limit->image);
-    auto measured = found ? judge::accuracy_case(record, *found) : std::nullopt;
-    if (!measured) continue;
+    if (!found) continue;
     Group& group = groups[{record.device, scene_of(suite, record.factors)}];
-    group.cases.push_back(std::move(*measured));
+    group.cases.push_back(judge::accuracy_case(record, *found));
     group.records.push_back(&record);
   }
   std::vector<ErrorAnswer> answers;
@@ -148,9 +147,11 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
     ErrorAnswer answer{.device = key.first, .scene = key.second};
     const auto best = judge::cheapest(group.cases, error);
     const std::size_t shown = best.value_or(judge::most_accurate(group.cases));
-    if (best) answer.record = group.records[*best];
     answer.rmse = group.cases[shown].rmse;
-    answer.time_ns = group.cases[shown].time_ns;
+    if (best) {
+      answer.record = group.records[*best];
+      answer.time_ns = *group.cases[*best].time_ns;
+    }
     answers.push_back(std::move(answer));
   }
   return answers;

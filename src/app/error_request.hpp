@@ -31,7 +31,7 @@ struct ErrorAnswer {
   std::string scene;                       // the factors that were not chosen
   const record::Record* record = nullptr;  // none where the device keeps the error in no candidate
   double rmse = 0;                         // of the record; else the least that there is
-  double time_ns = 0;
+  double time_ns = 0;                      // of the record
 };
 // The records must outlive the result.
 [[nodiscard]] std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records,

@@ -198,9 +198,14 @@ void write_device_files(const Accepted& accepted, const record::Device& device, 
   if (!device.statistics_dialect.empty())
     statistics.object()["dialect"] = device.statistics_dialect;
   bool tells_statistics = !statistics_table.empty();
+  std::size_t kept = 0;  // what an untimed run says nothing of
   for (const record::Record& record : accepted.measured) {
     if (record.device != device.id) continue;
     update_bits(record, bits_table);
+    if (record.untimed()) {
+      if (timings_table.contains(record.configuration)) ++kept;
+      continue;
+    }
     statistics_table[record.configuration] = record.statistics;
     tells_statistics = tells_statistics || !record.statistics.empty();
     update_timings(record, forget_times, timings_table);
@@ -208,6 +213,11 @@ void write_device_files(const Accepted& accepted, const record::Device& device, 
   bits.write(2, lines);
   if (tells_statistics) statistics.write(3, lines);
   timings.write(3, lines);
+  if (kept > 0) {
+    lines.push_back(fmt::format(
+        "{}: times and statistics of {} configurations stay as stored, the run was untimed",
+        device.id, kept));
+  }
 }
 
 void remove_unlisted_images(const Json& listed, const Layout& layout,

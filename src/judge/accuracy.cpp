@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <set>
 
@@ -55,29 +56,44 @@ std::optional<Order> order_of(std::span<const AccuracyCase> cases,
   return fit_order(points);
 }
 
-// Neither worse on any axis nor equal on both.
+// Neither worse on any axis nor equal on both; both were timed.
 bool beats(const AccuracyCase& a, const AccuracyCase& b) {
-  return a.time_ns <= b.time_ns && a.rmse <= b.rmse && (a.time_ns < b.time_ns || a.rmse < b.rmse);
+  return *a.time_ns <= *b.time_ns && a.rmse <= b.rmse &&
+         (*a.time_ns < *b.time_ns || a.rmse < b.rmse);
 }
 
 // The only factor in which the two differ, if it is one.
 std::optional<std::string> only_difference(const Factors& a, const Factors& b) {
+  if (a.size() != b.size()) return std::nullopt;
   std::optional<std::string> only;
   for (const auto& [name, value] : a) {
     const auto other = b.find(name);
-    if (other != b.end() && other->second == value) continue;
+    if (other == b.end()) return std::nullopt;
+    if (other->second == value) continue;
     if (only) return std::nullopt;
     only = name;
   }
-  return a.size() == b.size() ? only : std::nullopt;
+  return only;
+}
+
+// The indices by rising error, of equals the fastest first.
+std::vector<std::size_t> by_accuracy(std::span<const AccuracyCase> cases) {
+  std::vector<std::size_t> order(cases.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    return std::pair(cases[i].rmse, cases[i].time_ns.value_or(never));
+  });
+  return order;
 }
 
 // Where the line through two points passes the error; both logarithms must exist.
 std::optional<double> time_between(const AccuracyCase& a, const AccuracyCase& b, double error) {
+  if (!a.time_ns || !b.time_ns) return std::nullopt;
   const bool between = std::min(a.rmse, b.rmse) < error && error < std::max(a.rmse, b.rmse);
   if (!between || !(std::min(a.rmse, b.rmse) > 0)) return std::nullopt;
   const double share = std::log(error / a.rmse) / std::log(b.rmse / a.rmse);
-  return a.time_ns * std::pow(b.time_ns / a.time_ns, share);
+  return *a.time_ns * std::pow(*b.time_ns / *a.time_ns, share);
 }
 
 }  // namespace
@@ -106,10 +122,13 @@ std::optional<Order> fit_order(std::span<const StepError> points) {
 }
 
 std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases) {
-  std::vector<std::size_t> order(cases.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (cases[i].time_ns) order.push_back(i);
+  }
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-    return std::pair(cases[a].time_ns, cases[a].rmse) < std::pair(cases[b].time_ns, cases[b].rmse);
+    return std::pair(*cases[a].time_ns, cases[a].rmse) <
+           std::pair(*cases[b].time_ns, cases[b].rmse);
   });
   std::vector<std::size_t> front;
   for (const std::size_t i : order) {
@@ -122,6 +141,7 @@ std::vector<Dominated> dominated(std::span<const AccuracyCase> cases,
                                  std::span<const std::size_t> front) {
   std::vector<Dominated> result;
   for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (!cases[i].time_ns) continue;
     const auto by = std::ranges::find_if(
         front, [&](std::size_t better) { return beats(cases[better], cases[i]); });
     if (by != front.end()) result.push_back({i, *by});
@@ -153,7 +173,7 @@ std::optional<double> time_to_error(std::span<const AccuracyCase> cases,
   std::optional<double> least;
   const auto consider = [&](double time) { least = std::min(least.value_or(time), time); };
   for (const AccuracyCase& each : cases) {
-    if (each.rmse <= error) consider(each.time_ns);
+    if (each.time_ns && each.rmse <= error) consider(*each.time_ns);
   }
   for (const AccuracyFamily& family : families) {
     for (std::size_t i = 0; i + 1 < family.members.size(); ++i) {
@@ -165,22 +185,36 @@ std::optional<double> time_to_error(std::span<const AccuracyCase> cases,
 }
 
 std::size_t most_accurate(std::span<const AccuracyCase> cases) {
-  const auto best = std::ranges::min_element(
-      cases, {}, [](const AccuracyCase& each) { return std::pair(each.rmse, each.time_ns); });
-  return static_cast<std::size_t>(best - cases.begin());
+  return by_accuracy(cases).front();
 }
 
-std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases, std::size_t from) {
-  std::vector<Switched> result;
-  const Factors& best = cases[from].factors;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const auto factor = only_difference(best, cases[i].factors);
-    if (factor && cases[i].factors.contains(*factor)) {
-      result.push_back({*factor, best.at(*factor), cases[i].factors.at(*factor), i});
+std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases) {
+  std::map<std::string, std::vector<Switched>> by_factor;
+  for (const std::size_t from : by_accuracy(cases)) {
+    for (std::size_t to = 0; to < cases.size(); ++to) {
+      const auto factor = only_difference(cases[from].factors, cases[to].factors);
+      if (!factor) continue;
+      std::vector<Switched>& known = by_factor[*factor];
+      if (known.empty() || known.front().from == from) known.push_back({*factor, from, to});
     }
   }
-  std::ranges::stable_sort(result, {}, &Switched::factor);
+  std::vector<Switched> result;
+  for (const auto& [factor, switched] : by_factor) {
+    result.insert(result.end(), switched.begin(), switched.end());
+  }
   return result;
+}
+
+std::optional<Switched> switched_picture(std::span<const AccuracyCase> cases,
+                                         std::span<const AccuracyCase> others,
+                                         std::string_view factor) {
+  for (const std::size_t from : by_accuracy(cases)) {
+    for (std::size_t to = 0; to < others.size(); ++to) {
+      const auto only = only_difference(cases[from].factors, others[to].factors);
+      if (only && *only == factor) return Switched{*only, from, to};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace triptych::judge

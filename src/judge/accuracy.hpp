@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace triptych::judge {
@@ -17,7 +18,7 @@ namespace triptych::judge {
 struct AccuracyCase {
   std::string configuration;
   std::map<std::string, std::string> factors;
-  double time_ns = 0;                    // median of the timed frames
+  std::optional<double> time_ns;         // median of the timed frames, where there were any
   std::optional<std::uint64_t> samples;  // taken, where they were counted
   double rmse = 0;                       // against the limit
   double largest = 0;
@@ -52,7 +53,8 @@ struct Order {
 // nullopt for fewer than three such points: the error is rounding, or too little was measured.
 [[nodiscard]] std::optional<Order> fit_order(std::span<const StepError> points);
 
-// The indices that no other one beats on both axes, by rising time; of equals the first.
+// The indices that no other one beats on both axes, by rising time; of equals the first. What was
+// not timed is not among them.
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases);
 
 // For each configuration off the front the one on it that beats it on both axes, the fastest.
@@ -78,17 +80,23 @@ struct AccuracyFamily {
                                                   std::span<const AccuracyFamily> families,
                                                   double error);
 
-// One factor of the most accurate configuration set to another level, all others as they are.
+// The most accurate, of equals the fastest, of those without a time the first.
+[[nodiscard]] std::size_t most_accurate(std::span<const AccuracyCase> cases);
+
+// One factor of a case set to another level, all others as they are.
 struct Switched {
   std::string factor;
-  std::string from;
-  std::string to;
-  std::size_t index = 0;
+  std::size_t from = 0;
+  std::size_t to = 0;
 };
-// The most accurate, of equals the fastest.
-[[nodiscard]] std::size_t most_accurate(std::span<const AccuracyCase> cases);
-[[nodiscard]] std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases,
-                                                   std::size_t from);
+// By factor: of the most accurate case that has one, every case that differs by it alone. Plans do
+// not make all combinations, so that it need not be the same case for every factor.
+[[nodiscard]] std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases);
+// The same by `factor` between two pictures, each against its own limit: the most accurate case of
+// the one that has a like one among `others`, and that; nullopt where none has.
+[[nodiscard]] std::optional<Switched> switched_picture(std::span<const AccuracyCase> cases,
+                                                       std::span<const AccuracyCase> others,
+                                                       std::string_view factor);
 
 // The errors of which people ask what they cost: one and a quarter step of 8 bits, and 1e-4.
 inline constexpr double accuracy_goals[]{1.0 / 255, 1.0 / 1024, 1e-4};

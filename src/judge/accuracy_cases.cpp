@@ -1,5 +1,7 @@
 #include "judge/accuracy_cases.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,13 +12,15 @@
 namespace triptych::judge {
 namespace {
 
-// "camera=…,data=…,step=…" without its step.
-std::string without_step(std::string_view scene) {
+// "camera=…,data=…,step=…" without its step and what `other` does not hold.
+std::string in_common(std::string_view scene, std::string_view other) {
+  const std::string known = fmt::format(",{},", other);
   std::string kept;
   while (!scene.empty()) {
     const std::size_t end = std::min(scene.find(','), scene.size());
     const std::string_view factor = scene.substr(0, end);
-    if (!factor.starts_with("step=")) {
+    if (!factor.starts_with("step=") &&
+        known.find(fmt::format(",{},", factor)) != std::string::npos) {
       if (!kept.empty()) kept += ",";
       kept += factor;
     }
@@ -54,12 +58,11 @@ std::optional<PictureError> picture_error(const core::Image& picture, const core
   return PictureError{whole.rmse, whole.largest.error, whole.error_99, lattice, arithmetic};
 }
 
-std::optional<AccuracyCase> accuracy_case(const record::Record& record, const PictureError& error) {
+AccuracyCase accuracy_case(const record::Record& record, const PictureError& error) {
   const auto summary = record::summarise(record.time_ns());
-  if (!summary) return std::nullopt;
   AccuracyCase result{.configuration = record.configuration,
                       .factors = record.factors,
-                      .time_ns = summary->median,
+                      .time_ns = summary ? std::optional(summary->median) : std::nullopt,
                       .samples = {},
                       .rmse = error.rmse,
                       .largest = error.largest,
@@ -74,7 +77,8 @@ std::optional<AccuracyCase> accuracy_case(const record::Record& record, const Pi
 AccuracyScene accuracy_scene(const record::Record& record, const LimitPicture& limit) {
   AccuracyScene scene;
   scene.device = record.device;
-  scene.scene = without_step(record.scene);
+  scene.limit = limit.key;
+  scene.scene = in_common(record.scene, record.scene);
   const auto data = record.factors.find("data");
   if (data != record.factors.end()) scene.data = data->second;
   scene.uncertainty = root_mean_square(limit.uncertainty.rgba);
@@ -82,13 +86,19 @@ AccuracyScene accuracy_scene(const record::Record& record, const LimitPicture& l
     scene.representation = judge::root_mean_square(limit.image, *limit.closed_form);
   }
   scene.eight_bits = judge::root_mean_square(in_eight_bits(limit.image), limit.image);
+  scene.nothing = root_mean_square(limit.image.rgba);
   return scene;
+}
+
+void narrow(AccuracyScene& scene, const record::Record& record) {
+  scene.scene = in_common(scene.scene, record.scene);
 }
 
 void evaluate(AccuracyScene& scene) {
   scene.families = accuracy_families(scene.cases);
   scene.front = pareto_front(scene.cases);
   scene.dominated = dominated(scene.cases, scene.front);
+  scene.area = front_area(scene.cases, scene.front, scene.nothing);
 }
 
 }  // namespace triptych::judge

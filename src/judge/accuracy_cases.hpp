@@ -8,6 +8,7 @@
 
 #include "core/image.hpp"
 #include "judge/accuracy.hpp"
+#include "judge/hypervolume.hpp"
 #include "record/store.hpp"
 
 namespace triptych::judge {
@@ -36,29 +37,34 @@ struct PictureError {
 // One scene on one device.
 struct AccuracyScene {
   std::string device;
-  std::string scene;  // the record's without its step
+  std::string limit;  // LimitPicture::key: scenes of one limit are the same picture
+  std::string scene;  // "camera=…,data=…" of what all its records have in common
   std::string data;
   double uncertainty = 0;  // root mean square of the limit's
   // From the limit to the closed form, root mean square: what grid and table cannot represent.
   std::optional<double> representation;
   double eight_bits = 0;  // root mean square error of the limit written with 8 bits a channel
+  double nothing = 0;     // and of a picture in which nothing was drawn
   std::vector<AccuracyCase> cases;
   std::vector<AccuracyFamily> families;
   std::vector<std::size_t> front;
   std::vector<Dominated> dominated;
+  std::optional<FrontArea> area;  // where anything was timed
 };
 
-// A record with its errors; nullopt where it has no picture or no time.
-[[nodiscard]] std::optional<AccuracyCase> accuracy_case(const record::Record& record,
-                                                        const PictureError& error);
+// A record with its errors.
+[[nodiscard]] AccuracyCase accuracy_case(const record::Record& record, const PictureError& error);
 
-// A scene without cases, and what follows from its cases once they are there.
+// A scene without cases, what it has in common with one more record, and what follows from its
+// cases once they are there.
 [[nodiscard]] AccuracyScene accuracy_scene(const record::Record& record, const LimitPicture& limit);
+void narrow(AccuracyScene& scene, const record::Record& record);
 void evaluate(AccuracyScene& scene);
 
-// {"device", "scene", "data", "uncertainty", "representation", "eight_bits", "configurations":
-// [{"configuration", "time_ns", "samples", "rmse", "largest", "error_99", "lattice", "arithmetic",
-// "front"}], "families": [{"name", "order", "half_width", "configurations"}]}
+// {"device", "scene", "data", "uncertainty", "representation", "eight_bits", "nothing",
+// "hypervolume", "configurations": [{"configuration", "time_ns", "samples", "rmse", "largest",
+// "error_99", "lattice", "arithmetic", "front"}], "families": [{"name", "order", "half_width",
+// "configurations"}]}; null for what was not timed, counted or found
 [[nodiscard]] nlohmann::json to_json(const AccuracyScene& scene);
 
 }  // namespace triptych::judge

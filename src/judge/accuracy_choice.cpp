@@ -37,8 +37,8 @@ std::optional<StepError> longest_step(double error, const StepLimits& limits,
 std::optional<std::size_t> cheapest(std::span<const AccuracyCase> cases, double error) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (!(cases[i].rmse <= error)) continue;
-    if (!best || cases[i].time_ns < cases[*best].time_ns) best = i;
+    if (!cases[i].time_ns || !(cases[i].rmse <= error)) continue;
+    if (!best || *cases[i].time_ns < *cases[*best].time_ns) best = i;
   }
   return best;
 }

@@ -14,7 +14,7 @@ Json optional_number(const auto& value) {
 
 Json case_json(const AccuracyCase& each, bool front) {
   return {{"configuration", each.configuration},
-          {"time_ns", each.time_ns},
+          {"time_ns", optional_number(each.time_ns)},
           {"samples", optional_number(each.samples)},
           {"rmse", each.rmse},
           {"largest", each.largest},
@@ -51,6 +51,8 @@ Json to_json(const AccuracyScene& scene) {
           {"uncertainty", scene.uncertainty},
           {"representation", optional_number(scene.representation)},
           {"eight_bits", scene.eight_bits},
+          {"nothing", scene.nothing},
+          {"hypervolume", scene.area ? Json(scene.area->area) : Json(nullptr)},
           {"configurations", std::move(cases)},
           {"families", std::move(families)}};
 }

@@ -93,10 +93,14 @@ void judge_orders(const RunView& view, const AccuracyScene& scene, AccuracyFindi
 // Scenes by device and limit, in the order in which they come.
 class Scenes {
  public:
-  AccuracyScene& of(const record::Record& record, const LimitPicture& limit) {
+  // A level that was named and is what `auto` means on the device makes no second case.
+  void add(const record::Record& record, const LimitPicture& limit, AccuracyCase each) {
     const auto [known, is_new] = index_.try_emplace({record.device, limit.key}, scenes_.size());
     if (is_new) scenes_.push_back(accuracy_scene(record, limit));
-    return scenes_[known->second];
+    narrow(scenes_[known->second], record);
+    std::vector<AccuracyCase>& cases = scenes_[known->second].cases;
+    if (std::ranges::find(cases, each.factors, &AccuracyCase::factors) != cases.end()) return;
+    cases.push_back(std::move(each));
   }
   std::vector<AccuracyScene> finish() && {
     for (AccuracyScene& scene : scenes_) evaluate(scene);
@@ -125,9 +129,7 @@ AccuracyFindings check_accuracies(const RunView& view) {
           "the picture cannot be compared: of another size, or with values that are not finite"));
       continue;
     }
-    if (auto each = accuracy_case(*record, *error)) {
-      scenes.of(*record, *limit).cases.push_back(std::move(*each));
-    }
+    scenes.add(*record, *limit, accuracy_case(*record, *error));
     if (view.baselines.present()) result.findings.push_back(judge_error(view, *record, *error));
   }
   result.scenes = std::move(scenes).finish();

@@ -115,6 +115,10 @@ Finding check_elsewhere(const RunView& view, const record::Record& record) {
 }
 
 Finding check_record(const RunView& view, const record::Record& record) {
+  if (record.untimed()) {
+    return finding_about(record, Check::statistics, Verdict::skipped,
+                         "pipeline statistics were not read: the run was untimed");
+  }
   const record::Device& device = view.device(record);
   if (!view.baselines.has_statistics(device)) return check_elsewhere(view, record);
   const auto stored = view.baselines.statistics(device, record.configuration);

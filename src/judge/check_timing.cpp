@@ -74,7 +74,13 @@ class TimingCheck {
 
   std::vector<Finding> run() {
     for (const record::Record* record : view_.measured) {
-      record->same_as.empty() ? sort_out(*record) : report_taken_over(*record);
+      if (record->untimed()) {
+        add(*record, Verdict::skipped, "timings were not measured: the run was untimed");
+      } else if (!record->same_as.empty()) {
+        report_taken_over(*record);
+      } else {
+        sort_out(*record);
+      }
     }
     call_witnesses();
     const TimingJudgements judgements = judge_timings(cases_);

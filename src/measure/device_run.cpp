@@ -108,6 +108,8 @@ void DeviceRun::remember() {
 Protocol DeviceRun::protocol() const {
   Protocol protocol = context_.options.protocol;
   protocol.timed = protocol.timed && context_.plan.timed;
+  // A plan for pictures alone asks for each of them: that two are alike is what it tests.
+  protocol.measure_every = protocol.measure_every || !context_.plan.timed;
   return protocol;
 }
 

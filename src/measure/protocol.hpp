@@ -26,8 +26,8 @@ struct Protocol {
   // Else one frame for its picture and one for our counters: nothing is warmed up, and no time,
   // statistic or benchmark is told.
   bool timed = true;
-  // Else a timed configuration that does the very work of one before (measure/twins.hpp) takes over
-  // what that one told.
+  // Else a configuration that does the very work of one before (measure/twins.hpp) takes over what
+  // that one told.
   bool measure_every = false;
 };
 

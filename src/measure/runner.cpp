@@ -39,9 +39,9 @@ record::Run new_run(const Plan& plan) {
 }
 
 // The kinds of work whose clocks are needed.
-std::vector<std::string> kinds_of(const Plan& plan) {
+std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
   std::set<std::string> kinds;
-  if (!plan.timed) return {};
+  if (!plan.timed || !protocol.timed) return {};
   for (const Configuration& configuration : plan.configurations) {
     kinds.emplace(technique::name_of(technique::technique(configuration.at("technique")).work));
   }
@@ -339,7 +339,7 @@ std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
   std::deque<Measuring> all;
   for (const auto& [plan, suite, options] : runs) {
     contexts.push_back({plan, suite, store, options, interrupts,
-                        open_run(plan, store, options.resume), kinds_of(plan)});
+                        open_run(plan, store, options.resume), kinds_of(plan, options.protocol)});
     all.emplace_back(contexts.back(), devices, on_progress).first_round();
   }
   std::size_t most = 1;

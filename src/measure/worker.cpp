@@ -175,7 +175,7 @@ class Worker {
     const Stopwatch whole;
     Configuration configuration = job.configuration;
     const Work work = supported_work(configuration, job.plants);
-    const bool may_share = job.protocol.timed && !job.protocol.measure_every && job.plants.empty();
+    const bool may_share = !job.protocol.measure_every && job.plants.empty();
     std::optional<PlainWork> plain;
     if (may_share) plain = suite_.plain(configuration, work);
     if (const auto twin = plain ? twins_.find(*plain) : std::nullopt) {

@@ -114,6 +114,11 @@ struct Record {
   std::map<std::string, double> precision;  // facts for the image bound, e.g. "filter_weight_error"
   std::string benchmark_json;  // the entry of Google Benchmark's own output for this configuration
 
+  // Drawn for its picture and counters alone: neither warmed up nor timed, and no statistics read.
+  // A record that was timed and lost its times is none.
+  [[nodiscard]] bool untimed() const {
+    return outcome == Outcome::measured && warm_up_frames == 0 && wall_ns.empty();
+  }
   // The samples that count, and the name of their clock: "device" or "wall".
   [[nodiscard]] const std::vector<double>& time_ns() const;
   [[nodiscard]] const std::vector<double>& time_ns_by(std::string_view clock) const {

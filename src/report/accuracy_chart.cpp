@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <sstream>
+#include <vector>
 
 #include "core/json.hpp"
 
@@ -11,8 +13,8 @@ namespace {
 using core::Json;
 
 std::optional<double> cost_of(const judge::AccuracyCase& each, Cost cost) {
-  if (cost == Cost::time) return each.time_ns / 1e6;
-  if (!each.samples) return std::nullopt;
+  if (cost == Cost::time && each.time_ns) return *each.time_ns / 1e6;
+  if (cost == Cost::time || !each.samples) return std::nullopt;
   return static_cast<double>(*each.samples);
 }
 
@@ -24,14 +26,22 @@ std::string colour_of(const judge::AccuracyFamily& family, const judge::Accuracy
   return alone ? technique->second : family.name;
 }
 
-void append_scene(Json& values, const judge::AccuracyScene& scene, Cost cost) {
+std::vector<std::string> factors_of(const judge::AccuracyScene& scene) {
+  std::vector<std::string> factors;
+  std::istringstream text(scene.scene);
+  for (std::string factor; std::getline(text, factor, ',');) factors.push_back(factor);
+  return factors;
+}
+
+void append_scene(Json& values, const std::string& title, const judge::AccuracyScene& scene,
+                  Cost cost) {
   for (const judge::AccuracyFamily& family : scene.families) {
     for (const std::size_t i : family.members) {
       const judge::AccuracyCase& each = scene.cases[i];
       const auto paid = cost_of(each, cost);
       if (!paid || !(*paid > 0) || !(each.rmse > 0)) continue;
       const auto step = each.factors.find("step");
-      values.push_back({{"data", scene.data},
+      values.push_back({{"data", title},
                         {"device", scene.device},
                         {"family", family.name},
                         {"colour", colour_of(family, each)},
@@ -96,9 +106,24 @@ Json goal_layer() {
 
 }  // namespace
 
+std::string accuracy_title(std::span<const judge::AccuracyScene> scenes,
+                           const judge::AccuracyScene& scene) {
+  std::string title = scene.data;
+  for (const std::string& factor : factors_of(scene)) {
+    const auto lacks = [&](const judge::AccuracyScene& other) {
+      const std::vector<std::string> theirs = factors_of(other);
+      return other.data == scene.data && std::ranges::find(theirs, factor) == theirs.end();
+    };
+    if (std::ranges::any_of(scenes, lacks)) title += ", " + factor;
+  }
+  return title;
+}
+
 std::string accuracy_chart(std::span<const judge::AccuracyScene> scenes, Cost cost) {
   Json values = Json::array();
-  for (const judge::AccuracyScene& scene : scenes) append_scene(values, scene, cost);
+  for (const judge::AccuracyScene& scene : scenes) {
+    append_scene(values, accuracy_title(scenes, scene), scene, cost);
+  }
   const Json position{{"x", axis("error", "RMSE against the limit", ".0e")},
                       {"y", cost == Cost::time ? axis("cost", "time of a frame, ms", "~g")
                                                : axis("cost", "samples taken", ".0e")}};

@@ -27,24 +27,51 @@ std::string order_text(const std::optional<Order>& order) {
   return fmt::format("{:.2f} ± {:.2f} ({} steps)", order->order, order->half_width, order->points);
 }
 
+std::string time_text(const judge::AccuracyCase& each) {
+  return each.time_ns ? duration(*each.time_ns) : "";
+}
+
 const judge::AccuracyFamily& family_of(const AccuracyScene& scene, std::size_t index) {
   return *std::ranges::find_if(scene.families, [index](const judge::AccuracyFamily& family) {
     return std::ranges::find(family.members, index) != family.members.end();
   });
 }
 
+// The widest front of the same picture on any device.
+const judge::FrontArea& widest(const std::vector<AccuracyScene>& scenes,
+                               const AccuracyScene& scene) {
+  const judge::FrontArea* best = &*scene.area;
+  for (const AccuracyScene& other : scenes) {
+    const bool comparable = other.limit == scene.limit && other.area.has_value();
+    if (comparable && other.area->area > best->area) best = &*other.area;
+  }
+  return *best;
+}
+
+void append_area(std::vector<std::string>& row, const std::vector<AccuracyScene>& scenes,
+                 const AccuracyScene& scene) {
+  if (scene.area) {
+    row.push_back(fmt::format("{:.1f}", scene.area->area));
+    row.push_back(fmt::format("{:.2f}", judge::equal_slowdown(widest(scenes, scene), *scene.area)));
+  } else {
+    row.insert(row.end(), 2, "");
+  }
+}
+
 std::string summary_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{{"data", "device", "order in the step", "least error", "time to 1/255",
-             "time to 1/1024", "time to 1e-4", "on the front", "dominated"}};
+  Rows rows{{"scene", "device", "order in the step", "least error", "time to 1/255",
+             "time to 1/1024", "time to 1e-4", "hypervolume", "times as long as the best",
+             "on the front", "dominated"}};
   for (const AccuracyScene& scene : scenes) {
     const std::size_t best = judge::most_accurate(scene.cases);
-    std::vector<std::string> row{escape(scene.data), escape(scene.device),
+    std::vector<std::string> row{escape(accuracy_title(scenes, scene)), escape(scene.device),
                                  order_text(family_of(scene, best).order),
                                  error_text(scene.cases[best].rmse)};
     for (const double goal : judge::accuracy_goals) {
       const auto time = judge::time_to_error(scene.cases, scene.families, goal);
-      row.push_back(time ? duration(*time) : "not reached");
+      row.push_back(time ? duration(*time) : scene.front.empty() ? "" : "not reached");
     }
+    append_area(row, scenes, scene);
     row.push_back(fmt::format("{}", scene.front.size()));
     row.push_back(fmt::format("{} of {}", scene.dominated.size(), scene.cases.size()));
     rows.push_back(std::move(row));
@@ -53,11 +80,11 @@ std::string summary_table(const std::vector<AccuracyScene>& scenes) {
 }
 
 std::string order_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{{"data", "device", "family", "order ± 95 %", "coarsest", "finest"}};
+  Rows rows{{"scene", "device", "family", "order ± 95 %", "coarsest", "finest"}};
   for (const AccuracyScene& scene : scenes) {
     for (const judge::AccuracyFamily& family : scene.families) {
-      rows.push_back({escape(scene.data), escape(scene.device), escape(family.name),
-                      order_text(family.order),
+      rows.push_back({escape(accuracy_title(scenes, scene)), escape(scene.device),
+                      escape(family.name), order_text(family.order),
                       error_text(scene.cases[family.members.front()].rmse),
                       error_text(scene.cases[family.members.back()].rmse)});
     }
@@ -65,28 +92,57 @@ std::string order_table(const std::vector<AccuracyScene>& scenes) {
   return table(rows);
 }
 
-std::string parts_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{{"data", "device", "what is changed", "RMSE", "largest", "time"}};
-  for (const AccuracyScene& scene : scenes) {
-    const std::size_t best = judge::most_accurate(scene.cases);
-    const judge::AccuracyCase& least = scene.cases[best];
-    const auto row = [&](std::string what, double error, std::string largest, std::string time) {
-      rows.push_back({escape(scene.data), escape(scene.device), std::move(what), error_text(error),
-                      std::move(largest), std::move(time)});
-    };
-    row("nothing: the most accurate, " + escape(least.configuration), least.rmse,
-        error_text(least.largest), duration(least.time_ns));
-    if (least.factors.contains("step")) row("its step alone", least.lattice, "", "");
-    row("its rounding, storage and early termination", least.arithmetic, "", "");
-    for (const judge::Switched& each : judge::switched_alone(scene.cases, best)) {
-      const judge::AccuracyCase& other = scene.cases[each.index];
-      row(escape(fmt::format("{} {} → {}", each.factor, each.from, each.to)), other.rmse,
-          error_text(other.largest), duration(other.time_ns));
+std::string level(const judge::AccuracyCase& each, const std::string& factor) {
+  return each.factors.at(factor);
+}
+
+// Rows of what an error is made of, for one scene on one device.
+class Parts {
+ public:
+  Parts(const std::vector<AccuracyScene>& scenes, const AccuracyScene& scene, Rows& rows)
+      : scenes_(scenes), scene_(scene), title_(accuracy_title(scenes, scene)), rows_(rows) {}
+
+  void append() {
+    const judge::AccuracyCase& least = scene_.cases[judge::most_accurate(scene_.cases)];
+    add("the most accurate: " + least.configuration, "", least.rmse, error_text(least.largest),
+        time_text(least));
+    if (least.factors.contains("step")) add("its step alone", "", least.lattice);
+    add("its rounding, storage and early termination", "", least.arithmetic);
+    for (const judge::Switched& each : judge::switched_alone(scene_.cases)) {
+      add(each, scene_.cases[each.to], "");
     }
-    row("output with 8 bits a channel", scene.eight_bits, "", "");
-    if (scene.representation) row("voxel size and table", *scene.representation, "", "");
-    row("the limit’s own uncertainty, at most", scene.uncertainty, "", "");
+    for (const AccuracyScene& other : scenes_) {
+      if (other.device != scene_.device || other.limit == scene_.limit) continue;
+      const auto each = judge::switched_picture(scene_.cases, other.cases, "viewport");
+      if (each) add(*each, other.cases[each->to], ", another picture");
+    }
+    add("output with 8 bits a channel", "", scene_.eight_bits);
+    if (scene_.representation) add("voxel size and table", "", *scene_.representation);
+    add("the limit’s own uncertainty, at most", "", scene_.uncertainty);
   }
+
+ private:
+  void add(const std::string& what, std::string before, double error, std::string largest = {},
+           std::string time = {}) {
+    rows_.push_back({escape(title_), escape(scene_.device), escape(what), std::move(before),
+                     error_text(error), std::move(largest), std::move(time)});
+  }
+  void add(const judge::Switched& each, const judge::AccuracyCase& to, const char* remark) {
+    const judge::AccuracyCase& from = scene_.cases[each.from];
+    add(fmt::format("{} {} → {}{}", each.factor, level(from, each.factor), level(to, each.factor),
+                    remark),
+        error_text(from.rmse), to.rmse, error_text(to.largest), time_text(to));
+  }
+
+  const std::vector<AccuracyScene>& scenes_;
+  const AccuracyScene& scene_;
+  std::string title_;
+  Rows& rows_;
+};
+
+std::string parts_table(const std::vector<AccuracyScene>& scenes) {
+  Rows rows{{"scene", "device", "what is changed", "RMSE before", "RMSE", "largest", "time"}};
+  for (const AccuracyScene& scene : scenes) Parts(scenes, scene, rows).append();
   return table(rows);
 }
 
@@ -97,8 +153,8 @@ std::string dominated_table(const std::vector<AccuracyScene>& scenes) {
       const judge::AccuracyCase& worse = scene.cases[each.index];
       const judge::AccuracyCase& better = scene.cases[each.by];
       rows.push_back({escape(scene.device), escape(worse.configuration), error_text(worse.rmse),
-                      duration(worse.time_ns), escape(better.configuration),
-                      error_text(better.rmse), duration(better.time_ns)});
+                      time_text(worse), escape(better.configuration), error_text(better.rmse),
+                      time_text(better)});
     }
   }
   return table(rows);
@@ -113,26 +169,33 @@ std::string folded(std::string_view summary, const std::string& body) {
 std::string accuracy_section(const PlanData& plan) {
   const std::vector<AccuracyScene>& scenes = plan.verdict->accuracies;
   if (scenes.empty()) return {};
-  const bool counted = std::ranges::any_of(scenes, [](const AccuracyScene& scene) {
-    return std::ranges::any_of(scene.cases,
-                               [](const auto& each) { return each.samples.has_value(); });
-  });
+  const auto any = [&](const auto& has) {
+    return std::ranges::any_of(
+        scenes, [&](const AccuracyScene& scene) { return std::ranges::any_of(scene.cases, has); });
+  };
+  const bool timed = any([](const judge::AccuracyCase& each) { return each.time_ns.has_value(); });
+  const bool counted =
+      any([](const judge::AccuracyCase& each) { return each.samples.has_value(); });
   std::string text =
       "<h3>Run time against error</h3><p>The error is the root mean square over all channels, in "
       "linear float, against the picture that the scene tends to as its sampling is refined. A "
       "line "
       "joins configurations that differ by their step alone; black: the front, which nothing "
       "beats on both axes; dashed: 1/255, 1/1024 and 1e-4. A time to an error is read off between "
-      "two neighbours of a line.</p>" +
-      summary_table(scenes) +
-      chart(plan.anchor + "-accuracy-time", accuracy_chart(scenes, Cost::time));
+      "two neighbours of a line. The hypervolume is the area between the front and one second by "
+      "the error of an empty picture, in natural logarithms; beside it how many times as long the "
+      "device with the largest may take on every frame before its area is no larger. It rests on "
+      "times of one run and decides nothing.</p>" +
+      summary_table(scenes);
+  if (timed) text += chart(plan.anchor + "-accuracy-time", accuracy_chart(scenes, Cost::time));
   if (counted) {
     text += "<p>The same against the samples taken, which no clock disturbs.</p>" +
             chart(plan.anchor + "-accuracy-samples", accuracy_chart(scenes, Cost::samples));
   }
-  return text + folded("Orders of all families", order_table(scenes)) +
-         folded("What an error is made of: each factor switched alone", parts_table(scenes)) +
-         folded("Dominated configurations", dominated_table(scenes));
+  text += folded("Orders of all families", order_table(scenes)) +
+          folded("What an error is made of: each factor switched alone", parts_table(scenes));
+  if (timed) text += folded("Dominated configurations", dominated_table(scenes));
+  return text;
 }
 
 }  // namespace triptych::report

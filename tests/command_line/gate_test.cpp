@@ -75,6 +75,27 @@ TEST(Gate, AKernelTwentyPercentSlowerIsARegression) {
       << slow.output;
 }
 
+TEST(Gate, AnUntimedRunIsJudgedByItsPicturesAndCounters) {
+  const Program program;
+  const auto picture = right_picture(program);
+  accept_runs(program, picture, 6);
+  const Result untimed =
+      program.run(measure_into("u.sqlite") + " --untimed", script(picture, 1.2, 7));
+  ASSERT_EQ(untimed.code, 0) << untimed.output;
+  const Result judged = program.run(judge_from("u.sqlite"));
+  EXPECT_EQ(judged.code, 0) << judged.output;
+  EXPECT_NE(judged.output.find("timings were not measured"), std::string::npos) << judged.output;
+  ASSERT_EQ(program.run(measure_into("w.sqlite") + " --untimed", "{}").code, 0);
+  EXPECT_EQ(program.run(judge_from("w.sqlite")).code, 1);
+}
+
+TEST(Gate, WhatNeedsTimesRefusesARunWithoutThem) {
+  const Program program;
+  for (const char* option : {" --rounds 2", " --budget 5", " --error 0.1"}) {
+    EXPECT_EQ(program.run(measure_into("u.sqlite") + " --untimed" + option).code, 3) << option;
+  }
+}
+
 TEST(Gate, ARequiredDeviceThatIsAbsentIsNoPass) {
   const Program program;
   const auto picture = right_picture(program);

@@ -121,13 +121,53 @@ TEST(SwitchedAlone, ChangesOneFactor) {
   const std::vector<AccuracyCase> cases{at(9, 1, 0.5, "0"), at(5, 2, 1, "0"), at(5, 3, 0.5, "0.1"),
                                         at(5, 4, 1, "0.1")};
   EXPECT_EQ(most_accurate(cases), 0U);
-  const auto switched = switched_alone(cases, 0);
+  const auto switched = switched_alone(cases);
   ASSERT_EQ(switched.size(), 2U);
   EXPECT_EQ(switched[0].factor, "ert");
-  EXPECT_EQ(switched[0].to, "0.1");
-  EXPECT_EQ(switched[0].index, 2U);
+  EXPECT_EQ(switched[0].from, 0U);
+  EXPECT_EQ(switched[0].to, 2U);
   EXPECT_EQ(switched[1].factor, "step");
-  EXPECT_EQ(switched[1].index, 1U);
+  EXPECT_EQ(switched[1].from, 0U);
+  EXPECT_EQ(switched[1].to, 1U);
+}
+
+// What was tried on one step only is told of the best of that step.
+TEST(SwitchedAlone, IsToldOfTheBestThatHasALikeOne) {
+  const std::vector<AccuracyCase> cases{at(9, 1, 0.5, "0"), at(5, 2, 1, "0"), at(5, 4, 1, "0.1")};
+  const auto switched = switched_alone(cases);
+  ASSERT_EQ(switched.size(), 2U);
+  EXPECT_EQ(switched[0].factor, "ert");
+  EXPECT_EQ(switched[0].from, 1U);
+  EXPECT_EQ(switched[0].to, 2U);
+}
+
+TEST(SwitchedPicture, FindsTheLikeOneElsewhere) {
+  std::vector<AccuracyCase> cases{at(9, 1, 0.5), at(5, 2, 1)};
+  std::vector<AccuracyCase> others{at(5, 3, 1), at(9, 4, 0.25)};
+  for (AccuracyCase& each : cases) each.factors["viewport"] = "48";
+  for (AccuracyCase& each : others) each.factors["viewport"] = "96";
+  const auto found = switched_picture(cases, others, "viewport");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->from, 1U);  // the most accurate has none
+  EXPECT_EQ(found->to, 0U);
+  EXPECT_FALSE(switched_picture(cases, others, "step"));
+}
+
+// Errors and orders need no times; fronts and times to an error are of what has one.
+TEST(Untimed, HasOrdersButNoFront) {
+  std::vector<AccuracyCase> cases;
+  for (const double step : {1.0, 0.5, 0.25}) cases.push_back(at(1, 0.1 * step * step, step));
+  for (AccuracyCase& each : cases) each.time_ns.reset();
+  const auto families = accuracy_families(cases);
+  ASSERT_EQ(families.size(), 1U);
+  ASSERT_TRUE(families[0].order);
+  EXPECT_NEAR(families[0].order->order, 2, 1e-12);
+  EXPECT_TRUE(pareto_front(cases).empty());
+  EXPECT_TRUE(dominated(cases, {}).empty());
+  EXPECT_FALSE(time_to_error(cases, families, 1));
+  EXPECT_EQ(most_accurate(cases), 2U);
+  cases.push_back(at(7, 0.05, 2));
+  EXPECT_EQ(pareto_front(cases), (std::vector<std::size_t>{3}));
 }
 
 }  // namespace

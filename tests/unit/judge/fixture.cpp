@@ -62,8 +62,10 @@ record::Record JudgeTest::make_record(const std::string& run, const record::Devi
   record.configuration = fmt::format("{},{}technique={}", scene,
                                      variant == "bricks" ? "skip=bricks," : "", record.technique);
   record.outcome = record::Outcome::measured;
+  record.factors = {{"data", "ball"}, {"skip", variant == "bricks" ? "bricks" : "none"}};
   record.kernel_hash = "kernel-" + device.id;
   const double level = 1e6 * static_cast<double>(1 + record.configuration.size() % 7);
+  record.warm_up_frames = 4;
   record.wall_ns = noisy(level);
   if (!anchor) {
     record.counters = {{"rays", 48}, {"samples", 1000000}};

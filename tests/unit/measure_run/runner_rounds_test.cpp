@@ -134,5 +134,18 @@ TEST_F(RunRounds, PicturesAloneHaveNoRounds) {
   EXPECT_EQ(result.unsettled, 0);
 }
 
+TEST_F(RunRounds, AnUntimedRunHasNoneAndCalibratesNothing) {
+  options.protocol.timed = false;
+  const RunResult result = run(small_plan());
+  EXPECT_THAT(told, SizeIs(4));
+  for (const record::Record& record : records(result.run)) {
+    EXPECT_TRUE(record.untimed());
+    EXPECT_FALSE(record.image.empty());
+    EXPECT_FALSE(record.counters.empty());
+    EXPECT_TRUE(record.rounds_ns.empty());
+  }
+  for (const auto& entry : open_store().devices(result.run)) EXPECT_TRUE(entry.clocks.empty());
+}
+
 }  // namespace
 }  // namespace triptych::measure

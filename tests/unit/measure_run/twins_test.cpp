@@ -141,7 +141,19 @@ TEST_F(RunTwins, AreMeasuredWhereAFaultIsPlanted) {
   EXPECT_EQ(run(full()).taken_over, 0);
 }
 
-TEST_F(RunTwins, AreDrawnWhereNothingIsTimed) {
+// Without times a plan shares what it shares with them: its records are of the same frames.
+TEST_F(RunTwins, TakeOverPicturesOfAnUntimedRunToo) {
+  options.protocol.timed = false;
+  const RunResult result = run(full());
+  EXPECT_EQ(result.taken_over, 1);
+  auto all = by_key(result);
+  EXPECT_EQ(all[bricks].same_as, none);
+  EXPECT_EQ(all[bricks].image, all[none].image);
+  EXPECT_EQ(all[bricks].counters, all[none].counters);
+  EXPECT_TRUE(all[none].untimed() && all[bricks].untimed());
+}
+
+TEST_F(RunTwins, AreDrawnByAPlanForPicturesAlone) {
   Plan what = full();
   what.timed = false;
   EXPECT_EQ(run(what).taken_over, 0);

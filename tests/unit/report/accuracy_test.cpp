@@ -20,7 +20,10 @@ judge::AccuracyCase at(const std::string& step, double time, double rmse) {
 judge::AccuracyScene some_scene() {
   judge::AccuracyScene scene;
   scene.device = "gl:x";
+  scene.limit = "ball of 64";
+  scene.scene = "data=ball <1>,viewport=64";
   scene.data = "ball <1>";
+  scene.nothing = 1;
   scene.cases = {at("1", 1e6, 1e-3), at("0.5", 2e6, 2.5e-4), at("0.25", 4e6, 6.25e-5),
                  at("0.125", 8e6, 0), at("2", 3e6, 4e-3)};
   judge::evaluate(scene);
@@ -50,6 +53,50 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
   EXPECT_THAT(text, HasSubstr("1 of 5"));  // dominated
   EXPECT_THAT(text, HasSubstr("step 0.125 → 0.25"));
   EXPECT_THAT(text, HasSubstr("plan0-accuracy-time"));
+}
+
+TEST(AccuracySection, ComparesDevicesByTheArea) {
+  judge::AccuracyScene slower = some_scene();
+  slower.device = "gl:slower";
+  for (judge::AccuracyCase& each : slower.cases) *each.time_ns *= 3;
+  judge::evaluate(slower);
+  judge::GateResult verdict;
+  verdict.accuracies = {some_scene(), slower};
+  const PlanData plan{.anchor = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
+  const std::string text = accuracy_section(plan);
+  EXPECT_THAT(text, HasSubstr(">3.00<"));
+  EXPECT_THAT(text, HasSubstr(">1.00<"));
+}
+
+// Pictures of another size are scenes of their own, and are named so.
+TEST(AccuracySection, TellsPicturesOfOneDataApart) {
+  judge::AccuracyScene finer = some_scene();
+  finer.limit = "ball of 128";
+  finer.scene = "data=ball <1>,viewport=128";
+  for (judge::AccuracyCase& each : finer.cases) each.factors["viewport"] = "128";
+  judge::AccuracyScene scene = some_scene();
+  for (judge::AccuracyCase& each : scene.cases) each.factors["viewport"] = "64";
+  judge::GateResult verdict;
+  verdict.accuracies = {scene, finer};
+  const PlanData plan{.anchor = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
+  const std::string text = accuracy_section(plan);
+  EXPECT_THAT(text, HasSubstr("ball &lt;1&gt;, viewport=128"));
+  EXPECT_THAT(text, HasSubstr("viewport 64 → 128, another picture"));
+  EXPECT_EQ(accuracy_title(verdict.accuracies, scene), "ball <1>, viewport=64");
+  EXPECT_EQ(accuracy_title(std::vector{scene}, scene), "ball <1>");
+}
+
+TEST(AccuracySection, WithoutTimesTellsErrorsAlone) {
+  judge::AccuracyScene scene = some_scene();
+  for (judge::AccuracyCase& each : scene.cases) each.time_ns.reset();
+  judge::evaluate(scene);
+  judge::GateResult verdict;
+  verdict.accuracies = {scene};
+  const PlanData plan{.anchor = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
+  const std::string text = accuracy_section(plan);
+  EXPECT_THAT(text, HasSubstr("2.00 ± 0.00 (3 steps)"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("plan0-accuracy-time")));
+  EXPECT_THAT(text, testing::Not(HasSubstr("not reached")));
 }
 
 }  // namespace
