@@ -63,11 +63,14 @@ Json axis(const char* field, const char* title, const char* format) {
 }
 
 Json facet(const char* field) {
-  return {{"field", field},
-          {"type", "nominal"},
-          {"title", nullptr},
-          {"sort", nullptr},
-          {"header", {{"labelLimit", 200}, {"labelFontSize", 11}}}};
+  return {
+      {"field", field},
+      {"type", "nominal"},
+      {"title", nullptr},
+      {"sort", nullptr},
+      // A line for the data, one for each factor: together they are longer than a row is high.
+      {"header",
+       {{"labelLimit", 200}, {"labelFontSize", 11}, {"labelExpr", "split(datum.label, ', ')"}}}};
 }
 
 // The cases are in the order of their steps already.
