@@ -91,7 +91,7 @@ AnchorFrames::AnchorFrames(const Gpu& gpu, const Instance& instance, std::string
       layout_(make_anchor_layout(gpu, shape_)),
       pool_(make_pool(gpu, 1)),
       set_(make_set()),
-      pipeline_(make_compute_pipeline(gpu, layout_, spirv(code_), Constants{})),
+      pipeline_(compute_pipeline(gpu, layout_, spirv(code_), Constants{})),
       frames_(gpu, vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations,
               [this](const vk::raii::CommandBuffer& commands) { record_launches(commands); }) {
   frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
@@ -115,7 +115,7 @@ vk::DescriptorSet AnchorFrames::make_set() const {
 }
 
 void AnchorFrames::record_launches(const vk::raii::CommandBuffer& commands) const {
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline_);
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_.pipeline, 0, set_, {});
   for (std::uint32_t i = 0; i < shape_.launches; ++i) commands.dispatch(shape_.groups, 1, 1);
 }

@@ -46,7 +46,7 @@ class AnchorFrames final : public measure::Prepared {
   Layout layout_;
   vk::raii::DescriptorPool pool_;
   vk::DescriptorSet set_;
-  vk::raii::Pipeline pipeline_;
+  vk::Pipeline pipeline_;
   Frames frames_;
 };
 

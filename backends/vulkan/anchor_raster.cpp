@@ -42,7 +42,7 @@ class RasterFrames final : public measure::Prepared {
   Layout layout_;
   vk::raii::RenderPass render_pass_;
   vk::raii::Framebuffer framebuffer_;
-  vk::raii::Pipeline pipeline_;
+  vk::Pipeline pipeline_;
   Frames frames_;
 };
 
@@ -56,13 +56,14 @@ RasterFrames::RasterFrames(const Gpu& gpu, const Instance& instance,
       layout_(make_layout(gpu, {})),
       render_pass_(colour_pass(gpu, target_format, vk::AttachmentLoadOp::eClear)),
       framebuffer_(colour_framebuffer(gpu, render_pass_, target_)),
-      pipeline_(make_draw_pipeline(
-          gpu, layout_, render_pass_,
-          {.stages = {{vk::ShaderStageFlagBits::eVertex, spirv(vertex_shader)},
-                      {vk::ShaderStageFlagBits::eFragment, spirv(fragment_shader)}},
-           .added_up = true,
-           .extent = target_.extent()},
-          Specialization(Constants{}))),
+      pipeline_(
+          draw_pipeline(gpu, layout_, render_pass_,
+                        {.stages = {{vk::ShaderStageFlagBits::eVertex, spirv(vertex_shader)},
+                                    {vk::ShaderStageFlagBits::eFragment, spirv(fragment_shader)}},
+                         .added_up = true,
+                         .extent = target_.extent(),
+                         .formats = {target_format}},
+                        Specialization(Constants{}))),
       frames_(gpu, draw_statistics(),
               [this](const vk::raii::CommandBuffer& commands) { draw(commands); }) {
   frames_.record_counters([this](const vk::raii::CommandBuffer& commands) { draw(commands); });
@@ -77,7 +78,7 @@ void RasterFrames::draw(const vk::raii::CommandBuffer& commands) const {
                             .clearValueCount = 1,
                             .pClearValues = &zeros},
                            vk::SubpassContents::eInline);
-  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline_);
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline_);
   commands.setScissor(0, everything);
   commands.draw(vertices_, 1, 0, 0);
   commands.endRenderPass();

@@ -42,9 +42,9 @@ CellCulling::CellCulling(const Gpu& gpu, const Layout& layout, std::uint32_t cel
              Place::device) {
   for (const CullPass pass : passes_of(culling)) {
     for (const bool counting : {false, true}) {
-      builds_.push_back({pass, counting,
-                         make_compute_pipeline(
-                             gpu, layout, spirv(code_name(pass, instanced, counting)), constants)});
+      builds_.push_back(
+          {pass, counting,
+           compute_pipeline(gpu, layout, spirv(code_name(pass, instanced, counting)), constants)});
     }
   }
 }
@@ -57,7 +57,7 @@ void CellCulling::record(const vk::raii::CommandBuffer& commands, CullPass pass,
                          bool counting) const {
   const auto build = std::ranges::find_if(
       builds_, [&](const Build& each) { return each.pass == pass && each.counting == counting; });
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *build->pipeline);
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, build->pipeline);
   commands.dispatch((cells_ + group - 1) / group, 1, 1);
   barrier(commands);
 }

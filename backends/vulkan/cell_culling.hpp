@@ -36,7 +36,7 @@ class CellCulling {
   struct Build {
     CullPass pass;
     bool counting;
-    vk::raii::Pipeline pipeline;
+    vk::Pipeline pipeline;
   };
   std::vector<Build> builds_;
 };

@@ -51,7 +51,7 @@ CellOcclusion::CellOcclusion(const Gpu& gpu, const Layout& layout, std::uint32_t
       now_(all_seen(gpu, cells)),
       farthest_(words(gpu, blocks(extent.width) * blocks(extent.height))),
       depths_(words(gpu, extent.width * extent.height)),
-      pipeline_(make_compute_pipeline(gpu, layout, spirv("farthest.comp.spv"), constants)) {}
+      pipeline_(compute_pipeline(gpu, layout, spirv("farthest.comp.spv"), constants)) {}
 
 void CellOcclusion::bind(vk::DescriptorSet set) const {
   const auto storage = [&](std::uint32_t binding, const Buffer& buffer) {
@@ -75,7 +75,7 @@ void CellOcclusion::find_farthest(const vk::raii::CommandBuffer& commands,
       depth.get(), vk::ImageLayout::eTransferSrcOptimal, depths_.get(),
       vk::BufferImageCopy{.imageSubresource = depth.layer(), .imageExtent = extent_});
   barrier(commands);
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline_);
   commands.dispatch(blocks(extent_.width), blocks(extent_.height), 1);
   barrier(commands);
 }

@@ -29,7 +29,7 @@ class CellOcclusion {
   Buffer now_;
   Buffer farthest_;
   Buffer depths_;
-  vk::raii::Pipeline pipeline_;
+  vk::Pipeline pipeline_;
 };
 
 [[nodiscard]] std::vector<vk::DescriptorSetLayoutBinding> occlusion_bindings();

@@ -37,15 +37,14 @@ ComputeFrames::ComputeFrames(const Gpu& gpu, const Instance& instance,
               vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc,
               Place::device),
       resources_(gpu, work, &output_),
-      pipeline_(make_compute_pipeline(gpu, resources_.layout(), timed_code_, constants)),
-      counting_pipeline_(nullptr),
+      pipeline_(compute_pipeline(gpu, resources_.layout(), timed_code_, constants)),
       frames_(gpu, vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations,
               [this](const vk::raii::CommandBuffer& commands) { record_timed(commands); }) {
   instance_.check_validation();
 }
 
 void ComputeFrames::record_timed(const vk::raii::CommandBuffer& commands) const {
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline_);
   dispatch(commands, Pass::timed, drawn_columns_);
 }
 
@@ -58,9 +57,9 @@ void ComputeFrames::dispatch(const vk::raii::CommandBuffer& commands, Pass pass,
 
 void ComputeFrames::prepare_counters() {
   resources_.bind_counters();
-  counting_pipeline_ = make_compute_pipeline(gpu_, resources_.layout(), counting_code_, constants_);
+  counting_pipeline_ = compute_pipeline(gpu_, resources_.layout(), counting_code_, constants_);
   frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *counting_pipeline_);
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, counting_pipeline_);
     dispatch(commands, Pass::counting, width_);
   });
 }

@@ -32,8 +32,8 @@ class ComputeFrames final : public measure::Prepared {
   int drawn_columns_;
   Buffer output_;
   VolumeResources resources_;
-  vk::raii::Pipeline pipeline_;
-  vk::raii::Pipeline counting_pipeline_;  // null until a counting frame is asked for
+  vk::Pipeline pipeline_;
+  vk::Pipeline counting_pipeline_;  // null until a counting frame is asked for
   Frames frames_;
 };
 

@@ -1,5 +1,7 @@
 #include "backends/vulkan/descriptors.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -17,7 +19,12 @@ Layout make_layout(const Gpu& gpu, vk::ArrayProxy<const vk::DescriptorSetLayoutB
                                                .pSetLayouts = &*set,
                                                .pushConstantRangeCount = push_bytes > 0 ? 1U : 0U,
                                                .pPushConstantRanges = &push});
-  return {std::move(set), std::move(pipeline)};
+  std::string definition = fmt::format("push {}", push_bytes);
+  for (const vk::DescriptorSetLayoutBinding& each : bindings) {
+    definition += fmt::format(", {}: {} {} in {}", each.binding, each.descriptorCount,
+                              vk::to_string(each.descriptorType), vk::to_string(each.stageFlags));
+  }
+  return {std::move(set), std::move(pipeline), std::move(definition)};
 }
 
 vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,

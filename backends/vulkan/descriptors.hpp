@@ -1,6 +1,7 @@
 #pragma once
 // Descriptors: what device code finds at its bindings. One set per pipeline everywhere.
 
+#include <string>
 #include <vector>
 
 #include "backends/vulkan/memory.hpp"
@@ -10,6 +11,7 @@ namespace triptych::vulkan_backend {
 struct Layout {
   vk::raii::DescriptorSetLayout set;
   vk::raii::PipelineLayout pipeline;
+  std::string definition;  // the same text for layouts that are defined in the same way
 };
 // `push_bytes`: size of a push constant block of the compute stage.
 [[nodiscard]] Layout make_layout(const Gpu& gpu,

@@ -1,5 +1,7 @@
 #include "backends/vulkan/draw_pipeline.hpp"
 
+#include <fmt/format.h>
+
 namespace triptych::vulkan_backend {
 namespace {
 
@@ -48,11 +50,34 @@ vk::PipelineDepthStencilStateCreateInfo depth_state(std::optional<vk::CompareOp>
           .depthCompareOp = compare.value_or(vk::CompareOp::eAlways)};
 }
 
-}  // namespace
+// All of it: what is not named here is the same for every pipeline.
+std::string key_of(const DrawState& state, const Layout& layout, const Specialization& constants) {
+  std::vector<std::string_view> codes;
+  std::string text;
+  for (const DrawStage& each : state.stages) {
+    codes.push_back(each.code);
+    text += vk::to_string(each.stage) + " ";
+  }
+  text +=
+      fmt::format("{}; {}; {} {} {} {} {} {}x{}", code_hash(codes, constants), layout.definition,
+                  vk::to_string(state.topology), state.patch_points, state.colour_targets,
+                  state.added_up, state.depth ? vk::to_string(*state.depth) : "no depth",
+                  state.extent.width, state.extent.height);
+  for (const vk::VertexInputBindingDescription& each : state.vertex_bindings) {
+    text +=
+        fmt::format("; binding {} {} {}", each.binding, each.stride, vk::to_string(each.inputRate));
+  }
+  for (const vk::VertexInputAttributeDescription& each : state.vertex_attributes) {
+    text += fmt::format("; attribute {} {} {} {}", each.location, each.binding,
+                        vk::to_string(each.format), each.offset);
+  }
+  for (const vk::Format format : state.formats) text += "; " + vk::to_string(format);
+  return text;
+}
 
-vk::raii::Pipeline make_draw_pipeline(const Gpu& gpu, const Layout& layout,
-                                      const vk::raii::RenderPass& pass, const DrawState& state,
-                                      const Specialization& constants) {
+vk::raii::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout,
+                                 const vk::raii::RenderPass& pass, const DrawState& state,
+                                 const Specialization& constants) {
   const Stages stages(gpu, state.stages, constants);
   const vk::PipelineVertexInputStateCreateInfo vertices{
       .vertexBindingDescriptionCount = static_cast<std::uint32_t>(state.vertex_bindings.size()),
@@ -93,6 +118,14 @@ vk::raii::Pipeline make_draw_pipeline(const Gpu& gpu, const Layout& layout,
               .pDynamicState = &dynamic,
               .layout = *layout.pipeline,
               .renderPass = *pass}};
+}
+
+}  // namespace
+
+vk::Pipeline draw_pipeline(const Gpu& gpu, const Layout& layout, const vk::raii::RenderPass& pass,
+                           const DrawState& state, const Specialization& constants) {
+  return gpu.pipelines->get(key_of(state, layout, constants),
+                            [&] { return make_pipeline(gpu, layout, pass, state, constants); });
 }
 
 }  // namespace triptych::vulkan_backend

@@ -25,12 +25,13 @@ struct DrawState {
   bool added_up = false;               // colours are added to the targets, else overwrite them
   std::optional<vk::CompareOp> depth;  // tested and written where given
   vk::Extent3D extent;
+  std::vector<vk::Format> formats;  // of the render pass's attachments, in its order
 };
 
-// All stages get the same specialization constants.
-[[nodiscard]] vk::raii::Pipeline make_draw_pipeline(const Gpu& gpu, const Layout& layout,
-                                                    const vk::raii::RenderPass& pass,
-                                                    const DrawState& state,
-                                                    const Specialization& constants);
+// All stages get the same specialization constants. The gpu's own (Pipelines): made where there is
+// none of the kind yet.
+[[nodiscard]] vk::Pipeline draw_pipeline(const Gpu& gpu, const Layout& layout,
+                                         const vk::raii::RenderPass& pass, const DrawState& state,
+                                         const Specialization& constants);
 
 }  // namespace triptych::vulkan_backend

@@ -102,15 +102,15 @@ void sample_on_device(const Gpu& gpu, const Image& volume, std::vector<Sample>& 
        .stageFlags = vk::ShaderStageFlagBits::eCompute},
   }};
   const Layout layout = make_layout(gpu, bindings);
-  const vk::raii::Pipeline pipeline =
-      make_compute_pipeline(gpu, layout, spirv("filter_probe.comp.spv"), Constants{});
+  const vk::Pipeline pipeline =
+      compute_pipeline(gpu, layout, spirv("filter_probe.comp.spv"), Constants{});
   const vk::raii::DescriptorPool pool = make_pool(gpu, 1);
   const vk::DescriptorSet set = allocate_sets(gpu, pool, layout, 1).front();
   const vk::raii::Sampler sampler = make_sampler(gpu, vk::Filter::eLinear);
   bind_texture(gpu, set, 0, volume, sampler);
   bind_buffer(gpu, set, 1, eStorageBuffer, buffer);
   run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout.pipeline, 0, set, {});
     commands.dispatch(static_cast<std::uint32_t>(places) / group_size, 1, 1);
   });

@@ -58,7 +58,8 @@ Gpu open_gpu(const vk::raii::PhysicalDevice& physical) {
              .timestamp_bits = families[family].timestampValidBits,
              .device = std::move(device),
              .queue = std::move(work),
-             .commands = std::move(commands)};
+             .commands = std::move(commands),
+             .pipelines = std::make_unique<Pipelines>()};
 }
 
 vk::raii::CommandBuffer make_commands(const Gpu& gpu) {

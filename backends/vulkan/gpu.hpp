@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 
+#include "backends/vulkan/pipelines.hpp"
 #include "backends/vulkan/vulkan.hpp"
 
 namespace triptych::vulkan_backend {
@@ -19,6 +21,7 @@ struct Gpu {
   vk::raii::Device device;
   vk::raii::Queue queue;
   vk::raii::CommandPool commands;
+  std::unique_ptr<Pipelines> pipelines;
 
   [[nodiscard]] bool is_cpu() const {
     return properties.deviceType == vk::PhysicalDeviceType::eCpu;

@@ -103,6 +103,10 @@ ParticleTarget::ParticleTarget(const Gpu& gpu, const scene::ParticleScene& scene
                                     std::array{colour_.view(), ids_.view(), depth_.view()},
                                     colour_.extent())) {}
 
+std::vector<vk::Format> ParticleTarget::formats() {
+  return {colour_format, id_format, depth_format};
+}
+
 void ParticleTarget::begin(const vk::raii::CommandBuffer& commands, bool continued) const {
   const vk::Rect2D everything{.extent = {extent().width, extent().height}};
   commands.beginRenderPass({.renderPass = continued ? *continuing_ : *clearing_,

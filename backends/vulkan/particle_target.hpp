@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "backends/vulkan/memory.hpp"
 #include "core/image.hpp"
 #include "scene/particle_scene.hpp"
@@ -28,6 +30,8 @@ class ParticleTarget {
   [[nodiscard]] core::Image read(const Gpu& gpu) const;
 
   static constexpr std::uint32_t colour_targets = 2;
+  // Of the passes' attachments.
+  [[nodiscard]] static std::vector<vk::Format> formats();
 
  private:
   double near_;

@@ -31,16 +31,20 @@ vk::SpecializationInfo Specialization::info() const {
           .pData = words_.data()};
 }
 
-vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
-                                         std::string_view code, const Specialization& constants) {
-  const vk::SpecializationInfo specialization = constants.info();
-  const vk::raii::ShaderModule module = make_shader(gpu, code);
-  return {gpu.device, nullptr,
-          vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
-                                                  .module = *module,
-                                                  .pName = "main",
-                                                  .pSpecializationInfo = &specialization},
-                                        .layout = *layout.pipeline}};
+vk::Pipeline compute_pipeline(const Gpu& gpu, const Layout& layout, std::string_view code,
+                              const Specialization& constants) {
+  const std::string key =
+      fmt::format("{}; {}", code_hash({&code, 1}, constants), layout.definition);
+  return gpu.pipelines->get(key, [&]() -> vk::raii::Pipeline {
+    const vk::SpecializationInfo specialization = constants.info();
+    const vk::raii::ShaderModule module = make_shader(gpu, code);
+    return {gpu.device, nullptr,
+            vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
+                                                    .module = *module,
+                                                    .pName = "main",
+                                                    .pSpecializationInfo = &specialization},
+                                          .layout = *layout.pipeline}};
+  });
 }
 
 std::string code_hash(std::string_view code, const Constants& constants) {

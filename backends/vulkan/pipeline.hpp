@@ -55,13 +55,13 @@ static_assert(sizeof(Constants) == 8 * 4);
 // A module from the bytes of a SPIR-V file.
 [[nodiscard]] vk::raii::ShaderModule make_shader(const Gpu& gpu, std::string_view code);
 
-[[nodiscard]] vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
-                                                       std::string_view code,
-                                                       const Specialization& constants);
-[[nodiscard]] inline vk::raii::Pipeline make_compute_pipeline(const Gpu& gpu, const Layout& layout,
-                                                              std::string_view code,
-                                                              const Constants& constants) {
-  return make_compute_pipeline(gpu, layout, code, Specialization(constants));
+// The gpu's own (Pipelines): made where there is none of the kind yet.
+[[nodiscard]] vk::Pipeline compute_pipeline(const Gpu& gpu, const Layout& layout,
+                                            std::string_view code, const Specialization& constants);
+[[nodiscard]] inline vk::Pipeline compute_pipeline(const Gpu& gpu, const Layout& layout,
+                                                   std::string_view code,
+                                                   const Constants& constants) {
+  return compute_pipeline(gpu, layout, code, Specialization(constants));
 }
 
 // Content hash of the SPIR-V and the constants.

@@ -19,14 +19,15 @@ constexpr std::string_view fragment_shader = "raycast_fragment.frag";
 constexpr vk::Format target_format = vk::Format::eR32G32B32A32Sfloat;
 
 // A full-screen triangle without vertex buffers.
-vk::raii::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout,
-                                 const vk::raii::RenderPass& pass, vk::Extent3D extent,
-                                 std::string_view fragment_code, const Constants& constants) {
-  return make_draw_pipeline(gpu, layout, pass,
-                            {.stages = {{vk::ShaderStageFlagBits::eVertex, spirv(vertex_shader)},
-                                        {vk::ShaderStageFlagBits::eFragment, fragment_code}},
-                             .extent = extent},
-                            Specialization(constants));
+vk::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout, const vk::raii::RenderPass& pass,
+                           vk::Extent3D extent, std::string_view fragment_code,
+                           const Constants& constants) {
+  return draw_pipeline(gpu, layout, pass,
+                       {.stages = {{vk::ShaderStageFlagBits::eVertex, spirv(vertex_shader)},
+                                   {vk::ShaderStageFlagBits::eFragment, fragment_code}},
+                        .extent = extent,
+                        .formats = {target_format}},
+                       Specialization(constants));
 }
 
 class FragmentFrames final : public measure::Prepared {
@@ -40,8 +41,7 @@ class FragmentFrames final : public measure::Prepared {
   }
 
  private:
-  void draw(const vk::raii::CommandBuffer& commands, const vk::raii::Pipeline& pipeline,
-            Pass pass) const;
+  void draw(const vk::raii::CommandBuffer& commands, vk::Pipeline pipeline, Pass pass) const;
   void draw_again(const vk::raii::CommandBuffer& commands) const;
   void prepare_counters();
 
@@ -55,8 +55,8 @@ class FragmentFrames final : public measure::Prepared {
   VolumeResources resources_;
   vk::raii::RenderPass render_pass_;
   vk::raii::Framebuffer framebuffer_;
-  vk::raii::Pipeline pipeline_;
-  vk::raii::Pipeline counting_pipeline_;  // null until a counting frame is asked for
+  vk::Pipeline pipeline_;
+  vk::Pipeline counting_pipeline_;  // null until a counting frame is asked for
   Frames frames_;
 };
 
@@ -78,21 +78,20 @@ FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
       framebuffer_(colour_framebuffer(gpu, render_pass_, target_)),
       pipeline_(make_pipeline(gpu, resources_.layout(), render_pass_, target_.extent(), timed_code_,
                               constants_)),
-      counting_pipeline_(nullptr),
       frames_(gpu, draw_statistics(), [this](const vk::raii::CommandBuffer& commands) {
         draw(commands, pipeline_, Pass::timed);
       }) {
   instance_.check_validation();
 }
 
-void FragmentFrames::draw(const vk::raii::CommandBuffer& commands,
-                          const vk::raii::Pipeline& pipeline, Pass pass) const {
+void FragmentFrames::draw(const vk::raii::CommandBuffer& commands, vk::Pipeline pipeline,
+                          Pass pass) const {
   const vk::Extent3D extent = target_.extent();
   const vk::Rect2D everything{.extent = {extent.width, extent.height}};
   commands.beginRenderPass(
       {.renderPass = *render_pass_, .framebuffer = *framebuffer_, .renderArea = everything},
       vk::SubpassContents::eInline);
-  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *resources_.layout().pipeline, 0,
                               resources_.set(pass), {});
   commands.setScissor(0, everything);

@@ -61,12 +61,10 @@ SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
       set_(allocate_sets(gpu, pool_, layout_, 1).front()),
       culling_(gpu, layout_, data_.cells(), technique_.draw.instanced, options_.culling,
                constants_),
-      pipelines_(make_pipelines(false)),
-      counting_pipelines_{nullptr, nullptr},
-      frames_((bind(), gpu), common_statistics() | technique_.statistics,
-              [this](const vk::raii::CommandBuffer& commands) {
-                record(commands, pipelines_, false);
-              }) {
+      draws_(draws(false)),
+      frames_(
+          (bind(), gpu), common_statistics() | technique_.statistics,
+          [this](const vk::raii::CommandBuffer& commands) { record(commands, draws_, false); }) {
   if (occlusion_) draw_before(work);
   instance_.check_validation();
 }
@@ -96,7 +94,8 @@ DrawState SpriteFrames::draw_state(const SpriteDraw& draw, bool counting) const 
   DrawState state{.topology = draw.topology,
                   .colour_targets = ParticleTarget::colour_targets,
                   .depth = depth_compare(options_.fault),
-                  .extent = target_.extent()};
+                  .extent = target_.extent(),
+                  .formats = ParticleTarget::formats()};
   for (const SpriteStage& each : draw.stages) {
     state.stages.push_back({each.stage, spirv(counting ? each.counting : each.timed)});
   }
@@ -105,17 +104,16 @@ DrawState SpriteFrames::draw_state(const SpriteDraw& draw, bool counting) const 
   return state;
 }
 
-SpriteFrames::Pipelines SpriteFrames::make_pipelines(bool counting) const {
+SpriteFrames::Draws SpriteFrames::draws(bool counting) const {
   const auto make = [&](const SpriteDraw& draw) {
-    return make_draw_pipeline(gpu_, layout_, target_.pass(), draw_state(draw, counting),
-                              constants_);
+    return draw_pipeline(gpu_, layout_, target_.pass(), draw_state(draw, counting), constants_);
   };
-  Pipelines made{make(technique_.draw), nullptr};
+  Draws made{make(technique_.draw), {}};
   if (technique_.rest && !technique_.rest_runs.empty()) made.rest = make(*technique_.rest);
   return made;
 }
 
-void SpriteFrames::record(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
+void SpriteFrames::record(const vk::raii::CommandBuffer& commands, const Draws& draws,
                           bool counting) const {
   for (const auto point : {vk::PipelineBindPoint::eCompute, vk::PipelineBindPoint::eGraphics}) {
     commands.bindDescriptorSets(point, *layout_.pipeline, 0, set_, {});
@@ -128,40 +126,40 @@ void SpriteFrames::record(const vk::raii::CommandBuffer& commands, const Pipelin
     culling_.record(commands, CullPass::view, counting);
   }
   target_.begin(commands, false);
-  if (data_.particles() > 0) draw(commands, pipelines, counting);
+  if (data_.particles() > 0) draw(commands, draws, counting);
   commands.endRenderPass();
-  if (occlusion_) draw_newly_seen(commands, pipelines, counting);
+  if (occlusion_) draw_newly_seen(commands, draws, counting);
 }
 
-void SpriteFrames::draw_newly_seen(const vk::raii::CommandBuffer& commands,
-                                   const Pipelines& pipelines, bool counting) const {
+void SpriteFrames::draw_newly_seen(const vk::raii::CommandBuffer& commands, const Draws& draws,
+                                   bool counting) const {
   occlusion_->find_farthest(commands, target_.depth());
   culling_.record(commands, CullPass::seen_now, counting);
   target_.begin(commands, true);
-  bind_vertices(commands, pipelines);
+  bind_vertices(commands, draws);
   culling_.draw(commands, 1);
   commands.endRenderPass();
 }
 
 void SpriteFrames::bind_vertices(const vk::raii::CommandBuffer& commands,
-                                 const Pipelines& pipelines) const {
-  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines.draw);
+                                 const Draws& draws) const {
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, draws.draw);
   const std::array<vk::DeviceSize, 3> offsets{};
   const std::array buffers{data_.spheres().get(), data_.colours().get(), data_.ids().get()};
   commands.bindVertexBuffers(0, buffers, offsets);
 }
 
-void SpriteFrames::draw(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
+void SpriteFrames::draw(const vk::raii::CommandBuffer& commands, const Draws& draws,
                         bool counting) const {
-  bind_vertices(commands, pipelines);
+  bind_vertices(commands, draws);
   if (options_.culling == Culling::none) {
     draw_run(commands, technique_.draw.instanced, {0, data_.particles()});
   } else {
     culling_.draw(commands, 1);
   }
   if (options_.extra_work_stride > 0 && !counting) draw_again(commands);
-  if (*pipelines.rest) {
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines.rest);
+  if (draws.rest) {
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, draws.rest);
     for (const ParticleRun& run : technique_.rest_runs) {
       draw_run(commands, technique_.rest->instanced, run);
     }
@@ -211,9 +209,9 @@ measure::Frame SpriteFrames::frame(measure::Purpose purpose) {
   return translated([&] {
     const bool counting = purpose == measure::Purpose::counters;
     if (counting && !frames_.can_count()) {
-      counting_pipelines_ = make_pipelines(true);
+      counting_draws_ = draws(true);
       frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
-        record(commands, counting_pipelines_, true);
+        record(commands, counting_draws_, true);
       });
     }
     measure::Frame frame = frames_.submit(purpose);

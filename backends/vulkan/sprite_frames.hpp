@@ -57,20 +57,18 @@ class SpriteFrames final : public measure::Prepared {
   [[nodiscard]] std::string kernel_hash() const override;
 
  private:
-  struct Pipelines {
-    vk::raii::Pipeline draw;
-    vk::raii::Pipeline rest;  // null where there is nothing of the kind
+  struct Draws {
+    vk::Pipeline draw;
+    vk::Pipeline rest;  // null where there is nothing of the kind
   };
-  [[nodiscard]] Pipelines make_pipelines(bool counting) const;
+  [[nodiscard]] Draws draws(bool counting) const;
   [[nodiscard]] DrawState draw_state(const SpriteDraw& draw, bool counting) const;
   [[nodiscard]] std::string_view pixel_stage(bool counting) const;
-  void record(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
-              bool counting) const;
-  void draw(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
-            bool counting) const;
-  void draw_newly_seen(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines,
+  void record(const vk::raii::CommandBuffer& commands, const Draws& draws, bool counting) const;
+  void draw(const vk::raii::CommandBuffer& commands, const Draws& draws, bool counting) const;
+  void draw_newly_seen(const vk::raii::CommandBuffer& commands, const Draws& draws,
                        bool counting) const;
-  void bind_vertices(const vk::raii::CommandBuffer& commands, const Pipelines& pipelines) const;
+  void bind_vertices(const vk::raii::CommandBuffer& commands, const Draws& draws) const;
   void bind();
   void draw_before(const measure::ParticleWork& work) const;
   void draw_run(const vk::raii::CommandBuffer& commands, bool instanced, ParticleRun run) const;
@@ -90,8 +88,8 @@ class SpriteFrames final : public measure::Prepared {
   vk::DescriptorSet set_;  // freed with the pool
   CellCulling culling_;
   std::optional<CellOcclusion> occlusion_;
-  Pipelines pipelines_;
-  Pipelines counting_pipelines_;  // null until a counting frame is asked for
+  Draws draws_;
+  Draws counting_draws_;  // null until a counting frame is asked for
   Frames frames_;
 };
 

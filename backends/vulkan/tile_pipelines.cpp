@@ -18,7 +18,7 @@ std::string_view code_of(std::string_view pass, bool counting) {
 TilePipelines::TilePipelines(const Gpu& gpu, const Layout& layout, const Specialization& constants,
                              bool counting) {
   for (const std::string_view pass : passes) {
-    pipelines_.push_back(make_compute_pipeline(gpu, layout, code_of(pass, counting), constants));
+    pipelines_.push_back(compute_pipeline(gpu, layout, code_of(pass, counting), constants));
   }
 }
 

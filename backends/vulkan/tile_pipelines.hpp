@@ -23,11 +23,11 @@ class TilePipelines {
                 bool counting);
 
   [[nodiscard]] vk::Pipeline operator[](TilePass pass) const {
-    return *pipelines_.at(static_cast<std::size_t>(pass));
+    return pipelines_.at(static_cast<std::size_t>(pass));
   }
 
  private:
-  std::vector<vk::raii::Pipeline> pipelines_;
+  std::vector<vk::Pipeline> pipelines_;
 };
 
 // Of the timed build.

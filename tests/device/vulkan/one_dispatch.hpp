@@ -23,7 +23,7 @@ std::vector<Out> dispatch_once(const Gpu& gpu, std::string_view spirv, const std
       {.binding = 1, .descriptorType = eStorageBuffer, .descriptorCount = 1, .stageFlags = stage},
   }};
   const Layout layout = make_layout(gpu, bindings);
-  const vk::raii::Pipeline pipeline = make_compute_pipeline(gpu, layout, spirv, Constants{});
+  const vk::Pipeline pipeline = compute_pipeline(gpu, layout, spirv, Constants{});
   const vk::raii::DescriptorPool pool = make_pool(gpu, 1);
   const vk::DescriptorSet set = allocate_sets(gpu, pool, layout, 1).front();
   std::vector<Out> out(in.size());
@@ -35,7 +35,7 @@ std::vector<Out> dispatch_once(const Gpu& gpu, std::string_view spirv, const std
   bind_buffer(gpu, set, 0, eStorageBuffer, from);
   bind_buffer(gpu, set, 1, eStorageBuffer, to);
   run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
-    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline);
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipeline);
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout.pipeline, 0, set, {});
     commands.dispatch(groups, 1, 1);
   });
