@@ -251,12 +251,14 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
 
 }  // namespace
 
-std::vector<int> measure_plans(const std::vector<std::string>& plans,
-                               const std::vector<std::string>& devices, const std::string& store) {
+std::vector<int> measure_plans_once(const std::vector<std::string>& plans,
+                                    const std::vector<std::string>& devices,
+                                    const std::string& store) {
   RunArguments arguments;
   arguments.plans = plans;
   arguments.devices = devices;
   arguments.store = store;
+  arguments.rounds = 1;
   std::vector<int> told;
   for (const measure::RunResult& result : run_and_tell(arguments).results) {
     told.push_back(result.measured + result.failed);

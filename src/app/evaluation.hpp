@@ -27,7 +27,7 @@ struct EvaluationMaterial {
 
   int configurations = 6;  // of each plan, in turns
   int launches = 8;        // of both workers
-  int blocks = 384;        // of each configuration and size in a launch, at most: until a look tells
+  int blocks = 384;  // of each configuration and size in a launch, at most: until a look tells
   std::uint64_t seed = 1;
 
   int rounds = 8;          // unplanted runs of each plan, each after its anchors

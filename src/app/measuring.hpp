@@ -8,12 +8,12 @@
 
 namespace triptych::app {
 
-// Measures plans together on the devices of some globs, each into a new run, as `triptych run` does
-// and tells it. The number of configurations measured or failed of each. Throws as
-// measure::run_plans does.
-[[nodiscard]] std::vector<int> measure_plans(const std::vector<std::string>& plans,
-                                             const std::vector<std::string>& devices,
-                                             const std::string& store);
+// Measures plans on the devices of some globs, each into a new run, as `triptych run --rounds 1`
+// does and tells it: where no time is judged one round will do. The number of configurations
+// measured or failed of each. Throws as measure::run_plans does.
+[[nodiscard]] std::vector<int> measure_plans_once(const std::vector<std::string>& plans,
+                                                  const std::vector<std::string>& devices,
+                                                  const std::string& store);
 
 // As a CTest fixture does: a plan on one device, by a worker of its own, into the store's latest
 // run of the plan or a new one; the anchors with it where a correlation will be drawn. A

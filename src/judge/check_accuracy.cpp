@@ -70,22 +70,33 @@ std::optional<Order> stored_order(const RunView& view, const AccuracyScene& scen
   return fit_order(points);
 }
 
-// An order has fallen when it lies below the accepted one by more than both intervals.
+// An order has fallen when it lies below the accepted one by more than both intervals. Where the
+// same steps give none any more, errors of another kind than the step's have grown.
+Finding judge_order(const RunView& view, const record::Device& device,
+                    const std::optional<Order>& now, const Order& stored) {
+  const std::string accepted =
+      fmt::format("accepted {:.2f} ± {:.2f}", stored.order, stored.half_width);
+  if (!now) {
+    return finding_about(
+        view, device, Check::accuracy, Verdict::cannot_judge,
+        "no order in the step can be fitted: too few errors are the step's own; " + accepted);
+  }
+  const bool fallen = now->order < stored.order - stored.half_width - now->half_width;
+  Finding finding = finding_about(
+      view, device, Check::accuracy, fallen ? Verdict::regression : Verdict::pass,
+      fmt::format("order {:.2f} ± {:.2f} in the step, {}", now->order, now->half_width, accepted));
+  set_number(finding, "order", now->order);
+  set_number(finding, "stored_order", stored.order);
+  return finding;
+}
+
 void judge_orders(const RunView& view, const AccuracyScene& scene, AccuracyFindings& result) {
   const record::Device& device = view.devices.at(scene.device);
   for (const AccuracyFamily& family : scene.families) {
     const auto stored = stored_order(view, scene, family);
-    if (!stored || !family.order) continue;
-    const double least = stored->order - stored->half_width - family.order->half_width;
-    const bool fallen = family.order->order < least;
-    Finding finding =
-        finding_about(view, device, Check::accuracy, fallen ? Verdict::regression : Verdict::pass,
-                      fmt::format("order {:.2f} ± {:.2f} in the step, accepted {:.2f} ± {:.2f}",
-                                  family.order->order, family.order->half_width, stored->order,
-                                  stored->half_width));
+    if (!stored) continue;
+    Finding finding = judge_order(view, device, family.order, *stored);
     finding.configuration = scene.cases[family.members.back()].configuration;
-    set_number(finding, "order", family.order->order);
-    set_number(finding, "stored_order", stored->order);
     result.findings.push_back(std::move(finding));
   }
 }

@@ -31,11 +31,11 @@ enum class Property : std::uint8_t {
 };
 
 // One draw order for all: cells front to back as seen from the eye, and in a cell by ascending id.
-// They are those of a regular grid, divided where it pays (division.hpp). A depth test that keeps the first of equals, or a comparison of places in this
-// order, then resolves every tie in the same way on every device, whatever is culled, and
-// coincident spheres (one cell) show the lowest id. It does not depend on the order in which the
-// set holds its particles. A sphere with a diameter of more than the edge of a cell is put apart,
-// into the first cells, so that no box grows by it.
+// They are those of a regular grid, divided where it pays (division.hpp). A depth test that keeps
+// the first of equals, or a comparison of places in this order, then resolves every tie in the same
+// way on every device, whatever is culled, and coincident spheres (one cell) show the lowest id. It
+// does not depend on the order in which the set holds its particles. A sphere with a diameter of
+// more than the edge of a cell is put apart, into the first cells, so that no box grows by it.
 //
 // Properties stay where the set has them and are gathered on their way to a device: of ten million
 // particles the host cannot be asked to hold a second copy.

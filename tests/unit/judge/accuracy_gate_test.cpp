@@ -189,6 +189,14 @@ TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
   ASSERT_EQ(fallen.size(), 1U) << text(gate("c"));
   EXPECT_THAT(fallen[0].message, HasSubstr("order 1.95"));
   EXPECT_THAT(fallen[0].message, HasSubstr("accepted 2.00"));
+  // A truth so far from the pictures that hardly an error is the step's.
+  request_.truth = [](const record::Record& record) {
+    const core::Image truth = truth_of(record.scene);
+    return TruthPair{.truth = truth, .bound = truth};
+  };
+  const auto lost = with(gate("b"), Verdict::cannot_judge, Check::accuracy);
+  ASSERT_EQ(lost.size(), 1U) << text(gate("b"));
+  EXPECT_THAT(lost[0].message, HasSubstr("no order in the step can be fitted"));
 }
 
 TEST_F(AccuracyGateTest, OnlyAnAccuracyPlanIsJudgedUnasked) {
