@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "core/image_io.hpp"
 #include "measure/stopwatch.hpp"
-#include "technique/catalogue.hpp"
 
 namespace triptych::app {
 namespace {
@@ -18,14 +16,6 @@ namespace {
 using judge::PairVerdict;
 using measure::Side;
 using measure::TurnClock;
-
-std::vector<std::string> kinds_of(const measure::Plan& plan) {
-  std::set<std::string> kinds;
-  for (const measure::Configuration& each : plan.configurations) {
-    kinds.emplace(technique::name_of(technique::technique(each.at("technique")).work));
-  }
-  return {kinds.begin(), kinds.end()};
-}
 
 // Pictures, counters and statistics come from one ordinary job; its few timed frames only tell
 // whether the device's clock can be believed about this work.
@@ -57,7 +47,7 @@ class Comparer {
         same_setup_(options.a.environment == options.b.environment &&
                     options.a.command == options.b.command),
         turns_({.suite = options.plan.suite,
-                .kinds = kinds_of(options.plan),
+                .kinds = measure::work_kinds(options.plan),
                 .limit = options.limit,
                 .seed = options.seed},
                options.a, options.b) {

@@ -15,7 +15,6 @@
 #include "measure/runner.hpp"
 #include "measure/stopwatch.hpp"
 #include "measure/turns.hpp"
-#include "technique/catalogue.hpp"
 
 namespace triptych::app {
 namespace {
@@ -41,10 +40,12 @@ class BlockMeasuring {
         suite_(suite),
         device_(device),
         configurations_(covering(plan, static_cast<std::size_t>(material.configurations))),
-        turns_(
-            {.suite = plan.suite, .kinds = kinds(), .limit = material.limit, .seed = material.seed},
-            {.device = device, .command = worker_command(), .environment = {}},
-            {.device = device, .command = worker_command(), .environment = {}}) {}
+        turns_({.suite = plan.suite,
+                .kinds = measure::work_kinds(plan),
+                .limit = material.limit,
+                .seed = material.seed},
+               {.device = device, .command = worker_command(), .environment = {}},
+               {.device = device, .command = worker_command(), .environment = {}}) {}
 
   // False when nothing can be measured any more.
   bool launch(int number, std::ostream& out, const TellStep& tell) {
@@ -65,14 +66,6 @@ class BlockMeasuring {
   }
 
  private:
-  [[nodiscard]] std::vector<std::string> kinds() const {
-    std::set<std::string> kinds;
-    for (const measure::Configuration& each : plan_.configurations) {
-      kinds.emplace(technique::name_of(technique::technique(each.at("technique")).work));
-    }
-    return {kinds.begin(), kinds.end()};
-  }
-
   // By an ordinary measurement, once.
   TurnClock clock_of(const measure::Configuration& configuration, const std::string& key) {
     const auto known = clocks_.find(key);

@@ -1,32 +1,26 @@
 #include "judge/accuracy_cases.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string_view>
 
 #include "judge/image_metrics.hpp"
+#include "record/factor_list.hpp"
 
 namespace triptych::judge {
 namespace {
 
 // "camera=…,data=…,step=…" without its step and what `other` does not hold.
 std::string in_common(std::string_view scene, std::string_view other) {
-  const std::string known = fmt::format(",{},", other);
-  std::string kept;
-  while (!scene.empty()) {
-    const std::size_t end = std::min(scene.find(','), scene.size());
-    const std::string_view factor = scene.substr(0, end);
-    if (!factor.starts_with("step=") &&
-        known.find(fmt::format(",{},", factor)) != std::string::npos) {
-      if (!kept.empty()) kept += ",";
-      kept += factor;
-    }
-    scene.remove_prefix(std::min(end + 1, scene.size()));
-  }
-  return kept;
+  const auto known = record::parse_factor_list(other);
+  auto kept = record::parse_factor_list(scene);
+  std::erase_if(kept, [&](const auto& level) {
+    const auto same = known.find(level.first);
+    return level.first == "step" || same == known.end() || same->second != level.second;
+  });
+  return record::factor_list(kept);
 }
 
 double root_mean_square(const std::vector<float>& values) {

@@ -6,18 +6,19 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "core/error.hpp"
 #include "measure/plan_combinations.hpp"
 #include "measure/plan_values.hpp"
 #include "measure/plan_yaml.hpp"
 #include "record/factor_list.hpp"
+#include "technique/catalogue.hpp"
 
 namespace triptych::measure {
 namespace {
 
 // --- factors
-// -----------------------------------------------------------------------------------------------
 
 const Factor& factor_of(const Suite& suite, const PlacedText& name) {
   const auto found = std::ranges::find(suite.factors(), name.text, &Factor::name);
@@ -53,7 +54,6 @@ void apply(const Overrides& overrides, const Suite& suite, ValuesByFactor& value
 }
 
 // --- where plans come from
-// ---------------------------------------------------------------------------------
 
 struct PlanSource {
   std::string name;
@@ -177,6 +177,14 @@ std::string configuration_key(const Suite& suite, const Configuration& configura
     return !always && factor != suite.factors().end() && standard_of(*factor) == value;
   });
   return record::factor_list(named);
+}
+
+std::vector<std::string> work_kinds(const Plan& plan) {
+  std::set<std::string> kinds;
+  for (const Configuration& each : plan.configurations) {
+    kinds.emplace(technique::name_of(technique::technique(each.at("technique")).work));
+  }
+  return {kinds.begin(), kinds.end()};
 }
 
 void keep_shard(Plan& plan, int index, int count) {

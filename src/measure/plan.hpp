@@ -44,6 +44,10 @@ using FindSuite = std::function<Suite&(std::string_view name)>;  // throws Input
 // `technique`, `data` and `camera`, sorted by name: identifies a configuration within its suite.
 [[nodiscard]] std::string configuration_key(const Suite& suite, const Configuration& configuration);
 
+// The kinds of work that its configurations are (technique::name_of), each once: those whose clocks
+// its times need.
+[[nodiscard]] std::vector<std::string> work_kinds(const Plan& plan);
+
 // "i/n" → every n-th configuration beginning with the i-th, 1 ≤ i ≤ n, cut along data sets where it
 // can.
 void keep_shard(Plan& plan, int index, int count);

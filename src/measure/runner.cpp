@@ -10,7 +10,6 @@
 #include <memory>
 #include <optional>
 #include <random>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -20,7 +19,6 @@
 #include "measure/plant.hpp"
 #include "measure/rounds.hpp"
 #include "measure/stopwatch.hpp"
-#include "technique/catalogue.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -40,12 +38,7 @@ record::Run new_run(const Plan& plan) {
 
 // The kinds of work whose clocks are needed.
 std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
-  std::set<std::string> kinds;
-  if (!plan.timed || !protocol.timed) return {};
-  for (const Configuration& configuration : plan.configurations) {
-    kinds.emplace(technique::name_of(technique::technique(configuration.at("technique")).work));
-  }
-  return {kinds.begin(), kinds.end()};
+  return plan.timed && protocol.timed ? work_kinds(plan) : std::vector<std::string>{};
 }
 
 void count(const record::Record& record, RunResult& result) {
