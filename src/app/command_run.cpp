@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -25,6 +26,7 @@ struct RunArguments {
   std::vector<std::string> devices;
   std::string store = "triptych.sqlite";
   bool resume = false;
+  bool confirm = false;
   int limit_s = 60;
   std::optional<int> rounds;
   std::optional<int> budget_s;
@@ -32,6 +34,7 @@ struct RunArguments {
   bool untimed = false;
   std::vector<std::string> plants;
   std::optional<double> error;
+  std::FILE* told_to = stdout;
 };
 
 std::string outcome_text(const record::Record& record) {
@@ -76,22 +79,23 @@ bool tell_cheapest(const Registry& registry, const measure::Suite& suite, record
   return all;
 }
 
-void tell(const measure::Plan& plan, const measure::RunResult& result, const std::string& store) {
+void tell(std::FILE* out, const measure::Plan& plan, const measure::RunResult& result,
+          const std::string& store) {
   fmt::print(
-      "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
+      out, "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
       plan.name, result.run, store, result.measured, result.skipped, result.failed,
       result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
   if (result.taken_over > 0) {
-    fmt::print(
-        "{} of them took over another configuration's frames, which their scene cannot tell "
-        "apart; --measure-every measures them too\n",
-        result.taken_over);
+    fmt::print(out,
+               "{} of them took over another configuration's frames, which their scene cannot tell "
+               "apart; --measure-every measures them too\n",
+               result.taken_over);
   }
   if (result.unsettled > 0) {
-    fmt::print(
-        "{} not settled: their quietest round was not seen again; --rounds N or --budget "
-        "SECONDS --resume goes on with them\n",
-        result.unsettled);
+    fmt::print(out,
+               "{} not settled: their quietest round was not seen again; --rounds N or --budget "
+               "SECONDS --resume goes on with them\n",
+               result.unsettled);
   }
 }
 
@@ -122,6 +126,7 @@ measure::RunOptions options_of(const RunArguments& arguments) {
       .protocol = {.timed = !arguments.untimed, .measure_every = arguments.measure_every},
       .limit = std::chrono::seconds(arguments.limit_s),
       .resume = arguments.resume,
+      .confirm = arguments.confirm,
       .rounds = arguments.rounds,
       .budget = arguments.budget_s ? std::optional(std::chrono::seconds(*arguments.budget_s))
                                    : std::nullopt,
@@ -150,7 +155,9 @@ Told run_and_tell(const RunArguments& arguments) {
     runs.push_back({plan, registry.suite(plan.suite), options});
   }
   Told told{.results = measure::run_plans(runs, devices, store, show)};
-  for (std::size_t i = 0; i < plans.size(); ++i) tell(plans[i], told.results[i], arguments.store);
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    tell(arguments.told_to, plans[i], told.results[i], arguments.store);
+  }
   if (arguments.error) {
     told.error_kept = tell_cheapest(registry, runs.front().suite, store, told.results.front().run,
                                     *arguments.error);
@@ -168,16 +175,17 @@ core::ExitCode run(const RunArguments& arguments) {
   return told ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
+bool has_anchors(const std::string& store) {
+  return record::Store(store, record::Store::Mode::read)
+      .latest_run(judge::anchors_plan)
+      .has_value();
+}
+
 // As a CTest fixture: a configuration that failed fails the test – but for a stress case, whose
-// score tells of it – and nothing but skips skips it. A correlation between devices is drawn from
-// one store, anchors and plan.
-core::ExitCode run_as_test(RunArguments arguments) {
-  const std::string plan = arguments.plans.front();
-  if (plan.ends_with("/correlation")) {
-    arguments.plans.insert(arguments.plans.begin(), std::string(judge::anchors_plan));
-  }
+// score tells of it – and nothing but skips skips it.
+core::ExitCode run_as_test(const RunArguments& arguments) {
   const auto results = run_and_tell(arguments).results;
-  const bool scored = plan.ends_with("/stress");
+  const bool scored = arguments.plans.back().ends_with("/stress");
   const bool failed = std::ranges::any_of(
       results, [](const measure::RunResult& result) { return result.failed > 0; });
   if (failed && !scored) return core::ExitCode::regression;
@@ -266,14 +274,17 @@ std::vector<int> measure_plans_once(const std::vector<std::string>& plans,
   return told;
 }
 
-core::ExitCode measure_as_test(const std::string& plan, const std::string& device,
-                               const std::string& store) {
+void measure_again(const std::string& plan, const std::vector<std::string>& devices,
+                   const std::string& store) {
   RunArguments arguments;
-  arguments.plans = {plan};
-  arguments.devices = {device};
+  const bool with_anchors = plan != judge::anchors_plan && has_anchors(store);
+  if (with_anchors) arguments.plans.emplace_back(judge::anchors_plan);
+  arguments.plans.push_back(plan);
+  arguments.devices = devices;
   arguments.store = store;
-  arguments.resume = true;
-  return run_as_test(arguments);
+  arguments.confirm = true;
+  arguments.told_to = stderr;  // the caller's answer may be JSON
+  (void)run_and_tell(arguments);
 }
 
 void add_run_commands(Commands& commands) {

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <set>
 
+#include "app/measuring.hpp"
+#include "judge/confirmation.hpp"
 #include "report/page.hpp"
 
 namespace triptych::app {
@@ -18,6 +21,15 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
   throw core::NotSupported(
       fmt::format("{} holds no run of {}: measure first with `triptych run {} --store {}`", file,
                   plan, plan, file));
+}
+
+bool measure_suspects_again(const judge::GateResult& result, const std::string& file) {
+  std::vector<std::string> devices;
+  std::ranges::set_difference(judge::suspects(result), result.measured_again,
+                              std::back_inserter(devices));
+  if (devices.empty()) return false;
+  measure_again(result.plan, devices, file);
+  return true;
 }
 
 void print_text(const judge::GateResult& result) {

@@ -15,11 +15,9 @@ namespace triptych::app {
                                                   const std::vector<std::string>& devices,
                                                   const std::string& store);
 
-// As a CTest fixture does: a plan on one device, by a worker of its own, into the store's latest
-// run of the plan or a new one; the anchors with it where a correlation will be drawn. A
-// configuration that failed makes it a regression, nothing but skips a skip. Throws as
-// measure::run_plans does.
-[[nodiscard]] core::ExitCode measure_as_test(const std::string& plan, const std::string& device,
-                                             const std::string& store);
+// Measures a plan once more on these devices (globs), with the anchors where the store holds any,
+// to confirm the plan's latest run there. Throws as measure::run_plans does.
+void measure_again(const std::string& plan, const std::vector<std::string>& devices,
+                   const std::string& store);
 
 }  // namespace triptych::app

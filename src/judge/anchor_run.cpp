@@ -45,6 +45,15 @@ std::optional<std::string> anchors_beside(const std::string& run,
   return latest;
 }
 
+std::optional<std::string> anchors_beside(const RunView& view) {
+  if (view.records.empty()) return std::nullopt;
+  std::set<std::string> anchor_runs;
+  for (const record::Run& run : view.store.runs()) {
+    if (run.plan == anchors_plan) anchor_runs.insert(run.id);
+  }
+  return anchors_beside(view.records.front().run, anchor_runs);
+}
+
 bool has_time(const record::Record& record) {
   if (record.outcome != record::Outcome::measured || record.time_ns().empty()) return false;
   const double time = median(record.time_ns());

@@ -16,6 +16,9 @@ namespace triptych::judge {
 [[nodiscard]] std::optional<std::string> anchors_beside(const std::string& run,
                                                         const std::set<std::string>& anchor_runs);
 
+// Likewise of all that a run's own store holds.
+[[nodiscard]] std::optional<std::string> anchors_beside(const RunView& view);
+
 // Whether there is a time that a logarithm can be taken of.
 [[nodiscard]] bool has_time(const record::Record& record);
 

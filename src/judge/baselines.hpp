@@ -153,8 +153,8 @@ struct AcceptRequest {
 // Writes what a run measured as the new baselines; returns one line per changed file, each followed
 // by its changed values ("  PATH: OLD → NEW", the first 40 of a file). Refuses (InputError) a blank
 // reason, a run with planted faults, a run that measured nothing. Timings are appended (the last 20
-// runs per device key are kept) unless the old are to be forgotten, everything else is replaced. Each file is written aside and
-// renamed, so that a full disk or a kill leaves the old one whole.
+// runs per device key are kept) unless the old are to be forgotten, everything else is replaced.
+// Each file is written aside and renamed, so that a full disk or a kill leaves the old one whole.
 [[nodiscard]] std::vector<std::string> accept(const record::Store& store, const std::string& run,
                                               const std::filesystem::path& root,
                                               const AcceptRequest& request);

@@ -171,6 +171,7 @@ class TimingCheck {
     timing.median_ns = now;
     timing.stored_ns = std::move(stored);
     timing.tolerance = std::max(std::log(TimingModel::tolerated), one_step(step, now));
+    timing.variance_of_rounds = variance_of_rounds(record.rounds_ns);
     cases_.push_back(std::move(timing));
     judged_.push_back({&record, other_code});
   }
@@ -178,11 +179,7 @@ class TimingCheck {
   // The anchors' own plan, where it was measured beside this run and the stored ones.
   void call_witnesses() {
     if (judged_.empty() || view_.request.plan == anchors_plan) return;
-    std::set<std::string> anchor_runs;
-    for (const record::Run& run : view_.store.runs()) {
-      if (run.plan == anchors_plan) anchor_runs.insert(run.id);
-    }
-    const auto run = anchors_beside(judged_.front().record->run, anchor_runs);
+    const auto run = anchors_beside(view_);
     if (!run) return;
     const Baselines stored = view_.baselines.of_plan(anchors_plan);
     const auto runs = stored_runs();

@@ -66,22 +66,28 @@ void take_back(CorrelationPair& pair, const CorrelationPair* again) {
 
 }  // namespace
 
-bool names_suspects(const GateResult& result) {
-  return std::ranges::any_of(
-             result.findings,
-             [](const Finding& finding) { return finding.verdict == Verdict::regression; }) ||
-         std::ranges::any_of(result.correlations,
-                             [](const CorrelationPair& pair) { return names_suspects(pair); });
+std::set<std::string> suspects(const GateResult& result) {
+  std::set<std::string> devices;
+  for (const Finding& finding : result.findings) {
+    if (is_slower(finding)) devices.insert(finding.device);
+  }
+  for (const CorrelationPair& pair : result.correlations) {
+    if (names_suspects(pair)) devices.insert(pair.device);
+  }
+  return devices;
 }
 
 void take_back_unconfirmed(GateResult& result, const GateResult& again) {
   for (Finding& finding : result.findings) {
-    if (finding.verdict != Verdict::regression || is_slower_again(finding, again)) continue;
-    finding.verdict = Verdict::advisory;
-    finding.message += "; not so on a fresh launch";
+    if (!is_slower(finding) || !again.devices.contains(finding.device)) continue;
+    const bool confirmed = is_slower_again(finding, again);
+    if (!confirmed) finding.verdict = Verdict::advisory;
+    finding.message += confirmed ? "; so too on a fresh launch" : "; not so on a fresh launch";
   }
   for (CorrelationPair& pair : result.correlations) {
-    if (names_suspects(pair)) take_back(pair, same_pair(pair, again));
+    if (again.devices.contains(pair.device) && names_suspects(pair)) {
+      take_back(pair, same_pair(pair, again));
+    }
   }
   sort_findings(result.findings);
 }

@@ -1,18 +1,22 @@
 #pragma once
 // A suspect of one launch is held against a second one.
 
+#include <set>
+#include <string>
+
 #include "judge/gate.hpp"
 
 namespace triptych::judge {
 
-// Whether anything is called slower: a regression, or what a stored device's line does not let
-// expect.
-[[nodiscard]] bool names_suspects(const GateResult& result);
+// The devices of which anything is called slower: a regression in time, or what a stored device's
+// line does not let expect.
+[[nodiscard]] std::set<std::string> suspects(const GateResult& result);
 
 // One launch on a busy machine makes suspects; a slowdown of the program is there on a fresh one
-// too. What `again`, the same gate's word on another launch, does not call slower as well –
-// the same configuration, level or program on the same device, by the same check and stored device
-// – becomes advice. It can take findings back and never adds any.
+// too. What `again`, the same gate's word on another launch, does not call slower as well – the
+// same configuration, level or program on the same device, by the same check and stored device –
+// becomes advice. What is no time, and devices that were not measured again, are left as they are.
+// It can take findings back and never adds any.
 void take_back_unconfirmed(GateResult& result, const GateResult& again);
 
 }  // namespace triptych::judge

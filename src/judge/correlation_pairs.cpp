@@ -104,7 +104,7 @@ class Pairs {
       }
     }
     if (view.request.plan == anchors_plan) return;
-    if (const auto run = view.store.latest_run(anchors_plan)) anchors_ = anchors_of(view, run->id);
+    if (const auto run = anchors_beside(view)) anchors_ = anchors_of(view, *run);
     for (const record::Record& anchor : anchors_) records_[anchor.device].push_back(&anchor);
   }
 

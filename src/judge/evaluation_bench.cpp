@@ -120,6 +120,7 @@ std::vector<RunPool> pool_runs(const record::Store& store) {
   std::map<std::string, std::vector<PooledRun>> by_plan;
   std::string anchors;
   for (const record::Run& run : store.runs()) {
+    if (!run.confirms.empty()) continue;
     if (run.plan == anchors_plan) {
       anchors = run.id;
       continue;

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <tuple>
+#include <utility>
 
+#include "judge/confirmation.hpp"
 #include "judge/glob.hpp"
 #include "judge/run_view.hpp"
 
@@ -197,7 +201,66 @@ int rank(Verdict verdict) {
   return 6;
 }
 
+// By its own records, with nothing waived.
+GateResult judge_alone(const RunView& view, const std::string& run) {
+  GateResult result{.plan = view.request.plan, .run = run, .findings = {}};
+  for (const record::Record* record : view.measured) result.devices.insert(record->device);
+  report_nothing_measured(view, run, result.findings);
+  report_outcomes(view, result.findings);
+  if (view.baselines.present()) {
+    report_missing_rows(view, result.findings);
+    report_other_data(view, result.findings);
+  } else {
+    report_no_baselines(view, result.findings);
+  }
+  run_checks(view, result);
+  return result;
+}
+
+// The devices that measured in `again` all that they did here: after half of it, a slowdown that is
+// missed may not have been measured.
+std::set<std::string> measured_again(const RunView& view, const RunView& again) {
+  std::set<std::pair<std::string, std::string>> there;
+  for (const record::Record* record : again.measured) {
+    there.emplace(record->device, record->configuration);
+  }
+  std::set<std::string> devices;
+  for (const record::Record* record : view.measured) devices.insert(record->device);
+  for (const record::Record* record : view.measured) {
+    if (!there.contains({record->device, record->configuration})) devices.erase(record->device);
+  }
+  return devices;
+}
+
+// The runs that measured this one's suspects again, by the same baselines.
+void hold_against_fresh_launches(const RunView& view, GateResult& result) {
+  GateRequest request = view.request;
+  request.required_devices.clear();
+  request.checks.clear();
+  for (const Check check : view.checks) {
+    if (is_of_times(check)) request.checks.insert(check);
+  }
+  if (request.checks.empty()) return;
+  for (const record::Run& run : view.store.runs()) {
+    if (run.confirms != result.run) continue;
+    const RunView again = view_of(view.store, run.id, view.baselines, request);
+    GateResult fresh = judge_alone(again, run.id);
+    fresh.devices = measured_again(view, again);
+    take_back_unconfirmed(result, fresh);
+    result.measured_again.merge(fresh.devices);
+  }
+}
+
 }  // namespace
+
+bool is_of_times(Check check) {
+  return check == Check::timing || check == Check::correlation;
+}
+
+bool is_slower(const Finding& finding) {
+  return finding.verdict == Verdict::regression && is_of_times(finding.check) &&
+         !finding.numbers.empty();
+}
 
 void sort_findings(std::vector<Finding>& findings) {
   const auto key = [](const Finding& finding) {
@@ -211,16 +274,8 @@ void sort_findings(std::vector<Finding>& findings) {
 GateResult judge_run(const record::Store& store, const std::string& run, const Baselines& baselines,
                      const GateRequest& request) {
   const RunView view = view_of(store, run, baselines, request);
-  GateResult result{request.plan, run, {}, {}, {}};
-  report_nothing_measured(view, run, result.findings);
-  report_outcomes(view, result.findings);
-  if (baselines.present()) {
-    report_missing_rows(view, result.findings);
-    report_other_data(view, result.findings);
-  } else {
-    report_no_baselines(view, result.findings);
-  }
-  run_checks(view, result);
+  GateResult result = judge_alone(view, run);
+  hold_against_fresh_launches(view, result);
   apply_waivers(view, result.findings);
   sort_findings(result.findings);
   return result;

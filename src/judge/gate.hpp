@@ -32,6 +32,8 @@ enum class Check : std::uint8_t {
   stress
 };
 [[nodiscard]] std::string_view name_of(Check check);
+// What one launch on a busy machine cannot decide.
+[[nodiscard]] bool is_of_times(Check check);
 [[nodiscard]] Check check(std::string_view name);  // throws InputError
 
 enum class Verdict : std::uint8_t {
@@ -80,10 +82,15 @@ struct GateResult {
   std::vector<Finding> findings;                   // worst first, then by device and configuration
   std::vector<CorrelationPair> correlations = {};  // where that was checked
   std::vector<AccuracyScene> accuracies = {};      // likewise; by device, then as measured
+  std::set<std::string> devices = {};              // that measured something, of those asked for
+  std::set<std::string> measured_again = {};       // of these, all of it, by a run that confirms
   [[nodiscard]] core::ExitCode exit_code() const;
   [[nodiscard]] std::string headline()
       const;  // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices"
 };
+
+// A regression in time: of numbers, where a crash that a check of times reports is none.
+[[nodiscard]] bool is_slower(const Finding& finding);
 
 // {"plan", "run", "exit_code", "headline", "findings": [{"check", "verdict", "test", "device",
 // "configuration", "message", "numbers"}], "correlations": [as of the pair], "accuracies": [as of
@@ -112,6 +119,8 @@ struct GateRequest {
   std::string today;  // ISO date, for the expiry of waivers
 };
 
+// What is slower in time is held against every run in the store that confirms this one and measured
+// the same device (judge/confirmation.hpp).
 // Throws InputError for a corrupt baseline (file and line), never because of what was measured.
 [[nodiscard]] GateResult judge_run(const record::Store& store, const std::string& run,
                                    const Baselines& baselines, const GateRequest& request);

@@ -47,13 +47,25 @@ VariancePrior prior_of(std::span<const TimingCase* const> cases,
   return fit_variance_prior(variances, degrees);
 }
 
+// v_r; 0 where fewer than two cases tell any: one's halves may agree by chance.
+double typical_variance_of_rounds(std::span<const TimingCase* const> cases) {
+  std::vector<double> variances;
+  for (const TimingCase* timing : cases) {
+    if (!timing->variance_of_rounds) continue;
+    variances.push_back(std::max(*timing->variance_of_rounds, least_timing_variance));
+  }
+  if (variances.size() < 2) return 0;
+  return fit_variance_prior(variances, std::vector<double>(variances.size(), 1)).variance;
+}
+
 TimingJudgement judge_case(const TimingCase& timing, const Levelled& values,
-                           const VariancePrior& prior, double pooled_degrees) {
+                           const VariancePrior& prior, double pooled_degrees, double of_rounds) {
   TimingJudgement result;
   const double variance = moderated_variance(prior, values.variance, values.degrees);
   // No more freedom than all the data together have.
   result.degrees = std::min(prior.degrees + values.degrees, pooled_degrees);
-  result.standard_error = std::sqrt(variance * (1 + 1 / values.runs) + values.variance_of_shift);
+  result.standard_error =
+      std::sqrt(std::max(variance, of_rounds) + variance / values.runs + values.variance_of_shift);
   result.baseline_ns = std::exp(mean(stored_logarithms(timing)));
   result.log_ratio = values.log_ratio;
   result.shift = values.shift;
@@ -71,14 +83,23 @@ std::optional<ProgramJudgement> judge_device(std::span<const TimingCase* const> 
     pooled_degrees += levelled.back().degrees;
   }
   const VariancePrior prior = prior_of(cases, levelled);
+  const double of_rounds = typical_variance_of_rounds(cases);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    *judgements[i] = judge_case(*cases[i], levelled[i], prior, pooled_degrees);
+    *judgements[i] = judge_case(*cases[i], levelled[i], prior, pooled_degrees, of_rounds);
     judgements[i]->anchors = shifts.anchors();
   }
   return shifts.program();
 }
 
 }  // namespace
+
+std::optional<double> variance_of_rounds(std::span<const double> rounds_ns) {
+  if (rounds_ns.size() < 2 || std::ranges::min(rounds_ns) <= 0) return std::nullopt;
+  const std::size_t half = (rounds_ns.size() + 1) / 2;
+  const double difference =
+      std::log(std::ranges::min(rounds_ns.first(half)) / std::ranges::min(rounds_ns.subspan(half)));
+  return 0.5 * difference * difference;
+}
 
 void TimingTest::test(double tolerance) {
   t = (log_ratio - tolerance) / standard_error;

@@ -51,6 +51,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -73,8 +74,9 @@ struct TimingCase {
   bool anchor = false;
   bool witness = false;  // an anchor of another plan: tells the shift, is not judged itself
   double median_ns = 0;
-  std::map<std::string, double> stored_ns;  // run → median; at least TimingModel::least_runs
-  double tolerance = 0;                     // τ in ln t: max(ln 1.02, one step of the clock)
+  std::map<std::string, double> stored_ns;   // run → median; at least TimingModel::least_runs
+  double tolerance = 0;                      // τ in ln t: max(ln 1.02, one step of the clock)
+  std::optional<double> variance_of_rounds;  // v_r of this run's ln t; empty: it had one round
 };
 
 // Something in ln t against its stored runs, slower by more than τ or faster.
@@ -114,9 +116,17 @@ struct TimingJudgements {
   std::vector<ProgramJudgement> programs;  // by device
 };
 
+// The variance of ln of the least of a run's rounds, from the rounds themselves: with m₁ the least
+// of the first ⌈K/2⌉ of K and m₂ that of the others, minutes later, ½(ln m₁ − ln m₂)². It is of the
+// least of half as many rounds, so a bound. Empty below two rounds.
+[[nodiscard]] std::optional<double> variance_of_rounds(std::span<const double> rounds_ns);
+
 // Variances between stored runs are moderated over the device's cases; t = (x − shift − x̄ −
-// τ)/√(s̃²(1 + 1/H) + v). s̃² has the stored runs' shifts in it already; v is added in full as it
-// is common to all cases, and H runs tell it but once: a bound.
+// τ)/√(max(s̃², v_r) + s̃²/H + v). s̃² has the stored runs' shifts in it already; v is added in full
+// as it is common to all cases, and H runs tell it but once: a bound.
+//
+// The stored runs may be of a quiet day. v_r is what this run's own rounds say, typical of the
+// device's cases: a slowdown of the program is in every round, and not in it.
 [[nodiscard]] TimingJudgements judge_timings(std::span<const TimingCase> cases);
 
 }  // namespace triptych::judge

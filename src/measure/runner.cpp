@@ -139,11 +139,11 @@ std::vector<const Configuration*> pending(const RunContext& context, const std::
 }
 
 // The id of the run to add to: a new one, or the plan's latest when it is to be resumed.
-std::string open_run(const Plan& plan, record::Store& store, bool resume) {
-  if (resume) {
-    if (const auto latest = store.latest_run(plan.name)) return latest->id;
-  }
-  const record::Run run = new_run(plan);
+std::string open_run(const Plan& plan, record::Store& store, const RunOptions& options) {
+  const auto latest = store.latest_run(plan.name);
+  if (options.resume && latest) return latest->id;
+  record::Run run = new_run(plan);
+  if (options.confirm && latest) run.confirms = latest->id;
   store.add_run(run);
   return run.id;
 }
@@ -331,8 +331,8 @@ std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
   std::deque<RunContext> contexts;  // each Measuring refers to its own
   std::deque<Measuring> all;
   for (const auto& [plan, suite, options] : runs) {
-    contexts.push_back({plan, suite, store, options, interrupts,
-                        open_run(plan, store, options.resume), kinds_of(plan, options.protocol)});
+    contexts.push_back({plan, suite, store, options, interrupts, open_run(plan, store, options),
+                        kinds_of(plan, options.protocol)});
     all.emplace_back(contexts.back(), devices, on_progress).first_round();
   }
   std::size_t most = 1;

@@ -30,6 +30,9 @@ struct RunOptions {
   std::chrono::seconds limit{60};  // of one configuration; a worker past it is killed and replaced
   std::chrono::seconds start_limit{60};  // of opening a device and calibrating its clocks
   bool resume = false;  // continue the plan's latest run: what has a record is left alone
+  // A new run measures again what the plan's latest run in the store made suspicious
+  // (record::Run::confirms). Not with `resume`.
+  bool confirm = false;
   // Rounds over the plan at most, instead of the plan's own number.
   std::optional<int> rounds;
   // Of the whole run, the plans beside it included: rounds go on until then, of the most doubtful

@@ -139,6 +139,8 @@ struct Run {
   std::string started_at;  // ISO 8601, UTC
   std::map<std::string, std::string>
       system;  // processor, cores, memory, OS, kernel, compiler, version of Triptych
+  // Id of the run of the same plan whose suspects this one measured again; empty: of none.
+  std::string confirms = {};
 };
 
 // Minimum, quartiles, median, maximum of samples (linear interpolation between order statistics);

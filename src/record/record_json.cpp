@@ -189,6 +189,7 @@ void visit_fields(auto& run,
   visit("plan", run.plan);
   visit("started_at", run.started_at);
   visit("system", run.system);
+  visit("confirms", run.confirms);
 }
 
 template <typename T>

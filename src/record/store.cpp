@@ -26,9 +26,19 @@ std::map<std::string, std::string> map_of(const std::string& text) {
 Run read_run(SQLite::Statement& row) {
   Run run;
   std::string system;
-  Reader(row) >> run.id >> run.plan >> run.started_at >> system;
+  Reader(row) >> run.id >> run.plan >> run.started_at >> system >> run.confirms;
   run.system = map_of(system);
   return run;
+}
+
+// Runs in the order of read_run. The table of confirmations is missing from a store that was read
+// but never written since there is one.
+std::string select_runs(const SQLite::Database& database, std::string_view rest) {
+  const bool known = database.tableExists("confirmation");
+  return fmt::format(
+      "SELECT id, plan, started_at, system, {} AS confirms FROM run {}",
+      known ? "coalesce((SELECT c.confirms FROM confirmation c WHERE c.run = run.id), '')" : "''",
+      rest);
 }
 
 std::vector<ClockTrust> read_clocks(const SQLite::Database& database, std::uint64_t device) {
@@ -100,6 +110,9 @@ void Store::add_run(const Run& run) {
             "ON CONFLICT (id) DO UPDATE SET plan = excluded.plan, "
             "started_at = excluded.started_at, system = excluded.system",
             run.id, run.plan, run.started_at, system);
+    if (run.confirms.empty()) return;
+    execute(state_->database, "INSERT OR REPLACE INTO confirmation (run, confirms) VALUES (?, ?)",
+            run.id, run.confirms);
   });
 }
 
@@ -159,8 +172,7 @@ void Store::set_truth(const TruthImage& truth) {
 std::vector<Run> Store::runs() const {
   return on_store(state_->file, [&] {
     std::vector<Run> runs;
-    SQLite::Statement rows(state_->database,
-                           "SELECT id, plan, started_at, system FROM run ORDER BY seq");
+    SQLite::Statement rows(state_->database, select_runs(state_->database, "ORDER BY seq"));
     while (rows.executeStep()) runs.push_back(read_run(rows));
     return runs;
   });
@@ -168,10 +180,10 @@ std::vector<Run> Store::runs() const {
 
 std::optional<Run> Store::latest_run(std::string_view plan) const {
   return on_store(state_->file, [&]() -> std::optional<Run> {
-    SQLite::Statement row = prepared(state_->database,
-                                     "SELECT id, plan, started_at, system FROM run WHERE plan = ? "
-                                     "ORDER BY seq DESC LIMIT 1",
-                                     plan);
+    SQLite::Statement row = prepared(
+        state_->database,
+        select_runs(state_->database, "WHERE plan = ? AND confirms = '' ORDER BY seq DESC LIMIT 1"),
+        plan);
     if (!row.executeStep()) return std::nullopt;
     return read_run(row);
   });

@@ -58,6 +58,7 @@ class Store {
   void set_truth(const TruthImage& truth);
 
   [[nodiscard]] std::vector<Run> runs() const;  // oldest first
+  // Of those that confirm no other.
   [[nodiscard]] std::optional<Run> latest_run(std::string_view plan) const;
   struct DeviceEntry {
     Device device;

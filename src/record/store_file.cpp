@@ -135,8 +135,8 @@ CREATE TABLE truth (
 )sql";
 
 // Came after version 1 had been in use. It only adds to it: a store without it is one whose devices
-// have no dialect known and whose records no rounds and were all measured themselves, and a program
-// that does not know it reads the rest as before.
+// have no dialect known, whose records no rounds and were all measured themselves, and whose runs
+// confirm no other, and a program that does not know it reads the rest as before.
 constexpr const char* later_schema = R"sql(
 CREATE TABLE IF NOT EXISTS dialect (
   device INTEGER NOT NULL REFERENCES device (seq) ON DELETE CASCADE,
@@ -153,6 +153,10 @@ CREATE TABLE IF NOT EXISTS round (
 CREATE TABLE IF NOT EXISTS same_as (
   record INTEGER PRIMARY KEY REFERENCES record (seq) ON DELETE CASCADE,
   configuration TEXT NOT NULL
+) STRICT;
+CREATE TABLE IF NOT EXISTS confirmation (
+  run TEXT PRIMARY KEY REFERENCES run (id) ON DELETE CASCADE,
+  confirms TEXT NOT NULL REFERENCES run (id) ON DELETE CASCADE
 ) STRICT;
 )sql";
 

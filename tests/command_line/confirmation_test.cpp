@@ -1,4 +1,5 @@
-// CTest's check of times: a suspect of one launch is measured again by a fresh one.
+// A suspect of one launch is measured again by a fresh one: by CTest's check of times, and by the
+// gate where it is asked to.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include "core/image_io.hpp"
 #include "measure/plan.hpp"
 #include "program.hpp"
+#include "record/store.hpp"
 #include "suites/volume/suite.hpp"
 
 namespace triptych::command_line {
@@ -49,8 +51,19 @@ class Confirmation : public testing::Test {
     const Result measured = program.run(
         "test-measure plan --device null:scripted --store s.sqlite " + more, script(first, 50));
     EXPECT_EQ(measured.code, 0) << measured.output;
+    return check_again(second);
+  }
+
+  // The machine is one that is kept for measuring.
+  [[nodiscard]] Result check_again(
+      double speed, const std::string& wrapper = "env TRIPTYCH_JUDGE_TIMES=1") const {
     return program.run("test-check plan --check timing --device null:scripted --store s.sqlite",
-                       script(second, 51));
+                       script(speed, 51), wrapper);
+  }
+
+  // The runs of the plan in a store.
+  [[nodiscard]] std::size_t runs(const std::string& store) const {
+    return record::Store(program.folder() / store, record::Store::Mode::read).runs().size();
   }
 
   Program program;
@@ -61,13 +74,68 @@ constexpr const char* taken_back = "; not so on a fresh launch";
 TEST_F(Confirmation, ALaunchLikeTheStoredOnesNeedsNoSecond) {
   const Result result = check(1, 1.5);
   EXPECT_EQ(result.code, 0) << result.output;
-  EXPECT_FALSE(std::filesystem::exists(program.folder() / "s.sqlite.confirm.null:scripted"));
+  EXPECT_EQ(runs("s.sqlite"), 1U);
+}
+
+// What was confirmed once is not measured again, and anybody who reads the store knows it.
+TEST_F(Confirmation, TheVerdictIsInTheStore) {
+  EXPECT_EQ(check(1.25, 1.25).code, 1);
+  EXPECT_EQ(runs("s.sqlite"), 2U);
+  EXPECT_EQ(check_again(1).code, 1);
+  EXPECT_EQ(runs("s.sqlite"), 2U);
+}
+
+TEST_F(Confirmation, TheGateMeasuresSuspectsAgainWhereItIsAsked) {
+  const std::string gate = "gate plan --baselines baselines --store g.sqlite ";
+  ASSERT_EQ(program
+                .run("run plan --device 'null:*' --store g.sqlite --plant "
+                     "'slowdown:25@*skip=none*'",
+                     script(1, 50))
+                .code,
+            0);
+  EXPECT_EQ(program.run(gate, script(1, 51)).code, 1);
+  EXPECT_EQ(runs("g.sqlite"), 1U);
+  const Result confirmed = program.run(gate + "--confirm", script(1, 51));
+  EXPECT_EQ(confirmed.code, 0) << confirmed.output;
+  EXPECT_EQ(runs("g.sqlite"), 2U);
+  EXPECT_EQ(program.run(gate, script(1, 51)).code, 0);
+  // Nothing is left that would be measured again.
+  EXPECT_EQ(program.run(gate + "--confirm", script(1, 51)).code, 0);
+  EXPECT_EQ(runs("g.sqlite"), 2U);
+}
+
+TEST_F(Confirmation, TheGateKeepsWhatBothLaunchesShow) {
+  ASSERT_EQ(program.run("run plan --device 'null:*' --store g.sqlite", script(1.25, 50)).code, 0);
+  const Result confirmed = program.run(
+      "gate plan --baselines baselines --store g.sqlite --confirm --json", script(1.25, 51));
+  EXPECT_EQ(confirmed.code, 1) << confirmed.output;
+  EXPECT_NE(confirmed.output.find("; so too on a fresh launch"), std::string::npos)
+      << confirmed.output;
 }
 
 TEST_F(Confirmation, SlowInBothLaunchesIsARegression) {
   const Result result = check(1.25, 1.25);
   EXPECT_EQ(result.code, 1) << result.output;
   EXPECT_EQ(result.output.find(taken_back), std::string::npos) << result.output;
+}
+
+// On any other machine a slow day fails no test, and passes none.
+TEST_F(Confirmation, SlowIsASkipWhereNobodyAskedForTimes) {
+  EXPECT_EQ(check(1.25, 1.25).code, 1);
+  const Result result = check_again(1.25, "env -u TRIPTYCH_JUDGE_TIMES");
+  EXPECT_EQ(result.code, 77) << result.output;
+  EXPECT_NE(result.output.find("slower than stored, in two launches"), std::string::npos)
+      << result.output;
+}
+
+TEST_F(Confirmation, ACrashIsNoSlowness) {
+  const std::string crash =
+      "test-measure plan --device null:scripted --store s.sqlite --plant "
+      "'crash@*skip=none*'";
+  EXPECT_EQ(program.run(crash, script(1, 50)).code, 1);
+  const Result result = check_again(1, "env -u TRIPTYCH_JUDGE_TIMES");
+  EXPECT_EQ(result.code, 1) << result.output;
+  EXPECT_EQ(runs("s.sqlite"), 1U);
 }
 
 TEST_F(Confirmation, SlowInOneLaunchIsNone) {

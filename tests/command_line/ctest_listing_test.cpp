@@ -36,6 +36,17 @@ TEST(CTestListing, AccuracyIsMeasuredWithoutTimes) {
   }
 }
 
+// Times are judged by what the anchors beside them show.
+TEST(CTestListing, AnchorsAreMeasuredBesideTimes) {
+  const Program program;
+  for (const std::string plan : {"volume/quick", "particles/correlation"}) {
+    EXPECT_THAT(tests_of(program, plan), HasSubstr("[=[anchors/frozen]=] [=[" + plan + "]=]"));
+  }
+  for (const std::string plan : {"volume/stress", "particles/accuracy"}) {
+    EXPECT_THAT(tests_of(program, plan), Not(HasSubstr("[=[anchors/frozen]=]")));
+  }
+}
+
 TEST(CTestListing, OtherPlansAreTimed) {
   const Program program;
   const std::string tests = tests_of(program, "volume/quick");

@@ -107,8 +107,8 @@ class CorrelationGateTest : public JudgeTest {
 
   void accept_known(std::size_t runs = TimingModel::least_runs) {
     for (std::size_t i = 1; i <= runs; ++i) {
-      measure_anchors(fmt::format("anchors{}", i), "a:known");
-      accept_plan(fmt::format("anchors{}", i), anchors);
+      measure_anchors(fmt::format("a{}", i), "a:known");
+      accept_plan(fmt::format("a{}", i), anchors);
       measure(fmt::format("known{}", i), "a:known");
       accept_plan(fmt::format("known{}", i), plan);
     }

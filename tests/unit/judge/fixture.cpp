@@ -121,6 +121,12 @@ std::vector<std::string> JudgeTest::accept_run(const std::string& run, const std
   return accept(store_, run, folder_.path() / "baselines", request);
 }
 
+void JudgeTest::confirm(const std::string& run, const std::string& again) {
+  record::Run said{again, plan, "2026-02-01T00:00:00Z", {}};
+  said.confirms = run;
+  store_.add_run(said);
+}
+
 void JudgeTest::add_anchors(const std::string& run, double factor) {
   store_.add_run({run, std::string(anchors_plan), "2026-02-01T00:00:00Z", {}});
   for (const record::Device& device : devices()) {

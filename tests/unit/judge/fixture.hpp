@@ -36,6 +36,8 @@ class JudgeTest : public testing::Test {
   void add_run(const std::string& run, const Tweak& tweak = {});
   std::vector<std::string> accept_run(const std::string& run, const std::string& only = {},
                                       bool forget_times = false);
+  // Says that `again`, which is there, was measured to confirm `run`.
+  void confirm(const std::string& run, const std::string& again);
   // Eight records of anchors/frozen on each device, with as much noise, `factor` times as long as
   // usual.
   void add_anchors(const std::string& run, double factor);

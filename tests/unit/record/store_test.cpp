@@ -130,6 +130,29 @@ TEST_F(StoreTest, RunsInTheOrderTheyWereAdded) {
   EXPECT_THAT(store.records("b"), SizeIs(1));
 }
 
+TEST_F(StoreTest, ARunThatConfirmsIsNoLatestRun) {
+  {
+    Store store(file_, Mode::append);
+    store.add_run(sample_run("a"));
+    record::Run again = sample_run("b");
+    again.confirms = "a";
+    store.add_run(again);
+  }
+  const Store store(file_, Mode::read);
+  EXPECT_EQ(store.latest_run("fake/quick")->id, "a");
+  ASSERT_THAT(ids_of(store.runs()), ElementsAre("a", "b"));
+  EXPECT_EQ(store.runs().at(0).confirms, "");
+  EXPECT_EQ(store.runs().at(1).confirms, "a");
+}
+
+TEST_F(StoreTest, ARunConfirmsOneThatIsThere) {
+  Store store(file_, Mode::append);
+  record::Run again = sample_run("b");
+  again.confirms = "a";
+  EXPECT_THROW(store.add_run(again), core::Error);
+  EXPECT_THAT(store.runs(), IsEmpty());
+}
+
 TEST_F(StoreTest, RecordsByDeviceThenAsAdded) {
   Store store(file_, Mode::append);
   store.add_run(sample_run());

@@ -1,0 +1,198 @@
+#include "app/ctest_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "app/judging.hpp"
+#include "app/paths.hpp"
+#include "app/registry.hpp"
+#include "app/truth.hpp"
+#include "core/image_io.hpp"
+#include "judge/gate.hpp"
+#include "judge/image_metrics.hpp"
+
+namespace triptych::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+void print_measurement(std::string_view name, double value) {
+  fmt::print("<CTestMeasurement type=\"numeric/double\" name=\"{}\">{}</CTestMeasurement>\n", name,
+             value);
+}
+
+void print_picture(std::string_view name, const fs::path& file, const core::Image& image) {
+  core::write_png(image, file);
+  fmt::print("<CTestMeasurementFile type=\"image/png\" name=\"{}\">{}</CTestMeasurementFile>\n",
+             name, fs::absolute(file).string());
+}
+
+// The three pictures of the worst configuration, beside the store.
+void print_pictures(const record::Store& store, const std::string& run, Truths& truths,
+                    const judge::Finding& worst) {
+  for (const record::Record& record : store.records(run)) {
+    if (record.configuration != worst.configuration || record.device != worst.device) continue;
+    if (record.image.empty()) return;
+    const core::Image image = core::decode_exr(store.image(record.image));
+    const judge::TruthPair& truth = truths.of(record);
+    const fs::path folder = fs::temp_directory_path();
+    std::string stem = worst.test;
+    for (char& c : stem) c = c == ':' ? '_' : c;
+    const auto file = [&](const char* what) {
+      return folder / fmt::format("{}.{}.png", stem, what);
+    };
+    print_picture("TestImage", file("test"), image);
+    print_picture("ValidImage", file("valid"), truth.truth);
+    print_picture("DifferenceImage", file("difference"),
+                  judge::difference_image(image, truth.truth, 16));
+    return;
+  }
+}
+
+// A check that only advises or skips has judged nothing: a skip with its reason, never a pass.
+std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
+  std::string reason;
+  for (const judge::Finding& finding : result.findings) {
+    const bool idle =
+        finding.verdict == judge::Verdict::advisory || finding.verdict == judge::Verdict::skipped;
+    // A correlation is decided of a device as a whole.
+    const bool decided_whole =
+        finding.check == judge::Check::correlation &&
+        (finding.verdict == judge::Verdict::pass || finding.verdict == judge::Verdict::regression);
+    if (decided_whole || (!idle && !finding.configuration.empty())) return std::nullopt;
+    if (idle && reason.empty()) reason = finding.message;
+  }
+  if (reason.empty()) return std::nullopt;
+  return reason;
+}
+
+bool has(const judge::GateResult& result, judge::Verdict verdict) {
+  return std::ranges::any_of(
+      result.findings, [&](const judge::Finding& finding) { return finding.verdict == verdict; });
+}
+
+judge::GateResult judge_store(const CheckArguments& arguments, const record::Store& store,
+                              Truths& truths) {
+  const auto run = store.latest_run(arguments.plan);
+  if (!run) throw core::NotSupported("nothing was measured");
+  judge::GateRequest request = request_of(truths, arguments.plan);
+  request.checks = {judge::check(arguments.check)};
+  if (!arguments.device.empty()) request.devices = {arguments.device};
+  return judge::judge_run(store, run->id, judge::Baselines(default_baselines(), arguments.plan),
+                          request);
+}
+
+// Files that are not here are no fault of a device or a driver, whatever it measured when they
+// were: what only they keep from being judged is a skip, with the same reason. `records`: of the
+// devices that were judged.
+void excuse_absent_data(const Registry& registry, const std::vector<record::Record>& records,
+                        judge::GateResult& result) {
+  const auto absent = [&](const record::Record* record) {
+    return record->outcome == record::Outcome::skipped &&
+           !registry.find_suite()(record->suite).missing_data(record->factors).empty();
+  };
+  for (judge::Finding& finding : result.findings) {
+    if (finding.verdict != judge::Verdict::cannot_judge) continue;
+    std::vector<const record::Record*> about;
+    for (const record::Record& record : records) {
+      const bool device = finding.device.empty() || finding.device == record.device;
+      const bool configuration =
+          finding.configuration.empty() || finding.configuration == record.configuration;
+      if (device && configuration) about.push_back(&record);
+    }
+    if (!about.empty() && std::ranges::all_of(about, absent)) {
+      finding.verdict = judge::Verdict::skipped;
+    }
+  }
+}
+
+// A slow day fails no test: what was judged and came out as too noisy to tell is advice here, and
+// to be settled by `triptych compare`, as its message says. The gate's exit code stays "could not
+// judge".
+void excuse_noise(judge::GateResult& result) {
+  for (judge::Finding& finding : result.findings) {
+    const bool noisy = finding.check == judge::Check::timing &&
+                       finding.verdict == judge::Verdict::cannot_judge &&
+                       finding.numbers.contains("half_width");
+    if (noisy) finding.verdict = judge::Verdict::advisory;
+  }
+}
+
+// Nor does a slow machine: what both launches show may be another processor under the same name, or
+// an hour of somebody else's work. Where the environment asks for it, on a machine that is kept for
+// measuring, it is a failure; else advice, and the reason to skip.
+std::optional<std::string> excuse_slowness(judge::GateResult& result) {
+  const char* judged = std::getenv("TRIPTYCH_JUDGE_TIMES");
+  if (judged != nullptr && std::string_view(judged) == "1") return std::nullopt;
+  int slower = 0;
+  for (judge::Finding& finding : result.findings) {
+    if (!judge::is_slower(finding)) continue;
+    finding.verdict = judge::Verdict::advisory;
+    ++slower;
+  }
+  if (slower == 0) return std::nullopt;
+  return fmt::format(
+      "{} slower than stored, in two launches; TRIPTYCH_JUDGE_TIMES=1 makes it a failure", slower);
+}
+
+// What fails no test: files that are not here, noise, and, with the reason to skip, slowness.
+std::optional<std::string> excuse(const CheckArguments& arguments, const Registry& registry,
+                                  const record::Store& store, judge::GateResult& result) {
+  if (has(result, judge::Verdict::cannot_judge)) {
+    std::vector<record::Record> records = store.records(result.run);
+    std::erase_if(records, [&](const record::Record& record) {
+      return !arguments.device.empty() && record.device != arguments.device;
+    });
+    excuse_absent_data(registry, records, result);
+  }
+  excuse_noise(result);
+  return excuse_slowness(result);
+}
+
+// Findings as text, the worst one's numbers and pictures for CTest's dashboard.
+void tell(const CheckArguments& arguments, const record::Store& store, Truths& truths,
+          const judge::GateResult& result) {
+  for (const judge::Finding& finding : result.findings) {
+    if (finding.verdict == judge::Verdict::pass) continue;
+    fmt::print("{} {}: {}\n", judge::name_of(finding.verdict), finding.configuration,
+               finding.message);
+  }
+  if (!result.findings.empty()) {
+    const judge::Finding& worst = result.findings.front();
+    for (const auto& [name, value] : worst.numbers) print_measurement(name, value);
+    if (arguments.check == "image" && !worst.device.empty()) {
+      print_pictures(store, result.run, truths, worst);
+    }
+  }
+  fmt::print("{}\n", result.headline());
+}
+
+}  // namespace
+
+core::ExitCode check_as_test(const CheckArguments& arguments) {
+  const Registry registry = make_registry();
+  require_store(arguments.store);
+  record::Store store(arguments.store, record::Store::Mode::append);
+  Truths truths(registry, store);
+  judge::GateResult result = judge_store(arguments, store, truths);
+  if (measure_suspects_again(result, arguments.store)) {
+    result = judge_store(arguments, store, truths);
+  }
+  const std::optional<std::string> slower = excuse(arguments, registry, store, result);
+  tell(arguments, store, truths, result);
+  const bool fails =
+      has(result, judge::Verdict::regression) || has(result, judge::Verdict::cannot_judge);
+  if (const auto reason = slower && !fails ? slower : reason_to_skip(result)) {
+    fmt::print("skipped: {}\n", *reason);
+    return core::ExitCode::skip;
+  }
+  return result.exit_code();
+}
+
+}  // namespace triptych::app
