@@ -1,13 +1,13 @@
 #include "app/comparison.hpp"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/image_io.hpp"
+#include "measure/plant.hpp"
 #include "measure/stopwatch.hpp"
 
 namespace triptych::app {
@@ -58,7 +58,11 @@ class Comparer {
           {.key = measure::configuration_key(suite, each), .configuration = each});
     }
     for (Compared& each : result_.configurations) {
-      entries_.push_back({each, {std::vector<std::string>{}, plants_for(each.key)}, {}, {}});
+      entries_.push_back({each,
+                          {std::vector<std::string>{},
+                           measure::faults_for(options_.plants, each.key, options_.b.device)},
+                          {},
+                          {}});
     }
   }
 
@@ -72,16 +76,6 @@ class Comparer {
   }
 
  private:
-  [[nodiscard]] std::vector<std::string> plants_for(const std::string& key) const {
-    std::vector<std::string> plants;
-    for (const measure::Plant& plant : options_.plants) {
-      const bool here = plant.only.empty() || ::fnmatch(plant.only.c_str(), key.c_str(), 0) == 0 ||
-                        ::fnmatch(plant.only.c_str(), options_.b.device.c_str(), 0) == 0;
-      if (here) plants.push_back(plant.fault);
-    }
-    return plants;
-  }
-
   // Does `act` for a configuration: its time is counted, a side's end is its own.
   template <typename Act>
   void about(Entry& entry, const Act& act) {

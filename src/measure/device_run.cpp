@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fnmatch.h>
 
 #include <array>
 #include <utility>
@@ -26,18 +25,6 @@ Turn ended_turn(record::Outcome outcome, std::string reason) {
 
 }  // namespace
 
-std::vector<std::string> RunContext::plants_for(const std::string& key,
-                                                const std::string& device) const {
-  std::vector<std::string> plants;
-  for (const Plant& plant : options.plants) {
-    const auto matches = [&plant](const std::string& text) {
-      return ::fnmatch(plant.only.c_str(), text.c_str(), 0) == 0;
-    };
-    if (plant.only.empty() || matches(key) || matches(device)) plants.push_back(plant.fault);
-  }
-  return plants;
-}
-
 DeviceRun::DeviceRun(const RunContext& context, std::string device)
     : context_(context),
       device_(std::move(device)),
@@ -55,7 +42,7 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
   Job job{.name = device_ + "/" + key,
           .configuration = configuration,
           .protocol = protocol(),
-          .plants = context_.plants_for(key, device_)};
+          .plants = faults_for(context_.options.plants, key, device_)};
   Done done = ensure_worker() ? ask(job, on_loading)
                               : Done{ended(record::Outcome::failed, seat_.why_closed())};
   record::Record& record = done.record;
@@ -78,7 +65,8 @@ DeviceRun::Round DeviceRun::round(const Configuration& configuration, const std:
   }
   const Stopwatch stopwatch;
   const std::array requests{
-      to_message(Hold{.configuration = configuration, .plants = context_.plants_for(key, device_)}),
+      to_message(Hold{.configuration = configuration,
+                      .plants = faults_for(context_.options.plants, key, device_)}),
       to_message(Frames{.count = warm_up_frames}),
       to_message(Frames{.count = protocol().timed_frames}),
   };

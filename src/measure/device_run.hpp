@@ -25,9 +25,6 @@ struct RunContext {
   InterruptGuard& interrupts;
   std::string run;
   std::vector<std::string> kinds;  // of work whose clocks are needed
-
-  [[nodiscard]] std::vector<std::string> plants_for(const std::string& key,
-                                                    const std::string& device) const;
 };
 
 // One configuration on one device: what came of it, and the share of its time that was the

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <fnmatch.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -73,6 +74,20 @@ bool is_mishap(std::string_view fault) {
 }
 
 }  // namespace
+
+std::vector<std::string> faults_for(std::span<const Plant> plants, const std::string& configuration,
+                                    const std::string& device) {
+  std::vector<std::string> faults;
+  for (const Plant& plant : plants) {
+    const auto matches = [&plant](const std::string& text) {
+      return ::fnmatch(plant.only.c_str(), text.c_str(), 0) == 0;
+    };
+    if (plant.only.empty() || matches(configuration) || matches(device)) {
+      faults.push_back(plant.fault);
+    }
+  }
+  return faults;
+}
 
 void check_plant(std::string_view fault) {
   if (named(volume_faults, fault) || named(particle_faults, fault) || is_mishap(fault)) return;

@@ -13,17 +13,11 @@
 
 #include "core/error.hpp"
 #include "measure/plan.hpp"
+#include "measure/plant.hpp"
 #include "measure/protocol.hpp"
 #include "record/store.hpp"
 
 namespace triptych::measure {
-
-// Plants a fault in what is measured, to prove that the gate catches it: a technique::Fault by
-// name, "slowdown:PERCENT" (real extra work), "crash", "hang", "device_lost".
-struct Plant {
-  std::string fault;
-  std::string only;  // glob over configuration keys and device ids; empty: everywhere
-};
 
 struct RunOptions {
   Protocol protocol;

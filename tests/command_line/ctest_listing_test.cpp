@@ -42,6 +42,8 @@ TEST(CTestListing, AnchorsAreMeasuredBesideTimes) {
   for (const std::string plan : {"volume/quick", "particles/correlation"}) {
     EXPECT_THAT(tests_of(program, plan), HasSubstr("[=[anchors/frozen]=] [=[" + plan + "]=]"));
   }
+  EXPECT_THAT(tests_of(program, "anchors/frozen"),
+              HasSubstr("[=[test-measure]=] [=[anchors/frozen]=] [=[--device]=]"));
   for (const std::string plan : {"volume/stress", "particles/accuracy"}) {
     EXPECT_THAT(tests_of(program, plan), Not(HasSubstr("[=[anchors/frozen]=]")));
   }
