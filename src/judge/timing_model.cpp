@@ -64,8 +64,8 @@ TimingJudgement judge_case(const TimingCase& timing, const Levelled& values,
   const double variance = moderated_variance(prior, values.variance, values.degrees);
   // No more freedom than all the data together have.
   result.degrees = std::min(prior.degrees + values.degrees, pooled_degrees);
-  result.standard_error =
-      std::sqrt(std::max(variance, of_rounds) + variance / values.runs + values.variance_of_shift);
+  result.standard_error = std::sqrt(variance * (1 + 1 / values.runs) + values.variance_of_shift);
+  result.busy_variance = std::max(of_rounds - variance, 0.0);
   result.baseline_ns = std::exp(mean(stored_logarithms(timing)));
   result.log_ratio = values.log_ratio;
   result.shift = values.shift;
@@ -102,7 +102,7 @@ std::optional<double> variance_of_rounds(std::span<const double> rounds_ns) {
 }
 
 void TimingTest::test(double tolerance) {
-  t = (log_ratio - tolerance) / standard_error;
+  t = (log_ratio - tolerance) / std::hypot(standard_error, std::sqrt(busy_variance));
   p_slower = student_t_upper_tail(t, degrees);
   p_faster = student_t_upper_tail((-log_ratio - tolerance) / standard_error, degrees);
   half_width = standard_error * student_t_upper_quantile(0.05, degrees);

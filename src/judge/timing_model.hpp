@@ -83,6 +83,7 @@ struct TimingCase {
 struct TimingTest {
   double log_ratio = 0;       // x − shift − x̄; of a program d − d̄
   double standard_error = 0;  // of log_ratio
+  double busy_variance = 0;   // of what a busy machine may have added to log_ratio
   double degrees = 0;         // of freedom of its t distribution, may be infinite
   double t = 0;               // against "slower by τ"
   double p_slower = 1;
@@ -90,7 +91,8 @@ struct TimingTest {
   double half_width = 0;  // of the one-sided 95 % interval of log_ratio
   bool slower = false;
   bool faster = false;
-  // Fills t, both p and the half-width from the first three.
+  // Fills t, both p and the half-width from the first four. A busy machine only lengthens a time:
+  // it weakens "slower", and neither "faster" nor how much slower can be excluded.
   void test(double tolerance);
   [[nodiscard]] bool too_noisy(double tolerance) const;
 };
@@ -126,7 +128,9 @@ struct TimingJudgements {
 // as it is common to all cases, and H runs tell it but once: a bound.
 //
 // The stored runs may be of a quiet day. v_r is what this run's own rounds say, typical of the
-// device's cases: a slowdown of the program is in every round, and not in it.
+// device's cases: a slowdown of the program is in every round, and not in it. It counts against
+// "slower" alone, as what runs beside a frame never shortens it: where the least round is as the
+// stored ones, the program is no slower, however slow the other rounds were.
 [[nodiscard]] TimingJudgements judge_timings(std::span<const TimingCase> cases);
 
 }  // namespace triptych::judge

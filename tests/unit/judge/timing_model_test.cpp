@@ -141,6 +141,21 @@ TEST(TimingModel, ABusyMachineIsToldByItsRounds) {
   EXPECT_GT(score(slower, gates).found, 0.9);
 }
 
+// One round as quick as ever excludes a slowdown, whatever the others were.
+TEST(TimingModel, BusyRoundsOnlyWeakenSlower) {
+  std::vector<TimingCase> calm = Bench{.anchors = 8, .noise = 0.03}.draw(7);
+  std::vector<TimingCase> busy = calm;
+  for (TimingCase& timing : busy) timing.variance_of_rounds = 0.09;
+  const auto with = judge_timings(busy).cases;
+  const auto without = judge_timings(calm).cases;
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    EXPECT_EQ(with[i].half_width, without[i].half_width);
+    EXPECT_EQ(with[i].p_faster, without[i].p_faster);
+    EXPECT_EQ(with[i].too_noisy(busy[i].tolerance), without[i].too_noisy(calm[i].tolerance));
+    EXPECT_LT(std::abs(with[i].t), std::abs(without[i].t));
+  }
+}
+
 // ½(ln m₁ − ln m₂)² by hand; the middle one of three belongs to the first half.
 TEST(TimingModel, VarianceOfRoundsIsOfTheTwoHalves) {
   EXPECT_FALSE(variance_of_rounds(std::vector<double>{}));
