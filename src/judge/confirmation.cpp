@@ -71,10 +71,13 @@ std::set<std::string> suspects(const GateResult& result) {
   for (const Finding& finding : result.findings) {
     if (is_slower(finding)) devices.insert(finding.device);
   }
-  for (const CorrelationPair& pair : result.correlations) {
-    if (names_suspects(pair)) devices.insert(pair.device);
-  }
   return devices;
+}
+
+bool names_suspects(const GateResult& result) {
+  return !suspects(result).empty() ||
+         std::ranges::any_of(result.correlations,
+                             [](const CorrelationPair& pair) { return names_suspects(pair); });
 }
 
 void take_back_unconfirmed(GateResult& result, const GateResult& again) {

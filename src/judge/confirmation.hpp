@@ -8,9 +8,12 @@
 
 namespace triptych::judge {
 
-// The devices of which anything is called slower: a regression in time, or what a stored device's
-// line does not let expect.
+// The devices with a regression in time.
 [[nodiscard]] std::set<std::string> suspects(const GateResult& result);
+
+// Whether anything is called slower, advice included: that, or what a stored device's line does not
+// let expect.
+[[nodiscard]] bool names_suspects(const GateResult& result);
 
 // One launch on a busy machine makes suspects; a slowdown of the program is there on a fresh one
 // too. What `again`, the same gate's word on another launch, does not call slower as well – the

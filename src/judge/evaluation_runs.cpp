@@ -184,7 +184,7 @@ class Trials {
     // The first is left out of the history, and the second is no witness about itself.
     const bool enough = pool_.unplanted.size() >= TimingModel::least_runs + 2;
     if (!second || !enough) return;
-    if (!suspects(result).empty()) {
+    if (names_suspects(result)) {
       take_back_unconfirmed(result,
                             store(second->run).judge(second->changed, baselines, checks, devices));
     }

@@ -247,6 +247,7 @@ TEST_F(TimingGateTest, ASecondLaunchConfirmsOnlyWhatItShowsToo) {
   add_run("c", times(1.2, plain_));
   GateResult result = gate("b");
   ASSERT_EQ(with(result, Verdict::regression).size(), 6U);
+  EXPECT_TRUE(names_suspects(result));
   EXPECT_EQ(suspects(result).size(), 3U);
   take_back_unconfirmed(result, gate("c"));
   const auto slower = with(result, Verdict::regression);
