@@ -12,20 +12,17 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "core/random.hpp"
 #include "judge/statistics.hpp"
+#include "tests/support/normal.hpp"
 
 namespace triptych::judge {
 namespace {
 
 using testing::HasSubstr;
 
-double normal(core::Random& random) {
-  const double radius = std::sqrt(-2 * std::log(1 - random.uniform()));
-  return radius * std::cos(2 * std::numbers::pi * random.uniform());
-}
+using test::normal;
 
 struct Bench {
   double slope = 0.95;

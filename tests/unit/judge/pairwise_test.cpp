@@ -3,19 +3,16 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "core/random.hpp"
 #include "judge/statistics.hpp"
+#include "tests/support/normal.hpp"
 
 namespace triptych::judge {
 namespace {
 
-double normal(core::Random& random) {
-  const double radius = std::sqrt(-2 * std::log(1 - random.uniform()));
-  return radius * std::cos(2 * std::numbers::pi * random.uniform());
-}
+using test::normal;
 
 // Hollander & Wolfe (1973), p. 29f.: depression scale at the first and the second visit, as R's
 // wilcox.test has it: V = 40, p = 0.01953 one-sided, estimate 0.46.
