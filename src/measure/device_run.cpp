@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
+#include <numeric>
 #include <utility>
 #include <variant>
 
+#include "measure/rounds.hpp"
 #include "measure/stopwatch.hpp"
 
 namespace triptych::measure {
@@ -58,26 +59,37 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
   return done;
 }
 
-DeviceRun::Round DeviceRun::round(const Configuration& configuration, const std::string& key,
-                                  int warm_up_frames, const OnLoading& on_loading) {
+DeviceRun::Round DeviceRun::round(const Configuration& configuration, const record::Record& record,
+                                  const OnLoading& on_loading) {
+  Round round;
   if (!ensure_worker()) {
-    return {.turn = ended_turn(record::Outcome::failed, seat_.why_closed()), .work_ns = 0};
+    round.ended = Ended{record::Outcome::failed, seat_.why_closed()};
+    return round;
   }
   const Stopwatch stopwatch;
-  const std::array requests{
-      to_message(Hold{.configuration = configuration,
-                      .plants = faults_for(context_.options.plants, key, device_)}),
-      to_message(Frames{.count = warm_up_frames}),
-      to_message(Frames{.count = protocol().timed_frames}),
+  const Protocol protocol = this->protocol();
+  const auto request = [&](const Message& message) {
+    Turn turn = this->turn(message, on_loading);
+    if (turn.outcome != record::Outcome::measured) round.ended = Ended{turn.outcome, turn.reason};
+    return turn;
   };
-  Turn last;
-  for (const Message& request : requests) {
-    last = turn(request, on_loading);
-    if (last.outcome != record::Outcome::measured) return {std::move(last), stopwatch.ns()};
+  request(to_message(
+      Hold{.configuration = configuration,
+           .plants = faults_for(context_.options.plants, record.configuration, device_)}));
+  if (!round.ended) request(to_message(Frames{.count = record.warm_up_frames}));
+  double lasted_ns = 0;
+  bool seen_again = false;
+  for (int frames = 0; !round.ended && !seen_again && lasted_ns < protocol.most_round_ns &&
+                       frames < protocol.most_loop_frames;
+       frames += protocol.timed_frames) {
+    Turn pass = request(to_message(Frames{.count = protocol.timed_frames}));
+    lasted_ns = std::accumulate(pass.wall_ns.begin(), pass.wall_ns.end(), lasted_ns);
+    seen_again = sees_again(record, pass);
+    round.passes.push_back(std::move(pass));
   }
-  Turn released = turn(to_message(Release{}), on_loading);
-  if (released.outcome != record::Outcome::measured) last = std::move(released);
-  return {std::move(last), stopwatch.ns()};
+  if (!round.ended) request(to_message(Release{}));
+  round.work_ns = stopwatch.ns();
+  return round;
 }
 
 void DeviceRun::finish() {

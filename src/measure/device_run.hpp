@@ -41,6 +41,12 @@ class DeviceRun {
  public:
   DeviceRun(const RunContext& context, std::string device);
 
+  // How an exchange ended that brought no answer.
+  struct Ended {
+    record::Outcome outcome;
+    std::string reason;
+  };
+
   // All throw Interrupted, and InputError when the device is no longer the one that the run began
   // with.
 
@@ -48,13 +54,16 @@ class DeviceRun {
   [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key,
                              const OnLoading& on_loading);
 
-  // Only the timed frames, after as many to warm up as its first round took.
+  // Only the timed frames of what `record` tells of, after as many to warm up as its first round
+  // took, pass after pass until one sees its time again or they have lasted
+  // Protocol::most_round_ns: whatever disturbs comes and goes within tens of milliseconds.
   struct Round {
-    Turn turn;
+    std::vector<Turn> passes;
+    std::optional<Ended> ended;  // why it came to no end: the configuration failed
     double work_ns = 0;
   };
-  [[nodiscard]] Round round(const Configuration& configuration, const std::string& key,
-                            int warm_up_frames, const OnLoading& on_loading);
+  [[nodiscard]] Round round(const Configuration& configuration, const record::Record& record,
+                            const OnLoading& on_loading);
 
   // Lets the worker leave in peace.
   void finish();
@@ -70,12 +79,7 @@ class DeviceRun {
   void greet(const Hello& hello);
   [[nodiscard]] Done ask(const Job& job, const OnLoading& on_loading);
   [[nodiscard]] Turn turn(const Message& message, const OnLoading& on_loading);
-  // How an exchange ended that brought no answer; the worker is then gone.
-  struct Ended {
-    record::Outcome outcome;
-    std::string reason;
-  };
-  // `as` reads the answer: as_answer, as_turn.
+  // `as` reads the answer: as_answer, as_turn. Where there is none the worker is gone.
   template <typename As>
   [[nodiscard]] auto exchange(const Message& message, As as, const OnLoading& on_loading)
       -> std::variant<typename std::invoke_result_t<As, Message>::value_type, Ended>;

@@ -1,6 +1,7 @@
 #include "measure/rounds.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "measure/clock.hpp"
@@ -8,8 +9,14 @@
 namespace triptych::measure {
 namespace {
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
 double doubt(const record::Record& record) {
-  return record.round_gap().value_or(std::numeric_limits<double>::infinity());
+  return record.round_gap().value_or(infinite);
+}
+
+double least_round(const record::Record& record) {
+  return record.rounds_ns.empty() ? infinite : std::ranges::min(record.rounds_ns);
 }
 
 }  // namespace
@@ -18,17 +25,34 @@ bool is_settled(const record::Record& record) {
   return record.rounds_ns.size() >= least_rounds && doubt(record) <= settled_gap;
 }
 
-bool add_round(record::Record& record, const Turn& turn) {
+std::optional<double> median_by_clock(const record::Record& record, const Turn& pass) {
   const bool by_device = record.clock() == "device";
-  if (by_device && !plausible(turn.device_ns, turn.wall_ns)) return false;
-  const auto summary = record::summarise(by_device ? turn.device_ns : turn.wall_ns);
-  if (!summary) return false;
-  const bool quietest =
-      record.rounds_ns.empty() || summary->median < *std::ranges::min_element(record.rounds_ns);
-  record.rounds_ns.push_back(summary->median);
-  if (!quietest) return true;
-  record.wall_ns = turn.wall_ns;
-  record.device_ns = turn.device_ns;
+  if (by_device && !plausible(pass.device_ns, pass.wall_ns)) return std::nullopt;
+  const auto summary = record::summarise(by_device ? pass.device_ns : pass.wall_ns);
+  return summary ? std::optional(summary->median) : std::nullopt;
+}
+
+bool sees_again(const record::Record& record, const Turn& pass) {
+  const auto median_ns = median_by_clock(record, pass);
+  if (!median_ns || record.rounds_ns.empty()) return false;
+  return std::abs(std::log(*median_ns / least_round(record))) <= settled_gap;
+}
+
+bool add_round(record::Record& record, std::span<const Turn> passes) {
+  const Turn* quietest = nullptr;
+  double least_ns = infinite;
+  for (const Turn& pass : passes) {
+    const double median_ns = median_by_clock(record, pass).value_or(infinite);
+    if (median_ns >= least_ns) continue;
+    least_ns = median_ns;
+    quietest = &pass;
+  }
+  if (quietest == nullptr) return false;
+  const bool quieter = least_ns < least_round(record);
+  record.rounds_ns.push_back(least_ns);
+  if (!quieter) return true;
+  record.wall_ns = quietest->wall_ns;
+  record.device_ns = quietest->device_ns;
   return true;
 }
 

@@ -290,20 +290,19 @@ class Measuring {
   // A configuration that fails now was measured by luck: its record says so.
   void once_more(record::Record& record, Report& report) {
     stop_if_asked();
-    const auto [turn, work_ns] =
+    const auto [passes, ended, work_ns] =
         on(record.device)
-            .round(*by_key_.at(record.configuration), record.configuration, record.warm_up_frames,
-                   [&](const Loading& loading) {
-                     report.loading(record.device, record.configuration, loading);
-                   });
+            .round(*by_key_.at(record.configuration), record, [&](const Loading& loading) {
+              report.loading(record.device, record.configuration, loading);
+            });
     work_ns_ += work_ns;
-    if (turn.outcome != record::Outcome::measured) {
+    if (ended) {
       --result_.measured;
-      record.outcome = turn.outcome;
-      record.reason = fmt::format("in round {}: {}", record.rounds_ns.size() + 1, turn.reason);
+      record.outcome = ended->outcome;
+      record.reason = fmt::format("in round {}: {}", record.rounds_ns.size() + 1, ended->reason);
       count(record, result_);
       context_.store.add_record(record);
-    } else if (add_round(record, turn)) {
+    } else if (add_round(record, passes)) {
       context_.store.update_times(record);
     }
     report.done(record);

@@ -119,12 +119,12 @@ TEST_F(RunTwins, FollowLaterRoundsWithoutDrawing) {
   Plan what = full();
   what.rounds = 6;
   const RunResult result = run(what);
-  EXPECT_THAT(told, SizeIs(2 + 2));  // both once, the first in two rounds more
+  EXPECT_THAT(told, SizeIs(2 + 3));  // both once, the first in three rounds more
   EXPECT_EQ(result.unsettled, 0);
   auto all = by_key(result);
   EXPECT_EQ(all[bricks].rounds_ns, all[none].rounds_ns);
   EXPECT_EQ(all[bricks].wall_ns, all[none].wall_ns);
-  EXPECT_THAT(all[bricks].rounds_ns, SizeIs(3));
+  EXPECT_THAT(all[bricks].rounds_ns, SizeIs(4));
 }
 
 TEST_F(RunTwins, AreMeasuredWhereTheSceneTellsThemApart) {
