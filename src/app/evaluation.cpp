@@ -122,6 +122,7 @@ class BlockMeasuring {
                       {"launch", number},
                       {"clock", by_device ? "device" : "wall"},
                       {"frames_per_turn", turns_.frames_per_turn()},
+                      {"times_per_block", turns_.times_per_block()},
                       {"seconds", stopwatch.seconds()},
                       {"differences", core::Json::array()}};
       // A ten-millionth of a turn is nothing.

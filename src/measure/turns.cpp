@@ -19,6 +19,7 @@ namespace triptych::measure {
 namespace {
 
 constexpr std::array<Side, 2> both{Side::a, Side::b};
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Sides with other variables or another program must not find each other's compiled code: drivers
 // do not put all that changes it into their caches' keys.
@@ -41,6 +42,11 @@ std::vector<std::string> environment_of(const SideOptions& side, const CacheFold
 
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Of so many nanoseconds each, as many as last `ns` together, but one at least and `most` at most.
+int count_to_fill(double ns, double each_ns, int most) {
+  return static_cast<int>(std::clamp(std::ceil(ns / each_ns), 1.0, static_cast<double>(most)));
 }
 
 double ln_mean(const std::array<double, 2>& times_ns) {
@@ -210,42 +216,49 @@ void Turns::hold(const Configuration& configuration,
                  const OnLoading& on_loading) {
   constexpr int warm_up_frames = 3;
   constexpr int most_frames = 1000;
+  constexpr int most_times = 10;
   for (const Side side : both) {
     const Hold request{configuration, plants.at(side == Side::a ? 0 : 1)};
     static_cast<void>(seat(side).turn(to_message(request), on_loading));
   }
-  double fastest_ns = std::numeric_limits<double>::infinity();
+  double fastest_ns = infinite;
   for (const Side side : both) {
     const Turn turn = seat(side).draw(warm_up_frames);
     const bool by_device = clock == TurnClock::device && !turn.device_ns.empty();
     fastest_ns = std::min(fastest_ns, std::ranges::min(by_device ? turn.device_ns : turn.wall_ns));
   }
-  const double frames = std::ceil(options_.least_turn_ns / std::max(fastest_ns, 1.0));
-  frames_per_turn_ = static_cast<int>(std::clamp(frames, 1.0, static_cast<double>(most_frames)));
+  fastest_ns = std::max(fastest_ns, 1.0);
+  frames_per_turn_ = count_to_fill(options_.least_turn_ns, fastest_ns, most_frames);
+  times_per_block_ =
+      count_to_fill(options_.least_block_ns, 4 * frames_per_turn_ * fastest_ns, most_times);
   for (const Side side : both) static_cast<void>(seat(side).draw(frames_per_turn_));
 }
 
 Block Turns::block() {
   Block block{.b_first = random_.uniform() < 0.5, .a = {}, .b = {}};
+  for (SideTimes* times : {&block.a, &block.b}) {
+    times->wall_ns.fill(infinite);
+    times->device_ns.emplace().fill(infinite);
+  }
+  for (int i = 0; i < times_per_block_; ++i) take_turns(block);
+  return block;
+}
+
+void Turns::take_turns(Block& block) {
   const Side first = block.b_first ? Side::b : Side::a;
   const Side second = block.b_first ? Side::a : Side::b;
-  std::array<std::array<double, 2>, 2> device_ns{};
-  std::array<bool, 2> told{true, true};
   std::array<std::size_t, 2> turns{};
   for (const Side side : {first, second, second, first}) {
-    const std::size_t index = side == Side::a ? 0 : 1;
     const Turn turn = seat(side).draw(frames_per_turn_);
-    const std::size_t number = turns.at(index)++;
-    (side == Side::a ? block.a : block.b).wall_ns.at(number) = mean_of(turn.wall_ns);
-    if (turn.device_ns.empty()) {
-      told.at(index) = false;
-    } else {
-      device_ns.at(index).at(number) = mean_of(turn.device_ns);
-    }
+    SideTimes& times = side == Side::a ? block.a : block.b;
+    const std::size_t number = turns.at(side == Side::a ? 0 : 1)++;
+    double& wall_ns = times.wall_ns.at(number);
+    wall_ns = std::min(wall_ns, mean_of(turn.wall_ns));
+    if (turn.device_ns.empty()) times.device_ns.reset();
+    if (!times.device_ns) continue;
+    double& device_ns = times.device_ns->at(number);
+    device_ns = std::min(device_ns, mean_of(turn.device_ns));
   }
-  if (told[0]) block.a.device_ns = device_ns[0];
-  if (told[1]) block.b.device_ns = device_ns[1];
-  return block;
 }
 
 void Turns::release() {

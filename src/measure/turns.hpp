@@ -1,7 +1,9 @@
 #pragma once
 // Two workers that take turns on one machine, so that whatever slows the machine down slows both.
-// Blocks of four turns in random order, A B B A or B A A B: a drift that is linear over a block
-// cancels out of its difference.
+// Blocks of turns in random order, A B B A or B A A B: a drift that is linear over four turns
+// cancels out of their difference. Short turns are taken so several times, and the least of each
+// of the four counts: what disturbs one side's processor and not the other's comes and goes within
+// tens of milliseconds, and only adds.
 
 #include <array>
 #include <chrono>
@@ -44,7 +46,7 @@ class SideEnded : public core::Error {
   record::Outcome outcome_;
 };
 
-// Mean time of a frame in each of a side's two turns of a block.
+// Mean time of a frame in each of a side's two turns, the least of those that a block took so.
 struct SideTimes {
   std::array<double, 2> wall_ns{};
   std::optional<std::array<double, 2>> device_ns;  // where the device told it of every frame
@@ -72,6 +74,8 @@ struct TurnOptions {
   std::chrono::seconds start_limit{60};  // of opening a device and calibrating its clocks
   // Shorter frames are batched, as many on either side, until a turn lasts this long.
   double least_turn_ns = 1e6;
+  // The four turns are taken again until a block lasts this long.
+  double least_block_ns = 40e6;
   std::uint64_t seed = 1;  // of the blocks' orders
 };
 
@@ -93,11 +97,13 @@ class Turns {
   [[nodiscard]] Answer measure(Side side, const Job& job, const OnLoading& on_loading = {});
 
   // Both sides prepare the configuration, keep it and draw a few frames: warm, and for knowing how
-  // many make a turn by `clock`. What was held before is released.
+  // many make a turn by `clock`, and how many turns a block. What was held before is released.
   void hold(const Configuration& configuration,
             const std::array<std::vector<std::string>, 2>& plants, TurnClock clock,
             const OnLoading& on_loading = {});
   [[nodiscard]] int frames_per_turn() const noexcept { return frames_per_turn_; }
+  // How often a block takes its four turns.
+  [[nodiscard]] int times_per_block() const noexcept { return times_per_block_; }
   // One block of what is held.
   [[nodiscard]] Block block();
   void release();
@@ -107,6 +113,8 @@ class Turns {
 
  private:
   class Seat;
+  // The four turns once more; of each what it took now counts where `block` has no less.
+  void take_turns(Block& block);
   [[nodiscard]] Seat& seat(Side side) const { return *seats_.at(side == Side::a ? 0 : 1); }
 
   TurnOptions options_;
@@ -114,6 +122,7 @@ class Turns {
   InterruptGuard interrupts_;
   std::array<std::unique_ptr<Seat>, 2> seats_;
   int frames_per_turn_ = 1;
+  int times_per_block_ = 1;
 };
 
 }  // namespace triptych::measure

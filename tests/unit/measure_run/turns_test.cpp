@@ -60,6 +60,7 @@ TEST_F(TurnsTest, TheDifferenceIsTheLogarithmOfTheRatio) {
   hold(turns);
   const std::vector<Block> all = blocks(turns, 6);
   EXPECT_EQ(turns.frames_per_turn(), 1);
+  EXPECT_EQ(turns.times_per_block(), 4);  // of four turns of 3 ms, 40 at least
   EXPECT_THAT(differences(all, TurnClock::wall), Each(DoubleNear(std::log(1.1), 1e-9)));
   EXPECT_THAT(differences(all, TurnClock::device), Each(DoubleNear(std::log(1.1), 1e-9)));
   EXPECT_TRUE(device_clock_holds(all));
@@ -87,9 +88,22 @@ TEST_F(TurnsTest, ShortFramesAreBatchedAlikeOnBothSides) {
   Turns turns = open();
   hold(turns);
   EXPECT_EQ(turns.frames_per_turn(), 10);  // the faster side's turn lasts the millisecond
+  EXPECT_EQ(turns.times_per_block(), 10);  // and a block of its turns 40
   const Block block = turns.block();
   EXPECT_NEAR(block.a.wall_ns[0], 1e5, 1);  // means, not sums
   EXPECT_NEAR(block.b.wall_ns[1], 4e5, 1);
+}
+
+// All ten of b's first or of its second turns in a block are disturbed once in 85000.
+TEST_F(TurnsTest, WhatDisturbsSomeOfABlocksTurnsDoesNotCount) {
+  a.environment = {script_with(R"("base_ns": 1e6, "ns_per_sample": 0)")};
+  b.environment = {script_with(
+      R"("base_ns": 1e6, "ns_per_sample": 0, "outlier_share": 0.3, "outlier_factor": 2)")};
+  options_.least_turn_ns = 1;
+  Turns turns = open();
+  hold(turns);
+  ASSERT_EQ(turns.times_per_block(), 10);
+  EXPECT_THAT(differences(blocks(turns, 12), TurnClock::wall), Each(DoubleNear(0, 1e-9)));
 }
 
 TEST_F(TurnsTest, AClockThatTellsNothingOrLiesDoesNotHold) {
