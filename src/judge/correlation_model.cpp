@@ -115,12 +115,31 @@ bool is_worth_telling(double effect) {
   return effect >= std::log(Model::least_effect);
 }
 
-// Of the variance of a residual; `of_line` with `line_degrees`, the times' with their own.
-double satterthwaite(const CorrelationCase& each, double of_line, double line_degrees) {
-  const double sum = of_line + each.variance_a + each.variance_b;
-  const double squares = square(of_line) / line_degrees + square(each.variance_a) / each.degrees_a +
-                         square(each.variance_b) / each.degrees_b;
-  return squares > 0 ? std::min(square(sum) / squares, line_degrees) : line_degrees;
+// The scatter of a configuration's own times.
+struct OwnScatter {
+  double variance = 0;
+  double degrees = 0;
+};
+
+OwnScatter own_scatter(const CorrelationCase& each) {
+  const double sum = each.variance_a + each.variance_b;
+  const double squares =
+      square(each.variance_a) / each.degrees_a + square(each.variance_b) / each.degrees_b;
+  return {sum, squares > 0 ? square(sum) / squares : infinite};
+}
+
+double typical_scatter(std::span<const CorrelationCase> cases) {
+  std::vector<double> variances;
+  for (const CorrelationCase& each : cases) {
+    if (!each.anchor) variances.push_back(own_scatter(each).variance);
+  }
+  return median(variances);
+}
+
+// Degrees of a sum of a variance from the line and another.
+double satterthwaite(double of_line, double line_degrees, double more, double degrees) {
+  const double squares = square(of_line) / line_degrees + square(more) / degrees;
+  return squares > 0 ? std::min(square(of_line + more) / squares, line_degrees) : line_degrees;
 }
 
 void judge_configurations(std::span<const CorrelationCase> cases, const RobustLine& fit,
@@ -129,19 +148,22 @@ void judge_configurations(std::span<const CorrelationCase> cases, const RobustLi
   std::vector<double> slower;
   std::vector<double> faster;
   std::vector<double> errors;
+  const double typical = typical_scatter(cases);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (cases[i].anchor) continue;
     ConfigurationJudgement& judgement = result.judgements[i];
     const double of_line = square(fit.scale) * (1 + judgement.leverage);
-    const double variance = of_line + cases[i].variance_a + cases[i].variance_b;
+    const OwnScatter own = own_scatter(cases[i]);
+    const double more = std::max(own.variance - typical, 0.0);
+    const double variance = of_line + more;
     errors.push_back(std::sqrt(variance));
     judgement.z = variance > 0
                       ? judgement.residual / errors.back()
                       : std::copysign(judgement.residual == 0 ? 0 : infinite, judgement.residual);
-    const double own_degrees = satterthwaite(cases[i], of_line, degrees);
-    judgement.p = student_t_upper_tail(judgement.z, own_degrees);
+    const double freedom = satterthwaite(of_line, degrees, more, own.degrees);
+    judgement.p = student_t_upper_tail(judgement.z, freedom);
     slower.push_back(judgement.p);
-    faster.push_back(student_t_upper_tail(-judgement.z, own_degrees));
+    faster.push_back(student_t_upper_tail(-judgement.z, freedom));
   }
   const auto slower_q = benjamini_hochberg_adjusted(slower);
   const auto faster_q = benjamini_hochberg_adjusted(faster);

@@ -10,13 +10,13 @@
 // between two devices is its own). So no slowdown of the program moves α′ and no odd anchor tilts
 // the line.
 //
-// One configuration. z = residual/√(ŝ²(1 + h) + s_A² + s_B²), h its leverage, s_A and s_B the
-// scatter of its own times; p from Student's t. ŝ holds the typical scatter of times already, so
-// that z is slightly too small rather than too large. The degrees are Satterthwaite's (1946), of a
-// sum of variances u each known with ν degrees, (Σu)²/Σ(u²/ν), and no more than the line's n − 2:
-// where a machine has slow minutes, configurations scatter so unlike each other that s_A and s_B
-// rest on few runs, and their few degrees are what keeps such a minute from being called beyond
-// chance.
+// One configuration. z = residual/√(ŝ²(1 + h) + max(0, s² − s̃²)), h its leverage, s² = s_A² + s_B²
+// the scatter of its own times and s̃² the median of all configurations': ŝ, the scatter of the
+// residuals, holds the typical scatter of times already, so that only what one's times scatter
+// beyond it comes on top; p from Student's t. The degrees are Satterthwaite's (1946), of a sum of
+// variances u each known with ν degrees, (Σu)²/Σ(u²/ν), and no more than the line's n − 2: where a
+// machine has slow minutes, configurations scatter so unlike each other that s_A and s_B rest on
+// few runs, and their few degrees are what keeps such a minute from being called beyond chance.
 //
 // A factor level. Its effect is the coefficient of the level's indicator beside α and β, estimated
 // with each side's wild points weighted down about that side's own median: a level that is slower

@@ -108,10 +108,14 @@ TEST(Correlation, AScatterThatFewRunsToldLeavesMoreRoomForChance) {
   const ConfigurationJudgement& guessed = result.judgements[0];
   EXPECT_DOUBLE_EQ(guessed.z, known.z);
   EXPECT_FALSE(guessed.slower);
-  // (Σu)²/Σ(u²/ν), s_A² known beyond doubt.
+  // (Σu)²/Σ(u²/ν) twice, s_A² known beyond doubt: of s², and of its excess and the line's ŝ².
   const double of_line = result.scale * result.scale * (1 + guessed.leverage);
-  const double sum = of_line + cases[0].variance_a + cases[0].variance_b;
-  const double degrees = sum * sum / (of_line * of_line / 46 + 0.01 * 0.01 / 2);
+  const double own = cases[0].variance_a + cases[0].variance_b;
+  const double more = own - (cases[1].variance_a + cases[1].variance_b);
+  const double own_degrees = own * own / (0.01 * 0.01 / 2);
+  const double sum = of_line + more;
+  const double degrees = sum * sum / (of_line * of_line / 46 + more * more / own_degrees);
+  EXPECT_NEAR(guessed.z, guessed.residual / std::sqrt(sum), 1e-9);
   EXPECT_NEAR(guessed.p, student_t_upper_tail(guessed.z, degrees), 1e-9);
 }
 
@@ -160,6 +164,16 @@ TEST(Correlation, SeesAQuarterOnOneConfiguration) {
            std::ranges::count_if(result.judgements, &ConfigurationJudgement::slower) == 1;
   });
   EXPECT_GE(finer, least(trials, 0.95));
+}
+
+// The residuals' scale is made of the times' own scatter: each told of it loses nothing by that.
+TEST(Correlation, WhatAllTimesScatterByIsNotCountedTwice) {
+  auto cases = Bench{}.draw(3);
+  const double z = correlate(cases).judgements[17].z;
+  for (CorrelationCase& each : cases) each.variance_b = 0.05 * 0.05;
+  EXPECT_DOUBLE_EQ(correlate(cases).judgements[17].z, z);
+  cases[17].variance_b *= 4;
+  EXPECT_LT(std::abs(correlate(cases).judgements[17].z), 0.7 * std::abs(z));
 }
 
 TEST(Correlation, SeesATwentiethOnAFactorLevelAndNamesItFirst) {
