@@ -87,6 +87,16 @@ std::string smallest_text(const judge::Tallies& tallies) {
   return text;
 }
 
+std::string judging_text(const judge::Tallies& tallies) {
+  const auto pairs = judge::judging_pairs(tallies);
+  if (pairs.empty()) return {};
+  std::string text = "\npairs of devices that judge: admitted in most A/A runs\n";
+  for (const judge::JudgingPair& pair : pairs) {
+    text += fmt::format("  {}, {}, {}\n", pair.method, pair.plan, pair.subject);
+  }
+  return text;
+}
+
 std::string aims_text(const judge::Tallies& tallies) {
   std::string text = "\naims\n";
   for (const judge::Aim& aim : judge::aims(tallies)) {
@@ -122,12 +132,13 @@ std::string to_text(const judge::Tallies& tallies) {
     if (alone > 0) text += fmt::format("; {} trials without a second run", alone);
     text += "\n";
   }
-  return text + smallest_text(tallies) + aims_text(tallies);
+  return text + smallest_text(tallies) + judging_text(tallies) + aims_text(tallies);
 }
 
 nlohmann::json to_json(const judge::Tallies& tallies) {
   core::Json json{{"trials", core::Json::array()},
                   {"smallest_found", core::Json::array()},
+                  {"judging_pairs", core::Json::array()},
                   {"aims", core::Json::array()}};
   for (const auto& [kind, tally] : tallies) {
     core::Json row = json_of(kind);
@@ -145,6 +156,10 @@ nlohmann::json to_json(const judge::Tallies& tallies) {
     core::Json row = json_of(kind);
     row["percent"] = percent ? core::Json(*percent) : core::Json();
     json["smallest_found"].push_back(std::move(row));
+  }
+  for (const judge::JudgingPair& pair : judge::judging_pairs(tallies)) {
+    json["judging_pairs"].push_back(
+        {{"method", pair.method}, {"plan", pair.plan}, {"subject", pair.subject}});
   }
   for (const judge::Aim& aim : judge::aims(tallies)) {
     core::Json row = aim.rate.trials > 0 ? json_of(aim.rate) : core::Json::object();

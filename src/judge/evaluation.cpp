@@ -44,6 +44,12 @@ std::vector<Aim> aims_of(const std::string& method, const Tallies& tallies, bool
                               0.95, true, of(Spread::configuration, 3)),
                           aim(name + "A/A runs with a false alarm", tallies, &Tally::false_alarms,
                               0.01, false, of(Spread::none))};
+  if (method == "history") {
+    result.push_back(aim(name + "10 % of everything found", tallies, &Tally::detected, 0.9, true,
+                         of(Spread::global, 10)));
+    result.push_back(aim(name + "a device slower by 10 % taken for the program", tallies,
+                         &Tally::false_alarms, 0.1, false, of(Spread::device, 10)));
+  }
   if (confirmed) return result;
   result.push_back(aim(name + "configurations of A/A runs that it cannot tell", tallies,
                        &Tally::undecided, 0.05, false, of(Spread::none)));
@@ -51,8 +57,8 @@ std::vector<Aim> aims_of(const std::string& method, const Tallies& tallies, bool
 }
 
 std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
-  const auto is_own = [=](const TrialKind& kind) {
-    return kind.method.starts_with("correlation") && kind.confirmed == confirmed;
+  const auto is_own = [=, judging = judging_pairs(tallies)](const TrialKind& kind) {
+    return kind.confirmed == confirmed && judging.contains({kind.method, kind.plan, kind.subject});
   };
   const auto at = [=](Spread spread, double least_percent) {
     return [=](const TrialKind& kind) {
@@ -86,7 +92,7 @@ std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
   };
   if (confirmed) return result;
   result.push_back(aim(name + "uncorrelated pairs refused", tallies, &Tally::detected, 1, true,
-                       at(Spread::scrambled, 0)));
+                       [](const TrialKind& kind) { return kind.spread == Spread::scrambled; }));
   return result;
 }
 
@@ -140,6 +146,18 @@ SmallestFound smallest_found(const Tallies& tallies, double share) {
     if (!already) smallest = percent;
   }
   return result;
+}
+
+std::set<JudgingPair> judging_pairs(const Tallies& tallies) {
+  std::set<JudgingPair> pairs;
+  for (const auto& [kind, tally] : tallies) {
+    const bool unplanted = kind.method.starts_with("correlation") && !kind.confirmed &&
+                           kind.spread == Spread::none && tally.undecided.trials > 0;
+    if (unplanted && tally.undecided.share() < 0.5) {
+      pairs.insert({kind.method, kind.plan, kind.subject});
+    }
+  }
+  return pairs;
 }
 
 std::optional<bool> Aim::met() const {

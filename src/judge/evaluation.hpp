@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -81,6 +82,16 @@ using Tallies = std::map<TrialKind, Tally>;
 // by kind with its percent left out (0); nullopt: none was.
 using SmallestFound = std::map<TrialKind, std::optional<double>>;
 [[nodiscard]] SmallestFound smallest_found(const Tallies& tallies, double share = 0.95);
+
+// Pairs of devices, "B by A", whose baseline was admitted in more than half of the A/A runs: of
+// them it is asked what they find, of all others that they refuse.
+struct JudgingPair {
+  std::string method;  // of the correlation
+  std::string plan;
+  std::string subject;
+  auto operator<=>(const JudgingPair&) const = default;
+};
+[[nodiscard]] std::set<JudgingPair> judging_pairs(const Tallies& tallies);
 
 // What a project asks of its judge, with what was counted.
 struct Aim {

@@ -6,6 +6,9 @@
 
 #include <cmath>
 #include <set>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "core/random.hpp"
 #include "judge/evaluation_compare.hpp"
@@ -70,21 +73,42 @@ TEST(Evaluation, TheSmallestFoundHasNoMissAboveIt) {
   EXPECT_EQ(smallest_found(tallies).at(kind), std::nullopt);
 }
 
+Aim aim_of(const Tallies& tallies, std::string_view text) {
+  for (Aim& aim : aims(tallies)) {
+    if (aim.text == text) return std::move(aim);
+  }
+  ADD_FAILURE() << "no aim " << text;
+  return {};
+}
+
 TEST(Evaluation, AimsAreMetByTheRate) {
   Tallies tallies;
   tallies[{"compare", "p", "d", Spread::configuration, 3}].detected = {19, 20};
   tallies[{"compare", "p", "d", Spread::none}].false_alarms = {1, 20};
-  const std::vector<Aim> all = aims(tallies);
-  const auto met = [&](std::string_view text) {
-    for (const Aim& aim : all) {
-      if (aim.text == text) return aim.met();
-    }
-    ADD_FAILURE() << "no aim " << text;
-    return std::optional<bool>();
+  tallies[{"history", "p", "d", Spread::global, 10}].detected = {17, 20};
+  EXPECT_EQ(aim_of(tallies, "compare: 3 % of one configuration found").met(), true);
+  EXPECT_EQ(aim_of(tallies, "compare: A/A runs with a false alarm").met(), false);
+  EXPECT_EQ(aim_of(tallies, "history: 3 % of one configuration found").met(), std::nullopt);
+  EXPECT_EQ(aim_of(tallies, "history: 10 % of everything found").met(), false);
+}
+
+// A pair that is refused has nothing to find, but to be refused.
+TEST(Evaluation, OfTheCorrelationOnlyPairsThatJudgeAreAsked) {
+  Tallies tallies;
+  const std::string method = "correlation, new device";
+  const auto add = [&](const char* subject, std::size_t refused, std::size_t found) {
+    tallies[{method, "p", subject, Spread::none}].undecided = {refused, 480};
+    tallies[{method, "p", subject, Spread::configuration, 25}].detected = {found, 40};
+    tallies[{method, "p", subject, Spread::scrambled}].detected = {8, 8};
   };
-  EXPECT_EQ(met("compare: 3 % of one configuration found"), true);
-  EXPECT_EQ(met("compare: A/A runs with a false alarm"), false);
-  EXPECT_EQ(met("history: 3 % of one configuration found"), std::nullopt);
+  add("alike", 96, 39);
+  add("unlike", 240, 0);
+  const JudgingPair alike{method, "p", "alike"};
+  EXPECT_EQ(judging_pairs(tallies), std::set{alike});
+  const Rate found = aim_of(tallies, "correlation: 25 % and more of one configuration found").rate;
+  EXPECT_EQ(found.hits, 39U);
+  EXPECT_EQ(found.trials, 40U);
+  EXPECT_EQ(aim_of(tallies, "correlation: uncorrelated pairs refused").rate.trials, 16U);
 }
 
 TEST(Evaluation, AShuffleIsAnOrder) {
