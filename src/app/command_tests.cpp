@@ -62,6 +62,7 @@ struct PlanTests {
   std::string plan;  // "volume/quick"
   std::string stem;  // "volume.quick"
   fs::path store;
+  bool has_data = true;  // of one configuration at least
 };
 
 // Errors and their orders need no times, whose measuring takes minutes.
@@ -96,8 +97,10 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
                    .requires_fixtures = {},
                    .sets_up = plan.stem});
   const std::vector<std::string_view> own_checks = checks_of(plan, has_pictures(plan.suite));
-  const bool judges_times = std::ranges::any_of(
-      own_checks, [](std::string_view check) { return judge::is_of_times(judge::check(check)); });
+  const bool judges_times =
+      plan.has_data && std::ranges::any_of(own_checks, [](std::string_view check) {
+        return judge::is_of_times(judge::check(check));
+      });
   std::vector<std::string> measured;
   for (const record::Device& device : devices) measured.push_back(plan.stem + "." + device.id);
   for (const record::Device& device : devices) {
@@ -137,6 +140,12 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
                    .lock = {}});
 }
 
+bool has_data(const std::string& plan, const measure::Suite& suite, const Registry& registry) {
+  return std::ranges::any_of(
+      measure::load_plan(plan, {}, registry.find_suite()).configurations,
+      [&](const measure::Configuration& each) { return suite.missing_data(each).empty(); });
+}
+
 core::ExitCode register_tests(const fs::path& out, const fs::path& folder,
                               const std::vector<std::string>& plans) {
   const Registry registry = make_registry();
@@ -146,7 +155,10 @@ core::ExitCode register_tests(const fs::path& out, const fs::path& folder,
     const std::string suite = plan.substr(0, plan.find('/'));
     std::string stem = plan;
     stem.replace(plan.find('/'), 1, ".");
-    add_plan(tests, {suite, plan, stem, folder / (stem + ".sqlite")}, listing.devices);
+    add_plan(tests,
+             {suite, plan, stem, folder / (stem + ".sqlite"),
+              has_data(plan, registry.suite(suite), registry)},
+             listing.devices);
   }
   std::string text = "# Made by asking triptych which devices are here.\n";
   for (const Test& test : tests) text += as_cmake(test);

@@ -14,8 +14,10 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-std::string tests_of(const Program& program, const std::string& plan) {
-  const Result listed = program.run("ctest " + plan + " --out tests.cmake --folder .");
+std::string tests_of(const Program& program, const std::string& plan,
+                     const std::string& wrapper = "") {
+  const Result listed =
+      program.run("ctest " + plan + " --out tests.cmake --folder .", "{}", wrapper);
   EXPECT_EQ(listed.code, 0) << listed.output;
   std::ifstream in(program.folder() / "tests.cmake");
   return {std::istreambuf_iterator<char>(in), {}};
@@ -47,6 +49,15 @@ TEST(CTestListing, AnchorsAreMeasuredBesideTimes) {
   for (const std::string plan : {"volume/stress", "particles/accuracy"}) {
     EXPECT_THAT(tests_of(program, plan), Not(HasSubstr("[=[anchors/frozen]=]")));
   }
+}
+
+// Nothing is to be judged where no data is there.
+TEST(CTestListing, NoAnchorsAreMeasuredBesideAbsentData) {
+  const Program program;
+  EXPECT_THAT(tests_of(program, "volume/real"), Not(HasSubstr("anchors/frozen")));
+  program.write("ct_tooth_103x94x161_u16.nrrd", "");
+  EXPECT_THAT(tests_of(program, "volume/real", "env TRIPTYCH_DATA=."),
+              HasSubstr("[=[anchors/frozen]=] [=[volume/real]=]"));
 }
 
 TEST(CTestListing, OtherPlansAreTimed) {
