@@ -115,31 +115,30 @@ bool is_worth_telling(double effect) {
   return effect >= std::log(Model::least_effect);
 }
 
-// The scatter of a configuration's own times.
-struct OwnScatter {
+struct KnownVariance {
   double variance = 0;
-  double degrees = 0;
+  double degrees = infinite;
 };
 
-OwnScatter own_scatter(const CorrelationCase& each) {
-  const double sum = each.variance_a + each.variance_b;
-  const double squares =
-      square(each.variance_a) / each.degrees_a + square(each.variance_b) / each.degrees_b;
+// Of independent ones, with Satterthwaite's degrees.
+KnownVariance operator+(const KnownVariance& a, const KnownVariance& b) {
+  const double sum = a.variance + b.variance;
+  const double squares = square(a.variance) / a.degrees + square(b.variance) / b.degrees;
   return {sum, squares > 0 ? square(sum) / squares : infinite};
+}
+
+// Of a configuration's own times.
+KnownVariance own_scatter(const CorrelationCase& each) {
+  return KnownVariance{each.variance_a, each.degrees_a} +
+         KnownVariance{each.variance_b, each.degrees_b};
 }
 
 double typical_scatter(std::span<const CorrelationCase> cases) {
   std::vector<double> variances;
   for (const CorrelationCase& each : cases) {
-    if (!each.anchor) variances.push_back(own_scatter(each).variance);
+    if (!each.anchor) variances.push_back(each.variance_a + each.variance_b);
   }
   return median(variances);
-}
-
-// Degrees of a sum of a variance from the line and another.
-double satterthwaite(double of_line, double line_degrees, double more, double degrees) {
-  const double squares = square(of_line) / line_degrees + square(more) / degrees;
-  return squares > 0 ? std::min(square(of_line + more) / squares, line_degrees) : line_degrees;
 }
 
 void judge_configurations(std::span<const CorrelationCase> cases, const RobustLine& fit,
@@ -152,15 +151,15 @@ void judge_configurations(std::span<const CorrelationCase> cases, const RobustLi
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (cases[i].anchor) continue;
     ConfigurationJudgement& judgement = result.judgements[i];
-    const double of_line = square(fit.scale) * (1 + judgement.leverage);
-    const OwnScatter own = own_scatter(cases[i]);
-    const double more = std::max(own.variance - typical, 0.0);
-    const double variance = of_line + more;
-    errors.push_back(std::sqrt(variance));
-    judgement.z = variance > 0
+    KnownVariance more = own_scatter(cases[i]);
+    more.variance = std::max(more.variance - typical, 0.0);
+    const KnownVariance of_line{square(fit.scale) * (1 + judgement.leverage), degrees};
+    const KnownVariance whole = of_line + more;
+    errors.push_back(std::sqrt(whole.variance));
+    judgement.z = whole.variance > 0
                       ? judgement.residual / errors.back()
                       : std::copysign(judgement.residual == 0 ? 0 : infinite, judgement.residual);
-    const double freedom = satterthwaite(of_line, degrees, more, own.degrees);
+    const double freedom = std::min(whole.degrees, degrees);
     judgement.p = student_t_upper_tail(judgement.z, freedom);
     slower.push_back(judgement.p);
     faster.push_back(student_t_upper_tail(-judgement.z, freedom));
