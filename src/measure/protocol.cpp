@@ -14,19 +14,12 @@
 #include "core/json.hpp"
 #include "measure/benchmark_loop.hpp"
 #include "measure/clock.hpp"
+#include "measure/count_to_fill.hpp"
 #include "measure/stopwatch.hpp"
 #include "record/benchmark_entries.hpp"
 
 namespace triptych::measure {
 namespace {
-
-// Frames that last at least `ns` together, one of them lasting frame_ns; a clock too coarse to see
-// a frame asks for as many as there may be.
-int frames_to_fill(double ns, double frame_ns, int most) {
-  if (!(frame_ns > 0)) return most;
-  const double frames = std::ceil(ns / frame_ns);
-  return frames < most ? std::max(1, static_cast<int>(frames)) : most;
-}
 
 struct WarmUp {
   int frames = 0;
@@ -148,9 +141,9 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
 
   const WarmUp warm = counted([&] { return warm_up(prepared, protocol); });
   record.warm_up_frames = warm.frames;
-  record.frames_per_100ms = frames_to_fill(100e6, warm.fastest_ns, std::numeric_limits<int>::max());
+  record.frames_per_100ms = count_to_fill(100e6, warm.fastest_ns, std::numeric_limits<int>::max());
   record.loop_frames =
-      frames_to_fill(protocol.least_loop_ns, warm.fastest_ns, protocol.most_loop_frames);
+      count_to_fill(protocol.least_loop_ns, warm.fastest_ns, protocol.most_loop_frames);
 
   core::Json entries = time_into(record, prepared, protocol.timed_frames, name, work_ns);
   record.device_clock_trusted =

@@ -34,8 +34,7 @@ std::optional<double> median_by_clock(const record::Record& record, const Turn& 
 
 bool sees_again(const record::Record& record, const Turn& pass) {
   const auto median_ns = median_by_clock(record, pass);
-  if (!median_ns || record.rounds_ns.empty()) return false;
-  return std::abs(std::log(*median_ns / least_round(record))) <= settled_gap;
+  return median_ns && std::abs(std::log(*median_ns / least_round(record))) <= settled_gap;
 }
 
 bool add_round(record::Record& record, std::span<const Turn> passes) {

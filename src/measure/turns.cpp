@@ -12,6 +12,7 @@
 
 #include "core/hash.hpp"
 #include "measure/clock.hpp"
+#include "measure/count_to_fill.hpp"
 #include "measure/environment.hpp"
 #include "measure/worker_seat.hpp"
 
@@ -42,11 +43,6 @@ std::vector<std::string> environment_of(const SideOptions& side, const CacheFold
 
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-// Of so many nanoseconds each, as many as last `ns` together, but one at least and `most` at most.
-int count_to_fill(double ns, double each_ns, int most) {
-  return static_cast<int>(std::clamp(std::ceil(ns / each_ns), 1.0, static_cast<double>(most)));
 }
 
 double ln_mean(const std::array<double, 2>& times_ns) {
@@ -227,7 +223,6 @@ void Turns::hold(const Configuration& configuration,
     const bool by_device = clock == TurnClock::device && !turn.device_ns.empty();
     fastest_ns = std::min(fastest_ns, std::ranges::min(by_device ? turn.device_ns : turn.wall_ns));
   }
-  fastest_ns = std::max(fastest_ns, 1.0);
   frames_per_turn_ = count_to_fill(options_.least_turn_ns, fastest_ns, most_frames);
   times_per_block_ =
       count_to_fill(options_.least_block_ns, 4 * frames_per_turn_ * fastest_ns, most_times);
