@@ -15,6 +15,7 @@
 //     "driver_version": "1",      part of the device's key
 //     "base_ns": 100000,          a frame takes base_ns + ns_per_sample · samples, where
 //     "ns_per_sample": 1,           samples = width · height · longest edge in voxels / step
+//     "factors": {"GLOB": 1.25},  on the times of some work; the first match counts
 //     "warm_up_factor": 1,        on the first frame after a prepare
 //     "prepare_factors": [],      factors on all frames after the first, second, … prepare of one
 //                                 work; those after the last: 1
@@ -82,6 +83,7 @@ struct Script {
   std::string driver_version = "1";
   double base_ns = 1e5;
   double ns_per_sample = 1;
+  std::vector<std::pair<std::string, double>> factors;  // glob → factor; the first match counts
   double warm_up_factor = 1;
   std::vector<double> prepare_factors;
   double noise = 0;

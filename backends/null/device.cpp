@@ -28,10 +28,17 @@ double normal(core::Random& random) {
   return sum;
 }
 
+double factor_of(const Script& script, const std::string& subject) {
+  for (const auto& [glob, factor] : script.factors) {
+    if (matches(glob, subject)) return factor;
+  }
+  return 1;
+}
+
 double frame_ns(const Script& script, const measure::Work& work, double device_factor,
                 const std::string& subject, int frame) {
   double ns = device_factor * (script.base_ns + script.ns_per_sample * samples_of(work));
-  ns *= 1 + extra_share(work);
+  ns *= (1 + extra_share(work)) * factor_of(script, subject);
   if (frame == 0) ns *= script.warm_up_factor;
   core::Random random(script.seed ^ number_of(fmt::format("{},frame={}", subject, frame)));
   ns *= std::max(0.01, 1 + script.noise * normal(random));

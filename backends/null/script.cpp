@@ -124,6 +124,11 @@ void parse_key(const std::string& key, const Json& value, Script& script) {
     for (const auto& [glob, file] : value.items()) {
       script.images.emplace_back(glob, text(file, key));
     }
+  } else if (key == "factors") {
+    if (!value.is_object()) refuse(key, "an object, glob to a factor on time");
+    for (const auto& [glob, factor] : value.items()) {
+      script.factors.emplace_back(glob, number(factor, key, 0));
+    }
   } else if (key == "failures") {
     if (!value.is_array()) refuse(key, "a list");
     for (const Json& each : value) script.failures.push_back(parse_failure(each));

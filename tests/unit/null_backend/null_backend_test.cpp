@@ -104,7 +104,7 @@ TEST(NullScript, AllKeys) {
   const Script script = parse_script(
       R"({"seed": 3, "devices": [1, 1.5], "driver_version": "2", "base_ns": 10,
           "ns_per_sample": 0, "warm_up_factor": 2, "prepare_factors": [3, 2], "noise": 0.1, "outlier_share": 0.2,
-          "outlier_factor": 4, "device_over_wall": null, "counts": false, "sleep": true,
+          "outlier_factor": 4, "device_over_wall": null, "counts": false, "sleep": true, "factors": {"*skip=none*": 1.5},
           "filter_weight_error": 0.5, "images": {"*": "x.exr"},
           "failures": [{"kind": "hang", "at": "prepare", "only": "*ball*"},
                        {"kind": "crash", "frame": 2}, {"kind": "nan_image"}]})");
@@ -114,6 +114,9 @@ TEST(NullScript, AllKeys) {
   EXPECT_EQ(script.ns_per_sample, 0);
   EXPECT_THAT(script.prepare_factors, ElementsAre(3, 2));
   EXPECT_EQ(script.outlier_factor, 4);
+  ASSERT_EQ(script.factors.size(), 1U);
+  EXPECT_EQ(script.factors[0].first, "*skip=none*");
+  EXPECT_EQ(script.factors[0].second, 1.5);
   EXPECT_FALSE(script.device_over_wall);
   EXPECT_FALSE(script.counts);
   EXPECT_TRUE(script.sleep);
