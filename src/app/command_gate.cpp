@@ -119,8 +119,8 @@ void add_gate_commands(Commands& commands) {
   command->add_flag("--json", arguments->json, "Print every finding as JSON");
   command->add_flag(
       "--confirm", arguments->confirm,
-      "Measure devices that are called slower once more, into the same store: slower is "
-      "what both launches show");
+      "Measure devices that may be slower once more, into the same store: the quieter launch "
+      "counts");
 
   auto accepted = std::make_shared<AcceptArguments>();
   CLI::App* accepting = commands.add("accept", "Make a plan's latest run the baseline",

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "app/measuring.hpp"
-#include "judge/confirmation.hpp"
 #include "report/page.hpp"
 
 namespace triptych::app {
@@ -25,8 +24,7 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
 
 bool measure_suspects_again(const judge::GateResult& result, const std::string& file) {
   std::vector<std::string> devices;
-  std::ranges::set_difference(judge::suspects(result), result.measured_again,
-                              std::back_inserter(devices));
+  std::ranges::set_difference(result.in_doubt, result.measured_again, std::back_inserter(devices));
   if (devices.empty()) return false;
   measure_again(result.plan, devices, file);
   return true;

@@ -15,8 +15,8 @@ namespace triptych::app {
 [[nodiscard]] std::string latest_run_of(const record::Store& store, const std::string& plan,
                                         const std::string& file);
 
-// What of a run is called slower on devices that no run measured again: measures those once more,
-// into the same store, which `file` names. False: there was nothing to be measured.
+// Measures devices in doubt that no run measured again once more, into the same store, which `file`
+// names. False: there was nothing to be measured.
 [[nodiscard]] bool measure_suspects_again(const judge::GateResult& result, const std::string& file);
 
 // Every finding but those that pass, a line each, then how many there are of each verdict and the

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "judge/anchor.hpp"
+#include "judge/confirmation.hpp"
 #include "judge/statistics.hpp"
 
 namespace triptych::judge {
@@ -31,6 +32,32 @@ std::optional<std::chrono::sys_seconds> time_of(const std::string& run) {
          seconds(second);
 }
 
+std::optional<std::string> latest_anchors(const record::Store& store, const std::string& run) {
+  std::set<std::string> anchor_runs;
+  for (const record::Run& each : store.runs()) {
+    if (each.plan == anchors_plan) anchor_runs.insert(each.id);
+  }
+  return anchors_beside(run, anchor_runs);
+}
+
+std::vector<record::Record> anchors_in(const RunView& view, const record::Store& store,
+                                       const std::string& run) {
+  const auto beside = latest_anchors(store, run);
+  if (!beside) return {};
+  std::set<std::string> same;
+  for (const auto& entry : store.devices(*beside)) {
+    const auto judged = view.devices.find(entry.device.id);
+    if (judged != view.devices.end() && judged->second.key() == entry.device.key()) {
+      same.insert(entry.device.id);
+    }
+  }
+  std::vector<record::Record> anchors;
+  for (record::Record& record : store.records(*beside)) {
+    if (same.contains(record.device) && has_time(record)) anchors.push_back(std::move(record));
+  }
+  return anchors;
+}
+
 }  // namespace
 
 std::optional<std::string> anchors_beside(const std::string& run,
@@ -45,32 +72,17 @@ std::optional<std::string> anchors_beside(const std::string& run,
   return latest;
 }
 
-std::optional<std::string> anchors_beside(const RunView& view) {
-  if (view.records.empty()) return std::nullopt;
-  std::set<std::string> anchor_runs;
-  for (const record::Run& run : view.store.runs()) {
-    if (run.plan == anchors_plan) anchor_runs.insert(run.id);
-  }
-  return anchors_beside(view.records.front().run, anchor_runs);
-}
-
 bool has_time(const record::Record& record) {
   if (record.outcome != record::Outcome::measured || record.time_ns().empty()) return false;
   const double time = median(record.time_ns());
   return time > 0 && std::isfinite(time);
 }
 
-std::vector<record::Record> anchors_of(const RunView& view, const std::string& run) {
-  std::set<std::string> same;
-  for (const auto& entry : view.store.devices(run)) {
-    const auto judged = view.devices.find(entry.device.id);
-    if (judged != view.devices.end() && judged->second.key() == entry.device.key()) {
-      same.insert(entry.device.id);
-    }
-  }
-  std::vector<record::Record> anchors;
-  for (record::Record& record : view.store.records(run)) {
-    if (same.contains(record.device) && has_time(record)) anchors.push_back(std::move(record));
+std::vector<record::Record> anchors_of(const RunView& view) {
+  if (view.records.empty()) return {};
+  std::vector<record::Record> anchors = anchors_in(view, view.store, view.records.front().run);
+  for (const Launch& launch : view.again) {
+    join_launches(anchors, anchors_in(view, *launch.store, launch.run), *launch.devices);
   }
   return anchors;
 }

@@ -16,13 +16,12 @@ namespace triptych::judge {
 [[nodiscard]] std::optional<std::string> anchors_beside(const std::string& run,
                                                         const std::set<std::string>& anchor_runs);
 
-// Likewise of all that a run's own store holds.
-[[nodiscard]] std::optional<std::string> anchors_beside(const RunView& view);
-
 // Whether there is a time that a logarithm can be taken of.
 [[nodiscard]] bool has_time(const record::Record& record);
 
-// What that run holds of the very devices that are judged: another driver is another device.
-[[nodiscard]] std::vector<record::Record> anchors_of(const RunView& view, const std::string& run);
+// The anchors beside the run, of the very devices that are judged: another driver is another
+// device. Their times are the quieter ones of all launches, as the run's are. Empty where none were
+// measured beside it.
+[[nodiscard]] std::vector<record::Record> anchors_of(const RunView& view);
 
 }  // namespace triptych::judge

@@ -179,11 +179,11 @@ class TimingCheck {
   // The anchors' own plan, where it was measured beside this run and the stored ones.
   void call_witnesses() {
     if (judged_.empty() || view_.request.plan == anchors_plan) return;
-    const auto run = anchors_beside(view_);
-    if (!run) return;
+    const std::vector<record::Record> anchors = anchors_of(view_);
+    if (anchors.empty()) return;
     const Baselines stored = view_.baselines.of_plan(anchors_plan);
     const auto runs = stored_runs();
-    for (const record::Record& anchor : anchors_of(view_, *run)) {
+    for (const record::Record& anchor : anchors) {
       const auto of_device = runs.find(anchor.device);
       if (of_device != runs.end()) call_witness(anchor, stored, of_device->second);
     }

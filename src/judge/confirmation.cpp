@@ -1,98 +1,166 @@
 #include "judge/confirmation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <utility>
 
 #include "judge/run_view.hpp"
+#include "judge/statistics.hpp"
+#include "judge/timing_model.hpp"
 
 namespace triptych::judge {
 namespace {
 
-// Slower, and not so already when the device was accepted.
+// ŝ up to which a quieter launch may bring it below CorrelationModel::largest_scale.
+constexpr double largest_scale_in_doubt = 1.5 * CorrelationModel::largest_scale;
+
+using Key = std::pair<std::string_view, std::string_view>;  // device, configuration
+
+bool was_measured(const record::Record& record) {
+  return record.outcome == record::Outcome::measured && record.same_as.empty();
+}
+
+bool is_same_program(const record::Record& a, const record::Record& b) {
+  return a.kernel_hash == b.kernel_hash && a.data_hash == b.data_hash;
+}
+
+std::map<Key, const record::Record*> by_key(std::span<const record::Record> records) {
+  std::map<Key, const record::Record*> result;
+  for (const record::Record& record : records) {
+    if (was_measured(record)) result[{record.device, record.configuration}] = &record;
+  }
+  return result;
+}
+
+// The first of each, the second of each and so on: early and late rounds stay apart, as
+// variance_of_ rounds wants them, and both launches are in both halves.
+std::vector<double> in_turn(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+    if (i < a.size()) result.push_back(a[i]);
+    if (i < b.size()) result.push_back(b[i]);
+  }
+  return result;
+}
+
+void join(record::Record& record, const record::Record& again) {
+  const bool one_clock = record.clock() == again.clock();
+  if (!one_clock) {
+    record.device_clock_trusted = false;
+    record.rounds_ns = {median(record.wall_ns)};
+  }
+  record.rounds_ns = in_turn(
+      record.rounds_ns, one_clock ? again.rounds_ns : std::vector<double>{median(again.wall_ns)});
+  const std::string_view clock = record.clock();
+  if (!(median(again.time_ns_by(clock)) < median(record.time_ns_by(clock)))) return;
+  record.wall_ns = again.wall_ns;
+  record.device_ns = again.device_ns;
+}
+
 template <typename Judgement>
-bool is_news(const Judgement& judgement) {
-  return judgement.slower && !judgement.standing;
+bool is_suspect(const Judgement& judgement) {
+  return judgement.suspected && !judgement.standing;
 }
 
-bool names_suspects(const CorrelationPair& pair) {
+bool is_in_doubt(const CorrelationPair& pair) {
   const Correlation& result = pair.result;
-  return !pair.within_run && result.admitted() &&
-         (std::ranges::any_of(result.judgements, is_news<ConfigurationJudgement>) ||
-          std::ranges::any_of(result.levels, is_news<LevelEffect>) || is_news(result.global));
+  if (pair.within_run || pair.stored_runs < TimingModel::least_runs) return false;
+  if (!result.admitted()) {
+    return result.refused_for_scatter() && result.scale <= largest_scale_in_doubt;
+  }
+  return std::ranges::any_of(result.judgements, is_suspect<ConfigurationJudgement>) ||
+         std::ranges::any_of(result.levels, is_suspect<LevelEffect>) || is_suspect(result.global);
 }
 
-bool is_slower_again(const Finding& finding, const GateResult& again) {
-  return std::ranges::any_of(again.findings, [&](const Finding& other) {
-    return other.verdict == Verdict::regression && other.check == finding.check &&
-           other.device == finding.device && other.configuration == finding.configuration &&
-           other.subject == finding.subject;
-  });
-}
-
-// nullptr: there is none that judges.
-const CorrelationPair* same_pair(const CorrelationPair& pair, const GateResult& again) {
-  const auto own = std::ranges::find_if(again.correlations, [&](const CorrelationPair& other) {
-    return other.within_run == pair.within_run && other.device == pair.device &&
-           other.other_key == pair.other_key && other.result.admitted();
-  });
-  return own == again.correlations.end() ? nullptr : &*own;
-}
-
-bool is_slower_again(const CorrelationCase& each, const CorrelationPair& again) {
-  for (std::size_t i = 0; i < again.cases.size(); ++i) {
-    if (again.cases[i].configuration == each.configuration) {
-      return is_news(again.result.judgements[i]);
+// Of the timing check's p-values, those of configurations together and each program's for itself.
+std::set<std::string> in_doubt_by_history(const std::vector<Finding>& findings) {
+  std::set<std::string> devices;
+  std::vector<const Finding*> tested;
+  std::vector<double> p;
+  for (const Finding& finding : findings) {
+    const auto own = finding.numbers.find("p");
+    if (finding.check != Check::timing || own == finding.numbers.end()) continue;
+    if (finding.subject == "program") {
+      if (own->second <= TimingModel::false_program_suspects) devices.insert(finding.device);
+    } else if (finding.numbers.contains("half_width")) {
+      tested.push_back(&finding);
+      p.push_back(own->second);
     }
   }
-  return false;
-}
-
-bool is_slower_again(const LevelEffect& level, const CorrelationPair& again) {
-  return std::ranges::any_of(again.result.levels, [&](const LevelEffect& other) {
-    return is_news(other) && other.factor == level.factor && other.level == level.level;
-  });
-}
-
-void take_back(CorrelationPair& pair, const CorrelationPair* again) {
-  Correlation& result = pair.result;
-  for (std::size_t i = 0; i < pair.cases.size(); ++i) {
-    bool& slower = result.judgements[i].slower;
-    slower = slower && again != nullptr && is_slower_again(pair.cases[i], *again);
-  }
-  for (LevelEffect& level : result.levels) {
-    level.slower = level.slower && again != nullptr && is_slower_again(level, *again);
-  }
-  result.global.slower = result.global.slower && again != nullptr && is_news(again->result.global);
-}
-
-}  // namespace
-
-std::set<std::string> suspects(const GateResult& result) {
-  std::set<std::string> devices;
-  for (const Finding& finding : result.findings) {
-    if (is_slower(finding)) devices.insert(finding.device);
+  const auto suspected = benjamini_hochberg(p, TimingModel::share_of_false_suspects);
+  for (std::size_t i = 0; i < tested.size(); ++i) {
+    if (suspected[i]) devices.insert(tested[i]->device);
   }
   return devices;
 }
 
-bool names_suspects(const GateResult& result) {
-  return !suspects(result).empty() ||
-         std::ranges::any_of(result.correlations,
-                             [](const CorrelationPair& pair) { return names_suspects(pair); });
+bool is_about_the_same(const Finding& a, const Finding& b) {
+  return a.check == b.check && a.device == b.device && a.configuration == b.configuration &&
+         a.subject == b.subject;
 }
 
-void take_back_unconfirmed(GateResult& result, const GateResult& again) {
-  for (Finding& finding : result.findings) {
-    if (!is_slower(finding) || !again.devices.contains(finding.device)) continue;
-    const bool confirmed = is_slower_again(finding, again);
-    if (!confirmed) finding.verdict = Verdict::advisory;
-    finding.message += confirmed ? "; so too on a fresh launch" : "; not so on a fresh launch";
+}  // namespace
+
+std::set<std::string> measured_again(std::span<const record::Record> records, const Launch& again) {
+  const std::vector<record::Record> others = again.store->records(again.run);
+  const auto there = by_key(others);
+  std::set<std::string> devices;
+  std::set<std::string> in_part;
+  for (const record::Record& record : records) {
+    if (!was_measured(record)) continue;
+    const auto own = there.find({record.device, record.configuration});
+    const bool whole = own != there.end() && is_same_program(record, *own->second);
+    (whole ? devices : in_part).insert(record.device);
   }
-  for (CorrelationPair& pair : result.correlations) {
-    if (again.devices.contains(pair.device) && names_suspects(pair)) {
-      take_back(pair, same_pair(pair, again));
+  for (const std::string& device : in_part) devices.erase(device);
+  if (again.devices) {
+    std::erase_if(devices, [&](const std::string& id) { return !again.devices->contains(id); });
+  }
+  return devices;
+}
+
+void join_launches(std::vector<record::Record>& records, std::span<const record::Record> again,
+                   const std::set<std::string>& devices) {
+  const auto others = by_key(again);
+  for (record::Record& record : records) {
+    const auto other = others.find({record.device, record.configuration});
+    const bool both = other != others.end() && was_measured(record) &&
+                      devices.contains(record.device) && !record.time_ns().empty() &&
+                      !other->second->time_ns().empty();
+    if (both) join(record, *other->second);
+  }
+}
+
+std::set<std::string> devices_in_doubt(const GateResult& result) {
+  std::set<std::string> devices = in_doubt_by_history(result.findings);
+  for (const CorrelationPair& pair : result.correlations) {
+    if (is_in_doubt(pair)) devices.insert(pair.device);
+  }
+  return devices;
+}
+
+void tell_what_was_taken_back(const GateResult& first, GateResult& all) {
+  for (Finding& finding : all.findings) {
+    if (is_slower(finding) && all.measured_again.contains(finding.device)) {
+      finding.message += "; so too on a fresh launch";
     }
   }
-  sort_findings(result.findings);
+  for (const Finding& finding : first.findings) {
+    if (!is_slower(finding) || !all.measured_again.contains(finding.device)) continue;
+    auto now = std::ranges::find_if(
+        all.findings, [&](const Finding& each) { return is_about_the_same(each, finding); });
+    if (now == all.findings.end()) {
+      now = all.findings.insert(now, finding);
+    } else if (is_slower(*now)) {
+      continue;
+    }
+    if (now->verdict != Verdict::cannot_judge) now->verdict = Verdict::advisory;
+    now->message += "; slower in the first launch, not so on a fresh launch";
+  }
 }
 
 }  // namespace triptych::judge

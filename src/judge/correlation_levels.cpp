@@ -183,8 +183,10 @@ std::vector<LevelEffect> level_effects(std::span<const CorrelationCase> all,
   for (std::size_t i = 0; i < groups.size(); ++i) {
     LevelEffect& level = groups[i].named;
     level.q = q[i];
-    level.slower = q[i] <= Model::share_of_false_alarms;
-    level.standing = level.slower && stood_before(cases, groups[i]);
+    const bool worth_telling = level.effect >= std::log(Model::least_level_effect);
+    level.slower = worth_telling && q[i] <= Model::share_of_false_alarms;
+    level.suspected = worth_telling && q[i] <= Model::share_of_false_suspects;
+    level.standing = level.suspected && stood_before(cases, groups[i]);
     level.smallest_effect =
         level.standard_error *
         detectable_in_errors(groups.size(), static_cast<double>(cases.size() - parameters));

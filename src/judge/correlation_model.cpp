@@ -77,25 +77,33 @@ std::vector<std::string> refusals_of(const RobustLine& fit, double rho) {
   return refusals;
 }
 
+// What B's times changed by since it was accepted, in the median; nullopt where it never was.
+std::optional<double> change_since_acceptance(std::span<const CorrelationCase> cases,
+                                              bool of_anchors) {
+  std::vector<double> changes;
+  for (const CorrelationCase& each : cases) {
+    if (each.anchor != of_anchors || !each.known_log_time_b) continue;
+    changes.push_back(each.log_time_b - *each.known_log_time_b);
+  }
+  if (changes.empty()) return std::nullopt;
+  return median(changes);
+}
+
 // The line that B's times had when it was accepted, with today's residuals from it; nullopt where a
 // case was not accepted or that line cannot judge either.
 std::optional<RobustLine> line_of_acceptance(std::span<const CorrelationCase> cases) {
   Times known;
   Times now;
-  std::vector<double> shifts;
   for (const CorrelationCase& each : cases) {
     if (!each.known_log_time_b) return std::nullopt;
-    if (each.anchor) {
-      shifts.push_back(each.log_time_b - *each.known_log_time_b);
-      continue;
-    }
+    if (each.anchor) continue;
     known.a.push_back(each.log_time_a);
     known.b.push_back(*each.known_log_time_b);
     now.b.push_back(each.log_time_b);
   }
   RobustLine fit = robust_line(known.a, known.b);
   if (!refusals_of(fit, pearson_r(known.a, known.b)).empty()) return std::nullopt;
-  fit.line.intercept += median(shifts);
+  fit.line.intercept += change_since_acceptance(cases, true).value_or(0);
   for (std::size_t i = 0; i < now.b.size(); ++i) {
     fit.residuals[i] = now.b[i] - fit.line.at(known.a[i]);
   }
@@ -104,11 +112,6 @@ std::optional<RobustLine> line_of_acceptance(std::span<const CorrelationCase> ca
 
 double square(double value) {
   return value * value;
-}
-
-// By how much more than when B was accepted; the residual itself where that is not known.
-double excess(const CorrelationCase& each, double residual) {
-  return each.known_log_time_b ? each.log_time_b - *each.known_log_time_b : residual;
 }
 
 bool is_worth_telling(double effect) {
@@ -141,12 +144,17 @@ double typical_scatter(std::span<const CorrelationCase> cases) {
   return median(variances);
 }
 
-void judge_configurations(std::span<const CorrelationCase> cases, const RobustLine& fit,
-                          Correlation& result) {
-  const auto degrees = static_cast<double>(result.configurations - 2);
-  std::vector<double> slower;
+// z and p; what is left is what they mean together.
+struct Tested {
+  std::vector<double> slower;  // p, of configurations alone
   std::vector<double> faster;
   std::vector<double> errors;
+};
+
+Tested test_configurations(std::span<const CorrelationCase> cases, const RobustLine& fit,
+                           Correlation& result) {
+  const auto degrees = static_cast<double>(result.configurations - 2);
+  Tested tested;
   const double typical = typical_scatter(cases);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (cases[i].anchor) continue;
@@ -155,31 +163,45 @@ void judge_configurations(std::span<const CorrelationCase> cases, const RobustLi
     more.variance = std::max(more.variance - typical, 0.0);
     const KnownVariance of_line{square(fit.scale) * (1 + judgement.leverage), degrees};
     const KnownVariance whole = of_line + more;
-    errors.push_back(std::sqrt(whole.variance));
+    tested.errors.push_back(std::sqrt(whole.variance));
     judgement.z = whole.variance > 0
-                      ? judgement.residual / errors.back()
+                      ? judgement.residual / tested.errors.back()
                       : std::copysign(judgement.residual == 0 ? 0 : infinite, judgement.residual);
     const double freedom = std::min(whole.degrees, degrees);
     judgement.p = student_t_upper_tail(judgement.z, freedom);
-    slower.push_back(judgement.p);
-    faster.push_back(student_t_upper_tail(-judgement.z, freedom));
+    tested.slower.push_back(judgement.p);
+    tested.faster.push_back(student_t_upper_tail(-judgement.z, freedom));
   }
-  const auto slower_q = benjamini_hochberg_adjusted(slower);
-  const auto faster_q = benjamini_hochberg_adjusted(faster);
+  return tested;
+}
+
+void judge_configurations(std::span<const CorrelationCase> cases, const RobustLine& fit,
+                          Correlation& result) {
+  const Tested tested = test_configurations(cases, fit, result);
+  const auto slower_q = benjamini_hochberg_adjusted(tested.slower);
+  const auto faster_q = benjamini_hochberg_adjusted(tested.faster);
+  const auto device = change_since_acceptance(cases, result.line_of_acceptance);
+  const double least = std::log(Model::least_configuration_effect);
   std::size_t next = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (cases[i].anchor) continue;
     ConfigurationJudgement& judgement = result.judgements[i];
     judgement.q = slower_q[next];
-    judgement.slower =
-        judgement.q <= Model::share_of_false_alarms && is_worth_telling(judgement.residual);
+    judgement.slower = judgement.q <= Model::share_of_false_alarms && judgement.residual >= least;
     judgement.faster =
-        faster_q[next] <= Model::share_of_false_alarms && is_worth_telling(-judgement.residual);
-    judgement.standing =
-        judgement.slower && !is_worth_telling(excess(cases[i], judgement.residual));
+        faster_q[next] <= Model::share_of_false_alarms && -judgement.residual >= least;
+    judgement.suspected =
+        judgement.q <= Model::share_of_false_suspects && is_worth_telling(judgement.residual);
+    // Beside a change of the device; the line that today's times have takes that of the program
+    // too.
+    const auto known = cases[i].known_log_time_b;
+    judgement.standing = judgement.suspected && known && device &&
+                         !is_worth_telling(cases[i].log_time_b - *known - *device);
     ++next;
   }
-  result.smallest_effect = median(errors) * detectable_in_errors(result.configurations, degrees);
+  const auto degrees = static_cast<double>(result.configurations - 2);
+  result.smallest_effect =
+      std::max(least, median(tested.errors) * detectable_in_errors(tested.errors.size(), degrees));
 }
 
 // The mean of y − βx by technique, or of each anchor where all have one technique.
@@ -199,16 +221,12 @@ std::vector<double> anchor_groups(std::span<const CorrelationCase> cases, double
   return means;
 }
 
-// Mean excess of the program over that of the anchors; nullopt where B was never accepted.
+// By how much more the program changed than the anchors; nullopt where B was never accepted.
 std::optional<double> global_excess(std::span<const CorrelationCase> cases) {
-  std::vector<double> program;
-  std::vector<double> anchors;
-  for (const CorrelationCase& each : cases) {
-    if (!each.known_log_time_b) continue;
-    (each.anchor ? anchors : program).push_back(each.log_time_b - *each.known_log_time_b);
-  }
-  if (program.empty() || anchors.empty()) return std::nullopt;
-  return median(program) - median(anchors);
+  const auto program = change_since_acceptance(cases, false);
+  const auto anchors = change_since_acceptance(cases, true);
+  if (!program || !anchors) return std::nullopt;
+  return *program - *anchors;
 }
 
 void judge_all(std::span<const CorrelationCase> cases, const RobustLine& fit, Correlation& result) {
@@ -235,7 +253,8 @@ void judge_all(std::span<const CorrelationCase> cases, const RobustLine& fit, Co
                     student_t_upper_quantile(1 - Model::power, global.degrees)));
   global.slower = global.p <= Model::false_global_alarms && is_worth_telling(global.delta);
   const auto more = global_excess(cases);
-  global.standing = global.slower && more && !is_worth_telling(*more);
+  global.suspected = global.p <= Model::false_global_suspects && is_worth_telling(global.delta);
+  global.standing = global.suspected && more && !is_worth_telling(*more);
 }
 
 // Residuals and leverages of all cases; anchors have none of the latter.

@@ -57,8 +57,15 @@ struct CorrelationModel {
   static constexpr double largest_scale = 0.10;  // ŝ, in ln t
 
   static constexpr double share_of_false_alarms = 0.02;  // q of Benjamini–Hochberg
-  static constexpr double least_effect = 1.10;           // of a configuration, a level or all
-  static constexpr double false_global_alarms = 0.01;    // one test, so no q
+  static constexpr double least_effect = 1.10;           // of a level or of all, to be a regression
+  // What a level is told from on: below, it is how devices are made.
+  static constexpr double least_level_effect = 1.04;
+  // Of one configuration: two devices' character differs by up to that much here and there.
+  static constexpr double least_configuration_effect = 1.15;
+  static constexpr double false_global_alarms = 0.01;  // one test, so no q
+  // What another launch should settle (judge/confirmation.hpp): one suspect in five may be chance.
+  static constexpr double share_of_false_suspects = 0.2;
+  static constexpr double false_global_suspects = 0.05;
   static constexpr std::size_t least_level = 3;  // configurations inside a level, and outside
   static constexpr double power = 0.80;          // of the smallest effects that are told
 };
@@ -67,8 +74,8 @@ struct CorrelationCase {
   std::string configuration;
   std::map<std::string, std::string> factors;  // all of them; "technique" groups anchors
   bool anchor = false;
-  double log_time_a = 0;                                       // mean ln t of the stored runs
-  double variance_a = 0;                                       // of that mean
+  double log_time_a = 0;                                       // median ln t of the stored runs
+  double variance_a = 0;                                       // of that median
   double degrees_a = std::numeric_limits<double>::infinity();  // that its variance is known with
   double log_time_b = 0;
   double variance_b = 0;
@@ -86,8 +93,9 @@ struct ConfigurationJudgement {
   double q = 1;  // p after Benjamini–Hochberg over the configurations
   bool slower = false;
   bool faster = false;
-  bool standing = false;  // slower, but hardly more than when B was accepted
-  double share = 0;       // of the residuals' sum of squares that this configuration explains
+  bool suspected = false;  // slower, or it may be
+  bool standing = false;   // suspected, but hardly more than when B was accepted
+  double share = 0;        // of the residuals' sum of squares that this configuration explains
 };
 
 struct LevelEffect {
@@ -101,7 +109,8 @@ struct LevelEffect {
   double q = 1;
   double smallest_effect = 0;  // that would have been found with probability `power`
   double share = 0;            // as of a configuration
-  bool slower = false;         // significantly
+  bool slower = false;
+  bool suspected = false;
   bool standing = false;
 };
 
@@ -113,6 +122,7 @@ struct GlobalShift {
   double p = 1;  // slower
   double smallest_effect = std::numeric_limits<double>::infinity();
   bool slower = false;
+  bool suspected = false;
   bool standing = false;
 };
 
@@ -135,6 +145,10 @@ struct Correlation {
   std::vector<LevelEffect> levels;                 // slower ones first, by share
   GlobalShift global;
   [[nodiscard]] bool admitted() const { return refusals.empty(); }
+  // ŝ is all that is wrong: quieter times might do.
+  [[nodiscard]] bool refused_for_scatter() const {
+    return refusals.size() == 1 && !(scale <= CorrelationModel::largest_scale);
+  }
 };
 
 [[nodiscard]] Correlation correlate(std::span<const CorrelationCase> cases);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "judge/anchor.hpp"
@@ -12,8 +11,6 @@
 
 namespace triptych::judge {
 namespace {
-
-constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 
 using Stored = std::map<std::string, std::vector<StoredTiming>>;
 
@@ -35,9 +32,15 @@ std::string_view common_clock(const record::Record& a, const record::Record& b) 
   return a.clock() == b.clock() ? a.clock() : "wall";
 }
 
+// Of one run, of what several scatter by: a slow minute of one is no measure of the others, and the
+// launch that settles what it says is quieter.
+double variance_between(const std::vector<double>& logarithms) {
+  constexpr double least = 1e-12;  // a clock's steps make runs identical
+  return std::max(robust_variance(logarithms), least);
+}
+
 // Scatter between a device's runs, over all configurations that have several.
 VariancePrior scatter_between_runs(const Stored& stored) {
-  constexpr double least = 1e-12;  // a clock's steps make runs identical
   std::vector<double> variances;
   std::vector<double> degrees;
   for (const auto& [configuration, runs] : stored) {
@@ -46,8 +49,8 @@ VariancePrior scatter_between_runs(const Stored& stored) {
       if (timing.clock == runs.back().clock) logarithms.push_back(std::log(timing.median_ns));
     }
     if (logarithms.size() < 2) continue;
-    variances.push_back(std::max(sample_variance(logarithms), least));
-    degrees.push_back(static_cast<double>(logarithms.size() - 1));
+    variances.push_back(variance_between(logarithms));
+    degrees.push_back(robust_degrees(logarithms.size()));
   }
   return fit_variance_prior(variances, degrees);
 }
@@ -62,14 +65,14 @@ struct RunVariance {
 RunVariance variance_of_a_run(const VariancePrior& prior, const std::vector<double>& runs) {
   // As well known as another configuration's lets expect; from a single one alone, hardly at all.
   if (runs.size() < 2) return {prior.variance, prior.degrees > 0 ? prior.degrees : 1};
-  const auto degrees = static_cast<double>(runs.size() - 1);
-  return {moderated_variance(prior, sample_variance(runs), degrees), prior.degrees + degrees};
+  const double degrees = robust_degrees(runs.size());
+  return {moderated_variance(prior, variance_between(runs), degrees), prior.degrees + degrees};
 }
 
-// Of ln median of one run's frames: π/2 times that of a mean of as many, by their own scatter.
+// Of ln median of one run's frames, by their own scatter.
 double variance_within(const std::vector<double>& samples) {
   const double scale = normal_mad * median_absolute_deviation(samples) / median(samples);
-  return std::numbers::pi / 2 * scale * scale / static_cast<double>(samples.size());
+  return variance_of_median_to_mean * scale * scale / static_cast<double>(samples.size());
 }
 
 double log_median(const record::Record& record, std::string_view clock) {
@@ -104,7 +107,7 @@ class Pairs {
       }
     }
     if (view.request.plan == anchors_plan) return;
-    if (const auto run = anchors_beside(view)) anchors_ = anchors_of(view, *run);
+    anchors_ = anchors_of(view);
     for (const record::Record& anchor : anchors_) records_[anchor.device].push_back(&anchor);
   }
 
@@ -157,9 +160,10 @@ class Pairs {
         continue;
       }
       CorrelationCase each = case_of(*record, clock);
-      each.log_time_a = mean(runs_a);
+      each.log_time_a = median(runs_a);
       const RunVariance of_a_run = variance_of_a_run(scatter_a, runs_a);
-      each.variance_a = of_a_run.variance / static_cast<double>(runs_a.size());
+      each.variance_a =
+          variance_of_median_to_mean * of_a_run.variance / static_cast<double>(runs_a.size());
       each.degrees_a = of_a_run.degrees;
       if (!each.anchor) {
         pair.stored_runs =
@@ -168,7 +172,7 @@ class Pairs {
       // A run that was accepted is what was accepted, but others are better witnesses of it.
       auto runs_b = runs_by(clock, of_b, record->configuration, record->run);
       if (runs_b.empty()) runs_b = runs_by(clock, of_b, record->configuration);
-      if (!runs_b.empty()) each.known_log_time_b = mean(runs_b);
+      if (!runs_b.empty()) each.known_log_time_b = median(runs_b);
       // A launch scatters more than its frames; unknown of B, it is taken as A's.
       const RunVariance of_b_run =
           scatter_b.variance > 0 ? variance_of_a_run(scatter_b, runs_b) : of_a_run;

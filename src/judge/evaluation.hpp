@@ -54,7 +54,7 @@ struct TrialKind {
   std::string subject;  // a device, or "B by A"
   Spread spread = Spread::none;
   double percent = 0;  // planted
-  // What is called slower was so in a second run too, as under CTest; else one run says it.
+  // Two launches say it where one was in doubt, as under CTest; else one.
   bool confirmed = false;
   auto operator<=>(const TrialKind&) const = default;
 };

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <optional>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "judge/anchor.hpp"
@@ -142,12 +141,9 @@ std::vector<RunPool> pool_runs(const record::Store& store) {
 }
 
 TrialStore::TrialStore(const RunPool& pool, std::size_t number, const std::filesystem::path& file)
-    : run_(pool.unplanted.at(number)),
-      plan_(pool.plan),
-      number_(number),
-      store_(file, record::Store::Mode::append) {
+    : run_(pool.unplanted.at(number)), number_(number), store_(file, record::Store::Mode::append) {
   add_copy(run_, std::string(anchors_plan), anchors_id(number), run_.anchors, {}, store_);
-  add_copy(run_, plan_, run_id(number), run_.records, {}, store_);
+  add_copy(run_, pool.plan, run_id(number), run_.records, {}, store_);
 }
 
 void TrialStore::put(const std::vector<record::Record>& records) {
@@ -157,38 +153,37 @@ void TrialStore::put(const std::vector<record::Record>& records) {
   }
 }
 
-GateResult TrialStore::judge(const std::vector<record::Record>& changed, const Baselines& baselines,
-                             const std::set<Check>& checks,
-                             const std::vector<std::string>& devices) {
+void TrialStore::exchange(const std::vector<record::Record>& changed) {
   put(changed);
-  const GateRequest request{.plan = plan_,
-                            .checks = checks,
-                            .devices = devices,
-                            .required_devices = {},
-                            .truth = {},
-                            .today = "1970-01-01"};
-  GateResult result = judge_run(store_, run_id(number_), baselines, request);
-  std::set<std::tuple<std::string, std::string, std::string>> touched;
-  for (const auto& each : changed) touched.emplace(each.plan, each.configuration, each.device);
+  for (const auto& each : changed) {
+    exchanged_.emplace(each.plan, each.configuration, each.device);
+  }
+}
+
+void TrialStore::restore() {
   std::vector<record::Record> original;
   for (const auto* records : {&run_.records, &run_.anchors}) {
     std::ranges::copy_if(*records, std::back_inserter(original), [&](const record::Record& each) {
-      return touched.contains({each.plan, each.configuration, each.device});
+      return exchanged_.contains({each.plan, each.configuration, each.device});
     });
   }
   put(original);
-  return result;
+  exchanged_.clear();
 }
 
-TrialHistory::TrialHistory(const RunPool& pool, std::size_t left_out,
+Launch TrialStore::launch() const {
+  return {&store_, run_id(number_)};
+}
+
+TrialHistory::TrialHistory(const RunPool& pool, const std::set<std::size_t>& left_out,
                            const std::filesystem::path& folder) {
   std::vector<std::string> known{""};
-  for (const auto& entry : pool.unplanted.at(left_out).devices) known.push_back(entry.device.id);
+  for (const auto& entry : pool.unplanted.front().devices) known.push_back(entry.device.id);
   for (std::size_t which = 0; which < known.size(); ++which) {
     const std::filesystem::path root = folder / std::to_string(which);
     record::Store history(folder / fmt::format("{}.sqlite", which), record::Store::Mode::append);
     for (std::size_t i = 0; i < pool.unplanted.size(); ++i) {
-      if (i == left_out) continue;
+      if (left_out.contains(i)) continue;
       const PooledRun& run = pool.unplanted[i];
       add_copy(run, pool.plan, run_id(i), run.records, known[which], history);
       accept_copy(history, run_id(i), pool.plan, root);

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "judge/gate.hpp"
@@ -34,33 +35,35 @@ struct RunPool {
 // one slowdown everywhere.
 [[nodiscard]] std::vector<RunPool> pool_runs(const record::Store& store);
 
-// One unplanted run with its anchors in a store of its own, where records can be exchanged.
+// One unplanted run with its anchors in a store of its own, where records can be exchanged for the
+// time of a trial.
 class TrialStore {
  public:
   // `number`: of the run in the pool, which must live as long. `file` must not be there, and stay.
   TrialStore(const RunPool& pool, std::size_t number, const std::filesystem::path& file);
 
-  // Judges the run with these records instead of those of the same plan, configuration and device.
-  // `devices`: as in GateRequest.
-  [[nodiscard]] GateResult judge(const std::vector<record::Record>& changed,
-                                 const Baselines& baselines, const std::set<Check>& checks,
-                                 const std::vector<std::string>& devices);
+  // Holds these records instead of those of the same plan, configuration and device until
+  // restore().
+  void exchange(const std::vector<record::Record>& changed);
+  void restore();
+
+  [[nodiscard]] Launch launch() const;
 
  private:
   void put(const std::vector<record::Record>& records);
 
   const PooledRun& run_;
-  std::string plan_;
   std::size_t number_;
   record::Store store_;
+  std::set<std::tuple<std::string, std::string, std::string>> exchanged_;
 };
 
-// What the ordinary accept makes of all unplanted runs but one. Each is stored under the id that
-// its TrialStore gives it, so that the gate does not take it for a witness about itself.
+// What the ordinary accept makes of all unplanted runs but those that are judged.
 class TrialHistory {
  public:
-  // Keeps its files in `folder`, which must be empty and stay. `pool` must have two unplanted runs.
-  TrialHistory(const RunPool& pool, std::size_t left_out, const std::filesystem::path& folder);
+  // Keeps its files in `folder`, which must be empty and stay. One unplanted run must be left.
+  TrialHistory(const RunPool& pool, const std::set<std::size_t>& left_out,
+               const std::filesystem::path& folder);
 
   // By the device whose runs are stored, "" for all devices'.
   [[nodiscard]] const Baselines& of(const std::string& device) const {

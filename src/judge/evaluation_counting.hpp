@@ -18,7 +18,7 @@ struct Trial {
   std::pair<std::string, std::string> level = {};              // factor, level; Spread::level only
   double cost = 0;         // of what is planted, measured: see Tally
   bool more_work = false;  // Spread::configuration only: else more time for the same work
-  bool confirmed = false;  // the result is what a second run left of it: see TrialKind
+  bool confirmed = false;  // the result is that of two launches: see TrialKind
 };
 
 [[nodiscard]] std::set<std::pair<std::string, std::string>> names_of(

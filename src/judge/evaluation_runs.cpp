@@ -1,6 +1,7 @@
 #include "judge/evaluation_runs.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,6 @@
 
 #include "core/json.hpp"
 #include "judge/anchor.hpp"
-#include "judge/confirmation.hpp"
 #include "judge/correlation_pairs.hpp"
 #include "judge/evaluation_counting.hpp"
 #include "judge/statistics.hpp"
@@ -113,23 +113,34 @@ class Trials {
   }
 
  private:
-  [[nodiscard]] const TrialHistory& history(std::size_t left_out) {
+  [[nodiscard]] const TrialHistory& history(const std::set<std::size_t>& left_out) {
     auto& known = histories_[left_out];
     if (!known) {
-      const auto folder = folder_ / fmt::format("without-{}", left_out);
+      const auto folder = folder_ / fmt::format("without-{}", fmt::join(left_out, "-"));
       std::filesystem::create_directories(folder);
       known = std::make_unique<TrialHistory>(pool_, left_out, folder);
     }
     return *known;
   }
 
-  [[nodiscard]] TrialStore& store(std::size_t number) {
-    auto& known = stores_[number];
+  // Both launches of a trial may be made of the same run.
+  [[nodiscard]] TrialStore& store(std::size_t run, std::size_t launch) {
+    auto& known = stores_[{run, launch}];
     if (!known) {
-      known =
-          std::make_unique<TrialStore>(pool_, number, folder_ / fmt::format("{}.sqlite", number));
+      known = std::make_unique<TrialStore>(pool_, run,
+                                           folder_ / fmt::format("{}-{}.sqlite", run, launch));
     }
     return *known;
+  }
+
+  [[nodiscard]] GateRequest request(const std::set<Check>& checks,
+                                    const std::vector<std::string>& devices) const {
+    return {.plan = pool_.plan,
+            .checks = checks,
+            .devices = devices,
+            .required_devices = {},
+            .truth = {},
+            .today = "1970-01-01"};
   }
 
   // Levels that the correlation judges, one name for several with the same configurations.
@@ -150,46 +161,70 @@ class Trials {
     configurations_.assign(all.begin(), all.end());
   }
 
+  // Two launches and what is stored of the other runs.
+  struct Launches {
+    Launch first;
+    std::optional<Launch> second;
+    const TrialHistory& stored;
+  };
+
+  void judge(const Trial& trial, const Attempt& first, const std::optional<Attempt>& second,
+             const std::vector<std::string>& devices) {
+    // Enough are left to judge by.
+    const bool both = second && pool_.unplanted.size() >= TimingModel::least_runs + 2;
+    std::set<std::size_t> judged{first.run};
+    TrialStore& one = store(first.run, 0);
+    one.exchange(first.changed);
+    if (!both) {
+      judge_by_all(trial, {one.launch(), std::nullopt, history(judged)}, devices);
+    } else {
+      judged.insert(second->run);
+      TrialStore& two = store(second->run, 1);
+      two.exchange(second->changed);
+      judge_by_all(trial, {one.launch(), two.launch(), history(judged)}, devices);
+      two.restore();
+    }
+    one.restore();
+  }
+
   // The gates of one trial: by all devices' baselines and, for a device that is not known yet, by
   // each other one's alone.
-  void judge(Trial trial, const Attempt& first, const std::optional<Attempt>& second,
-             const std::vector<std::string>& devices) {
+  void judge_by_all(const Trial& trial, const Launches& launches,
+                    const std::vector<std::string>& devices) {
     const std::vector<std::string>& judged = devices.empty() ? devices_ : devices;
-    const auto count_all = [&](const GateResult& result) {
-      if (options_.history) count_history(pool_.plan, result, trial, judged, tallies_);
-      count_correlations(pool_.plan, "correlation, accepted device", result, trial, tallies_);
-    };
-    judge_by("", checks_, trial, first, second, devices, count_all);
+    judge_by("", launches, request(checks_, devices), trial,
+             [&](const GateResult& result, const Trial& counted) {
+               if (options_.history) count_history(pool_.plan, result, counted, judged, tallies_);
+               count_correlations(pool_.plan, "correlation, accepted device", result, counted,
+                                  tallies_);
+             });
     if (!options_.correlation) return;
     std::set<std::string> others(devices_.begin(), devices_.end());
     if (judged.size() == 1) others.erase(judged.front());
-    const auto count_new = [&](const GateResult& result) {
-      count_correlations(pool_.plan, "correlation, new device", result, trial, tallies_);
-    };
     for (const std::string& other : others) {
-      judge_by(other, {Check::correlation}, trial, first, second, devices, count_new);
+      judge_by(other, launches, request({Check::correlation}, devices), trial,
+               [&](const GateResult& result, const Trial& counted) {
+                 count_correlations(pool_.plan, "correlation, new device", result, counted,
+                                    tallies_);
+               });
     }
   }
 
-  // By one run, then with what a second one confirms, where there is one. Both by the baselines
-  // that the first is not part of; the second is then no witness about itself.
-  void judge_by(const std::string& known, const std::set<Check>& checks, Trial& trial,
-                const Attempt& first, const std::optional<Attempt>& second,
-                const std::vector<std::string>& devices,
-                const std::function<void(const GateResult&)>& count) {
-    const Baselines& baselines = history(first.run).of(known);
-    GateResult result = store(first.run).judge(first.changed, baselines, checks, devices);
+  // By the first launch, then, where there is a second, by what both say of devices in doubt.
+  static void judge_by(const std::string& known, const Launches& launches,
+                       const GateRequest& request, Trial trial,
+                       const std::function<void(const GateResult&, const Trial&)>& count) {
+    const Baselines& baselines = launches.stored.of(known);
+    GateResult result = judge_launches(launches.first, {}, baselines, request);
     trial.confirmed = false;
-    count(result);
-    // The first is left out of the history, and the second is no witness about itself.
-    const bool enough = pool_.unplanted.size() >= TimingModel::least_runs + 2;
-    if (!second || !enough) return;
-    if (names_suspects(result)) {
-      take_back_unconfirmed(result,
-                            store(second->run).judge(second->changed, baselines, checks, devices));
+    count(result, trial);
+    if (!launches.second) return;
+    if (!result.in_doubt.empty()) {
+      const Launch again{launches.second->store, launches.second->run, result.in_doubt};
+      result = judge_launches(launches.first, {&again, 1}, baselines, request);
     }
     trial.confirmed = true;
-    count(result);
+    count(result, trial);
   }
 
   // The run measured next; after the last, the one before it.
@@ -248,7 +283,8 @@ class Trials {
 
   void ask_again(std::size_t base) {
     const auto verdict = [&] {
-      return to_json(store(base).judge({}, history(base).of(""), checks_, {}));
+      return to_json(judge_launches(store(base, 0).launch(), {}, history({base}).of(""),
+                                    request(checks_, {})));
     };
     tallies_[{"gate", pool_.plan, "all devices"}].same_bytes.count(verdict().dump() ==
                                                                    verdict().dump());
@@ -277,7 +313,7 @@ class Trials {
     if (trial.planted.empty()) return;
     std::optional<Attempt> second;
     if (const PooledRun* other = neighbour(run)) second = {other->before, planted(*other)};
-    judge(std::move(trial), first, second, devices);
+    judge(trial, first, second, devices);
   }
 
   [[nodiscard]] double cost_in(const PooledRun& run, const std::vector<Record>& planted) const {
@@ -366,8 +402,9 @@ class Trials {
   std::vector<std::string> devices_;
   std::vector<std::string> configurations_;
   std::vector<Level> levels_;
-  std::map<std::size_t, std::unique_ptr<TrialHistory>> histories_;  // by the run left out
-  std::map<std::size_t, std::unique_ptr<TrialStore>> stores_;       // by the run
+  std::map<std::set<std::size_t>, std::unique_ptr<TrialHistory>> histories_;  // by what is left out
+  std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<TrialStore>>
+      stores_;  // by run and launch
   Tallies tallies_;
 };
 

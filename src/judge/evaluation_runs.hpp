@@ -26,11 +26,11 @@ struct RunTrials {
 //   raised by what was planted, else they are the unplanted ones: more work, or more time for the
 //   same work.
 // - one API, everything: all records, and the anchors measured with them.
-// What is called slower is then held against a second run, as under CTest: the unplanted run
+// Devices in doubt are then judged by a second launch as well, as under CTest: the unplanted run
 // measured next, or the same made of the next planted run of that size; of the last, of the one
-// before it. A store with one planted run of a size has no second one: nothing of it is counted as
-// confirmed; nor where fewer than TimingModel::least_runs are left to judge the second by. No trial
-// is made twice. `folder` must be empty; it is for files. Deterministic in the pool and the seed. A
+// before it. Neither is among the runs that they are judged by. A store with one planted run of a
+// size has no second one: nothing of it is counted as confirmed; nor where fewer than
+// TimingModel::least_runs would be left. No trial is made twice. `folder` must be empty; it is for files. Deterministic in the pool and the seed. A
 // pool of fewer than two unplanted runs gives nothing.
 [[nodiscard]] Tallies evaluate_runs(const RunPool& pool, const RunTrials& trials,
                                     const std::filesystem::path& folder);

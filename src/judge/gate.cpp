@@ -28,9 +28,10 @@ bool other_data(const Baselines& baselines, const record::Record& record) {
   return !accepted.empty() && accepted != record.data_hash;
 }
 
+// `again`: launches whose times count as well.
 RunView view_of(const record::Store& store, const std::string& run, const Baselines& baselines,
-                const GateRequest& request) {
-  RunView view{store, baselines, request, request.checks, {}, {}, {}, {}};
+                const GateRequest& request, std::vector<Launch> again = {}) {
+  RunView view{store, baselines, request, request.checks, std::move(again), {}, {}, {}, {}};
   if (view.checks.empty()) {
     view.checks = {Check::image,  Check::counters,    Check::statistics,
                    Check::timing, Check::correlation, Check::accuracy};
@@ -47,6 +48,9 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
     unknown.id = record.device;
     view.devices.try_emplace(record.device, unknown);
     view.records.push_back(std::move(record));
+  }
+  for (const Launch& launch : view.again) {
+    join_launches(view.records, launch.store->records(launch.run), *launch.devices);
   }
   for (const record::Record& record : view.records) {
     if (record.outcome != record::Outcome::measured) continue;
@@ -153,16 +157,16 @@ void append(std::vector<Finding>& findings, std::vector<Finding> more) {
   std::ranges::move(more, std::back_inserter(findings));
 }
 
-// A wrong picture voids its time, so pictures are judged for the timing check too.
-void run_checks(const RunView& view, GateResult& result) {
+bool judges_times(const RunView& view) {
+  return view.baselines.present() && std::ranges::any_of(view.checks, is_of_times);
+}
+
+// All but times. A wrong picture voids its time, so pictures are judged for those too.
+WrongImages run_checks_but_of_times(const RunView& view, GateResult& result) {
   std::vector<Finding>& findings = result.findings;
   ImageFindings images;
   const bool wants_images = view.checks.contains(Check::image);
-  const bool wants_timings = view.checks.contains(Check::timing) && view.baselines.present();
-  const bool wants_correlations =
-      view.checks.contains(Check::correlation) && view.baselines.present();
-  if (wants_images || ((wants_timings || wants_correlations) && view.request.truth))
-    images = check_images(view);
+  if (wants_images || (judges_times(view) && view.request.truth)) images = check_images(view);
   if (wants_images) append(findings, std::move(images.findings));
   if (view.checks.contains(Check::accuracy)) {
     AccuracyFindings accuracies = check_accuracies(view);
@@ -170,15 +174,32 @@ void run_checks(const RunView& view, GateResult& result) {
     result.accuracies = std::move(accuracies.scenes);
   }
   if (view.checks.contains(Check::stress)) append(findings, check_stress(view));
-  if (!view.baselines.present()) return;
+  if (!view.baselines.present()) return std::move(images.wrong);
   if (view.checks.contains(Check::counters)) append(findings, check_counters(view));
   if (view.checks.contains(Check::statistics)) append(findings, check_statistics(view));
-  if (wants_timings) append(findings, check_timings(view, images.wrong));
-  if (wants_correlations) {
-    CorrelationFindings correlations = check_correlations(view, images.wrong);
-    append(findings, std::move(correlations.findings));
+  return std::move(images.wrong);
+}
+
+GateResult judge_times(const RunView& view, const WrongImages& wrong) {
+  GateResult result{.plan = view.request.plan, .run = {}, .findings = {}};
+  if (view.checks.contains(Check::timing)) result.findings = check_timings(view, wrong);
+  if (view.checks.contains(Check::correlation)) {
+    CorrelationFindings correlations = check_correlations(view, wrong);
+    append(result.findings, std::move(correlations.findings));
     result.correlations = std::move(correlations.pairs);
   }
+  for (const Launch& launch : view.again) {
+    result.measured_again.insert(launch.devices->begin(), launch.devices->end());
+  }
+  return result;
+}
+
+// Of the launches those that measured something, each with what it measured wholly.
+std::vector<Launch> whole_launches(const RunView& view, std::span<const Launch> again) {
+  std::vector<Launch> whole(again.begin(), again.end());
+  for (Launch& launch : whole) launch.devices = measured_again(view.records, launch);
+  std::erase_if(whole, [](const Launch& launch) { return launch.devices->empty(); });
+  return whole;
 }
 
 int rank(Verdict verdict) {
@@ -201,53 +222,15 @@ int rank(Verdict verdict) {
   return 6;
 }
 
-// By its own records, with nothing waived.
-GateResult judge_alone(const RunView& view, const std::string& run) {
-  GateResult result{.plan = view.request.plan, .run = run, .findings = {}};
+void report_what_is_there(const RunView& view, GateResult& result) {
   for (const record::Record* record : view.measured) result.devices.insert(record->device);
-  report_nothing_measured(view, run, result.findings);
+  report_nothing_measured(view, result.run, result.findings);
   report_outcomes(view, result.findings);
   if (view.baselines.present()) {
     report_missing_rows(view, result.findings);
     report_other_data(view, result.findings);
   } else {
     report_no_baselines(view, result.findings);
-  }
-  run_checks(view, result);
-  return result;
-}
-
-// The devices that measured in `again` all that they did here: after half of it, a slowdown that is
-// missed may not have been measured.
-std::set<std::string> measured_again(const RunView& view, const RunView& again) {
-  std::set<std::pair<std::string, std::string>> there;
-  for (const record::Record* record : again.measured) {
-    there.emplace(record->device, record->configuration);
-  }
-  std::set<std::string> devices;
-  for (const record::Record* record : view.measured) devices.insert(record->device);
-  for (const record::Record* record : view.measured) {
-    if (!there.contains({record->device, record->configuration})) devices.erase(record->device);
-  }
-  return devices;
-}
-
-// The runs that measured this one's suspects again, by the same baselines.
-void hold_against_fresh_launches(const RunView& view, GateResult& result) {
-  GateRequest request = view.request;
-  request.required_devices.clear();
-  request.checks.clear();
-  for (const Check check : view.checks) {
-    if (is_of_times(check)) request.checks.insert(check);
-  }
-  if (request.checks.empty()) return;
-  for (const record::Run& run : view.store.runs()) {
-    if (run.confirms != result.run) continue;
-    const RunView again = view_of(view.store, run.id, view.baselines, request);
-    GateResult fresh = judge_alone(again, run.id);
-    fresh.devices = measured_again(view, again);
-    take_back_unconfirmed(result, fresh);
-    result.measured_again.merge(fresh.devices);
   }
 }
 
@@ -271,14 +254,38 @@ void sort_findings(std::vector<Finding>& findings) {
   std::ranges::stable_sort(findings, {}, key);
 }
 
-GateResult judge_run(const record::Store& store, const std::string& run, const Baselines& baselines,
-                     const GateRequest& request) {
-  const RunView view = view_of(store, run, baselines, request);
-  GateResult result = judge_alone(view, run);
-  hold_against_fresh_launches(view, result);
+GateResult judge_launches(const Launch& first, std::span<const Launch> again,
+                          const Baselines& baselines, const GateRequest& request) {
+  const RunView view = view_of(*first.store, first.run, baselines, request);
+  GateResult result{.plan = request.plan, .run = first.run, .findings = {}};
+  report_what_is_there(view, result);
+  const WrongImages wrong = run_checks_but_of_times(view, result);
+  if (judges_times(view)) {
+    GateResult times = judge_times(view, wrong);
+    std::vector<Launch> launches = whole_launches(view, again);
+    if (!launches.empty()) {
+      const GateResult alone = std::exchange(
+          times,
+          judge_times(view_of(*first.store, first.run, baselines, request, launches), wrong));
+      tell_what_was_taken_back(alone, times);
+    }
+    result.in_doubt = devices_in_doubt(times);
+    result.measured_again = std::move(times.measured_again);
+    result.correlations = std::move(times.correlations);
+    append(result.findings, std::move(times.findings));
+  }
   apply_waivers(view, result.findings);
   sort_findings(result.findings);
   return result;
+}
+
+GateResult judge_run(const record::Store& store, const std::string& run, const Baselines& baselines,
+                     const GateRequest& request) {
+  std::vector<Launch> again;
+  for (const record::Run& each : store.runs()) {
+    if (each.confirms == run) again.push_back({&store, each.id});
+  }
+  return judge_launches({&store, run}, again, baselines, request);
 }
 
 }  // namespace triptych::judge

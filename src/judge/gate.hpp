@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -83,7 +84,10 @@ struct GateResult {
   std::vector<CorrelationPair> correlations = {};  // where that was checked
   std::vector<AccuracyScene> accuracies = {};      // likewise; by device, then as measured
   std::set<std::string> devices = {};              // that measured something, of those asked for
-  std::set<std::string> measured_again = {};       // of these, all of it, by a run that confirms
+  std::set<std::string> measured_again = {};       // of these, all of it, by another launch
+  // On which something may be slower that is no regression yet, or noise kept a stored device from
+  // judging; and all with a regression in time. Another launch should settle it.
+  std::set<std::string> in_doubt = {};
   [[nodiscard]] core::ExitCode exit_code() const;
   [[nodiscard]] std::string headline()
       const;  // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices"
@@ -119,9 +123,21 @@ struct GateRequest {
   std::string today;  // ISO date, for the expiry of waivers
 };
 
-// What is slower in time is held against every run in the store that confirms this one and measured
-// the same device (judge/confirmation.hpp).
+// Another run of the same plan by the same program on the same machine.
+struct Launch {
+  const record::Store* store;  // which also holds the anchors measured beside it
+  std::string run;
+  std::optional<std::set<std::string>> devices =
+      {};  // counts of these; nullopt: of all it measured
+};
+
+// Times are judged by the quieter of all launches (judge/confirmation.hpp), everything else by the
+// first.
 // Throws InputError for a corrupt baseline (file and line), never because of what was measured.
+[[nodiscard]] GateResult judge_launches(const Launch& first, std::span<const Launch> again,
+                                        const Baselines& baselines, const GateRequest& request);
+
+// A run with every one in the store that confirms it.
 [[nodiscard]] GateResult judge_run(const record::Store& store, const std::string& run,
                                    const Baselines& baselines, const GateRequest& request);
 

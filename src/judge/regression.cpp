@@ -18,7 +18,6 @@ using Points = std::span<const double>;
 
 constexpr std::size_t parameters = 2;
 constexpr double half = 0.5;  // breakdown point, and the mean of ρ that defines the scale
-constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 constexpr int most_steps = 200;
 constexpr double step_tolerance = 1e-10;
 // Lines through two points each that the S-estimate tries: all of them up to 45 points, else as

@@ -25,11 +25,11 @@ Levelled level(const TimingCase& timing, const CaseShift& shift) {
   Levelled result;
   const std::vector<double> stored = stored_logarithms(timing, shift);
   result.runs = static_cast<double>(stored.size());
-  result.log_ratio = std::log(timing.median_ns) - shift.now - mean(stored);
-  result.shift = std::log(timing.median_ns) - mean(stored_logarithms(timing)) - result.log_ratio;
-  result.variance = std::max(sample_variance(stored), least_timing_variance);
+  result.log_ratio = std::log(timing.median_ns) - shift.now - median(stored);
+  result.shift = std::log(timing.median_ns) - median(stored_logarithms(timing)) - result.log_ratio;
+  result.variance = std::max(robust_variance(stored), least_timing_variance);
   result.variance_of_shift = shift.variance;
-  result.degrees = result.runs - 1;
+  result.degrees = robust_degrees(stored.size());
   return result;
 }
 
@@ -64,9 +64,10 @@ TimingJudgement judge_case(const TimingCase& timing, const Levelled& values,
   const double variance = moderated_variance(prior, values.variance, values.degrees);
   // No more freedom than all the data together have.
   result.degrees = std::min(prior.degrees + values.degrees, pooled_degrees);
-  result.standard_error = std::sqrt(variance * (1 + 1 / values.runs) + values.variance_of_shift);
+  result.standard_error = std::sqrt(variance * (1 + variance_of_median_to_mean / values.runs) +
+                                    values.variance_of_shift);
   result.busy_variance = std::max(of_rounds - variance, 0.0);
-  result.baseline_ns = std::exp(mean(stored_logarithms(timing)));
+  result.baseline_ns = std::exp(median(stored_logarithms(timing)));
   result.log_ratio = values.log_ratio;
   result.shift = values.shift;
   result.test(timing.tolerance);

@@ -2,7 +2,7 @@
 // Is a configuration slower than its stored runs on the same device? The numbers behind the timing
 // check, free of records and files.
 //
-// With y = ln t, x̄ a configuration's mean over its H stored runs, and deviations y − x̄:
+// With y = ln t, x̄ a configuration's median over its H stored runs, and deviations y − x̄:
 //
 //     y = x̄ + shift of the run + what became of the configuration + its own scatter.
 //
@@ -61,9 +61,12 @@ namespace triptych::judge {
 struct TimingModel {
   static constexpr double share_of_false_alarms = 0.05;  // q of Benjamini–Hochberg
   static constexpr double false_program_alarms = 0.01;   // one test a device, so no q
-  static constexpr std::size_t least_runs = 5;           // fewer stored runs decide nothing
-  static constexpr std::size_t least_body = 3;           // fewer configurations tell no shift
-  static constexpr double tolerated = 1.02;  // slower by this factor is not worth a finding
+  // What another launch should settle (judge/confirmation.hpp): one suspect in five may be chance.
+  static constexpr double share_of_false_suspects = 0.2;
+  static constexpr double false_program_suspects = 0.05;
+  static constexpr std::size_t least_runs = 5;  // fewer stored runs decide nothing
+  static constexpr std::size_t least_body = 3;  // fewer configurations tell no shift
+  static constexpr double tolerated = 1.02;     // slower by this factor is not worth a finding
   // A configuration passes only where a slowdown by this factor can be excluded; where noise or a
   // coarse clock leave it possible, nothing is decided.
   static constexpr double must_be_told = 1.20;
@@ -123,8 +126,10 @@ struct TimingJudgements {
 // least of half as many rounds, so a bound. Empty below two rounds.
 [[nodiscard]] std::optional<double> variance_of_rounds(std::span<const double> rounds_ns);
 
-// Variances between stored runs are moderated over the device's cases; t = (x − shift − x̄ −
-// τ)/√(max(s̃², v_r) + s̃²/H + v). s̃² has the stored runs' shifts in it already; v is added in full
+// A run that met a slow minute says nothing of the others: x̄ is a median, and the variance between
+// stored runs is from their median absolute deviation, moderated over the device's cases;
+// t = (x − shift − x̄ − τ)/√(max(s̃², v_r) + π/2·s̃²/H + v). A judged run that met one is told by
+// another launch (judge/confirmation.hpp). s̃² has the stored runs' shifts in it already; v is added in full
 // as it is common to all cases, and H runs tell it but once: a bound.
 //
 // The stored runs may be of a quiet day. v_r is what this run's own rounds say, typical of the

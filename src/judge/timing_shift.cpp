@@ -46,7 +46,7 @@ double variance_of_median(std::span<const double> sorted) {
 }
 
 void DeviceShifts::Witness::add(const TimingCase& timing) {
-  const double centre = mean(stored_logarithms(timing));
+  const double centre = median(stored_logarithms(timing));
   for (const auto& [run, ns] : timing.stored_ns) {
     stored[run].emplace_back(std::log(ns) - centre, &timing);
   }

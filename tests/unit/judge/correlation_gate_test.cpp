@@ -155,6 +155,52 @@ TEST_F(CorrelationGateTest, OneConfigurationIsNamedWithItsWork) {
   EXPECT_THAT(slower[0].message, HasSubstr("work (samples) +0.0 %, time per unit of work +2"));
 }
 
+// Two of three slow configurations were a slow minute: the quieter launch says what is left, and
+// the others are told as advice.
+TEST_F(CorrelationGateTest, AnotherLaunchTakesBackASlowMinute) {
+  accept_known();
+  const std::string planted = "data=d2,step=3,technique=raycast_fragment";
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new", [&](const record::Record& r) {
+    const bool slow_minute = r.configuration.starts_with("data=d0,step=5");
+    return r.configuration == planted ? 1.25 : slow_minute ? 1.4 : 1;
+  });
+  const GateResult alone = judge("b");
+  EXPECT_EQ(with(alone, Verdict::regression).size(), 3U) << text(alone);
+  EXPECT_EQ(alone.in_doubt, std::set<std::string>{"b:new"});
+  measure("c", "b:new",
+          [&](const record::Record& r) { return r.configuration == planted ? 1.3 : 1; });
+  confirm("b", "c", plan);
+  const GateResult result = judge("b");
+  const auto slower = with(result, Verdict::regression);
+  ASSERT_EQ(slower.size(), 1U) << text(result);
+  EXPECT_EQ(slower[0].configuration, planted);
+  EXPECT_NEAR(slower[0].numbers.at("ratio"), 1.25, 0.04);
+  EXPECT_THAT(slower[0].message, HasSubstr("so too on a fresh launch"));
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_EQ(advice.size(), 2U) << text(result);
+  EXPECT_THAT(advice[0].message, HasSubstr("not so on a fresh launch"));
+}
+
+// A little more scatter than a line may have is worth another launch; several times as much is not.
+TEST_F(CorrelationGateTest, WhatIsRefusedForNoiseIsInDoubt) {
+  accept_known();
+  measure_anchors("anchors", "b:new");
+  const auto noisy = [](double size) {
+    return [=, i = 0](const record::Record&) mutable {
+      return std::exp(size * std::sin(12.9898 * ++i));
+    };
+  };
+  measure("b", "b:new", noisy(0.12));
+  const GateResult result = judge("b");
+  ASSERT_EQ(result.correlations.size(), 1U);
+  EXPECT_TRUE(result.correlations[0].result.refused_for_scatter()) << text(result);
+  EXPECT_EQ(result.in_doubt, std::set<std::string>{"b:new"});
+  measure("c", "b:new", noisy(0.6));
+  EXPECT_FALSE(judge("c").correlations[0].result.admitted());
+  EXPECT_TRUE(judge("c").in_doubt.empty());
+}
+
 TEST_F(CorrelationGateTest, FewStoredRunsAdvise) {
   accept_known(TimingModel::least_runs - 1);
   measure_anchors("anchors", "b:new");

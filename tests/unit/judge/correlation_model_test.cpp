@@ -270,7 +270,10 @@ TEST(Correlation, WhatStoodWhenTheDeviceWasAcceptedIsNoNews) {
   for (CorrelationCase& each : cases) each.known_log_time_b = each.log_time_b - 0.01;
   EXPECT_TRUE(correlate(cases).judgements[17].slower);
   EXPECT_TRUE(correlate(cases).judgements[17].standing);
-  cases[17].known_log_time_b = cases[17].log_time_b - std::log(1.5);
+  // Nor is it on a device that became slower as a whole.
+  for (CorrelationCase& each : cases) each.log_time_b += std::log(1.25);
+  EXPECT_TRUE(correlate(cases).judgements[17].standing);
+  cases[17].known_log_time_b = cases[17].log_time_b - std::log(1.25 * 1.5);
   EXPECT_FALSE(correlate(cases).judgements[17].standing);
 }
 

@@ -121,8 +121,8 @@ std::vector<std::string> JudgeTest::accept_run(const std::string& run, const std
   return accept(store_, run, folder_.path() / "baselines", request);
 }
 
-void JudgeTest::confirm(const std::string& run, const std::string& again) {
-  record::Run said{again, plan, "2026-02-01T00:00:00Z", {}};
+void JudgeTest::confirm(const std::string& run, const std::string& again, const std::string& of) {
+  record::Run said{again, of, "2026-02-01T00:00:00Z", {}};
   said.confirms = run;
   store_.add_run(said);
 }
@@ -165,6 +165,13 @@ void JudgeTest::accept_history(const Tweak& tweak) {
 
 GateResult JudgeTest::gate(const std::string& run, const GateRequest& request) const {
   return judge_run(store_, run, Baselines(folder_.path() / "baselines", plan), request);
+}
+
+GateResult JudgeTest::gate(const std::string& run, const std::string& again,
+                           std::optional<std::set<std::string>> devices) const {
+  const Launch launch{&store_, again, std::move(devices)};
+  return judge_launches({&store_, run}, {&launch, 1}, Baselines(folder_.path() / "baselines", plan),
+                        request_);
 }
 
 std::filesystem::path JudgeTest::baseline(const std::string& name) const {

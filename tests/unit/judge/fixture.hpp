@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,7 +39,7 @@ class JudgeTest : public testing::Test {
   std::vector<std::string> accept_run(const std::string& run, const std::string& only = {},
                                       bool forget_times = false);
   // Says that `again`, which is there, was measured to confirm `run`.
-  void confirm(const std::string& run, const std::string& again);
+  void confirm(const std::string& run, const std::string& again, const std::string& of = plan);
   // Eight records of anchors/frozen on each device, with as much noise, `factor` times as long as
   // usual.
   void add_anchors(const std::string& run, double factor);
@@ -46,6 +48,9 @@ class JudgeTest : public testing::Test {
   void accept_history(const Tweak& tweak = {});
   [[nodiscard]] GateResult gate(const std::string& run) const { return gate(run, request_); }
   [[nodiscard]] GateResult gate(const std::string& run, const GateRequest& request) const;
+  // With another launch, of all devices or of these.
+  [[nodiscard]] GateResult gate(const std::string& run, const std::string& again,
+                                std::optional<std::set<std::string>> devices = std::nullopt) const;
   [[nodiscard]] std::filesystem::path baseline(const std::string& name) const;
   // The only file in a folder of the plan's baselines whose name begins so.
   [[nodiscard]] std::filesystem::path device_file(const std::string& folder,

@@ -5,9 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/special_functions/digamma.hpp>
+#include <boost/math/special_functions/trigamma.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "core/random.hpp"
+#include "tests/support/normal.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -91,6 +96,38 @@ TEST(Statistics, AlikeVariancesPoolEntirely) {
 TEST(Statistics, OneVarianceStandsForItself) {
   const VariancePrior prior = fit_variance_prior(std::array{4.0}, std::array{7.0});
   EXPECT_EQ(moderated_variance(prior, 4, 7), 4);
+}
+
+// Of seven values three may be anything.
+TEST(Statistics, RobustVarianceOfSpoiltValues) {
+  const std::array good{1.0, 1.1, 0.9, 1.05, 0.95, 1.02, 0.98};
+  std::array spoilt = good;
+  spoilt[0] = spoilt[1] = 100;
+  EXPECT_LT(robust_variance(spoilt), 6 * robust_variance(good));
+  EXPECT_GT(robust_variance(good), 0);
+  EXPECT_EQ(robust_variance(std::array{3.0, 3.0, 3.0, 9.0}), 0);
+}
+
+// What fit_variance_prior goes by: ln of it is as ln σ²χ²_ν/ν is, in mean and variance.
+TEST(Statistics, RobustVarianceIsLikeAScaledChiSquare) {
+  constexpr int samples = 40000;
+  core::Random random(5);
+  for (std::size_t n = 2; n <= 12; ++n) {
+    SCOPED_TRACE(n);
+    std::vector<double> logarithms;
+    for (int i = 0; i < samples; ++i) {
+      std::vector<double> values(n);
+      for (double& value : values) value = 3 * test::normal(random);
+      logarithms.push_back(std::log(robust_variance(values)));
+    }
+    const double degrees = robust_degrees(n);
+    const double scatter = boost::math::trigamma(degrees / 2);
+    // Four standard errors, taking ln v as normal, and the 2 % that the formulas are good to.
+    EXPECT_NEAR(mean(logarithms),
+                std::log(9.0) + boost::math::digamma(degrees / 2) - std::log(degrees / 2),
+                0.03 + 4 * std::sqrt(scatter / samples));
+    EXPECT_NEAR(inverse_trigamma(sample_variance(logarithms)) * 2, degrees, 0.1);
+  }
 }
 
 }  // namespace

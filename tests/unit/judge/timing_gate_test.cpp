@@ -9,7 +9,6 @@
 
 #include "core/file.hpp"
 #include "fixture.hpp"
-#include "judge/confirmation.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -237,7 +236,7 @@ TEST_F(TimingGateTest, ASlowerProgramBesideStillAnchorsIsToldAsOne) {
   EXPECT_NEAR(whole->numbers.at("ratio"), 1.3, 0.03);
 }
 
-// What a second launch does not show is taken back, each thing for itself.
+// Of two launches the quieter one counts, of each thing for itself.
 TEST_F(TimingGateTest, ASecondLaunchConfirmsOnlyWhatItShowsToo) {
   accept_history();
   add_run("b", [](record::Record& record, core::Image& image) {
@@ -245,11 +244,10 @@ TEST_F(TimingGateTest, ASecondLaunchConfirmsOnlyWhatItShowsToo) {
     times(1.2, plain_)(record, image);
   });
   add_run("c", times(1.2, plain_));
-  GateResult result = gate("b");
-  ASSERT_EQ(with(result, Verdict::regression).size(), 6U);
-  EXPECT_TRUE(names_suspects(result));
-  EXPECT_EQ(suspects(result).size(), 3U);
-  take_back_unconfirmed(result, gate("c"));
+  const GateResult alone = gate("b");
+  ASSERT_EQ(with(alone, Verdict::regression).size(), 6U);
+  EXPECT_EQ(alone.in_doubt.size(), 3U);
+  const GateResult result = gate("b", "c");
   const auto slower = with(result, Verdict::regression);
   ASSERT_EQ(slower.size(), 3U) << text(result);
   for (const Finding& each : slower) EXPECT_EQ(each.configuration, plain_);
@@ -258,9 +256,66 @@ TEST_F(TimingGateTest, ASecondLaunchConfirmsOnlyWhatItShowsToo) {
   ASSERT_EQ(advice.size(), 3U);
   EXPECT_THAT(advice[0].message, HasSubstr("not so on a fresh launch"));
   // What only the second shows is none of the first's.
-  GateResult calm = gate("c");
-  take_back_unconfirmed(calm, gate("b"));
-  EXPECT_EQ(with(calm, Verdict::regression).size(), 3U);
+  EXPECT_EQ(with(gate("c", "b"), Verdict::regression).size(), 3U);
+}
+
+// What the quieter launch's anchors say belongs to it.
+TEST_F(TimingGateTest, TheAnchorsOfBothLaunchesAreTakenTogether) {
+  for (int i = 1; i <= 8; ++i) {
+    add_anchors(fmt::format("r{}-anchors", i), 1);
+    accept_anchors(fmt::format("r{}-anchors", i));
+    add_run(fmt::format("r{}-run", i));
+    (void)accept_run(fmt::format("r{}-run", i));
+  }
+  add_anchors("s-anchors", 1.3);
+  add_run("s-run", times(1.3));
+  add_anchors("t-anchors", 1);
+  add_run("t-run");
+  const GateResult result = gate("s-run", "t-run");
+  EXPECT_EQ(result.measured_again.size(), 3U);
+  EXPECT_EQ(with(result, Verdict::pass, Check::timing).size(), 12U + 3U) << text(result);
+}
+
+// Of a device that nobody asked about the first launch says it all.
+TEST_F(TimingGateTest, ALaunchCountsOfTheDevicesAskedFor) {
+  accept_history();
+  add_run("b", times(1.2, plain_));
+  add_run("c");
+  const std::string one = *gate("b").in_doubt.begin();
+  const GateResult result = gate("b", "c", std::set<std::string>{one});
+  EXPECT_EQ(result.measured_again, std::set<std::string>{one});
+  const auto slower = with(result, Verdict::regression);
+  ASSERT_EQ(slower.size(), 2U) << text(result);
+  for (const Finding& each : slower) EXPECT_NE(each.device, one);
+}
+
+// Not slower beyond doubt, and in doubt.
+TEST_F(TimingGateTest, WhatMayBeSlowerIsInDoubtBeforeItIsARegression) {
+  accept_history();
+  bool doubted = false;
+  for (int tenths = 20; tenths <= 50 && !doubted; ++tenths) {
+    const std::string run = fmt::format("run{}", tenths);
+    add_run(run, times(1 + 0.001 * tenths, plain_));
+    const GateResult result = gate(run);
+    doubted = !result.in_doubt.empty() && with(result, Verdict::regression).empty();
+  }
+  EXPECT_TRUE(doubted);
+}
+
+TEST_F(TimingGateTest, ARunLikeTheStoredOnesIsInNoDoubt) {
+  accept_history();
+  add_run("b");
+  EXPECT_TRUE(gate("b").in_doubt.empty());
+}
+
+// Another program's times say nothing of this one.
+TEST_F(TimingGateTest, ALaunchOfOtherCodeConfirmsNothing) {
+  accept_history();
+  add_run("b", times(1.2, plain_));
+  add_run("c", [](record::Record& record, core::Image&) { record.kernel_hash += "-other"; });
+  const GateResult result = gate("b", "c");
+  EXPECT_TRUE(result.measured_again.empty());
+  EXPECT_EQ(with(result, Verdict::regression).size(), 3U);
 }
 
 // The same of a run in the store that says which one it confirms.

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
+#include "judge/statistics.hpp"
 #include "timing_bench.hpp"
 
 namespace triptych::judge {
@@ -81,7 +83,7 @@ TEST(TimingModel, ABusyMachineIsToldByItsRounds) {
   EXPECT_GT(score(blind, gates).gates_alarmed, 0.5);
   // What is slower beyond that noise is found.
   Bench slower = busy;
-  slower.slower_by = 1.6;
+  slower.slower_by = 1.7;
   slower.planted = 3;
   EXPECT_GT(score(slower, gates).found, 0.9);
 }
@@ -168,11 +170,11 @@ TEST(TimingModel, OneCaseIsAPlainTTest) {
     timing.stored_ns[fmt::format("{}", i)] = std::exp(stored[i]);
   }
   const auto judged = judge_timings(std::span(&timing, 1)).cases.front();
-  const double error = std::sqrt(0.00025 * 1.2);
+  const double error = std::sqrt(robust_variance(stored) * (1 + std::numbers::pi / 2 / 5));
   EXPECT_NEAR(judged.log_ratio, 0.1, 1e-12);
   EXPECT_NEAR(judged.standard_error, error, 1e-12);
   EXPECT_NEAR(judged.t, 0.08 / error, 1e-9);
-  EXPECT_EQ(judged.degrees, 4);
+  EXPECT_EQ(judged.degrees, robust_degrees(5));
   EXPECT_TRUE(judged.slower);
 }
 
