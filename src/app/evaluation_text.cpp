@@ -17,7 +17,7 @@ using judge::Rate;
 using judge::Tally;
 using judge::TrialKind;
 
-constexpr std::array<std::pair<const char*, Rate Tally::*>, 8> rates{{
+constexpr std::array<std::pair<const char*, Rate Tally::*>, 9> rates{{
     {"detected", &Tally::detected},
     {"found", &Tally::found},
     {"false_alarms", &Tally::false_alarms},
@@ -25,6 +25,7 @@ constexpr std::array<std::pair<const char*, Rate Tally::*>, 8> rates{{
     {"cannot_tell", &Tally::undecided},
     {"first_named", &Tally::first_named},
     {"work_or_throughput", &Tally::split},
+    {"measured_again", &Tally::in_doubt},
     {"same_bytes", &Tally::same_bytes},
 }};
 

@@ -36,8 +36,8 @@ std::map<Key, const record::Record*> by_key(std::span<const record::Record> reco
   return result;
 }
 
-// The first of each, the second of each and so on: early and late rounds stay apart, as
-// variance_of_ rounds wants them, and both launches are in both halves.
+// The first of each, the second of each and so on. variance_of_rounds holds the first half against
+// the second: both launches are in both, and early and late rounds stay apart.
 std::vector<double> in_turn(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> result;
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {

@@ -68,6 +68,7 @@ struct Tally {
   Rate undecided;          // configurations about which nothing is said
   Rate first_named;        // of trials that name something: the first is what was planted
   Rate split;              // of what was found: more work, or more time for the same, told rightly
+  Rate in_doubt;           // of trials by one launch: the device is to be measured again
   Rate same_bytes;         // verdicts that were the same to the byte when asked for again
   // What was planted really cost, ln t planted over unplanted, of each trial: extra work has costs
   // of its own, which on short frames are larger than its share.

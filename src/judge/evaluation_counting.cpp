@@ -139,6 +139,7 @@ void count_history(const std::string& plan, const GateResult& result, const Tria
       if (!trial.confirmed) tally.costs.push_back(trial.cost);
     }
     tally.false_alarms.count(alarmed);
+    if (!trial.confirmed) tally.in_doubt.count(result.in_doubt.contains(device));
   }
 }
 
@@ -147,9 +148,9 @@ void count_correlations(const std::string& plan, const std::string& method,
   for (const CorrelationPair& pair : result.correlations) {
     if (pair.within_run) continue;
     const std::string subject = pair.device + " by " + pair.other;
-    PairCount(pair, trial,
-              tallies[{method, plan, subject, trial.spread, trial.percent, trial.confirmed}])
-        .run();
+    Tally& tally = tallies[{method, plan, subject, trial.spread, trial.percent, trial.confirmed}];
+    PairCount(pair, trial, tally).run();
+    if (!trial.confirmed) tally.in_doubt.count(result.in_doubt.contains(pair.device));
   }
 }
 

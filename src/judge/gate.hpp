@@ -97,8 +97,8 @@ struct GateResult {
 [[nodiscard]] bool is_slower(const Finding& finding);
 
 // {"plan", "run", "exit_code", "headline", "findings": [{"check", "verdict", "test", "device",
-// "configuration", "message", "numbers"}], "correlations": [as of the pair], "accuracies": [as of
-// the scene]}
+// "configuration", "message", "numbers"}], "in_doubt": [device], "measured_again": [device],
+// "correlations": [as of the pair], "accuracies": [as of the scene]}
 [[nodiscard]] nlohmann::json to_json(const GateResult& result);
 // {"device", "other", "other_key", "within_run", "unlike_clocks", "refusals", …, "configurations",
 // "levels", "global"}; what is no number is null.

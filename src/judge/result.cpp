@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -62,6 +63,20 @@ std::string places(const GateResult& result, Verdict verdict) {
   return devices.empty() ? where : where + fmt::format(" on {}", fmt::join(devices, ", "));
 }
 
+// What one launch was not enough for.
+std::string launches(const GateResult& result) {
+  std::vector<std::string> doubtful;
+  std::ranges::set_difference(result.in_doubt, result.measured_again, std::back_inserter(doubtful));
+  std::string text;
+  if (!result.measured_again.empty()) {
+    text += fmt::format("; by two launches: {}", fmt::join(result.measured_again, ", "));
+  }
+  if (!doubtful.empty()) {
+    text += fmt::format("; in doubt until --confirm: {}", fmt::join(doubtful, ", "));
+  }
+  return text;
+}
+
 // "; 96 checks, 4 devices; 2 improved, 3 waived, 12 advisory"
 std::string tally(const GateResult& result) {
   std::set<std::string_view> devices;
@@ -76,7 +91,7 @@ std::string tally(const GateResult& result) {
     const std::size_t n = count(result, verdict);
     if (n > 0) rest += fmt::format("{}{} {}", rest.empty() ? "; " : ", ", n, name_of(verdict));
   }
-  return text + rest;
+  return text + rest + launches(result);
 }
 
 }  // namespace
@@ -152,6 +167,8 @@ core::Json to_json(const GateResult& result) {
           {"exit_code", static_cast<int>(result.exit_code())},
           {"headline", result.headline()},
           {"findings", std::move(findings)},
+          {"in_doubt", result.in_doubt},
+          {"measured_again", result.measured_again},
           {"correlations", std::move(correlations)},
           {"accuracies", std::move(accuracies)}};
 }

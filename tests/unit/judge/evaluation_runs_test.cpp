@@ -97,9 +97,9 @@ class EvaluateRuns : public testing::Test {
           kind.confirmed != confirmed) {
         continue;
       }
-      for (const auto rate :
-           {&Tally::detected, &Tally::found, &Tally::false_alarms, &Tally::false_discoveries,
-            &Tally::undecided, &Tally::first_named, &Tally::split, &Tally::same_bytes}) {
+      for (const auto rate : {&Tally::detected, &Tally::found, &Tally::false_alarms,
+                              &Tally::false_discoveries, &Tally::undecided, &Tally::first_named,
+                              &Tally::split, &Tally::in_doubt, &Tally::same_bytes}) {
         add(total.*rate, tally.*rate);
       }
     }
@@ -206,6 +206,10 @@ TEST_F(EvaluateRuns, ASlowMinuteIsNotConfirmed) {
   EXPECT_GE(once.hits, 2U);
   EXPECT_EQ(confirmed.hits, 0U);
   EXPECT_EQ(confirmed.trials, once.trials);
+  const Rate again = sum(tallies, "history", Spread::none).in_doubt;
+  EXPECT_GE(again.hits, once.hits);
+  EXPECT_LT(again.hits, again.trials);
+  EXPECT_EQ(sum(tallies, "history", Spread::none, 0, true).in_doubt.trials, 0U);
 }
 
 TEST_F(EvaluateRuns, OnePlantedRunHasNoSecond) {

@@ -15,6 +15,7 @@ namespace {
 
 using core::ExitCode;
 using testing::HasSubstr;
+using testing::Not;
 
 class TimingGateTest : public JudgeTest {
  protected:
@@ -247,11 +248,14 @@ TEST_F(TimingGateTest, ASecondLaunchConfirmsOnlyWhatItShowsToo) {
   const GateResult alone = gate("b");
   ASSERT_EQ(with(alone, Verdict::regression).size(), 6U);
   EXPECT_EQ(alone.in_doubt.size(), 3U);
+  EXPECT_THAT(alone.headline(), HasSubstr("; in doubt until --confirm: "));
   const GateResult result = gate("b", "c");
   const auto slower = with(result, Verdict::regression);
   ASSERT_EQ(slower.size(), 3U) << text(result);
   for (const Finding& each : slower) EXPECT_EQ(each.configuration, plain_);
   EXPECT_EQ(result.findings.front().verdict, Verdict::regression);
+  EXPECT_THAT(result.headline(), HasSubstr("; by two launches: "));
+  EXPECT_THAT(result.headline(), Not(HasSubstr("in doubt")));
   const auto advice = with(result, Verdict::advisory, Check::timing);
   ASSERT_EQ(advice.size(), 3U);
   EXPECT_THAT(advice[0].message, HasSubstr("not so on a fresh launch"));
