@@ -157,6 +157,8 @@ TEST_F(EvaluateRuns, FindsWhatIsPlantedAndNamesIt) {
     }
     EXPECT_EQ(sum(tallies, method, Spread::none).false_alarms.hits, 0U);
     EXPECT_EQ(sum(tallies, method, Spread::none).undecided.hits, 0U);
+    // Nothing of one trial is left in the next.
+    expect_none(sum(tallies, method, Spread::configuration, 25).false_alarms);
   }
   expect_none(sum(tallies, "correlation", Spread::device, 25).false_alarms);
   expect_none(sum(tallies, "history", Spread::device, 25).false_alarms);
