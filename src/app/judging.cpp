@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <map>
 #include <set>
 
@@ -23,8 +22,7 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
 }
 
 bool measure_suspects_again(const judge::GateResult& result, const std::string& file) {
-  std::vector<std::string> devices;
-  std::ranges::set_difference(result.in_doubt, result.measured_again, std::back_inserter(devices));
+  const std::vector<std::string> devices = result.left_in_doubt();
   if (devices.empty()) return false;
   measure_again(result.plan, devices, file);
   return true;

@@ -1,9 +1,6 @@
 #include "judge/confirmation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string_view>
 #include <utility>

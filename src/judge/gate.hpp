@@ -88,6 +88,8 @@ struct GateResult {
   // On which something may be slower that is no regression yet, or noise kept a stored device from
   // judging; and all with a regression in time. Another launch should settle it.
   std::set<std::string> in_doubt = {};
+  // In doubt, and no other launch has settled it.
+  [[nodiscard]] std::vector<std::string> left_in_doubt() const;
   [[nodiscard]] core::ExitCode exit_code() const;
   [[nodiscard]] std::string headline()
       const;  // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices"

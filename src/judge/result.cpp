@@ -65,8 +65,7 @@ std::string places(const GateResult& result, Verdict verdict) {
 
 // What one launch was not enough for.
 std::string launches(const GateResult& result) {
-  std::vector<std::string> doubtful;
-  std::ranges::set_difference(result.in_doubt, result.measured_again, std::back_inserter(doubtful));
+  const std::vector<std::string> doubtful = result.left_in_doubt();
   std::string text;
   if (!result.measured_again.empty()) {
     text += fmt::format("; by two launches: {}", fmt::join(result.measured_again, ", "));
@@ -111,6 +110,12 @@ Check check(std::string_view name) {
       "unknown check '{}'; expected image, counters, statistics, timing, correlation, accuracy or "
       "stress",
       name));
+}
+
+std::vector<std::string> GateResult::left_in_doubt() const {
+  std::vector<std::string> left;
+  std::ranges::set_difference(in_doubt, measured_again, std::back_inserter(left));
+  return left;
 }
 
 // A gate that decided nothing has not passed.

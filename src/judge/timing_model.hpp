@@ -129,8 +129,8 @@ struct TimingJudgements {
 // A run that met a slow minute says nothing of the others: x̄ is a median, and the variance between
 // stored runs is from their median absolute deviation, moderated over the device's cases;
 // t = (x − shift − x̄ − τ)/√(max(s̃², v_r) + π/2·s̃²/H + v). A judged run that met one is told by
-// another launch (judge/confirmation.hpp). s̃² has the stored runs' shifts in it already; v is added in full
-// as it is common to all cases, and H runs tell it but once: a bound.
+// another launch (judge/confirmation.hpp). s̃² has the stored runs' shifts in it already; v is added
+// in full as it is common to all cases, and H runs tell it but once: a bound.
 //
 // The stored runs may be of a quiet day. v_r is what this run's own rounds say, typical of the
 // device's cases: a slowdown of the program is in every round, and not in it. It counts against

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 
 #include "judge/statistics.hpp"
 
@@ -99,7 +98,7 @@ double DeviceShifts::scatter_of_anchors() const {
     variances.push_back(sample_variance(values) * prediction(values.size()));
   }
   const auto count = static_cast<double>(variances.size());
-  return count > 1 ? mean(variances) * std::numbers::pi / 2 / (count - 1) : variances.front();
+  return count > 1 ? variance_of_median_to_mean * mean(variances) / (count - 1) : variances.front();
 }
 
 double DeviceShifts::scatter_of_body() const {
@@ -116,7 +115,7 @@ double DeviceShifts::scatter_of_body() const {
 // v_b
 double DeviceShifts::variance_of_body(const TimingCase* left_out) const {
   const std::vector<double> values = without(body_.now, left_out);
-  const double expected = std::numbers::pi / 2 * typical_scatter_ *
+  const double expected = variance_of_median_to_mean * typical_scatter_ *
                           prediction(body_.stored.size()) / static_cast<double>(values.size());
   return std::max(expected, variance_of_median(values));
 }

@@ -35,6 +35,17 @@ class TimingGateTest : public JudgeTest {
       record.device_clock_trusted = true;
     };
   }
+
+  // Eight runs, each with its anchors, of which every second is of a slower day.
+  void accept_history_with_anchors(double slow_day = 1) {
+    for (int i = 1; i <= 8; ++i) {
+      const double day = i % 2 == 0 ? slow_day : 1.0;
+      add_anchors(fmt::format("r{}-anchors", i), day);
+      accept_anchors(fmt::format("r{}-anchors", i));
+      add_run(fmt::format("r{}-run", i), times(day));
+      (void)accept_run(fmt::format("r{}-run", i));
+    }
+  }
 };
 
 TEST_F(TimingGateTest, NoiseAlonePasses) {
@@ -193,14 +204,7 @@ TEST_F(TimingGateTest, ASlowerMachineIsNoSlowerProgram) {
 
 // Anchors of their own plan, measured before each run, as the gate's script does.
 TEST_F(TimingGateTest, AMachineThatItsOwnAnchorsShowSlowerIsNoSlowerProgram) {
-  for (int i = 1; i <= 8; ++i) {
-    // Now a fast day, now a slow one.
-    const double day = i % 2 == 0 ? 1.15 : 1.0;
-    add_anchors(fmt::format("r{}-anchors", i), day);
-    accept_anchors(fmt::format("r{}-anchors", i));
-    add_run(fmt::format("r{}-run", i), times(day));
-    (void)accept_run(fmt::format("r{}-run", i));
-  }
+  accept_history_with_anchors(1.15);
   add_anchors("s-anchors", 1.3);
   add_run("s-run", [](record::Record& record, core::Image& image) {
     times(1.3)(record, image);
@@ -219,12 +223,7 @@ TEST_F(TimingGateTest, AMachineThatItsOwnAnchorsShowSlowerIsNoSlowerProgram) {
 }
 
 TEST_F(TimingGateTest, ASlowerProgramBesideStillAnchorsIsToldAsOne) {
-  for (int i = 1; i <= 8; ++i) {
-    add_anchors(fmt::format("r{}-anchors", i), 1);
-    accept_anchors(fmt::format("r{}-anchors", i));
-    add_run(fmt::format("r{}-run", i));
-    (void)accept_run(fmt::format("r{}-run", i));
-  }
+  accept_history_with_anchors();
   add_anchors("s-anchors", 1);
   add_run("s-run", times(1.3));
   const GateResult result = gate("s-run");
@@ -265,12 +264,7 @@ TEST_F(TimingGateTest, ASecondLaunchConfirmsOnlyWhatItShowsToo) {
 
 // What the quieter launch's anchors say belongs to it.
 TEST_F(TimingGateTest, TheAnchorsOfBothLaunchesAreTakenTogether) {
-  for (int i = 1; i <= 8; ++i) {
-    add_anchors(fmt::format("r{}-anchors", i), 1);
-    accept_anchors(fmt::format("r{}-anchors", i));
-    add_run(fmt::format("r{}-run", i));
-    (void)accept_run(fmt::format("r{}-run", i));
-  }
+  accept_history_with_anchors();
   add_anchors("s-anchors", 1.3);
   add_run("s-run", times(1.3));
   add_anchors("t-anchors", 1);
