@@ -26,14 +26,11 @@ constexpr measure::Protocol looking_protocol{.warm_up_frames = 2,
                                              .statistics = true,
                                              .counters = true};
 
-constexpr std::size_t least_launches = 2;  // fewer have no scatter
-
 // A configuration with what it takes to go on measuring it.
 struct Entry {
   Compared& compared;
   std::array<std::vector<std::string>, 2> plants;
   std::vector<measure::Block> blocks;
-  std::vector<double> launches;  // the estimate of each fresh one
 };
 
 class Comparer {
@@ -61,7 +58,6 @@ class Comparer {
       entries_.push_back({each,
                           {std::vector<std::string>{},
                            measure::faults_for(options_.plants, each.key, options_.b.device)},
-                          {},
                           {}});
     }
   }
@@ -275,66 +271,77 @@ class Comparer {
   void confirm_suspects() {
     const std::vector<Entry*> suspected = suspects();
     if (suspected.empty()) return;
+    std::vector<judge::Suspect> launched;
+    for (const Entry* entry : suspected) {
+      launched.push_back({{}, entry->compared.verdict == PairVerdict::slower});
+    }
     const measure::Stopwatch stopwatch;
-    const int total = options_.launches * static_cast<int>(suspected.size());
     int done = 0;
-    for (int launch = 1; launch <= options_.launches; ++launch) {
-      if (launch > static_cast<int>(least_launches) && over_budget()) break;
-      held_ = nullptr;
-      try {
-        turns_.relaunch();
-      } catch (const measure::SideEnded&) {
-        break;  // what is then not confirmed says so
-      }
-      for (Entry* entry : suspected) {
+    const auto launch = [&](std::span<const std::size_t> open, std::size_t number,
+                            std::size_t until) {
+      const bool enough = number > judge::least_launches && over_budget();
+      const bool all_ended = std::ranges::all_of(
+          open, [&](std::size_t i) { return suspected[i]->compared.ended.has_value(); });
+      if (enough || all_ended || !relaunched()) return false;
+      const auto left = static_cast<int>((until - number + 1) * open.size());
+      const int total = done + left;
+      for (const std::size_t i : open) {
         const double each_s = done > 0 ? stopwatch.seconds() / done : 0;
-        say(fmt::format("fresh launch {} of {}", launch, options_.launches), *entry, done, total,
+        say(fmt::format("fresh launch {} of {}", number, until), *suspected[i], done, total,
             each_s * (total - done));
-        if (!entry->compared.ended) about(*entry, [&] { launch_again(*entry); });
+        launch_again(*suspected[i], launched[i]);
         ++done;
       }
-    }
-    judge_launches(suspected);
-  }
-
-  void launch_again(Entry& entry) {
-    hold(entry);
-    std::vector<measure::Block> blocks;
-    for (int i = 0; i < options_.blocks_per_launch; ++i) blocks.push_back(turns_.block());
-    if (entry.compared.clock == TurnClock::device && !measure::device_clock_holds(blocks)) return;
-    const auto differences = measure::differences(blocks, entry.compared.clock);
-    const double level = options_.design.alpha_of_a_look();
-    entry.launches.push_back(judge::estimate_shift(differences, level).estimate);
-  }
-
-  void judge_launches(const std::vector<Entry*>& suspected) {
-    std::vector<judge::Suspect> judged;
-    std::vector<Entry*> entries;
-    for (Entry* entry : suspected) {
-      Compared& compared = entry->compared;
-      if (compared.ended) continue;
-      if (entry->launches.size() < least_launches) {
-        compared.reason = fmt::format("{} at first, but fresh launches could not be measured",
-                                      judge::name_of(compared.verdict));
-        compared.verdict = PairVerdict::undecided;
-        continue;
-      }
-      judged.push_back({entry->launches, compared.verdict == PairVerdict::slower});
-      entries.push_back(entry);
-    }
+      return true;
+    };
     const auto confirmed =
-        judge::confirm(judged, entries_.size(), options_.false_discovery_rate, options_.design);
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      Compared& compared = entries[i]->compared;
-      compared.launches = static_cast<int>(entries[i]->launches.size());
-      if (confirmed[i].verdict != compared.verdict) {
-        compared.reason = fmt::format("{} in one launch by {:+.2f} %, not so in {} fresh ones",
-                                      judge::name_of(compared.verdict),
-                                      100 * std::expm1(compared.shift.estimate), compared.launches);
-      }
-      compared.verdict = confirmed[i].verdict;
-      compared.shift = confirmed[i].shift;
+        judge::confirm_in_looks(launched, options_.confirmation, options_.design, launch);
+    for (std::size_t i = 0; i < suspected.size(); ++i) {
+      if (!suspected[i]->compared.ended) take(confirmed[i], launched[i], suspected[i]->compared);
     }
+  }
+
+  // What is not confirmed for lack of launches says so.
+  bool relaunched() {
+    held_ = nullptr;
+    try {
+      turns_.relaunch();
+      return true;
+    } catch (const measure::SideEnded&) {
+      return false;
+    }
+  }
+
+  void launch_again(Entry& entry, judge::Suspect& suspect) {
+    if (entry.compared.ended) return;
+    about(entry, [&] {
+      hold(entry);
+      std::vector<measure::Block> blocks;
+      while (blocks.size() < options_.confirmation.blocks_per_launch) {
+        blocks.push_back(turns_.block());
+      }
+      if (entry.compared.clock == TurnClock::device && !measure::device_clock_holds(blocks)) return;
+      const auto differences = measure::differences(blocks, entry.compared.clock);
+      const double level = options_.design.alpha_of_a_look();
+      suspect.launches.push_back(judge::estimate_shift(differences, level).estimate);
+    });
+  }
+
+  static void take(const judge::Confirmation& confirmed, const judge::Suspect& suspect,
+                   Compared& compared) {
+    const auto suspected = std::exchange(compared.verdict, confirmed.verdict);
+    if (suspect.launches.size() < judge::least_launches) {
+      compared.reason = fmt::format("{} at first, but fresh launches could not be measured",
+                                    judge::name_of(suspected));
+      return;
+    }
+    compared.launches = static_cast<int>(suspect.launches.size());
+    if (confirmed.verdict != suspected) {
+      compared.reason = fmt::format("{} in one launch by {:+.2f} %, not so in {} fresh ones",
+                                    judge::name_of(suspected),
+                                    100 * std::expm1(compared.shift.estimate), compared.launches);
+    }
+    compared.shift = confirmed.shift;
   }
 
   void conclude(Entry& entry) {

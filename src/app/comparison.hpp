@@ -27,9 +27,7 @@ struct ComparisonOptions {
   std::chrono::seconds limit{60};
   std::uint64_t seed = 1;
   judge::SequentialDesign design = judge::SequentialDesign::standard();
-  int launches = 5;  // of the confirmation
-  int blocks_per_launch = 24;
-  double false_discovery_rate = 0.05;
+  judge::ConfirmationDesign confirmation;
 };
 
 // What is known of one configuration.

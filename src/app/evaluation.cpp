@@ -95,7 +95,7 @@ class BlockMeasuring {
     for (const int look : design.looks.looks) {
       if (look > material_.blocks && !blocks.empty()) break;
       while (static_cast<int>(blocks.size()) < look) blocks.push_back(turns_.block());
-      if (blocks.size() >= design.blocks_per_launch && told()) break;
+      if (blocks.size() >= design.confirmation.blocks_per_launch && told()) break;
     }
     return blocks;
   }

@@ -26,7 +26,7 @@ struct EvaluationMaterial {
   std::chrono::seconds limit{60};
 
   int configurations = 6;  // of each plan, in turns
-  int launches = 8;        // of both workers
+  int launches = 12;       // of both workers
   int blocks = 384;  // of each configuration and size in a launch, at most: until a look tells
   std::uint64_t seed = 1;
 

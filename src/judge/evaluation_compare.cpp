@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -24,10 +25,23 @@ struct Entry {
   double percent = 0;
   PairVerdict verdict = PairVerdict::undecided;
   std::size_t blocks = 0;
-  std::vector<double> launches;
-  double cost = 0;  // of what was planted, in the first launch
+  double cost = 0;  // of what was planted, in ln t
   double seconds = 0;
 };
+
+// Over all launches of a configuration: one of them is by chance more or less.
+double cost_of(const Launches& launches) {
+  std::vector<double> costs;
+  for (const BlockSeries* series : launches) costs.push_back(median(series->differences));
+  return median(costs);
+}
+
+// The class of cost_classes.
+double class_of(double cost) {
+  const double percent = 100 * std::expm1(cost);
+  const auto* const above = std::ranges::upper_bound(cost_classes, percent);
+  return above == cost_classes.begin() ? cost_classes.front() : *std::prev(above);
+}
 
 double seconds_of(const BlockSeries& series, std::size_t blocks) {
   return series.seconds * static_cast<double>(blocks) /
@@ -42,7 +56,6 @@ void look(const BlockSeries& series, const ReplayDesign& design, Entry& entry) {
     entry.verdict = look_at(std::span(series.differences).first(count), design.looks).verdict;
     if (entry.verdict != PairVerdict::undecided) break;
   }
-  entry.cost = median(series.differences);
   entry.seconds += seconds_of(series, entry.blocks);
 }
 
@@ -50,31 +63,49 @@ bool is_suspect(const Entry& entry) {
   return entry.verdict == PairVerdict::slower || entry.verdict == PairVerdict::faster;
 }
 
-void launch_again(const BlockSeries& series, const ReplayDesign& design, Entry& entry) {
-  const std::size_t blocks = std::min(design.blocks_per_launch, series.differences.size());
-  const auto first = std::span(series.differences).first(blocks);
-  entry.launches.push_back(estimate_shift(first, design.looks.alpha_of_a_look()).estimate);
-  entry.seconds += seconds_of(series, blocks);
-}
+// A configuration's further launches, in the order in which they are taken.
+struct Suspected {
+  Entry* entry = nullptr;
+  Launches left;
+};
 
-void confirm_suspects(std::vector<Entry>& entries, const ReplayDesign& design) {
+void confirm_suspects(std::span<const Suspected> suspected, const ReplayDesign& design) {
   std::vector<Suspect> suspects;
-  std::vector<Entry*> suspected;
-  for (Entry& entry : entries) {
-    if (!is_suspect(entry)) continue;
-    if (entry.launches.size() < 2) {
-      entry.verdict = PairVerdict::undecided;
-      continue;
-    }
-    suspects.push_back({entry.launches, entry.verdict == PairVerdict::slower});
-    suspected.push_back(&entry);
+  for (const Suspected& each : suspected) {
+    suspects.push_back({{}, each.entry->verdict == PairVerdict::slower});
   }
+  const auto launch_again = [&](std::span<const std::size_t> open, std::size_t number,
+                                std::size_t /*until*/) {
+    bool any = false;
+    for (const std::size_t i : open) {
+      const Launches& left = suspected[i].left;
+      if (number > left.size()) continue;
+      any = true;
+      const BlockSeries& series = *left[number - 1];
+      const std::size_t blocks =
+          std::min(design.confirmation.blocks_per_launch, series.differences.size());
+      const auto first = std::span(series.differences).first(blocks);
+      const double level = design.looks.alpha_of_a_look();
+      suspects[i].launches.push_back(estimate_shift(first, level).estimate);
+      suspected[i].entry->seconds += seconds_of(series, blocks);
+    }
+    return any;
+  };
   const auto confirmed =
-      confirm(suspects, entries.size(), design.false_discovery_rate, design.looks);
-  for (std::size_t i = 0; i < suspected.size(); ++i) suspected[i]->verdict = confirmed[i].verdict;
+      confirm_in_looks(suspects, design.confirmation, design.looks, launch_again);
+  for (std::size_t i = 0; i < suspected.size(); ++i) {
+    suspected[i].entry->verdict = confirmed[i].verdict;
+  }
 }
 
-void count(const std::vector<Entry>& entries, Tally& tally) {
+void count_found(const Entry& entry, const SequentialDesign& design, Tally& tally) {
+  const bool slower = entry.verdict == PairVerdict::slower;
+  tally.found.count(slower);
+  tally.found_by_cost[class_of(entry.cost)].count(slower);
+  if (entry.cost >= design.caught) tally.to_be_caught.count(slower);
+}
+
+void count(const std::vector<Entry>& entries, const SequentialDesign& design, Tally& tally) {
   bool detected = false;
   bool alarmed = false;
   bool planted = false;
@@ -83,7 +114,7 @@ void count(const std::vector<Entry>& entries, Tally& tally) {
     if (entry.percent > 0) costs.push_back(entry.cost);
     const bool slower = entry.verdict == PairVerdict::slower;
     planted = planted || entry.percent > 0;
-    if (entry.percent > 0) tally.found.count(slower);
+    if (entry.percent > 0) count_found(entry, design, tally);
     if (slower) tally.false_discoveries.count(entry.percent == 0);
     detected = detected || (slower && entry.percent > 0);
     alarmed = alarmed || (slower && entry.percent == 0);
@@ -117,7 +148,7 @@ class Replay {
     for (std::size_t i = 0; i < number; ++i) {
       const auto planted = choose(kind.spread);
       if (!planted) return;
-      if (auto entries = run(*planted, kind.percent)) count(*entries, tallies[kind]);
+      if (auto entries = run(*planted, kind.percent)) count(*entries, design_.looks, tallies[kind]);
     }
   }
 
@@ -139,20 +170,24 @@ class Replay {
   [[nodiscard]] std::optional<std::vector<Entry>> run(const std::set<std::string>& planted,
                                                       double percent) {
     std::vector<Entry> entries;
+    entries.reserve(family_.size());
+    std::vector<Suspected> suspected;
     for (const auto& [configuration, measured] : family_) {
       Entry entry{.percent = planted.contains(configuration) ? percent : 0};
       const auto found = measured.by_percent.find(entry.percent);
       if (found == measured.by_percent.end()) return std::nullopt;
       const Launches& launches = found->second;
+      if (entry.percent > 0) entry.cost = cost_of(launches);
       const std::vector<std::size_t> order = shuffled(launches.size(), random_);
       look(*launches[order[0]], design_, entry);
-      const std::size_t last = std::min(order.size(), design_.launches + 1);
-      for (std::size_t i = 1; i < last && is_suspect(entry); ++i) {
-        launch_again(*launches[order[i]], design_, entry);
+      entries.push_back(entry);
+      if (!is_suspect(entry)) continue;
+      suspected.push_back({.entry = &entries.back()});
+      for (const std::size_t i : std::span(order).subspan(1)) {
+        suspected.back().left.push_back(launches[i]);
       }
-      entries.push_back(std::move(entry));
     }
-    confirm_suspects(entries, design_);
+    confirm_suspects(suspected, design_);
     return entries;
   }
 

@@ -26,9 +26,7 @@ struct BlockSeries {
 
 struct ReplayDesign {
   SequentialDesign looks = SequentialDesign::standard();
-  std::size_t launches = 5;  // of the confirmation; as many as there are where there are fewer
-  std::size_t blocks_per_launch = 24;
-  double false_discovery_rate = 0.05;
+  ConfirmationDesign confirmation;  // launches: as many as there are where there are fewer
 };
 
 // `trials` of every kind for each device and plan. In each trial every configuration is given

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "judge/statistics.hpp"
 
@@ -182,34 +183,61 @@ Look look_at(std::span<const double> differences, const SequentialDesign& design
   return look;
 }
 
-std::vector<Confirmation> confirm(std::span<const Suspect> suspects, std::size_t configurations,
-                                  double q, const SequentialDesign& design) {
+std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
+                                  const SequentialDesign& design) {
+  std::vector<Confirmation> results(suspects.size());
+  std::vector<std::size_t> judged;
   std::vector<double> variances;
   std::vector<double> degrees;
-  for (const Suspect& suspect : suspects) {
-    variances.push_back(std::max(sample_variance(suspect.launches), least_variance));
-    degrees.push_back(static_cast<double>(suspect.launches.size() - 1));
+  for (std::size_t i = 0; i < suspects.size(); ++i) {
+    results[i].shift = {not_a_number, {-infinite, infinite}};
+    const std::vector<double>& launches = suspects[i].launches;
+    if (launches.size() < least_launches) continue;
+    judged.push_back(i);
+    variances.push_back(std::max(sample_variance(launches), least_variance));
+    degrees.push_back(static_cast<double>(launches.size() - 1));
   }
   const VariancePrior prior = fit_variance_prior(variances, degrees);
-  std::vector<Confirmation> results;
   std::vector<double> p_values;
-  for (std::size_t i = 0; i < suspects.size(); ++i) {
-    const Suspect& suspect = suspects[i];
-    const double freedom = prior.degrees + degrees[i];
-    const double error = std::sqrt(moderated_variance(prior, variances[i], degrees[i]) /
+  for (std::size_t k = 0; k < judged.size(); ++k) {
+    const Suspect& suspect = suspects[judged[k]];
+    Confirmation& result = results[judged[k]];
+    const double freedom = prior.degrees + degrees[k];
+    const double error = std::sqrt(moderated_variance(prior, variances[k], degrees[k]) /
                                    static_cast<double>(suspect.launches.size()));
     const double centre = mean(suspect.launches);
     const double reach = student_t_upper_quantile(q, freedom) * error;
     const double beyond = (suspect.slower ? centre : -centre) - design.tolerated;
-    results.push_back({.shift = {centre, {centre - reach, centre + reach}},
-                       .p = student_t_upper_tail(beyond / error, freedom)});
-    p_values.push_back(results.back().p);
+    result.shift = {centre, {centre - reach, centre + reach}};
+    result.p = student_t_upper_tail(beyond / error, freedom);
+    p_values.push_back(result.p);
   }
-  p_values.resize(std::max(configurations, suspects.size()), 1.0);
   const std::vector<bool> rejected = benjamini_hochberg(p_values, q);
-  for (std::size_t i = 0; i < suspects.size(); ++i) {
-    const PairVerdict suspected = suspects[i].slower ? PairVerdict::slower : PairVerdict::faster;
-    results[i].verdict = rejected[i] ? suspected : unconfirmed(results[i].shift.interval, design);
+  for (std::size_t k = 0; k < judged.size(); ++k) {
+    Confirmation& result = results[judged[k]];
+    const bool slower = suspects[judged[k]].slower;
+    const PairVerdict suspected = slower ? PairVerdict::slower : PairVerdict::faster;
+    result.verdict = rejected[k] ? suspected : unconfirmed(result.shift.interval, design);
+  }
+  return results;
+}
+
+std::vector<Confirmation> confirm_in_looks(std::vector<Suspect>& suspects,
+                                           const ConfirmationDesign& confirmation,
+                                           const SequentialDesign& design,
+                                           const LaunchAgain& launch_again) {
+  std::vector<Confirmation> results(suspects.size());
+  std::vector<std::size_t> open(suspects.size());
+  std::iota(open.begin(), open.end(), std::size_t{0});
+  bool more = true;
+  std::size_t launches = 0;
+  for (const std::size_t look : confirmation.looks) {
+    if (open.empty() || !more) break;
+    while (more && launches < look) more = launch_again(open, ++launches, look);
+    const auto judged = confirm(suspects, confirmation.q_of_a_look(), design);
+    for (const std::size_t i : open) results[i] = judged[i];
+    std::erase_if(open,
+                  [&](std::size_t i) { return results[i].verdict != PairVerdict::undecided; });
   }
   return results;
 }

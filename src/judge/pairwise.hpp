@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -75,19 +76,43 @@ struct Look {
 // One launch's blocks agree with each other more than launches do (memory layout, thread
 // placement), so what one launch says is believed only once fresh launches say it again.
 struct Suspect {
-  std::vector<double> launches;  // the estimated shift of each fresh launch, at least two
+  std::vector<double> launches;  // the estimated shift of each fresh launch
   bool slower = true;            // else faster: what the first launch said
 };
+inline constexpr std::size_t least_launches = 2;  // fewer have no scatter
+
+// Two looks, the second at what the first leaves open, each at an equal share of `q`.
+struct ConfirmationDesign {
+  std::array<std::size_t, 2> looks{5, 10};  // fresh launches
+  std::size_t blocks_per_launch = 24;
+  // False among what is confirmed, at all looks together: what a look adds to the false
+  // discoveries' share is at most its own share of them.
+  double q = 0.02;
+
+  [[nodiscard]] double q_of_a_look() const { return q / static_cast<double>(looks.size()); }
+};
+
 struct Confirmation {
   PairVerdict verdict = PairVerdict::undecided;  // slower or faster only as suspected
   Shift shift;   // mean of the launches; Student's t leaves out `q` on each side of the interval
   double p = 1;  // of a shift no larger than what is tolerated
 };
 // Student's t of the launches' mean against τ₀, the variance between launches moderated over the
-// suspects; Benjamini & Hochberg at `q` over `configurations` hypotheses, those that are no
-// suspects at p = 1. What is not confirmed is the same where its interval says so.
-[[nodiscard]] std::vector<Confirmation> confirm(std::span<const Suspect> suspects,
-                                                std::size_t configurations, double q,
+// suspects; Benjamini & Hochberg at `q` over the suspects. That holds for all configurations: the
+// launch that chose the suspects is none of those that confirm, and no other is called anything.
+// What is not confirmed is the same where its interval says so, and undecided where there are fewer
+// than least_launches.
+[[nodiscard]] std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
                                                 const SequentialDesign& design);
+
+// Adds one fresh launch to each of the suspects `open`, the `number`-th, towards the look after
+// `until`; false where none can be had any more.
+using LaunchAgain =
+    std::function<bool(std::span<const std::size_t> open, std::size_t number, std::size_t until)>;
+// All looks of a confirmation; what one of them settles is measured no more.
+[[nodiscard]] std::vector<Confirmation> confirm_in_looks(std::vector<Suspect>& suspects,
+                                                         const ConfirmationDesign& confirmation,
+                                                         const SequentialDesign& design,
+                                                         const LaunchAgain& launch_again);
 
 }  // namespace triptych::judge
