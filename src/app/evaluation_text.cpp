@@ -17,9 +17,10 @@ using judge::Rate;
 using judge::Tally;
 using judge::TrialKind;
 
-constexpr std::array<std::pair<const char*, Rate Tally::*>, 9> rates{{
+constexpr std::array<std::pair<const char*, Rate Tally::*>, 10> rates{{
     {"detected", &Tally::detected},
     {"found", &Tally::found},
+    {"to_be_caught", &Tally::to_be_caught},
     {"false_alarms", &Tally::false_alarms},
     {"false_discoveries", &Tally::false_discoveries},
     {"cannot_tell", &Tally::undecided},
@@ -88,6 +89,16 @@ std::string smallest_text(const judge::Tallies& tallies) {
   return text;
 }
 
+std::string by_cost_text(const judge::Tallies& tallies) {
+  const auto found = judge::found_by_cost(tallies);
+  if (found.empty()) return {};
+  std::string text = "\nof single configurations in turns, found by what the planted work cost\n";
+  for (const auto& [percent, rate] : found) {
+    text += fmt::format("  {:>2.0f} % and more  {}\n", percent, text_of(rate));
+  }
+  return text;
+}
+
 std::string judging_text(const judge::Tallies& tallies) {
   const auto pairs = judge::judging_pairs(tallies);
   if (pairs.empty()) return {};
@@ -133,12 +144,14 @@ std::string to_text(const judge::Tallies& tallies) {
     if (alone > 0) text += fmt::format("; {} trials without a second run", alone);
     text += "\n";
   }
-  return text + smallest_text(tallies) + judging_text(tallies) + aims_text(tallies);
+  return text + smallest_text(tallies) + by_cost_text(tallies) + judging_text(tallies) +
+         aims_text(tallies);
 }
 
 nlohmann::json to_json(const judge::Tallies& tallies) {
   core::Json json{{"trials", core::Json::array()},
                   {"smallest_found", core::Json::array()},
+                  {"found_by_cost", core::Json::array()},
                   {"judging_pairs", core::Json::array()},
                   {"aims", core::Json::array()}};
   for (const auto& [kind, tally] : tallies) {
@@ -157,6 +170,11 @@ nlohmann::json to_json(const judge::Tallies& tallies) {
     core::Json row = json_of(kind);
     row["percent"] = percent ? core::Json(*percent) : core::Json();
     json["smallest_found"].push_back(std::move(row));
+  }
+  for (const auto& [percent, rate] : judge::found_by_cost(tallies)) {
+    core::Json row = json_of(rate);
+    row["percent"] = percent;
+    json["found_by_cost"].push_back(std::move(row));
   }
   for (const judge::JudgingPair& pair : judge::judging_pairs(tallies)) {
     json["judging_pairs"].push_back(

@@ -2,6 +2,7 @@
 // The judge judged: how often it finds what was planted, and how often it finds what is not there.
 // Counts and rates; what is replayed is in evaluation_compare.hpp and evaluation_runs.hpp.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -59,6 +60,9 @@ struct TrialKind {
   auto operator<=>(const TrialKind&) const = default;
 };
 
+// Percentages from which on a configuration's slowdown is counted with those of like size.
+inline constexpr std::array<double, 7> cost_classes{0, 1, 2, 3, 5, 10, 20};
+
 struct Tally {
   Rate detected;           // trials in which (part of) what was planted is called slower; of
                            // Spread::scrambled, in which the pair is refused
@@ -68,11 +72,14 @@ struct Tally {
   Rate undecided;          // configurations about which nothing is said
   Rate first_named;        // of trials that name something: the first is what was planted
   Rate split;              // of what was found: more work, or more time for the same, told rightly
+  Rate to_be_caught;       // of `found` in turns, those that really cost what has to be caught
   Rate in_doubt;           // of trials by one launch: the device is to be measured again
   Rate same_bytes;         // verdicts that were the same to the byte when asked for again
   // What was planted really cost, ln t planted over unplanted, of each trial: extra work has costs
   // of its own, which on short frames are larger than its share.
   std::vector<double> costs;
+  // In turns: `found`, by the least percentage of cost_classes that it really cost.
+  std::map<double, Rate> found_by_cost;
   double seconds = 0;              // of measuring, over all configurations of all trials
   std::size_t configurations = 0;  // those
 };
@@ -93,6 +100,9 @@ struct JudgingPair {
   auto operator<=>(const JudgingPair&) const = default;
 };
 [[nodiscard]] std::set<JudgingPair> judging_pairs(const Tallies& tallies);
+
+// What `compare` finds of single configurations, by what was planted there really cost.
+[[nodiscard]] std::map<double, Rate> found_by_cost(const Tallies& tallies);
 
 // What a project asks of its judge, with what was counted.
 struct Aim {
