@@ -1,22 +1,17 @@
 #include "judge/evaluation_runs.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <memory>
 #include <optional>
 #include <set>
 
-#include "core/json.hpp"
 #include "judge/anchor.hpp"
-#include "judge/correlation_pairs.hpp"
-#include "judge/evaluation_counting.hpp"
+#include "judge/correlation_model.hpp"
+#include "judge/evaluation_judge.hpp"
 #include "judge/statistics.hpp"
-#include "judge/timing_model.hpp"
+#include "judge/work.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -75,24 +70,18 @@ void set_work(Record& record, const std::vector<Record>& unplanted, double facto
   }
 }
 
-// An unplanted run, by its number in the pool, with these records in place of its own.
-struct Attempt {
-  std::size_t run = 0;
-  std::vector<Record> changed;
-};
-
 // The records of a planted run that are planted in a trial.
 using Planted = std::function<std::vector<Record>(const PooledRun&)>;
 
 class Trials {
  public:
   Trials(const RunPool& pool, const RunTrials& options, const std::filesystem::path& folder)
-      : pool_(pool), options_(options), folder_(folder), random_(options.seed) {
-    if (options.history) checks_.insert(Check::timing);
-    if (options.correlation) checks_.insert(Check::correlation);
+      : pool_(pool),
+        options_(options),
+        random_(options.seed),
+        judge_(pool, checks_of(options), folder),
+        devices_(judge_.devices()) {
     for (const PooledRun& run : pool.planted) sizes_.insert(run.percent);
-    for (const auto& entry : pool.unplanted.front().devices) devices_.push_back(entry.device.id);
-    std::filesystem::create_directories(folder);
     find_levels();
   }
 
@@ -109,38 +98,15 @@ class Trials {
         try_levels(runs, device);
       }
     }
-    return std::move(tallies_);
+    return std::move(judge_).tallies();
   }
 
  private:
-  [[nodiscard]] const TrialHistory& history(const std::set<std::size_t>& left_out) {
-    auto& known = histories_[left_out];
-    if (!known) {
-      const auto folder = folder_ / fmt::format("without-{}", fmt::join(left_out, "-"));
-      std::filesystem::create_directories(folder);
-      known = std::make_unique<TrialHistory>(pool_, left_out, folder);
-    }
-    return *known;
-  }
-
-  // Both launches of a trial may be made of the same run.
-  [[nodiscard]] TrialStore& store(std::size_t run, std::size_t launch) {
-    auto& known = stores_[{run, launch}];
-    if (!known) {
-      known = std::make_unique<TrialStore>(pool_, run,
-                                           folder_ / fmt::format("{}-{}.sqlite", run, launch));
-    }
-    return *known;
-  }
-
-  [[nodiscard]] GateRequest request(const std::set<Check>& checks,
-                                    const std::vector<std::string>& devices) const {
-    return {.plan = pool_.plan,
-            .checks = checks,
-            .devices = devices,
-            .required_devices = {},
-            .truth = {},
-            .today = "1970-01-01"};
+  [[nodiscard]] static std::set<Check> checks_of(const RunTrials& options) {
+    std::set<Check> checks;
+    if (options.history) checks.insert(Check::timing);
+    if (options.correlation) checks.insert(Check::correlation);
+    return checks;
   }
 
   // Levels that the correlation judges, one name for several with the same configurations.
@@ -159,72 +125,6 @@ class Trials {
       if (judged && seen.insert(inside).second) levels_.push_back(level);
     }
     configurations_.assign(all.begin(), all.end());
-  }
-
-  // Two launches and what is stored of the other runs.
-  struct Launches {
-    Launch first;
-    std::optional<Launch> second;
-    const TrialHistory& stored;
-  };
-
-  void judge(const Trial& trial, const Attempt& first, const std::optional<Attempt>& second,
-             const std::vector<std::string>& devices) {
-    // Enough are left to judge by.
-    const bool both = second && pool_.unplanted.size() >= TimingModel::least_runs + 2;
-    std::set<std::size_t> judged{first.run};
-    TrialStore& one = store(first.run, 0);
-    one.exchange(first.changed);
-    if (!both) {
-      judge_by_all(trial, {one.launch(), std::nullopt, history(judged)}, devices);
-    } else {
-      judged.insert(second->run);
-      TrialStore& two = store(second->run, 1);
-      two.exchange(second->changed);
-      judge_by_all(trial, {one.launch(), two.launch(), history(judged)}, devices);
-      two.restore();
-    }
-    one.restore();
-  }
-
-  // The gates of one trial: by all devices' baselines and, for a device that is not known yet, by
-  // each other one's alone.
-  void judge_by_all(const Trial& trial, const Launches& launches,
-                    const std::vector<std::string>& devices) {
-    const std::vector<std::string>& judged = devices.empty() ? devices_ : devices;
-    judge_by("", launches, request(checks_, devices), trial,
-             [&](const GateResult& result, const Trial& counted) {
-               if (options_.history) count_history(pool_.plan, result, counted, judged, tallies_);
-               count_correlations(pool_.plan, "correlation, accepted device", result, counted,
-                                  tallies_);
-             });
-    if (!options_.correlation) return;
-    std::set<std::string> others(devices_.begin(), devices_.end());
-    if (judged.size() == 1) others.erase(judged.front());
-    for (const std::string& other : others) {
-      judge_by(other, launches, request({Check::correlation}, devices), trial,
-               [&](const GateResult& result, const Trial& counted) {
-                 count_correlations(pool_.plan, "correlation, new device", result, counted,
-                                    tallies_);
-               });
-    }
-  }
-
-  // By the first launch, then, where there is a second, by what both say of devices in doubt.
-  static void judge_by(const std::string& known, const Launches& launches,
-                       const GateRequest& request, Trial trial,
-                       const std::function<void(const GateResult&, const Trial&)>& count) {
-    const Baselines& baselines = launches.stored.of(known);
-    GateResult result = judge_launches(launches.first, {}, baselines, request);
-    trial.confirmed = false;
-    count(result, trial);
-    if (!launches.second) return;
-    if (!result.in_doubt.empty()) {
-      const Launch again{launches.second->store, launches.second->run, result.in_doubt};
-      result = judge_launches(launches.first, {&again, 1}, baselines, request);
-    }
-    trial.confirmed = true;
-    count(result, trial);
   }
 
   // The run measured next; after the last, the one before it.
@@ -247,17 +147,16 @@ class Trials {
 
   void try_unplanted(std::size_t base) {
     const std::size_t next = neighbour(base);
-    judge({.spread = Spread::none}, {base, {}}, Attempt{next, {}}, {});
-    ask_again(base);
-    if (options_.history) count_seconds(pool_.unplanted[base]);
+    judge_.judge({.spread = Spread::none}, {base, {}}, Attempt{next, {}}, {});
+    judge_.judge_twice(base);
     for (const double size : sizes_) {
-      judge({.spread = Spread::device, .percent = size}, slower_device(base, size),
-            slower_device(next, size), {});
+      judge_.judge({.spread = Spread::device, .percent = size}, slower_device(base, size),
+                   slower_device(next, size), {});
     }
     if (!options_.correlation) return;
     for (const std::string& device : devices_) {
-      judge({.spread = Spread::scrambled}, {base, scrambled(pool_.unplanted[base], device)},
-            std::nullopt, {device});
+      judge_.judge({.spread = Spread::scrambled}, {base, scrambled(pool_.unplanted[base], device)},
+                   std::nullopt, {device});
     }
   }
 
@@ -270,24 +169,6 @@ class Trials {
       }
     }
     return slower;
-  }
-
-  // All that the protocol does of a configuration.
-  void count_seconds(const PooledRun& run) {
-    for (const Record& each : run.records) {
-      double ns = each.loop_wall_ns + each.prepare_ns + each.overhead_ns;
-      for (const double frame_ns : each.wall_ns) ns += frame_ns;
-      tallies_[{"history", pool_.plan, each.device}].seconds += 1e-9 * ns;
-    }
-  }
-
-  void ask_again(std::size_t base) {
-    const auto verdict = [&] {
-      return to_json(judge_launches(store(base, 0).launch(), {}, history({base}).of(""),
-                                    request(checks_, {})));
-    };
-    tallies_[{"gate", pool_.plan, "all devices"}].same_bytes.count(verdict().dump() ==
-                                                                   verdict().dump());
   }
 
   [[nodiscard]] std::vector<Record> scrambled(const PooledRun& run, const std::string& device) {
@@ -313,7 +194,7 @@ class Trials {
     if (trial.planted.empty()) return;
     std::optional<Attempt> second;
     if (const PooledRun* other = neighbour(run)) second = {other->before, planted(*other)};
-    judge(trial, first, second, devices);
+    judge_.judge(trial, first, second, devices);
   }
 
   [[nodiscard]] double cost_in(const PooledRun& run, const std::vector<Record>& planted) const {
@@ -395,17 +276,12 @@ class Trials {
 
   const RunPool& pool_;
   const RunTrials& options_;
-  const std::filesystem::path& folder_;
   core::Random random_;
-  std::set<Check> checks_;
+  TrialJudge judge_;
+  const std::vector<std::string>& devices_;
   std::set<double> sizes_;
-  std::vector<std::string> devices_;
   std::vector<std::string> configurations_;
   std::vector<Level> levels_;
-  std::map<std::set<std::size_t>, std::unique_ptr<TrialHistory>> histories_;  // by what is left out
-  std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<TrialStore>>
-      stores_;  // by run and launch
-  Tallies tallies_;
 };
 
 }  // namespace
