@@ -18,7 +18,10 @@
 //     t = (d − d̄ − τ)/√(V + v_b),  V = the larger of s_d²(1 + 1/H) and v_a,
 //
 // Student's t with H − 1 degrees where the first is larger, else with (k − 1)(H − 1) of k anchors
-// (H − 1 of one). v_a is what the anchors' own scatter lets expect; s_d holds what that does not
+// (H − 1 of one). v_a is what the anchors' own scatter lets expect of their median,
+// π/2·k/(Σ1/σ)²·k/(k − 1): the median of values with unlike σ, of which wild ones say little (one
+// that makes many short launches scatters by a factor of three), none of them being taken as
+// quieter than the median of all σ by its few runs. s_d holds what that does not
 // know: anchors that are slow together, a minute that only one of the two witnesses met. Tested at
 // 1 % on either side, once per device.
 //

@@ -88,17 +88,22 @@ CaseShift DeviceShifts::medians(const Witness& witness, const TimingCase* left_o
   return result;
 }
 
-// v_a: of the median of the anchors' deviations, π/2 times that of a mean of as many. Several
-// anchors tell their own scatter from what moves them all; of one alone everything is scatter.
+// v_a. Several anchors tell their own scatter from what moves them all, which takes one of them; of
+// one alone everything is scatter.
 double DeviceShifts::scatter_of_anchors() const {
-  std::vector<double> variances;
+  std::vector<double> scales;
   for (const auto& [value, timing] : anchors_.now) {
     const std::vector<double> values =
         anchors() > 1 ? stored_logarithms(*timing, by_anchors_) : stored_logarithms(*timing);
-    variances.push_back(sample_variance(values) * prediction(values.size()));
+    const double variance = sample_variance(values) * prediction(values.size());
+    scales.push_back(std::sqrt(std::max(variance, least_timing_variance)));
   }
-  const auto count = static_cast<double>(variances.size());
-  return count > 1 ? variance_of_median_to_mean * mean(variances) / (count - 1) : variances.front();
+  if (scales.size() == 1) return scales.front() * scales.front();
+  const double typical = median(scales);
+  double density = 0;
+  for (const double scale : scales) density += 1 / std::max(scale, typical);
+  const auto count = static_cast<double>(scales.size());
+  return variance_of_median_to_mean * count / (density * density) * count / (count - 1);
 }
 
 double DeviceShifts::scatter_of_body() const {

@@ -105,6 +105,25 @@ TEST(TimingShift, NoisyAnchorsHideNothing) {
   EXPECT_LE(slow.false_discoveries, q);
 }
 
+// Two of ten anchors are a factor of two apart from run to run: the median of all knows better.
+TEST(TimingShift, WildAnchorsHideNoSlowerProgram) {
+  const auto draw = [](std::uint64_t seed, double slower_by) {
+    auto cases = Device{.anchor_noise = 0.02, .slower_by = slower_by, .planted = 48}.draw(seed);
+    const auto wild = Device{.configurations = 0, .anchor_noise = 0.4}.draw(seed + 5000);
+    std::copy_n(wild.begin(), 2, cases.end() - 2);
+    return cases;
+  };
+  const auto slower = [&](double by) {
+    int count = 0;
+    for (int gate = 1; gate <= gates; ++gate) {
+      count += judge_timings(draw(static_cast<std::uint64_t>(gate), by)).programs.at(0).slower;
+    }
+    return static_cast<double>(count) / gates;
+  };
+  EXPECT_GE(slower(1.1), 0.9);
+  EXPECT_LE(slower(1), up_to_chance(TimingModel::false_program_alarms));
+}
+
 // The device's own slowness is the body's to tell; the anchors do not contradict.
 TEST(TimingShift, ASlowerDeviceIsNoSlowerProgram) {
   const DeviceScore s = score(Device{.device_slower_by = 1.25});
