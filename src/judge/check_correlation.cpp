@@ -18,10 +18,6 @@ double percent(double effect) {
   return 100 * std::expm1(effect);
 }
 
-bool is_worth_telling(double effect) {
-  return effect >= std::log(Model::least_effect);
-}
-
 std::string level_name(const LevelEffect& level) {
   std::string name = fmt::format("{}={}", level.factor, level.level);
   if (!level.aliases.empty()) name += fmt::format(" (= {})", fmt::join(level.aliases, ", "));
@@ -83,10 +79,13 @@ class PairReport {
         "{} configurations, {} anchors, r = {:.3f}, ln t_B = {:.3f} + {:.3f} ln t_A{}, residuals "
         "{:.1f} %; one configuration shows from {:+.0f} % on",
         result_.configurations, result_.anchors, result_.r, result_.line.intercept,
-        result_.line.slope,
-        result_.line_of_acceptance ? " (when this device was accepted; today there is no line)"
-                                   : "",
-        percent(result_.scale), percent(result_.smallest_effect));
+        result_.line.slope, which_line(), percent(result_.scale), percent(result_.smallest_effect));
+  }
+
+  [[nodiscard]] std::string which_line() const {
+    if (result_.line_of_acceptance)
+      return " (when this device was accepted; today there is no line)";
+    return result_.line_beside.empty() ? "" : fmt::format(" (beside {})", result_.line_beside);
   }
 
   // What would help depends on what is missing.
@@ -144,12 +143,15 @@ class PairReport {
   // A few percent on a level may be how the other device is made: only what is also large decides.
   void report_level(const LevelEffect& level) {
     if (!level.slower) return;
-    const bool decides = !level.standing && is_worth_telling(level.effect);
+    const bool decides = !level.standing && Model::is_worth_telling(level.effect);
     std::string message = fmt::format(
         "{}: {} configurations {:+.1f} % ± {:.1f} % against the others, as {} lets expect, q = "
         "{:.2g}, {:.0f} % of all deviation",
         level_name(level), level.size, percent(level.effect), percent(level.standard_error), other_,
         level.q, 100 * level.share);
+    if (result_.line_beside == level.factor + "=" + level.level) {
+      message += "; the line is that of the others";
+    }
     if (level.standing) {
       message += "; as when this device was accepted";
     } else if (!decides) {

@@ -89,6 +89,7 @@ Json to_json(const CorrelationPair& pair) {
           {"scale", number(result.scale)},
           {"anchor_intercept", number(result.anchor_intercept)},
           {"line_of_acceptance", result.line_of_acceptance},
+          {"line_beside", result.line_beside},
           {"smallest_effect", number(result.smallest_effect)},
           {"configurations", std::move(configurations)},
           {"levels", std::move(levels)},

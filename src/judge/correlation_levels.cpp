@@ -159,7 +159,65 @@ bool stood_before(const std::vector<const CorrelationCase*>& cases, const Group&
   return median(inside) - median(outside) < group.named.effect / 2;
 }
 
+// Who is slower as a whole, and the line with an offset of the group's own: offset and line by
+// turns, until the offset stays.
+struct OffsetLine {
+  double offset = 0;
+  RobustLine fit;  // residuals from the line of those outside
+};
+
+OffsetLine line_with_offset(const std::vector<double>& x, const std::vector<double>& y,
+                            const RobustLine& plain, Group group) {
+  constexpr int most_turns = 20;
+  constexpr double settled = 1e-4;  // of ln t
+  OffsetLine result{0, plain};
+  for (int turn = 0; turn < most_turns; ++turn) {
+    estimate(x, result.fit, group);
+    const double moved = std::abs(group.named.effect - result.offset);
+    result.offset = group.named.effect;
+    std::vector<double> level(y);
+    for (std::size_t i = 0; i < y.size(); ++i) level[i] -= group.inside[i] ? result.offset : 0;
+    result.fit = robust_line(x, level);
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      result.fit.residuals[i] += group.inside[i] ? result.offset : 0;
+    }
+    if (moved <= settled) break;
+  }
+  return result;
+}
+
 }  // namespace
+
+std::optional<LineBesideLevel> line_beside_a_level(std::span<const CorrelationCase> all,
+                                                   const RobustLine& fit) {
+  const auto cases = configurations_of(all);
+  std::vector<double> x;
+  std::vector<double> y;
+  for (const CorrelationCase* each : cases) {
+    x.push_back(each->log_time_a);
+    y.push_back(each->log_time_b);
+  }
+  std::vector<Group> groups = groups_of(cases);
+  if (groups.empty()) return std::nullopt;
+  for (Group& group : groups) estimate(x, fit, group);
+  // The two levels of a factor that has no more explain the same but for rounding: the slower one.
+  constexpr double rounding = 1e-9;
+  const double most = std::ranges::max(groups, {}, [](const Group& group) {
+                        return group.named.share;
+                      }).named.share;
+  std::erase_if(groups, [&](const Group& group) { return group.named.share < most - rounding; });
+  const Group& apart =
+      std::ranges::max(groups, {}, [](const Group& group) { return group.named.effect; });
+  OffsetLine found = line_with_offset(x, y, fit, apart);
+  const std::size_t outside = cases.size() - apart.named.size;
+  const bool of_inside =
+      apart.named.size > outside || (apart.named.size == outside && found.offset < 0);
+  if (of_inside) {
+    found.fit.line.intercept += found.offset;
+    for (double& residual : found.fit.residuals) residual -= found.offset;
+  }
+  return LineBesideLevel{apart.named.factor + "=" + apart.named.level, std::move(found.fit)};
+}
 
 double detectable_in_errors(std::size_t tests, double degrees) {
   const double first_step = Model::share_of_false_alarms / static_cast<double>(tests);

@@ -2,7 +2,9 @@
 // What a factor level adds to the line of two devices; part of the correlation model.
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "judge/correlation_model.hpp"
@@ -14,6 +16,17 @@ namespace triptych::judge {
 // of the cases that are no anchors, in their order.
 [[nodiscard]] std::vector<LevelEffect> level_effects(std::span<const CorrelationCase> cases,
                                                      const RobustLine& fit);
+
+// The line beside an offset of the level that explains most of the residuals. `fit.residuals` are
+// from the line of those inside or outside, whichever are more – of equally many the faster – and
+// hold the offset.
+struct LineBesideLevel {
+  std::string name;  // "factor=level": what is slower
+  RobustLine fit;
+};
+// nullopt where no level has enough inside and outside.
+[[nodiscard]] std::optional<LineBesideLevel> line_beside_a_level(
+    std::span<const CorrelationCase> cases, const RobustLine& fit);
 
 // How many standard errors an effect must have to be found with the probability
 // CorrelationModel::power as the only one among `tests` (Benjamini–Hochberg's first step).

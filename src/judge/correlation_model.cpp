@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "judge/correlation_levels.hpp"
+#include "judge/correlation_program.hpp"
 #include "judge/statistics.hpp"
 
 namespace triptych::judge {
@@ -20,10 +21,10 @@ struct Times {
   std::vector<double> b;
 };
 
-Times log_times(std::span<const CorrelationCase> cases, bool anchors) {
+Times log_times(std::span<const CorrelationCase> cases) {
   Times times;
   for (const CorrelationCase& each : cases) {
-    if (each.anchor != anchors) continue;
+    if (each.anchor) continue;
     times.a.push_back(each.log_time_a);
     times.b.push_back(each.log_time_b);
   }
@@ -77,18 +78,6 @@ std::vector<std::string> refusals_of(const RobustLine& fit, double rho) {
   return refusals;
 }
 
-// What B's times changed by since it was accepted, in the median; nullopt where it never was.
-std::optional<double> change_since_acceptance(std::span<const CorrelationCase> cases,
-                                              bool of_anchors) {
-  std::vector<double> changes;
-  for (const CorrelationCase& each : cases) {
-    if (each.anchor != of_anchors || !each.known_log_time_b) continue;
-    changes.push_back(each.log_time_b - *each.known_log_time_b);
-  }
-  if (changes.empty()) return std::nullopt;
-  return median(changes);
-}
-
 // The line that B's times had when it was accepted, with today's residuals from it; nullopt where a
 // case was not accepted or that line cannot judge either.
 std::optional<RobustLine> line_of_acceptance(std::span<const CorrelationCase> cases) {
@@ -112,10 +101,6 @@ std::optional<RobustLine> line_of_acceptance(std::span<const CorrelationCase> ca
 
 double square(double value) {
   return value * value;
-}
-
-bool is_worth_telling(double effect) {
-  return effect >= std::log(Model::least_effect);
 }
 
 struct KnownVariance {
@@ -190,71 +175,18 @@ void judge_configurations(std::span<const CorrelationCase> cases, const RobustLi
     judgement.slower = judgement.q <= Model::share_of_false_alarms && judgement.residual >= least;
     judgement.faster =
         faster_q[next] <= Model::share_of_false_alarms && -judgement.residual >= least;
-    judgement.suspected =
-        judgement.q <= Model::share_of_false_suspects && is_worth_telling(judgement.residual);
+    judgement.suspected = judgement.q <= Model::share_of_false_suspects &&
+                          Model::is_worth_telling(judgement.residual);
     // Beside a change of the device; the line that today's times have takes that of the program
     // too.
     const auto known = cases[i].known_log_time_b;
     judgement.standing = judgement.suspected && known && device &&
-                         !is_worth_telling(cases[i].log_time_b - *known - *device);
+                         !Model::is_worth_telling(cases[i].log_time_b - *known - *device);
     ++next;
   }
   const auto degrees = static_cast<double>(result.configurations - 2);
   result.smallest_effect =
       std::max(least, median(tested.errors) * detectable_in_errors(tested.errors.size(), degrees));
-}
-
-// The mean of y − βx by technique, or of each anchor where all have one technique.
-std::vector<double> anchor_groups(std::span<const CorrelationCase> cases, double slope) {
-  std::map<std::string, std::vector<double>> by_technique;
-  std::vector<double> single;
-  for (const CorrelationCase& each : cases) {
-    if (!each.anchor) continue;
-    const auto technique = each.factors.find("technique");
-    single.push_back(each.log_time_b - slope * each.log_time_a);
-    by_technique[technique == each.factors.end() ? each.configuration : technique->second]
-        .push_back(single.back());
-  }
-  if (by_technique.size() < 2) return single;
-  std::vector<double> means;
-  for (const auto& [technique, values] : by_technique) means.push_back(mean(values));
-  return means;
-}
-
-// By how much more the program changed than the anchors; nullopt where B was never accepted.
-std::optional<double> global_excess(std::span<const CorrelationCase> cases) {
-  const auto program = change_since_acceptance(cases, false);
-  const auto anchors = change_since_acceptance(cases, true);
-  if (!program || !anchors) return std::nullopt;
-  return *program - *anchors;
-}
-
-void judge_all(std::span<const CorrelationCase> cases, const RobustLine& fit, Correlation& result) {
-  GlobalShift& global = result.global;
-  const std::vector<double> groups = anchor_groups(cases, fit.line.slope);
-  global.groups = groups.size();
-  if (groups.size() < 2) return;
-  const auto count = static_cast<double>(groups.size());
-  result.anchor_intercept = mean(groups);
-  // α − α′ = (ȳ − βx̄) − (ȳ′ − βx̄′): the slope's error moves both, all but for the distance of
-  // their centres: var α + 2x̄′ cov(α, β) + x̄′² var β.
-  const double centre = mean(log_times(cases, true).a);
-  const double of_line = square(fit.intercept_error) + 2 * centre * fit.slope_intercept_covariance +
-                         square(centre * fit.slope_error);
-  global.delta = fit.line.intercept - result.anchor_intercept;
-  global.degrees = count - 1;
-  global.standard_error =
-      std::sqrt(sample_variance(groups) * (1 + 1 / count) + std::max(of_line, 0.0));
-  global.p = student_t_upper_tail(global.delta / global.standard_error, global.degrees);
-  global.smallest_effect =
-      std::max(std::log(Model::least_effect),
-               global.standard_error *
-                   (student_t_upper_quantile(Model::false_global_alarms, global.degrees) +
-                    student_t_upper_quantile(1 - Model::power, global.degrees)));
-  global.slower = global.p <= Model::false_global_alarms && is_worth_telling(global.delta);
-  const auto more = global_excess(cases);
-  global.suspected = global.p <= Model::false_global_suspects && is_worth_telling(global.delta);
-  global.standing = global.suspected && more && !is_worth_telling(*more);
 }
 
 // Residuals and leverages of all cases; anchors have none of the latter.
@@ -273,11 +205,30 @@ void place(std::span<const CorrelationCase> cases, const RobustLine& fit, Correl
   }
 }
 
+// In place of the line that today's times do not have, if there is one.
+void take_another_line(std::span<const CorrelationCase> cases, RobustLine& fit,
+                       Correlation& result) {
+  if (auto accepted = line_of_acceptance(cases)) {
+    fit = std::move(*accepted);
+    result.line_of_acceptance = true;
+    return;
+  }
+  auto beside = line_beside_a_level(cases, fit);
+  if (!beside || !refusals_of(beside->fit, result.rho).empty()) return;
+  if (!(beside->fit.scale <= Model::share_beside_level * fit.scale)) return;
+  fit = std::move(beside->fit);
+  result.line_beside = std::move(beside->name);
+}
+
 }  // namespace
+
+bool CorrelationModel::is_worth_telling(double effect) {
+  return effect >= std::log(least_effect);
+}
 
 Correlation correlate(std::span<const CorrelationCase> cases) {
   Correlation result;
-  const Times times = log_times(cases, false);
+  const Times times = log_times(cases);
   result.configurations = times.a.size();
   result.anchors = cases.size() - times.a.size();
   refuse_counts(result);
@@ -292,12 +243,9 @@ Correlation correlate(std::span<const CorrelationCase> cases) {
   const auto refusals = refusals_of(fit, result.rho);
   // Times that no longer go together at all are not a matter of how much is slower.
   if (result.admitted() && !refusals.empty() && result.rho >= Model::least_rho) {
-    if (auto accepted = line_of_acceptance(cases)) {
-      fit = std::move(*accepted);
-      result.line_of_acceptance = true;
-    }
+    take_another_line(cases, fit, result);
   }
-  if (!result.line_of_acceptance) {
+  if (!result.line_of_acceptance && result.line_beside.empty()) {
     result.refusals.insert(result.refusals.end(), refusals.begin(), refusals.end());
   }
   result.line = fit.line;
@@ -308,7 +256,7 @@ Correlation correlate(std::span<const CorrelationCase> cases) {
   if (!result.admitted()) return result;
   judge_configurations(cases, fit, result);
   result.levels = level_effects(cases, fit);
-  judge_all(cases, fit, result);
+  judge_program(cases, fit, result);
   return result;
 }
 

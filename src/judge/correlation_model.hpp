@@ -24,15 +24,20 @@
 //
 // Too many changes. Where so much is slower that no line is left, though ρ is still what it must
 // be, and B's times when it was accepted had one, that line is taken, moved by the median of what
-// the anchors changed since; residuals and effects are those from it. A device that was never
-// accepted has none: it is refused.
+// the anchors changed since; residuals and effects are those from it. Else, where one level is all
+// that is in the way: beside an offset of its own a line must be left that may judge and scatters
+// half as much. Then that line is taken, of those inside or outside, whichever are more; of equally
+// many the faster.
 //
 // All configurations at once. The line follows them, so that no residual tells. Δ = α − α′ does: by
 // how much the program lies above the anchors' own line. Anchors of one technique share a resource;
 // the k techniques' mean residuals (the configurations', where there is one technique only) scatter
 // with s_g around α′, and the program, being one more mix of resources, would by chance scatter as
-// they do: se² = s_g²(1 + 1/k) + var(α + βx̄′), x̄′ the anchors' mean x; Student's t with k − 1
-// degrees.
+// they do: se² = s_g² + 1/Σw + var(α + βx̄′), x̄′ the anchors' mean x. w = 1/(s_g² + e), e what a
+// technique's times scatter by from run to run beyond the techniques' median (of many short
+// launches by a factor of three): α′ is the weighted mean, s_g² by Paule and Mandel (1982);
+// Student's t with Σs_g²w − 1 degrees. Where all e are 0 that is the mean, the sample variance,
+// s_g²(1 + 1/k) and k − 1.
 
 #include <cstddef>
 #include <limits>
@@ -55,6 +60,8 @@ struct CorrelationModel {
   static constexpr double least_slope = 0.7;
   static constexpr double largest_slope = 1.3;
   static constexpr double largest_scale = 0.10;  // ŝ, in ln t
+  // Of ŝ, what one level's offset must leave at most to be all that is in a line's way.
+  static constexpr double share_beside_level = 0.5;
 
   static constexpr double share_of_false_alarms = 0.02;  // q of Benjamini–Hochberg
   static constexpr double least_effect = 1.10;           // of a level or of all, to be a regression
@@ -68,6 +75,9 @@ struct CorrelationModel {
   static constexpr double false_global_suspects = 0.05;
   static constexpr std::size_t least_level = 3;  // configurations inside a level, and outside
   static constexpr double power = 0.80;          // of the smallest effects that are told
+
+  // By least_effect; in ln t.
+  [[nodiscard]] static bool is_worth_telling(double effect);
 };
 
 struct CorrelationCase {
@@ -138,6 +148,7 @@ struct Correlation {
   double scale = 0;                 // ŝ
   double smallest_effect = 0;       // on one typical configuration, with probability `power`
   bool line_of_acceptance = false;  // today's times have none
+  std::string line_beside;          // "factor=level": they have one but for that level
   // "12 configurations, 30 are needed": why this baseline cannot judge; empty: it can. Nothing is
   // tested where it cannot.
   std::vector<std::string> refusals;

@@ -39,6 +39,12 @@ std::string fit_table(const CorrelationPair& pair) {
 }
 
 std::string admission(const CorrelationPair& pair) {
+  if (!pair.result.line_beside.empty()) {
+    return fmt::format(
+        "<p><b class=\"pass\">Admitted</b> beside an offset of {}: only without it is "
+        "there a line.</p>",
+        escape(pair.result.line_beside));
+  }
   if (pair.result.admitted()) {
     return pair.within_run ? "<p>The two are alike enough that one could judge the other.</p>"
                            : "<p><b class=\"pass\">Admitted</b>: this baseline judges the "

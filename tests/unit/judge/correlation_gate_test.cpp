@@ -232,6 +232,24 @@ TEST_F(CorrelationGateTest, AWholeLevelIsNamed) {
   EXPECT_TRUE(named) << text(result);
 }
 
+// Half of all by a quarter leaves no line of all; that of the others names it.
+TEST_F(CorrelationGateTest, HalfOfAllIsNamed) {
+  accept_known();
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new", [](const record::Record& r) {
+    return r.factors.at("technique") == "raycast" ? 1.25 : 1;
+  });
+  const GateResult result = judge("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::regression) << text(result);
+  const auto named = with(result, Verdict::regression);
+  const auto level = std::ranges::find_if(named, [](const Finding& finding) {
+    return finding.message.starts_with("technique=raycast: 24 configurations +25.");
+  });
+  ASSERT_NE(level, named.end()) << text(result);
+  EXPECT_THAT(level->message, HasSubstr("; the line is that of the others"));
+  EXPECT_EQ(named.size(), 25U);
+}
+
 TEST_F(CorrelationGateTest, AFewPercentOnALevelOnlyAdvise) {
   accept_known();
   measure_anchors("anchors", "b:new");

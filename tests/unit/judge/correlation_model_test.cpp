@@ -30,7 +30,8 @@ struct Bench {
   double anchor_scatter = 0.02;  // of anchor techniques' ratios
   double wild = 0;               // share of configurations that differ by a factor e^±0.5
   int anchor_techniques = 5;
-  int repeats = 1;  // 48 configurations each
+  double wild_anchor = 0;  // what the last technique's times scatter by from run to run
+  int repeats = 1;         // 48 configurations each
   // What is planted on a configuration, in ln t_B.
   std::function<double(const CorrelationCase&)> planted = [](const CorrelationCase&) {
     return 0.0;
@@ -56,6 +57,7 @@ struct Bench {
       cases.push_back(each);
     }
     for (int technique = 0; technique < anchor_techniques; ++technique) {
+      const double launch_scatter = technique + 1 == anchor_techniques ? wild_anchor : 0;
       const double own = anchor_scatter * normal(random);
       for (int size = 1; size <= 2; ++size) {
         CorrelationCase each;
@@ -64,6 +66,8 @@ struct Bench {
         each.configuration = fmt::format("anchor={},{}", technique, size);
         each.log_time_a = 14.5 + technique * 0.3 + std::log(size);
         each.log_time_b = 1 + slope * each.log_time_a + own + 0.005 * normal(random);
+        each.variance_b = launch_scatter * launch_scatter;
+        if (launch_scatter > 0) each.log_time_b += launch_scatter * normal(random);
         cases.push_back(each);
       }
     }
@@ -235,6 +239,16 @@ TEST(Correlation, OnlyAnchorsSeeThatAllIsSlower) {
   EXPECT_GE(count(bench, trials, told), least(trials, 0.9));
 }
 
+// One technique's times are a factor of three apart from run to run, and it is known to be so.
+TEST(Correlation, AWildAnchorSaysLittle) {
+  Bench bench{.wild_anchor = 0.5};
+  constexpr int trials = 300;
+  const auto slower = [](const Correlation& result) { return result.global.slower; };
+  EXPECT_LE(count(bench, trials, slower), most(trials, CorrelationModel::false_global_alarms));
+  bench.planted = [](const CorrelationCase&) { return std::log(1.2); };
+  EXPECT_GE(count(bench, trials, slower), least(trials, 0.8));
+}
+
 TEST(Correlation, ASlowerDeviceIsNoSlowerProgram) {
   const Bench bench;
   int alarms = 0;
@@ -331,7 +345,65 @@ TEST(Correlation, WhatFollowsNoLineIsHeldAgainstTheAcceptedOne) {
     EXPECT_FALSE(result.judgements[i].standing);
   }
   cases.front().known_log_time_b.reset();
-  EXPECT_FALSE(correlate(cases).admitted());
+  const Correlation beside = correlate(cases);
+  EXPECT_FALSE(beside.line_of_acceptance);
+  EXPECT_EQ(beside.line_beside, "skip=none");
+}
+
+// Half of all slower by a quarter, on a device that nobody knows.
+TEST(Correlation, OneLevelMayStandBesideTheLine) {
+  Bench bench{.noise = 0.02};
+  for (const char* slower : {"none", "bricks"}) {
+    bench.planted = [&](const CorrelationCase& each) {
+      return each.factors.at("skip") == slower ? std::log(1.25) : 0;
+    };
+    const auto cases = bench.draw(6);
+    const Correlation result = correlate(cases);
+    ASSERT_TRUE(result.admitted()) << fmt::format("{}", fmt::join(result.refusals, "; "));
+    EXPECT_EQ(result.line_beside, fmt::format("skip={}", slower));
+    EXPECT_LT(result.scale, 0.03);
+    EXPECT_NEAR(result.line.slope, bench.slope, 4 * result.slope_error);
+    EXPECT_EQ(result.levels.front().level, slower);
+    EXPECT_TRUE(result.levels.front().slower);
+    EXPECT_NEAR(result.levels.front().effect, std::log(1.25), 4 * 0.02 * 2 / std::sqrt(48));
+    EXPECT_EQ(std::ranges::count_if(result.levels, &LevelEffect::slower), 1);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (cases[i].anchor) continue;
+      EXPECT_EQ(result.judgements[i].slower, cases[i].factors.at("skip") == slower);
+    }
+  }
+}
+
+// Where more than half is slower the line is theirs: the level is named, none of them for itself.
+TEST(Correlation, TheLineBesideALevelIsOfTheMore) {
+  auto cases = Bench{.noise = 0.02}.draw(6);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (cases[i].anchor) continue;
+    const bool large = i < 25;
+    cases[i].factors["size"] = large ? "large" : "small";
+    cases[i].log_time_b += large ? std::log(1.6) : 0;
+  }
+  const Correlation result = correlate(cases);
+  ASSERT_TRUE(result.admitted());
+  EXPECT_THAT(result.line_beside, testing::StartsWith("size="));
+  EXPECT_FALSE(any_configuration(result));
+  EXPECT_EQ(std::ranges::count_if(result.judgements, &ConfigurationJudgement::faster), 23);
+  EXPECT_EQ(result.levels.front().level, "large");
+  EXPECT_TRUE(result.levels.front().slower);
+}
+
+// Two devices that differ in more than one thing have no line beside any one of them.
+TEST(Correlation, UnlikeDevicesHaveNoLineBesideALevel) {
+  Bench bench{.noise = 0.02};
+  bench.planted = [](const CorrelationCase& each) {
+    return (each.factors.at("skip") == "none" ? 0.5 : 0) +
+           (each.factors.at("technique") == "raycast" ? 0.4 : 0);
+  };
+  EXPECT_FALSE(correlate(bench.draw(7)).admitted());
+  const Bench scattered{.noise = 0.15};
+  EXPECT_EQ(
+      count(scattered, 200, [](const Correlation& result) { return !result.line_beside.empty(); }),
+      0);
 }
 
 // The median of two levels of one size, one of them slower, lies where nothing is.
