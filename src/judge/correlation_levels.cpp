@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <ranges>
 #include <string>
 #include <utility>
 
@@ -121,24 +122,24 @@ double explained_share(const std::vector<double>& r, const Group& group) {
   return total > 0 ? within * within * (1 / size + 1 / rest) / total : 0;
 }
 
-void estimate(const std::vector<double>& x, const RobustLine& fit, Group& group) {
-  const std::vector<double>& r = fit.residuals;
+// From residuals r with the scale ŝ.
+void estimate(const std::vector<double>& x, const std::vector<double>& r, double scale,
+              Group& group) {
   const double centre[] = {median_where(r, group.inside, false),
                            median_where(r, group.inside, true)};
   std::vector<double> weights(r.size(), 1);
   std::vector<double> own(r.size());
   for (std::size_t i = 0; i < r.size(); ++i) {
     own[i] = r[i] - centre[group.inside[i] ? 1 : 0];
-    if (fit.scale > 0) weights[i] = bisquare_weight(own[i], fit.scale);
+    if (scale > 0) weights[i] = bisquare_weight(own[i], scale);
   }
   const Contrast found = contrast(x, r, group.inside, weights);
   const auto degrees = static_cast<double>(r.size() - parameters);
   LevelEffect& level = group.named;
   level.effect = found.effect;
   level.standard_error =
-      fit.scale > 0
-          ? fit.scale * std::sqrt(robust_variance(own, fit.scale, parameters) / found.information)
-          : 0;
+      scale > 0 ? scale * std::sqrt(robust_variance(own, scale, parameters) / found.information)
+                : 0;
   // On an exact line any effect is beyond chance.
   level.p = level.standard_error > 0
                 ? student_t_upper_tail(level.effect / level.standard_error, degrees)
@@ -159,11 +160,23 @@ bool stood_before(const std::vector<const CorrelationCase*>& cases, const Group&
   return median(inside) - median(outside) < group.named.effect / 2;
 }
 
-// Who is slower as a whole, and the line with an offset of the group's own: offset and line by
-// turns, until the offset stays.
+// The slope is known less beside an offset that has to do with x: by 1/(1 − r²), r being Pearson's
+// of x and the indicator.
+void widen_slope(const std::vector<double>& x, const std::vector<bool>& inside, RobustLine& fit) {
+  const std::vector<double> indicator(inside.begin(), inside.end());
+  const double r = pearson_r(x, indicator);
+  const double variance = fit.slope_error * fit.slope_error;
+  const double more = variance * (1 / (1 - r * r) - 1);
+  const double centre = variance > 0 ? -fit.slope_intercept_covariance / variance : 0;
+  fit.slope_error = std::sqrt(variance + more);
+  fit.intercept_error = std::hypot(fit.intercept_error, centre * std::sqrt(more));
+  fit.slope_intercept_covariance -= centre * more;
+}
+
+// A line and an offset of the group's own, by turns until the offset stays.
 struct OffsetLine {
   double offset = 0;
-  RobustLine fit;  // residuals from the line of those outside
+  RobustLine fit;  // of those outside, and of those inside without the offset
 };
 
 OffsetLine line_with_offset(const std::vector<double>& x, const std::vector<double>& y,
@@ -172,18 +185,28 @@ OffsetLine line_with_offset(const std::vector<double>& x, const std::vector<doub
   constexpr double settled = 1e-4;  // of ln t
   OffsetLine result{0, plain};
   for (int turn = 0; turn < most_turns; ++turn) {
-    estimate(x, result.fit, group);
+    std::vector<double> r = result.fit.residuals;
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] += group.inside[i] ? result.offset : 0;
+    estimate(x, r, result.fit.scale, group);
     const double moved = std::abs(group.named.effect - result.offset);
     result.offset = group.named.effect;
     std::vector<double> level(y);
     for (std::size_t i = 0; i < y.size(); ++i) level[i] -= group.inside[i] ? result.offset : 0;
     result.fit = robust_line(x, level);
-    for (std::size_t i = 0; i < y.size(); ++i) {
-      result.fit.residuals[i] += group.inside[i] ? result.offset : 0;
-    }
     if (moved <= settled) break;
   }
+  widen_slope(x, group.inside, result.fit);
   return result;
+}
+
+// Whether these offsets are the group's, or those of all others.
+bool are_offsets_of(const Group& group, std::span<const double> offsets) {
+  std::vector<bool> moved;
+  for (const double offset : offsets) moved.push_back(offset != 0);
+  if (moved.empty()) return false;
+  if (moved == group.inside) return true;
+  moved.flip();
+  return moved == group.inside;
 }
 
 }  // namespace
@@ -198,25 +221,33 @@ std::optional<LineBesideLevel> line_beside_a_level(std::span<const CorrelationCa
     y.push_back(each->log_time_b);
   }
   std::vector<Group> groups = groups_of(cases);
-  if (groups.empty()) return std::nullopt;
-  for (Group& group : groups) estimate(x, fit, group);
-  // The two levels of a factor that has no more explain the same but for rounding: the slower one.
+  const std::size_t levels = groups.size();
+  if (groups.empty() || !(fit.scale > 0)) return std::nullopt;
+  for (Group& group : groups) estimate(x, fit.residuals, fit.scale, group);
+  // The two levels of a factor that has no more are as far apart but for rounding: the slower one.
+  const auto distance = [](const Group& group) {
+    return std::abs(group.named.effect) / group.named.standard_error;
+  };
   constexpr double rounding = 1e-9;
-  const double most = std::ranges::max(groups, {}, [](const Group& group) {
-                        return group.named.share;
-                      }).named.share;
-  std::erase_if(groups, [&](const Group& group) { return group.named.share < most - rounding; });
+  const double most = std::ranges::max(std::views::transform(groups, distance));
+  std::erase_if(groups,
+                [&](const Group& group) { return distance(group) < (1 - rounding) * most; });
   const Group& apart =
       std::ranges::max(groups, {}, [](const Group& group) { return group.named.effect; });
   OffsetLine found = line_with_offset(x, y, fit, apart);
   const std::size_t outside = cases.size() - apart.named.size;
   const bool of_inside =
       apart.named.size > outside || (apart.named.size == outside && found.offset < 0);
-  if (of_inside) {
-    found.fit.line.intercept += found.offset;
-    for (double& residual : found.fit.residuals) residual -= found.offset;
+  if (of_inside) found.fit.line.intercept += found.offset;
+  std::vector<double> offsets;
+  for (const bool inside : apart.inside) {
+    const double own = inside ? found.offset : 0;
+    offsets.push_back(of_inside ? own - found.offset : own);
   }
-  return LineBesideLevel{apart.named.factor + "=" + apart.named.level, std::move(found.fit)};
+  const auto degrees = static_cast<double>(cases.size() - parameters);
+  const double p = 2 * student_t_upper_tail(most, degrees) * static_cast<double>(levels);
+  return LineBesideLevel{apart.named.factor + "=" + apart.named.level, found.offset,
+                         std::min(p, 1.0), std::move(found.fit), std::move(offsets)};
 }
 
 double detectable_in_errors(std::size_t tests, double degrees) {
@@ -225,15 +256,17 @@ double detectable_in_errors(std::size_t tests, double degrees) {
          student_t_upper_quantile(1 - Model::power, degrees);
 }
 
-std::vector<LevelEffect> level_effects(std::span<const CorrelationCase> all,
-                                       const RobustLine& fit) {
+std::vector<LevelEffect> level_effects(std::span<const CorrelationCase> all, const RobustLine& fit,
+                                       std::span<const double> offsets) {
   const auto cases = configurations_of(all);
   std::vector<double> x;
   for (const CorrelationCase* each : cases) x.push_back(each->log_time_a);
+  std::vector<double> apart = fit.residuals;
+  for (std::size_t i = 0; i < offsets.size(); ++i) apart[i] += offsets[i];
   std::vector<Group> groups = groups_of(cases);
   std::vector<double> p;
   for (Group& group : groups) {
-    estimate(x, fit, group);
+    estimate(x, are_offsets_of(group, offsets) ? apart : fit.residuals, fit.scale, group);
     p.push_back(group.named.p);
   }
   const auto q = benjamini_hochberg_adjusted(p);

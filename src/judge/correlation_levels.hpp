@@ -13,18 +13,21 @@ namespace triptych::judge {
 
 // Every level that holds enough of the configurations and leaves enough out, those that are slower
 // than the rest before the others, each by the share of the residuals that they explain. `fit` is
-// of the cases that are no anchors, in their order.
+// of the cases that are no anchors, in their order; `offsets` of a line beside a level, else empty.
 [[nodiscard]] std::vector<LevelEffect> level_effects(std::span<const CorrelationCase> cases,
-                                                     const RobustLine& fit);
+                                                     const RobustLine& fit,
+                                                     std::span<const double> offsets);
 
-// The line beside an offset of the level that explains most of the residuals. `fit.residuals` are
-// from the line of those inside or outside, whichever are more – of equally many the faster – and
-// hold the offset.
+// The line beside an offset of the level whose effect is the most standard errors: of those inside
+// or outside, whichever are more, of equally many the faster.
 struct LineBesideLevel {
-  std::string name;  // "factor=level": what is slower
-  RobustLine fit;
+  std::string name;             // "factor=level"
+  double offset = 0;            // of those inside against those outside, in ln t
+  double p = 1;                 // of one as large by chance in any level
+  RobustLine fit;               // residuals are without the offset
+  std::vector<double> offsets;  // from that line, by configuration: 0 or ±offset
 };
-// nullopt where no level has enough inside and outside.
+// nullopt where no level has enough inside and outside, and on an exact line.
 [[nodiscard]] std::optional<LineBesideLevel> line_beside_a_level(
     std::span<const CorrelationCase> cases, const RobustLine& fit);
 

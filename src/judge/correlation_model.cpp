@@ -192,31 +192,44 @@ void judge_configurations(std::span<const CorrelationCase> cases, const RobustLi
 // Residuals and leverages of all cases; anchors have none of the latter.
 void place(std::span<const CorrelationCase> cases, const RobustLine& fit, Correlation& result) {
   double squares = 0;
-  for (const double residual : fit.residuals) squares += square(residual);
   std::size_t next = 0;
   for (const CorrelationCase& each : cases) {
     ConfigurationJudgement judgement;
     judgement.residual = each.log_time_b - fit.line.at(each.log_time_a);
     if (!each.anchor) {
       judgement.leverage = fit.leverages[next++];
-      judgement.share = squares > 0 ? square(judgement.residual) / squares : 0;
+      judgement.share = square(judgement.residual);
+      squares += judgement.share;
     }
     result.judgements.push_back(judgement);
   }
+  if (!(squares > 0)) return;
+  for (ConfigurationJudgement& judgement : result.judgements) judgement.share /= squares;
 }
 
-// In place of the line that today's times do not have, if there is one.
-void take_another_line(std::span<const CorrelationCase> cases, RobustLine& fit,
+// The line that configurations and levels are held against.
+struct JudgingLine {
+  RobustLine fit;
+  std::vector<double> offsets;  // of a line beside a level
+};
+
+// In place of the line through all, which may be none.
+void take_another_line(std::span<const CorrelationCase> cases, bool refused, JudgingLine& line,
                        Correlation& result) {
-  if (auto accepted = line_of_acceptance(cases)) {
-    fit = std::move(*accepted);
-    result.line_of_acceptance = true;
-    return;
+  if (refused) {
+    if (auto accepted = line_of_acceptance(cases)) {
+      line.fit = std::move(*accepted);
+      result.line_of_acceptance = true;
+      return;
+    }
   }
-  auto beside = line_beside_a_level(cases, fit);
+  auto beside = line_beside_a_level(cases, line.fit);
   if (!beside || !refusals_of(beside->fit, result.rho).empty()) return;
-  if (!(beside->fit.scale <= Model::share_beside_level * fit.scale)) return;
-  fit = std::move(beside->fit);
+  const bool is_told = beside->p <= Model::share_of_false_alarms &&
+                       std::abs(beside->offset) >= std::log(Model::least_level_effect);
+  const double most = refused ? Model::share_beside_level : 1;
+  if (!is_told || !(beside->fit.scale <= most * line.fit.scale)) return;
+  line = {std::move(beside->fit), std::move(beside->offsets)};
   result.line_beside = std::move(beside->name);
 }
 
@@ -237,17 +250,18 @@ Correlation correlate(std::span<const CorrelationCase> cases) {
     if (result.admitted()) result.refusals.emplace_back("all times of one device are alike");
     return result;
   }
-  RobustLine fit = robust_line(times.a, times.b);
+  JudgingLine line{robust_line(times.a, times.b), {}};
   result.r = raw_r(times);
   result.rho = pearson_r(times.a, times.b);
-  const auto refusals = refusals_of(fit, result.rho);
+  const auto refusals = refusals_of(line.fit, result.rho);
   // Times that no longer go together at all are not a matter of how much is slower.
-  if (result.admitted() && !refusals.empty() && result.rho >= Model::least_rho) {
-    take_another_line(cases, fit, result);
+  if (result.admitted() && result.rho >= Model::least_rho) {
+    take_another_line(cases, !refusals.empty(), line, result);
   }
   if (!result.line_of_acceptance && result.line_beside.empty()) {
     result.refusals.insert(result.refusals.end(), refusals.begin(), refusals.end());
   }
+  const RobustLine& fit = line.fit;
   result.line = fit.line;
   result.intercept_error = fit.intercept_error;
   result.slope_error = fit.slope_error;
@@ -255,7 +269,7 @@ Correlation correlate(std::span<const CorrelationCase> cases) {
   place(cases, fit, result);
   if (!result.admitted()) return result;
   judge_configurations(cases, fit, result);
-  result.levels = level_effects(cases, fit);
+  result.levels = level_effects(cases, fit, line.offsets);
   judge_program(cases, fit, result);
   return result;
 }

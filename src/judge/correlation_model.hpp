@@ -22,12 +22,15 @@
 // with each side's wild points weighted down about that side's own median: a level that is slower
 // as a whole is no outlier to itself, and one that holds the long times does not hide in the slope.
 //
+// One level apart. The level whose effect is the most standard errors, if that is beyond chance, is
+// given an offset of its own, and the line is fitted beside it: a level of long times tilts the
+// line of all, and others would be named for that. The line is of those inside or outside,
+// whichever are more; of equally many it is that of the faster.
+//
 // Too many changes. Where so much is slower that no line is left, though ρ is still what it must
 // be, and B's times when it was accepted had one, that line is taken, moved by the median of what
-// the anchors changed since; residuals and effects are those from it. Else, where one level is all
-// that is in the way: beside an offset of its own a line must be left that may judge and scatters
-// half as much. Then that line is taken, of those inside or outside, whichever are more; of equally
-// many the faster.
+// the anchors changed since; residuals and effects are those from it. Else the line beside a level
+// may judge, if it scatters half as much as that of all: then the level is all that was in the way.
 //
 // All configurations at once. The line follows them, so that no residual tells. Δ = α − α′ does: by
 // how much the program lies above the anchors' own line. Anchors of one technique share a resource;
@@ -60,7 +63,7 @@ struct CorrelationModel {
   static constexpr double least_slope = 0.7;
   static constexpr double largest_slope = 1.3;
   static constexpr double largest_scale = 0.10;  // ŝ, in ln t
-  // Of ŝ, what one level's offset must leave at most to be all that is in a line's way.
+  // Of ŝ, what a level's offset must leave at most to be all that is in a line's way.
   static constexpr double share_beside_level = 0.5;
 
   static constexpr double share_of_false_alarms = 0.02;  // q of Benjamini–Hochberg
@@ -148,7 +151,7 @@ struct Correlation {
   double scale = 0;                 // ŝ
   double smallest_effect = 0;       // on one typical configuration, with probability `power`
   bool line_of_acceptance = false;  // today's times have none
-  std::string line_beside;          // "factor=level": they have one but for that level
+  std::string line_beside;          // "factor=level": the line is beside an offset of that level
   // "12 configurations, 30 are needed": why this baseline cannot judge; empty: it can. Nothing is
   // tested where it cannot.
   std::vector<std::string> refusals;

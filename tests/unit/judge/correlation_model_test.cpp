@@ -223,6 +223,39 @@ TEST(Correlation, ALevelOfLongTimesDoesNotHideInTheSlope) {
   EXPECT_GE(found, least(200, 0.6));
 }
 
+// The long half of the times is one level, and slower: it tilts the line through all.
+TEST(Correlation, ASlowerLevelOfLongTimesTakesNoOtherWithIt) {
+  Bench bench{.noise = 0.02, .repeats = 2};
+  const auto draw = [&](std::uint64_t seed) {
+    auto cases = bench.draw(seed);
+    for (CorrelationCase& each : cases) {
+      if (each.anchor) continue;
+      // Another factor that has to do with the length, but not as much.
+      const bool large = each.log_time_a > 15.5;
+      each.factors["size"] = large ? "large" : "small";
+      if (each.log_time_a > 16.5) each.factors["data"] = "d0";
+      each.log_time_b += large ? std::log(1.25) : 0;
+    }
+    return cases;
+  };
+  constexpr int trials = 200;
+  int named = 0;
+  int others = 0;
+  for (int seed = 1; seed <= trials; ++seed) {
+    const Correlation result = correlate(draw(static_cast<std::uint64_t>(seed)));
+    named += result.line_beside == "size=large" && result.levels.front().level == "large" &&
+                     result.levels.front().slower
+                 ? 1
+                 : 0;
+    others += std::ranges::any_of(result.levels, [](const LevelEffect& level) {
+      return level.slower && level.factor != "size";
+    });
+    EXPECT_NEAR(result.line.slope, bench.slope, 5 * result.slope_error);
+  }
+  EXPECT_EQ(named, trials);
+  EXPECT_LE(others, most(trials, CorrelationModel::share_of_false_alarms));
+}
+
 TEST(Correlation, OnlyAnchorsSeeThatAllIsSlower) {
   Bench bench;
   bench.planted = [](const CorrelationCase&) { return std::log(1.15); };
