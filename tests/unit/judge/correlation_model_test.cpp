@@ -433,6 +433,13 @@ TEST(Correlation, UnlikeDevicesHaveNoLineBesideALevel) {
            (each.factors.at("technique") == "raycast" ? 0.4 : 0);
   };
   EXPECT_FALSE(correlate(bench.draw(7)).admitted());
+  // A level is in the way, but not all that is.
+  bench.noise = 0.085;
+  bench.repeats = 4;
+  bench.planted = [](const CorrelationCase& each) {
+    return each.factors.at("skip") == "none" ? 0.2 : 0;
+  };
+  EXPECT_LE(count(bench, 30, [](const Correlation& result) { return result.admitted(); }), 3);
   const Bench scattered{.noise = 0.15};
   EXPECT_EQ(
       count(scattered, 200, [](const Correlation& result) { return !result.line_beside.empty(); }),
