@@ -31,6 +31,13 @@ std::vector<const CorrelationCase*> configurations_of(std::span<const Correlatio
   return result;
 }
 
+std::vector<double> values_of(const std::vector<const CorrelationCase*>& cases,
+                              double CorrelationCase::*member) {
+  std::vector<double> values;
+  for (const CorrelationCase* each : cases) values.push_back(each->*member);
+  return values;
+}
+
 // Levels with the same configurations are one group under several names.
 std::vector<Group> groups_of(const std::vector<const CorrelationCase*>& cases) {
   std::map<std::pair<std::string, std::string>, std::vector<bool>> levels;
@@ -214,12 +221,8 @@ bool are_offsets_of(const Group& group, std::span<const double> offsets) {
 std::optional<LineBesideLevel> line_beside_a_level(std::span<const CorrelationCase> all,
                                                    const RobustLine& fit) {
   const auto cases = configurations_of(all);
-  std::vector<double> x;
-  std::vector<double> y;
-  for (const CorrelationCase* each : cases) {
-    x.push_back(each->log_time_a);
-    y.push_back(each->log_time_b);
-  }
+  const std::vector<double> x = values_of(cases, &CorrelationCase::log_time_a);
+  const std::vector<double> y = values_of(cases, &CorrelationCase::log_time_b);
   std::vector<Group> groups = groups_of(cases);
   const std::size_t levels = groups.size();
   if (groups.empty() || !(fit.scale > 0)) return std::nullopt;
@@ -259,8 +262,7 @@ double detectable_in_errors(std::size_t tests, double degrees) {
 std::vector<LevelEffect> level_effects(std::span<const CorrelationCase> all, const RobustLine& fit,
                                        std::span<const double> offsets) {
   const auto cases = configurations_of(all);
-  std::vector<double> x;
-  for (const CorrelationCase* each : cases) x.push_back(each->log_time_a);
+  const std::vector<double> x = values_of(cases, &CorrelationCase::log_time_a);
   std::vector<double> apart = fit.residuals;
   for (std::size_t i = 0; i < offsets.size(); ++i) apart[i] += offsets[i];
   std::vector<Group> groups = groups_of(cases);

@@ -39,16 +39,16 @@ std::string fit_table(const CorrelationPair& pair) {
 }
 
 std::string admission(const CorrelationPair& pair) {
-  if (!pair.result.line_beside.empty()) {
-    return fmt::format(
-        "<p><b class=\"pass\">Admitted</b> beside an offset of {}: only without it is "
-        "there a line.</p>",
-        escape(pair.result.line_beside));
-  }
   if (pair.result.admitted()) {
-    return pair.within_run ? "<p>The two are alike enough that one could judge the other.</p>"
-                           : "<p><b class=\"pass\">Admitted</b>: this baseline judges the "
-                             "device.</p>";
+    const std::string beside =
+        pair.result.line_beside.empty()
+            ? ""
+            : fmt::format(" The line is beside an offset of {}.", escape(pair.result.line_beside));
+    return fmt::format("<p>{}{}</p>",
+                       pair.within_run
+                           ? "The two are alike enough that one could judge the other."
+                           : "<b class=\"pass\">Admitted</b>: this baseline judges the device.",
+                       beside);
   }
   std::string text = fmt::format("<p><b class=\"cannot_judge\">Refused</b>: {}",
                                  escape(fmt::format("{}", fmt::join(pair.result.refusals, "; "))));
