@@ -149,7 +149,9 @@ class PairReport {
         "{:.2g}, {:.0f} % of all deviation",
         level_name(level), level.size, percent(level.effect), percent(level.standard_error), other_,
         level.q, 100 * level.share);
-    if (result_.line_beside == level.factor + "=" + level.level) {
+    // A level that holds more than half has the line itself.
+    if (result_.line_beside == level.factor + "=" + level.level &&
+        2 * level.size <= result_.configurations) {
       message += "; the line is that of the others";
     }
     if (level.standing) {
@@ -170,12 +172,18 @@ class PairReport {
   void report_global() {
     const GlobalShift& global = result_.global;
     if (!global.slower) return;
-    add_slower(
-        "program ", !global.standing,
-        fmt::format("the whole program is {:+.1f} % ± {:.1f} % slower than {} lets expect, by {} "
-                    "groups of anchors, p = {:.2g}: the program, not the device{}",
-                    percent(global.delta), percent(global.standard_error), other_, global.groups,
-                    global.p, global.standing ? "; as when this device was accepted" : ""));
+    const std::string message =
+        global.since_acceptance
+            ? fmt::format(
+                  "the whole program became {:+.1f} % ± {:.1f} % slower since this device "
+                  "was accepted, beside {} anchors",
+                  percent(global.delta), percent(global.standard_error), global.groups)
+            : fmt::format(
+                  "the whole program is {:+.1f} % ± {:.1f} % slower than {} lets expect, "
+                  "by {} groups of anchors",
+                  percent(global.delta), percent(global.standard_error), other_, global.groups);
+    add_slower("program ", true,
+               fmt::format("{}, p = {:.2g}: the program, not the device", message, global.p));
     add_numbers();
   }
 

@@ -70,7 +70,7 @@ bool is_in_doubt(const CorrelationPair& pair) {
     return result.refused_for_scatter() && result.scale <= largest_scale_in_doubt;
   }
   return std::ranges::any_of(result.judgements, is_suspect<ConfigurationJudgement>) ||
-         std::ranges::any_of(result.levels, is_suspect<LevelEffect>) || is_suspect(result.global);
+         std::ranges::any_of(result.levels, is_suspect<LevelEffect>) || result.global.suspected;
 }
 
 // Of the timing check's p-values, those of configurations together and each program's for itself.

@@ -52,14 +52,14 @@ Json level_json(const LevelEffect& level) {
 }
 
 Json global_json(const GlobalShift& global) {
-  return {{"groups", global.groups},
+  return {{"since_acceptance", global.since_acceptance},
+          {"groups", global.groups},
           {"delta", number(global.delta)},
           {"standard_error", number(global.standard_error)},
           {"degrees", number(global.degrees)},
           {"p", number(global.p)},
           {"smallest_effect", number(global.smallest_effect)},
-          {"slower", global.slower},
-          {"standing", global.standing}};
+          {"slower", global.slower}};
 }
 
 }  // namespace

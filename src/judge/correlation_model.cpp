@@ -103,18 +103,6 @@ double square(double value) {
   return value * value;
 }
 
-struct KnownVariance {
-  double variance = 0;
-  double degrees = infinite;
-};
-
-// Of independent ones, with Satterthwaite's degrees.
-KnownVariance operator+(const KnownVariance& a, const KnownVariance& b) {
-  const double sum = a.variance + b.variance;
-  const double squares = square(a.variance) / a.degrees + square(b.variance) / b.degrees;
-  return {sum, squares > 0 ? square(sum) / squares : infinite};
-}
-
 // Of a configuration's own times.
 KnownVariance own_scatter(const CorrelationCase& each) {
   return KnownVariance{each.variance_a, each.degrees_a} +
@@ -239,7 +227,7 @@ bool CorrelationModel::is_worth_telling(double effect) {
   return effect >= std::log(least_effect);
 }
 
-Correlation correlate(std::span<const CorrelationCase> cases) {
+Correlation correlate(std::span<const CorrelationCase> cases, const KnownVariance& beside_anchors) {
   Correlation result;
   const Times times = log_times(cases);
   result.configurations = times.a.size();
@@ -270,7 +258,7 @@ Correlation correlate(std::span<const CorrelationCase> cases) {
   if (!result.admitted()) return result;
   judge_configurations(cases, fit, result);
   result.levels = level_effects(cases, fit, line.offsets);
-  judge_program(cases, fit, result);
+  judge_program(cases, fit, line.offsets, beside_anchors, result);
   return result;
 }
 

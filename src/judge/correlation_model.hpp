@@ -32,15 +32,24 @@
 // the anchors changed since; residuals and effects are those from it. Else the line beside a level
 // may judge, if it scatters half as much as that of all: then the level is all that was in the way.
 //
-// All configurations at once. The line follows them, so that no residual tells. Δ = α − α′ does: by
-// how much the program lies above the anchors' own line. Anchors of one technique share a resource;
-// the k techniques' mean residuals (the configurations', where there is one technique only) scatter
-// with s_g around α′, and the program, being one more mix of resources, would by chance scatter as
-// they do: se² = s_g² + 1/Σw + var(α + βx̄′), x̄′ the anchors' mean x. w = 1/(s_g² + e), e what a
-// technique's times scatter by from run to run beyond the techniques' median (of many short
-// launches by a factor of three): α′ is the weighted mean, s_g² by Paule and Mandel (1982);
-// Student's t with Σs_g²w − 1 degrees. Where all e are 0 that is the mean, the sample variance,
-// s_g²(1 + 1/k) and k − 1.
+// All configurations at once. The line follows them, so that no residual tells.
+//
+// Where B was accepted before, with anchors, what changed since does: c = the median of ln t_B − ln
+// t_B then of the configurations (of those without an offset, beside a level; their lower quartile
+// where the line is that of acceptance), a = that of the anchors. Neither device's character is in
+// it. se² = π/2·s_a²/k + v_c + v_d: s_a² of the k anchors' changes, from their median absolute
+// deviation; v_c of the median c, distribution-free, as where half of all are slower it lies
+// anywhere; v_d of c − a from stored run to stored run, as a minute that only one of the two met is
+// common to all configurations. Student's t with Satterthwaite's degrees. Told from 5 % on.
+//
+// Else Δ = α − α′ does: by how much the program lies above the anchors' own line. Anchors of one
+// technique share a resource; the k techniques' mean residuals (the configurations', where there is
+// one technique only) scatter with s_g around α′, and the program, being one more mix of resources,
+// would by chance scatter as they do: se² = s_g² + 1/Σw + var(α + βx̄′), x̄′ the anchors' mean x. w =
+// 1/(s_g² + e), e what a technique's times scatter by from run to run beyond the techniques' median
+// (of many short launches by a factor of three): α′ is the weighted mean, s_g² by Paule and Mandel
+// (1982); Student's t with Σs_g²w − 1 degrees. Where all e are 0 that is the mean, the sample
+// variance, s_g²(1 + 1/k) and k − 1. Told from 10 % on.
 
 #include <cstddef>
 #include <limits>
@@ -51,6 +60,7 @@
 #include <vector>
 
 #include "judge/regression.hpp"
+#include "judge/statistics.hpp"
 #include "judge/work.hpp"
 
 namespace triptych::judge {
@@ -68,6 +78,7 @@ struct CorrelationModel {
 
   static constexpr double share_of_false_alarms = 0.02;  // q of Benjamini–Hochberg
   static constexpr double least_effect = 1.10;           // of a level or of all, to be a regression
+  static constexpr double least_change = 1.05;           // of all since B was accepted
   // What a level is told from on: below, it is how devices are made.
   static constexpr double least_level_effect = 1.04;
   // Of one configuration: two devices' character differs by up to that much here and there.
@@ -93,8 +104,10 @@ struct CorrelationCase {
   double log_time_b = 0;
   double variance_b = 0;
   double degrees_b = std::numeric_limits<double>::infinity();
-  // ln t that B itself had when it was accepted: what differed then is the device's character.
+  // ln t that B itself had when it was accepted, the median of its runs: what differed then is the
+  // device's character.
   std::optional<double> known_log_time_b = {};
+  double known_variance_b = 0;          // of that median, known as well as variance_b
   std::optional<WorkChange> work = {};  // from A to B
 };
 
@@ -128,15 +141,16 @@ struct LevelEffect {
 };
 
 struct GlobalShift {
-  std::size_t groups = 0;  // techniques of anchors, or anchors where they have one technique
-  double delta = 0;        // Δ
+  bool since_acceptance = false;  // Δ is what B changed by; else against A
+  // Techniques of anchors, or anchors where they have one technique or it is since acceptance.
+  std::size_t groups = 0;
+  double delta = 0;  // Δ
   double standard_error = 0;
   double degrees = 0;
   double p = 1;  // slower
   double smallest_effect = std::numeric_limits<double>::infinity();
   bool slower = false;
   bool suspected = false;
-  bool standing = false;
 };
 
 struct Correlation {
@@ -165,6 +179,9 @@ struct Correlation {
   }
 };
 
-[[nodiscard]] Correlation correlate(std::span<const CorrelationCase> cases);
+// `beside_anchors`: of how far the configurations' and the anchors' median changes since B was
+// accepted are apart by chance, as stored runs say; no degrees: nothing says it.
+[[nodiscard]] Correlation correlate(std::span<const CorrelationCase> cases,
+                                    const KnownVariance& beside_anchors = {0, 0});
 
 }  // namespace triptych::judge

@@ -8,65 +8,14 @@
 #include "judge/anchor.hpp"
 #include "judge/anchor_run.hpp"
 #include "judge/statistics.hpp"
+#include "judge/stored_scatter.hpp"
 
 namespace triptych::judge {
 namespace {
 
-using Stored = std::map<std::string, std::vector<StoredTiming>>;
-
-// ln t by one clock of the stored runs but one.
-std::vector<double> runs_by(std::string_view clock, const Stored& stored,
-                            const std::string& configuration, std::string_view but = {}) {
-  std::vector<double> result;
-  const auto found = stored.find(configuration);
-  if (found == stored.end()) return result;
-  for (const StoredTiming& timing : found->second) {
-    const auto time = timing.median_by(clock);
-    if (time && timing.run != but) result.push_back(std::log(*time));
-  }
-  return result;
-}
-
 // As common_clock with what is stored.
 std::string_view common_clock(const record::Record& a, const record::Record& b) {
   return a.clock() == b.clock() ? a.clock() : "wall";
-}
-
-// Of one run, of what several scatter by: a slow minute of one is no measure of the others, and the
-// launch that settles what it says is quieter.
-double variance_between(const std::vector<double>& logarithms) {
-  constexpr double least = 1e-12;  // a clock's steps make runs identical
-  return std::max(robust_variance(logarithms), least);
-}
-
-// Scatter between a device's runs, over all configurations that have several.
-VariancePrior scatter_between_runs(const Stored& stored) {
-  std::vector<double> variances;
-  std::vector<double> degrees;
-  for (const auto& [configuration, runs] : stored) {
-    std::vector<double> logarithms;
-    for (const StoredTiming& timing : runs) {
-      if (timing.clock == runs.back().clock) logarithms.push_back(std::log(timing.median_ns));
-    }
-    if (logarithms.size() < 2) continue;
-    variances.push_back(variance_between(logarithms));
-    degrees.push_back(robust_degrees(logarithms.size()));
-  }
-  return fit_variance_prior(variances, degrees);
-}
-
-// Of one run, moderated; 0 where no configuration has two runs: ŝ then carries it alone, as it
-// holds the typical scatter anyway.
-struct RunVariance {
-  double variance = 0;
-  double degrees = std::numeric_limits<double>::infinity();
-};
-
-RunVariance variance_of_a_run(const VariancePrior& prior, const std::vector<double>& runs) {
-  // As well known as another configuration's lets expect; from a single one alone, hardly at all.
-  if (runs.size() < 2) return {prior.variance, prior.degrees > 0 ? prior.degrees : 1};
-  const double degrees = robust_degrees(runs.size());
-  return {moderated_variance(prior, variance_between(runs), degrees), prior.degrees + degrees};
 }
 
 // Of ln median of one run's frames, by their own scatter.
@@ -131,8 +80,8 @@ class Pairs {
 
  private:
   // All that is stored under one key, of the plan and of the anchors' plan.
-  [[nodiscard]] Stored stored_under(const std::string& key) const {
-    Stored result;
+  [[nodiscard]] StoredTimes stored_under(const std::string& key) const {
+    StoredTimes result;
     for (const auto* devices : {&stored_, &stored_anchors_}) {
       for (const StoredDevice& device : *devices) {
         if (device.key == key) result.insert(device.timings.begin(), device.timings.end());
@@ -141,16 +90,39 @@ class Pairs {
     return result;
   }
 
+  // Of a device's program beside its anchors from run to run, moderated over all stored devices.
+  [[nodiscard]] KnownVariance beside_anchors(const std::string& key) const {
+    KnownVariance own{0, 0};
+    std::vector<double> variances;
+    std::vector<double> degrees;
+    for (const StoredDevice& device : stored_) {
+      const auto anchors = std::ranges::find(stored_anchors_, device.key, &StoredDevice::key);
+      if (anchors == stored_anchors_.end()) continue;
+      const KnownVariance scatter =
+          scatter_beside_anchors(device.timings, anchors->timings, view_.records.front().run);
+      if (scatter.degrees == 0) continue;
+      variances.push_back(scatter.variance);
+      degrees.push_back(scatter.degrees);
+      if (device.key == key) own = scatter;
+    }
+    if (variances.empty()) return own;
+    const VariancePrior prior = fit_variance_prior(variances, degrees);
+    // Unknown of B, it is taken as others'.
+    if (own.degrees == 0) return {prior.variance, std::max(prior.degrees, degrees.front())};
+    return {moderated_variance(prior, own.variance, own.degrees), prior.degrees + own.degrees};
+  }
+
   [[nodiscard]] CorrelationPair against_stored(const record::Device& device,
                                                const StoredDevice& other) const {
     CorrelationPair pair;
     pair.device = device.id;
     pair.other = other.id;
     pair.other_key = other.key;
-    const Stored of_a = stored_under(other.key);
-    const Stored of_b = stored_under(device.key());
+    const StoredTimes of_a = stored_under(other.key);
+    const StoredTimes of_b = stored_under(device.key());
     const VariancePrior scatter_a = scatter_between_runs(of_a);
     const VariancePrior scatter_b = scatter_between_runs(of_b);
+    std::size_t known_runs = std::numeric_limits<std::size_t>::max();  // of B
     for (const record::Record* record : records_.at(device.id)) {
       if (!of_a.contains(record->configuration)) continue;
       const std::string_view clock = common_clock(*record, of_a.at(record->configuration));
@@ -161,9 +133,8 @@ class Pairs {
       }
       CorrelationCase each = case_of(*record, clock);
       each.log_time_a = median(runs_a);
-      const RunVariance of_a_run = variance_of_a_run(scatter_a, runs_a);
-      each.variance_a =
-          variance_of_median_to_mean * of_a_run.variance / static_cast<double>(runs_a.size());
+      const KnownVariance of_a_run = variance_of_a_run(scatter_a, runs_a);
+      each.variance_a = of_a_run.variance * share_of_median(runs_a.size());
       each.degrees_a = of_a_run.degrees;
       if (!each.anchor) {
         pair.stored_runs =
@@ -172,10 +143,13 @@ class Pairs {
       // A run that was accepted is what was accepted, but others are better witnesses of it.
       auto runs_b = runs_by(clock, of_b, record->configuration, record->run);
       if (runs_b.empty()) runs_b = runs_by(clock, of_b, record->configuration);
-      if (!runs_b.empty()) each.known_log_time_b = median(runs_b);
       // A launch scatters more than its frames; unknown of B, it is taken as A's.
-      const RunVariance of_b_run =
+      const KnownVariance of_b_run =
           scatter_b.variance > 0 ? variance_of_a_run(scatter_b, runs_b) : of_a_run;
+      if (!runs_b.empty()) {
+        each.known_log_time_b = median(runs_b);
+        known_runs = std::min(known_runs, runs_b.size());
+      }
       if (of_b_run.variance > each.variance_b) {
         each.variance_b = of_b_run.variance;
         each.degrees_b = of_b_run.degrees;
@@ -183,7 +157,9 @@ class Pairs {
       each.work = work_change(record->counters, view_.baselines, record->configuration, other.id);
       pair.cases.push_back(std::move(each));
     }
-    pair.result = correlate(pair.cases);
+    KnownVariance beside = beside_anchors(device.key());
+    beside.variance *= 1 + share_of_median(known_runs);
+    pair.result = correlate(pair.cases, beside);
     return pair;
   }
 

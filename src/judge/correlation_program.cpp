@@ -86,12 +86,57 @@ double mean_log_time_of_anchors(std::span<const CorrelationCase> cases) {
   return mean(times);
 }
 
-// By how much more the program changed than the anchors; nullopt where B was never accepted.
-std::optional<double> change_beyond_anchors(std::span<const CorrelationCase> cases) {
-  const auto program = change_since_acceptance(cases, false);
-  const auto anchors = change_since_acceptance(cases, true);
-  if (!program || !anchors) return std::nullopt;
-  return *program - *anchors;
+// Of ln t since B was accepted. Of the program what the level with an offset has no part in.
+struct Changes {
+  std::vector<double> program;
+  std::vector<double> anchors;
+};
+
+Changes changes_of(std::span<const CorrelationCase> cases, std::span<const double> offsets) {
+  Changes changes;
+  std::size_t next = 0;
+  for (const CorrelationCase& each : cases) {
+    const bool beside = !each.anchor && !offsets.empty() && offsets[next] != 0;
+    next += each.anchor ? 0 : 1;
+    if (!each.known_log_time_b || beside) continue;
+    (each.anchor ? changes.anchors : changes.program)
+        .push_back(each.log_time_b - *each.known_log_time_b);
+  }
+  return changes;
+}
+
+double lower_quartile(std::span<const double> sorted) {
+  return sorted[(sorted.size() - 1) / 4];
+}
+
+// p and what goes with it, from Δ, its error and its degrees.
+void decide(double least_effect, GlobalShift& global) {
+  const double least = std::log(least_effect);
+  global.p = student_t_upper_tail(global.delta / global.standard_error, global.degrees);
+  global.smallest_effect =
+      std::max(least, global.standard_error *
+                          (student_t_upper_quantile(Model::false_global_alarms, global.degrees) +
+                           student_t_upper_quantile(1 - Model::power, global.degrees)));
+  global.slower = global.p <= Model::false_global_alarms && global.delta >= least;
+  global.suspected = global.p <= Model::false_global_suspects && global.delta >= least;
+}
+
+void judge_since_acceptance(const Changes& changes, bool line_of_acceptance,
+                            const KnownVariance& beside_anchors, GlobalShift& global) {
+  const std::vector<double>& anchors = changes.anchors;
+  std::vector<double> program = changes.program;
+  std::ranges::sort(program);
+  global.since_acceptance = true;
+  global.groups = anchors.size();
+  global.delta = (line_of_acceptance ? lower_quartile(program) : median(program)) - median(anchors);
+  const double of_anchors =
+      variance_of_median_to_mean * robust_variance(anchors) / static_cast<double>(anchors.size()) +
+      least_variance;
+  const KnownVariance whole = KnownVariance{of_anchors, robust_degrees(anchors.size())} +
+                              KnownVariance{variance_of_median(program)} + beside_anchors;
+  global.standard_error = std::sqrt(whole.variance);
+  global.degrees = whole.degrees;
+  decide(Model::least_change, global);
 }
 
 }  // namespace
@@ -132,34 +177,31 @@ RandomEffects random_effects(std::span<const KnownEffect> effects) {
 }
 
 void judge_program(std::span<const CorrelationCase> cases, const RobustLine& fit,
+                   std::span<const double> offsets, const KnownVariance& beside_anchors,
                    Correlation& result) {
   GlobalShift& global = result.global;
   std::vector<KnownEffect> groups = anchor_groups(cases, fit.line.slope);
-  global.groups = groups.size();
   if (groups.size() < 2) return;
   leave_excess(groups);
   const RandomEffects anchors = random_effects(groups);
   result.anchor_intercept = anchors.centre;
+  const Changes changes = changes_of(cases, offsets);
+  if (changes.anchors.size() >= Model::least_anchors &&
+      changes.program.size() >= Model::least_configurations / 2 && beside_anchors.degrees > 0) {
+    judge_since_acceptance(changes, result.line_of_acceptance, beside_anchors, global);
+    return;
+  }
   // α − α′ = (ȳ − βx̄) − (ȳ′ − βx̄′): the slope's error moves both, all but for the distance of
   // their centres: var α + 2x̄′ cov(α, β) + x̄′² var β.
   const double centre = mean_log_time_of_anchors(cases);
   const double of_line = square(fit.intercept_error) + 2 * centre * fit.slope_intercept_covariance +
                          square(centre * fit.slope_error);
+  global.groups = groups.size();
   global.delta = fit.line.intercept - result.anchor_intercept;
   global.degrees = anchors.degrees;
   global.standard_error =
       std::sqrt(anchors.variance + anchors.centre_variance + std::max(of_line, 0.0));
-  global.p = student_t_upper_tail(global.delta / global.standard_error, global.degrees);
-  global.smallest_effect =
-      std::max(std::log(Model::least_effect),
-               global.standard_error *
-                   (student_t_upper_quantile(Model::false_global_alarms, global.degrees) +
-                    student_t_upper_quantile(1 - Model::power, global.degrees)));
-  global.slower = global.p <= Model::false_global_alarms && Model::is_worth_telling(global.delta);
-  const auto more = change_beyond_anchors(cases);
-  global.suspected =
-      global.p <= Model::false_global_suspects && Model::is_worth_telling(global.delta);
-  global.standing = global.suspected && more && !Model::is_worth_telling(*more);
+  decide(Model::least_effect, global);
 }
 
 }  // namespace triptych::judge

@@ -74,6 +74,12 @@ std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
       return is_own(kind) && kind.spread == spread && is_size(kind, 10);
     };
   };
+  // A new device's character is in what its anchors say; an accepted one's is known.
+  const auto everything_on = [=](std::string_view which) {
+    return [=](const TrialKind& kind) {
+      return of_ten_percent(Spread::global)(kind) && kind.method.ends_with(which);
+    };
+  };
   const auto planted_somewhere = [=](const TrialKind& kind) {
     return is_own(kind) && (kind.spread == Spread::configuration || kind.spread == Spread::level);
   };
@@ -85,8 +91,10 @@ std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
           at(Spread::level, 5)),
       aim(name + "false among the discoveries", tallies, &Tally::false_discoveries, 0.05, false,
           planted_somewhere),
-      aim(name + "10 % of everything found", tallies, &Tally::detected, 0.9, true,
-          of_ten_percent(Spread::global)),
+      aim(name + "10 % of everything found, accepted device", tallies, &Tally::detected, 0.9, true,
+          everything_on("accepted device")),
+      aim(name + "10 % of everything found, new device", tallies, &Tally::detected, 0.9, true,
+          everything_on("new device")),
       aim(name + "a device slower by 10 % taken for the program", tallies, &Tally::false_alarms,
           0.1, false, of_ten_percent(Spread::device)),
       aim(name + "named first is what was planted", tallies, &Tally::first_named, 0.9, true,

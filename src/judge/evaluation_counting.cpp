@@ -19,7 +19,7 @@ class PairCount {
     const bool everything = trial_.spread == Spread::global || trial_.spread == Spread::api;
     configurations();
     levels(everything);
-    if (result_.global.slower && !result_.global.standing) {
+    if (result_.global.slower) {
       name(everything);
       detected_ = detected_ || everything;
     }

@@ -1,6 +1,7 @@
 #include "judge/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/digamma.hpp>
@@ -79,6 +80,20 @@ double robust_degrees(std::size_t values) {
   return robust_fit(values).degrees;
 }
 
+double variance_of_median(std::span<const double> sorted) {
+  namespace math = boost::math;
+  if (sorted.size() < 2) return infinite;
+  constexpr double z_of_interval = 2.576;
+  const auto count = static_cast<double>(sorted.size());
+  const double rank = std::round((count + 1) / 2 - z_of_interval * std::sqrt(count) / 2);
+  const auto low = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
+  const double outside =
+      math::cdf(math::binomial(count, 0.5), static_cast<double>(low));  // on one side
+  const double z = student_t_upper_quantile(outside, infinite);
+  const double error = (sorted[sorted.size() - 1 - low] - sorted[low]) / (2 * z);
+  return error * error;
+}
+
 double student_t_upper_tail(double t, double degrees) {
   if (std::isinf(t)) return t > 0 ? 0 : 1;
   namespace math = boost::math;
@@ -124,6 +139,12 @@ std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values
 
 // Newton's method on 1/ψ', which is convex and nearly linear: it approaches from one side (Smyth
 // 2004, appendix). Outside the range the asymptotes are exact to double precision.
+KnownVariance operator+(const KnownVariance& a, const KnownVariance& b) {
+  const double sum = a.variance + b.variance;
+  const double squares = a.variance * a.variance / a.degrees + b.variance * b.variance / b.degrees;
+  return {sum, squares > 0 ? sum * sum / squares : infinite};
+}
+
 double inverse_trigamma(double y) {
   if (y > 1e7) return 1 / std::sqrt(y);
   if (y < 1e-6) return 1 / y;

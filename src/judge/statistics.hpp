@@ -2,6 +2,7 @@
 // The statistics the gate rests on. Plain functions of numbers.
 
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -24,6 +25,10 @@ inline constexpr double variance_of_median_to_mean = std::numbers::pi / 2;
 // two values; by simulation).
 [[nodiscard]] double robust_variance(std::span<const double> values);
 [[nodiscard]] double robust_degrees(std::size_t values);
+
+// The variance of the median of these values, from its distribution-free interval of 99 % or, of
+// few values, the widest there is. `sorted` in ascending order; infinite for fewer than two.
+[[nodiscard]] double variance_of_median(std::span<const double> sorted);
 
 // P(T > t) for Student's t; `degrees` > 0, infinite for the normal distribution.
 [[nodiscard]] double student_t_upper_tail(double t, double degrees);
@@ -50,6 +55,15 @@ struct VariancePrior {
 // s̃² = (d₀s₀² + d·s²)/(d₀ + d)
 [[nodiscard]] double moderated_variance(const VariancePrior& prior, double variance,
                                         double degrees);
+
+// A variance that is known with so many degrees of freedom.
+struct KnownVariance {
+  double variance = 0;
+  double degrees = std::numeric_limits<double>::infinity();
+};
+// Of a sum of two independent values, with Satterthwaite's (1946) degrees: (Σu)²/Σ(u²/ν).
+[[nodiscard]] KnownVariance operator+(const KnownVariance& a, const KnownVariance& b);
+
 // The x > 0 with ψ'(x) = y, y > 0.
 [[nodiscard]] double inverse_trigamma(double y);
 

@@ -74,9 +74,21 @@ TimingJudgement judge_case(const TimingCase& timing, const Levelled& values,
   return result;
 }
 
-std::optional<ProgramJudgement> judge_device(std::span<const TimingCase* const> cases,
-                                             std::span<TimingJudgement* const> judgements) {
-  const DeviceShifts shifts(cases);
+// Of how far the program and the anchors are apart from run to run.
+VariancePrior scatter_of_programs(const std::vector<DeviceShifts>& devices) {
+  std::vector<double> variances;
+  std::vector<double> degrees;
+  for (const DeviceShifts& device : devices) {
+    const KnownVariance scatter = device.scatter_of_program();
+    if (scatter.degrees == 0) continue;
+    variances.push_back(scatter.variance);
+    degrees.push_back(scatter.degrees);
+  }
+  return fit_variance_prior(variances, degrees);
+}
+
+void judge_device(std::span<const TimingCase* const> cases, const DeviceShifts& shifts,
+                  std::span<TimingJudgement* const> judgements) {
   std::vector<Levelled> levelled;
   double pooled_degrees = 0;
   for (const TimingCase* timing : cases) {
@@ -89,7 +101,29 @@ std::optional<ProgramJudgement> judge_device(std::span<const TimingCase* const> 
     *judgements[i] = judge_case(*cases[i], levelled[i], prior, pooled_degrees, of_rounds);
     judgements[i]->anchors = shifts.anchors();
   }
-  return shifts.program();
+}
+
+void judge_devices(std::span<const TimingCase> cases, TimingJudgements& result) {
+  struct Device {
+    std::vector<const TimingCase*> cases;
+    std::vector<TimingJudgement*> judgements;
+  };
+  std::map<std::string, Device> by_name;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    Device& device = by_name[cases[i].device];
+    device.cases.push_back(&cases[i]);
+    device.judgements.push_back(&result.cases[i]);
+  }
+  std::vector<DeviceShifts> shifts;
+  for (const auto& [name, device] : by_name) shifts.emplace_back(device.cases);
+  const VariancePrior scatter = scatter_of_programs(shifts);
+  auto next = shifts.begin();
+  for (const auto& [name, device] : by_name) {
+    next->judge_program(scatter);
+    judge_device(device.cases, *next, device.judgements);
+    if (next->program()) result.programs.push_back(*next->program());
+    ++next;
+  }
 }
 
 }  // namespace
@@ -116,17 +150,7 @@ bool TimingTest::too_noisy(double tolerance) const {
 TimingJudgements judge_timings(std::span<const TimingCase> cases) {
   TimingJudgements result;
   result.cases.resize(cases.size());
-  std::map<std::string, std::vector<std::size_t>> by_device;
-  for (std::size_t i = 0; i < cases.size(); ++i) by_device[cases[i].device].push_back(i);
-  for (const auto& [device, indexes] : by_device) {
-    std::vector<const TimingCase*> own;
-    std::vector<TimingJudgement*> judgements;
-    for (const std::size_t i : indexes) {
-      own.push_back(&cases[i]);
-      judgements.push_back(&result.cases[i]);
-    }
-    if (auto program = judge_device(own, judgements)) result.programs.push_back(*program);
-  }
+  judge_devices(cases, result);
   std::vector<TimingJudgement*> judged;
   std::vector<double> slower;
   std::vector<double> faster;

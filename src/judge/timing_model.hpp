@@ -13,17 +13,20 @@
 //   shift to their scatter/√n, but a slowdown of the whole program moves it too.
 //
 // The program as a whole. d = b − a is free of the device and holds what changed in the program
-// alone. Over the H stored runs, in which nothing did, it scatters by s_d around d̄:
+// alone. Over the H stored runs, in which nothing did, it scatters by s_d around their median d̄:
 //
-//     t = (d − d̄ − τ)/√(V + v_b),  V = the larger of s_d²(1 + 1/H) and v_a,
+//     t = (d − d̄ − τ)/√(V + v_b),  V = the larger of s_d²(1 + π/2H) and v_a,
 //
-// Student's t with H − 1 degrees where the first is larger, else with (k − 1)(H − 1) of k anchors
-// (H − 1 of one). v_a is what the anchors' own scatter lets expect of their median,
-// π/2·k/(Σ1/σ)²·k/(k − 1): the median of values with unlike σ, of which wild ones say little (one
-// that makes many short launches scatters by a factor of three), none of them being taken as
-// quieter than the median of all σ by its few runs. s_d holds what that does not
-// know: anchors that are slow together, a minute that only one of the two witnesses met. Tested at
-// 1 % on either side, once per device.
+// s_d and the anchors' σ from median absolute deviations, as all scatter of stored runs (below),
+// s_d² moderated over the run's devices, of which each has few runs: Student's t with the ν that
+// such a variance of H values is worth, and those of the others, where the first is larger, else
+// with (k − 1)ν of k anchors (ν of one). v_a is what the anchors' own scatter lets expect of their
+// median, π/2·k/(Σ1/σ)²·k/(k − 1): the median of values with unlike σ, of which wild ones say
+// little (one that makes many short launches scatters by a factor of three), none of them being
+// taken as quieter than the median of all σ by its few runs. s_d holds what that does not know:
+// anchors that are slow together, a minute that only one of the two witnesses met, as far as that
+// happens in most runs: the rest is for another launch. Tested at 1 % on either side, once per
+// device.
 //
 // Where d is significant the program has changed, and the shift is a, whose variance is V.
 // Otherwise both tell the same shift, and it is their mean weighted by precision,
@@ -36,7 +39,7 @@
 // against the program as a whole, that one against the device.
 //
 // The judged configuration is left out of its own b: of few it would hide a part of itself there.
-// v_b is the larger of two: π/2 · s₀²(1 + 1/H)/n, of
+// v_b is the larger of two: π/2 · s₀²(1 + π/2H)/n, of
 // a median of n normal deviations with the stored runs' typical scatter s₀; and this run's own,
 // from the distribution-free interval of the median between the c-th smallest and c-th largest
 // deviation,

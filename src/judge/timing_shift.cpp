@@ -1,10 +1,7 @@
 #include "judge/timing_shift.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
-#include <iterator>
-#include <limits>
 
 #include "judge/statistics.hpp"
 
@@ -15,8 +12,9 @@ double median_of_sorted(std::span<const double> sorted) {
   return 0.5 * (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]);
 }
 
+// Of another run from the median of these, over the variance of one.
 double prediction(std::size_t runs) {
-  return 1 + 1 / static_cast<double>(runs);
+  return 1 + variance_of_median_to_mean / static_cast<double>(runs);
 }
 
 }  // namespace
@@ -28,20 +26,6 @@ std::vector<double> stored_logarithms(const TimingCase& timing, const CaseShift&
     result.push_back(std::log(ns) - (own == shift.stored.end() ? 0 : own->second));
   }
   return result;
-}
-
-double variance_of_median(std::span<const double> sorted) {
-  namespace math = boost::math;
-  if (sorted.size() < 2) return std::numeric_limits<double>::infinity();
-  constexpr double z_of_interval = 2.576;
-  const auto count = static_cast<double>(sorted.size());
-  const double rank = std::round((count + 1) / 2 - z_of_interval * std::sqrt(count) / 2);
-  const auto low = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
-  const double outside =
-      math::cdf(math::binomial(count, 0.5), static_cast<double>(low));  // on one side
-  const double z = student_t_upper_quantile(outside, std::numeric_limits<double>::infinity());
-  const double error = (sorted[sorted.size() - 1 - low] - sorted[low]) / (2 * z);
-  return error * error;
 }
 
 void DeviceShifts::Witness::add(const TimingCase& timing) {
@@ -65,7 +49,14 @@ DeviceShifts::DeviceShifts(std::span<const TimingCase* const> cases) {
   body_.sort();
   by_anchors_ = medians(anchors_, nullptr);
   by_anchors_.variance = scatter_of_anchors();
-  if (body_.now.size() >= TimingModel::least_body) judge_program();
+  if (body_.now.size() < TimingModel::least_body) return;
+  const CaseShift body = medians(body_, nullptr);
+  for (const auto& [run, shift] : by_anchors_.stored) {
+    const auto of_body = body.stored.find(run);
+    if (of_body == body.stored.end()) continue;
+    distances_.push_back(of_body->second - shift);
+    anchor_shifts_.push_back(shift);
+  }
 }
 
 std::vector<double> DeviceShifts::without(const Deviations& deviations,
@@ -95,7 +86,7 @@ double DeviceShifts::scatter_of_anchors() const {
   for (const auto& [value, timing] : anchors_.now) {
     const std::vector<double> values =
         anchors() > 1 ? stored_logarithms(*timing, by_anchors_) : stored_logarithms(*timing);
-    const double variance = sample_variance(values) * prediction(values.size());
+    const double variance = robust_variance(values) * prediction(values.size());
     scales.push_back(std::sqrt(std::max(variance, least_timing_variance)));
   }
   if (scales.size() == 1) return scales.front() * scales.front();
@@ -111,8 +102,8 @@ double DeviceShifts::scatter_of_body() const {
   std::vector<double> degrees;
   for (const auto& [value, timing] : body_.now) {
     const std::vector<double> values = stored_logarithms(*timing, medians(body_, timing));
-    variances.push_back(std::max(sample_variance(values), least_timing_variance));
-    degrees.push_back(static_cast<double>(values.size() - 1));
+    variances.push_back(std::max(robust_variance(values), least_timing_variance));
+    degrees.push_back(robust_degrees(values.size()));
   }
   return fit_variance_prior(variances, degrees).variance;
 }
@@ -125,30 +116,28 @@ double DeviceShifts::variance_of_body(const TimingCase* left_out) const {
   return std::max(expected, variance_of_median(values));
 }
 
-void DeviceShifts::judge_program() {
-  const CaseShift body = medians(body_, nullptr);
-  std::vector<double> differences;  // of stored runs
-  std::vector<double> shifts;       // the anchors' in them
-  for (const auto& [run, shift] : by_anchors_.stored) {
-    const auto of_body = body.stored.find(run);
-    if (of_body == body.stored.end()) continue;
-    differences.push_back(of_body->second - shift);
-    shifts.push_back(shift);
-  }
-  if (differences.size() < TimingModel::least_runs) return;
+KnownVariance DeviceShifts::scatter_of_program() const {
+  if (distances_.size() < TimingModel::least_runs) return {0, 0};
+  return {std::max(robust_variance(distances_), least_timing_variance),
+          robust_degrees(distances_.size())};
+}
+
+void DeviceShifts::judge_program(const VariancePrior& others) {
+  const KnownVariance own = scatter_of_program();
+  if (own.degrees == 0) return;
   typical_scatter_ = scatter_of_body();
-  const auto runs = static_cast<double>(differences.size());
+  const double seen =
+      moderated_variance(others, own.variance, own.degrees) * prediction(distances_.size());
   const auto anchors = static_cast<double>(anchors_.now.size());
-  const double seen = sample_variance(differences) * prediction(differences.size());
   ProgramJudgement program;
   program.device = body_.now.front().second->device;
   program.configurations = body_.now.size();
   program.anchors = anchors_.now.size();
-  program.degrees =
-      seen >= by_anchors_.variance ? runs - 1 : std::max(anchors - 1, 1.0) * (runs - 1);
-  by_anchors_.variance = std::max({by_anchors_.variance, seen, least_timing_variance});
-  program.device_shift = by_anchors_.now - mean(shifts);
-  program.log_ratio = body.now - by_anchors_.now - mean(differences);
+  program.degrees = seen >= by_anchors_.variance ? others.degrees + own.degrees
+                                                 : std::max(anchors - 1, 1.0) * own.degrees;
+  by_anchors_.variance = std::max(by_anchors_.variance, seen);
+  program.device_shift = by_anchors_.now - median(anchor_shifts_);
+  program.log_ratio = medians(body_, nullptr).now - by_anchors_.now - median(distances_);
   program.standard_error = std::sqrt(by_anchors_.variance + variance_of_body(nullptr));
   std::vector<double> tolerances;
   for (const auto& [value, timing] : body_.now) tolerances.push_back(timing->tolerance);

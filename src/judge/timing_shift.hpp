@@ -10,16 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "judge/statistics.hpp"
 #include "judge/timing_model.hpp"
 
 namespace triptych::judge {
 
 // The smallest variance of ln t: clocks step, so that identical medians occur; 1e-6 of the time.
 inline constexpr double least_timing_variance = 1e-12;
-
-// The variance of the median of these values, from its distribution-free interval of 99 % or, of
-// few values, the widest there is. `sorted` in ascending order; infinite for fewer than two.
-[[nodiscard]] double variance_of_median(std::span<const double> sorted);
 
 // What is to be taken out of one case.
 struct CaseShift {
@@ -36,6 +33,10 @@ struct CaseShift {
 class DeviceShifts {
  public:
   explicit DeviceShifts(std::span<const TimingCase* const> cases);
+  // s_d² with ν; no degrees where anchors, a body or stored runs are missing.
+  [[nodiscard]] KnownVariance scatter_of_program() const;
+  // `others`: s_d² of all devices. To be called before what follows.
+  void judge_program(const VariancePrior& others);
   [[nodiscard]] CaseShift of(const TimingCase& timing) const;
   // nullopt where anchors or a body are missing.
   [[nodiscard]] const std::optional<ProgramJudgement>& program() const { return program_; }
@@ -57,12 +58,13 @@ class DeviceShifts {
   [[nodiscard]] double scatter_of_anchors() const;
   [[nodiscard]] double scatter_of_body() const;
   [[nodiscard]] double variance_of_body(const TimingCase* left_out) const;
-  void judge_program();
 
   Witness anchors_;
   Witness body_;
-  CaseShift by_anchors_;        // and the variance V, where there is a program to be judged
-  double typical_scatter_ = 0;  // s₀² of the body
+  CaseShift by_anchors_;               // and the variance V, where there is a program to be judged
+  double typical_scatter_ = 0;         // s₀² of the body
+  std::vector<double> distances_;      // d of the stored runs
+  std::vector<double> anchor_shifts_;  // in them
   std::optional<ProgramJudgement> program_;
 };
 

@@ -110,12 +110,18 @@ std::string level_table(const CorrelationPair& pair) {
 std::string global_text(const CorrelationPair& pair) {
   const judge::GlobalShift& global = pair.result.global;
   if (global.groups < 2 || !pair.result.admitted()) return {};
+  const std::string what =
+      global.since_acceptance
+          ? fmt::format("changed by {} ± {:.1f} % since the device was accepted, beside {} anchors",
+                        percent(global.delta), 100 * std::expm1(global.standard_error),
+                        global.groups)
+          : fmt::format("lies {} ± {:.1f} % from the line of {} groups of anchors",
+                        percent(global.delta), 100 * std::expm1(global.standard_error),
+                        global.groups);
   return fmt::format(
-      "<p>The program as a whole lies {} ± {:.1f} % from the line of {} groups of anchors (p = "
-      "{}{}); a slowdown of everything would have shown from {} on.</p>",
-      percent(global.delta), 100 * std::expm1(global.standard_error), global.groups,
-      p_value(global.p), global.standing ? ", as when accepted" : "",
-      percent(global.smallest_effect));
+      "<p>The program as a whole {} (p = {}); a slowdown of everything would have shown from {} "
+      "on.</p>",
+      what, p_value(global.p), percent(global.smallest_effect));
 }
 
 std::string pair_part(const PlanData& plan, const CorrelationPair& pair, std::size_t index) {

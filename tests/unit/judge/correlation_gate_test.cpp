@@ -349,6 +349,24 @@ TEST_F(CorrelationGateTest, WhatWasAcceptedOnThisDeviceIsItsCharacter) {
   EXPECT_THAT(advice[0].message, HasSubstr("as when this device was accepted"));
 }
 
+// Accepted once, it needs no like device to tell a tenth: its own anchors and times of then do.
+TEST_F(CorrelationGateTest, AProgramThatBecameSlowerSinceAcceptanceIsTold) {
+  accept_known();
+  measure_anchors("anchors1", "b:new");
+  accept_plan("anchors1", anchors);
+  measure("b1", "b:new");
+  accept_plan("b1", plan);
+  measure_anchors("anchors2", "b:new");
+  measure("b2", "b:new", [](const record::Record&) { return 1.10; });
+  const GateResult result = judge("b2");
+  EXPECT_EQ(result.exit_code(), ExitCode::regression) << text(result);
+  const auto slower = with(result, Verdict::regression);
+  ASSERT_EQ(slower.size(), 1U) << text(result);
+  EXPECT_THAT(slower[0].message, HasSubstr("the whole program became +"));
+  EXPECT_THAT(slower[0].message, HasSubstr("slower since this device was accepted, beside 12"));
+  EXPECT_NEAR(slower[0].numbers.at("global_delta"), std::log(1.10), 0.01);
+}
+
 TEST_F(CorrelationGateTest, ADeviceIsNotHeldAgainstItself) {
   accept_known();
   measure("k", "a:known");
