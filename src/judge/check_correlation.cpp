@@ -176,7 +176,8 @@ class PairReport {
         global.since_acceptance
             ? fmt::format(
                   "the whole program became {:+.1f} % ± {:.1f} % slower since this device "
-                  "was accepted, beside {} anchors",
+                  "was accepted (three quarters of its configurations that much or more), beside "
+                  "{} anchors",
                   percent(global.delta), percent(global.standard_error), global.groups)
             : fmt::format(
                   "the whole program is {:+.1f} % ± {:.1f} % slower than {} lets expect, "

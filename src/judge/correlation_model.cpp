@@ -258,7 +258,7 @@ Correlation correlate(std::span<const CorrelationCase> cases, const KnownVarianc
   if (!result.admitted()) return result;
   judge_configurations(cases, fit, result);
   result.levels = level_effects(cases, fit, line.offsets);
-  judge_program(cases, fit, line.offsets, beside_anchors, result);
+  judge_program(cases, fit, beside_anchors, result);
   return result;
 }
 

@@ -34,13 +34,13 @@
 //
 // All configurations at once. The line follows them, so that no residual tells.
 //
-// Where B was accepted before, with anchors, what changed since does: c = the median of ln t_B − ln
-// t_B then of the configurations (of those without an offset, beside a level; their lower quartile
-// where the line is that of acceptance), a = that of the anchors. Neither device's character is in
-// it. se² = π/2·s_a²/k + v_c + v_d: s_a² of the k anchors' changes, from their median absolute
-// deviation; v_c of the median c, distribution-free, as where half of all are slower it lies
-// anywhere; v_d of c − a from stored run to stored run, as a minute that only one of the two met is
-// common to all configurations. Student's t with Satterthwaite's degrees. Told from 5 % on.
+// Where B was accepted before, with anchors, what changed since does: Δ = c − a, c the lower
+// quartile of ln t_B − ln t_B then of the configurations, as half of them are not the whole, a the
+// median of the anchors. Neither device's character is in it. se² = π/2·s_a²/k + v_c + v_d: s_a² of
+// the k anchors' changes, from their median absolute deviation; v_c of the quartile,
+// distribution-free; v_d of the two medians' distance from stored run to stored run, as a minute
+// that only one of them met is common to all configurations. Student's t with Satterthwaite's
+// degrees. Told from 5 % on.
 //
 // Else Δ = α − α′ does: by how much the program lies above the anchors' own line. Anchors of one
 // technique share a resource; the k techniques' mean residuals (the configurations', where there is
@@ -79,6 +79,7 @@ struct CorrelationModel {
   static constexpr double share_of_false_alarms = 0.02;  // q of Benjamini–Hochberg
   static constexpr double least_effect = 1.10;           // of a level or of all, to be a regression
   static constexpr double least_change = 1.05;           // of all since B was accepted
+  static constexpr double share_not_slower = 0.25;       // of a program that is slower as a whole
   // What a level is told from on: below, it is how devices are made.
   static constexpr double least_level_effect = 1.04;
   // Of one configuration: two devices' character differs by up to that much here and there.
@@ -179,8 +180,8 @@ struct Correlation {
   }
 };
 
-// `beside_anchors`: of how far the configurations' and the anchors' median changes since B was
-// accepted are apart by chance, as stored runs say; no degrees: nothing says it.
+// `beside_anchors`: of how far the configurations' and the anchors' changes since B was accepted
+// are apart by chance, as stored runs say; no degrees: nothing says it.
 [[nodiscard]] Correlation correlate(std::span<const CorrelationCase> cases,
                                     const KnownVariance& beside_anchors = {0, 0});
 

@@ -86,27 +86,15 @@ double mean_log_time_of_anchors(std::span<const CorrelationCase> cases) {
   return mean(times);
 }
 
-// Of ln t since B was accepted. Of the program what the level with an offset has no part in.
-struct Changes {
-  std::vector<double> program;
-  std::vector<double> anchors;
-};
-
-Changes changes_of(std::span<const CorrelationCase> cases, std::span<const double> offsets) {
-  Changes changes;
-  std::size_t next = 0;
+// Of ln t since B was accepted, ascending.
+std::vector<double> changes_of(std::span<const CorrelationCase> cases, bool of_anchors) {
+  std::vector<double> changes;
   for (const CorrelationCase& each : cases) {
-    const bool beside = !each.anchor && !offsets.empty() && offsets[next] != 0;
-    next += each.anchor ? 0 : 1;
-    if (!each.known_log_time_b || beside) continue;
-    (each.anchor ? changes.anchors : changes.program)
-        .push_back(each.log_time_b - *each.known_log_time_b);
+    if (each.anchor != of_anchors || !each.known_log_time_b) continue;
+    changes.push_back(each.log_time_b - *each.known_log_time_b);
   }
+  std::ranges::sort(changes);
   return changes;
-}
-
-double lower_quartile(std::span<const double> sorted) {
-  return sorted[(sorted.size() - 1) / 4];
 }
 
 // p and what goes with it, from Δ, its error and its degrees.
@@ -121,19 +109,19 @@ void decide(double least_effect, GlobalShift& global) {
   global.suspected = global.p <= Model::false_global_suspects && global.delta >= least;
 }
 
-void judge_since_acceptance(const Changes& changes, bool line_of_acceptance,
+void judge_since_acceptance(std::span<const double> program, std::span<const double> anchors,
                             const KnownVariance& beside_anchors, GlobalShift& global) {
-  const std::vector<double>& anchors = changes.anchors;
-  std::vector<double> program = changes.program;
-  std::ranges::sort(program);
+  const auto quarter =
+      static_cast<std::size_t>(Model::share_not_slower * static_cast<double>(program.size() - 1));
   global.since_acceptance = true;
   global.groups = anchors.size();
-  global.delta = (line_of_acceptance ? lower_quartile(program) : median(program)) - median(anchors);
+  global.delta = program[quarter] - median(anchors);
   const double of_anchors =
       variance_of_median_to_mean * robust_variance(anchors) / static_cast<double>(anchors.size()) +
       least_variance;
-  const KnownVariance whole = KnownVariance{of_anchors, robust_degrees(anchors.size())} +
-                              KnownVariance{variance_of_median(program)} + beside_anchors;
+  const KnownVariance whole =
+      KnownVariance{of_anchors, robust_degrees(anchors.size())} +
+      KnownVariance{variance_of_quantile(program, Model::share_not_slower)} + beside_anchors;
   global.standard_error = std::sqrt(whole.variance);
   global.degrees = whole.degrees;
   decide(Model::least_change, global);
@@ -143,11 +131,7 @@ void judge_since_acceptance(const Changes& changes, bool line_of_acceptance,
 
 std::optional<double> change_since_acceptance(std::span<const CorrelationCase> cases,
                                               bool of_anchors) {
-  std::vector<double> changes;
-  for (const CorrelationCase& each : cases) {
-    if (each.anchor != of_anchors || !each.known_log_time_b) continue;
-    changes.push_back(each.log_time_b - *each.known_log_time_b);
-  }
+  const std::vector<double> changes = changes_of(cases, of_anchors);
   if (changes.empty()) return std::nullopt;
   return median(changes);
 }
@@ -177,18 +161,18 @@ RandomEffects random_effects(std::span<const KnownEffect> effects) {
 }
 
 void judge_program(std::span<const CorrelationCase> cases, const RobustLine& fit,
-                   std::span<const double> offsets, const KnownVariance& beside_anchors,
-                   Correlation& result) {
+                   const KnownVariance& beside_anchors, Correlation& result) {
   GlobalShift& global = result.global;
   std::vector<KnownEffect> groups = anchor_groups(cases, fit.line.slope);
   if (groups.size() < 2) return;
   leave_excess(groups);
   const RandomEffects anchors = random_effects(groups);
   result.anchor_intercept = anchors.centre;
-  const Changes changes = changes_of(cases, offsets);
-  if (changes.anchors.size() >= Model::least_anchors &&
-      changes.program.size() >= Model::least_configurations / 2 && beside_anchors.degrees > 0) {
-    judge_since_acceptance(changes, result.line_of_acceptance, beside_anchors, global);
+  const std::vector<double> of_program = changes_of(cases, false);
+  const std::vector<double> of_anchors = changes_of(cases, true);
+  if (of_anchors.size() >= Model::least_anchors &&
+      of_program.size() >= Model::least_configurations && beside_anchors.degrees > 0) {
+    judge_since_acceptance(of_program, of_anchors, beside_anchors, global);
     return;
   }
   // α − α′ = (ȳ − βx̄) − (ȳ′ − βx̄′): the slope's error moves both, all but for the distance of

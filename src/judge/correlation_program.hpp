@@ -13,11 +13,10 @@ namespace triptych::judge {
 [[nodiscard]] std::optional<double> change_since_acceptance(std::span<const CorrelationCase> cases,
                                                             bool of_anchors);
 
-// Fills `result.global` and the anchors' intercept. `fit`: the configurations' line; `offsets` of
-// one beside a level, else empty; `beside_anchors` as of correlate().
+// Fills `result.global` and the anchors' intercept. `fit`: the configurations' line;
+// `beside_anchors` as of correlate().
 void judge_program(std::span<const CorrelationCase> cases, const RobustLine& fit,
-                   std::span<const double> offsets, const KnownVariance& beside_anchors,
-                   Correlation& result);
+                   const KnownVariance& beside_anchors, Correlation& result);
 
 // What several values y with variances s² + eᵢ have in common, eᵢ known and s² not: s² by Paule and
 // Mandel (1982), from Σ(y − ȳ)²/(s² + e) = k − 1, ȳ weighted by 1/(s² + e). Where all e are 0 that

@@ -74,14 +74,12 @@ std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
       return is_own(kind) && kind.spread == spread && is_size(kind, 10);
     };
   };
-  // A new device's character is in what its anchors say; an accepted one's is known.
-  const auto everything_on = [=](std::string_view which) {
-    return [=](const TrialKind& kind) {
-      return of_ten_percent(Spread::global)(kind) && kind.method.ends_with(which);
-    };
-  };
   const auto planted_somewhere = [=](const TrialKind& kind) {
     return is_own(kind) && (kind.spread == Spread::configuration || kind.spread == Spread::level);
+  };
+  // An accepted device's character is known, a new one's is in all that is said of it.
+  const auto on = [](std::string_view which, const Chosen& chosen) {
+    return [=](const TrialKind& kind) { return chosen(kind) && kind.method.ends_with(which); };
   };
   const std::string name = confirmed ? "correlation, confirmed: " : "correlation: ";
   std::vector<Aim> result{
@@ -89,12 +87,14 @@ std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
           at(Spread::configuration, 25)),
       aim(name + "5 % and more of a factor level found", tallies, &Tally::detected, 1, true,
           at(Spread::level, 5)),
-      aim(name + "false among the discoveries", tallies, &Tally::false_discoveries, 0.05, false,
-          planted_somewhere),
+      aim(name + "false among the discoveries, accepted device", tallies, &Tally::false_discoveries,
+          0.05, false, on("accepted device", planted_somewhere)),
+      aim(name + "false among the discoveries, new device", tallies, &Tally::false_discoveries,
+          0.05, false, on("new device", planted_somewhere)),
       aim(name + "10 % of everything found, accepted device", tallies, &Tally::detected, 0.9, true,
-          everything_on("accepted device")),
+          on("accepted device", of_ten_percent(Spread::global))),
       aim(name + "10 % of everything found, new device", tallies, &Tally::detected, 0.9, true,
-          everything_on("new device")),
+          on("new device", of_ten_percent(Spread::global))),
       aim(name + "a device slower by 10 % taken for the program", tallies, &Tally::false_alarms,
           0.1, false, of_ten_percent(Spread::device)),
       aim(name + "named first is what was planted", tallies, &Tally::first_named, 0.9, true,

@@ -80,17 +80,21 @@ double robust_degrees(std::size_t values) {
   return robust_fit(values).degrees;
 }
 
-double variance_of_median(std::span<const double> sorted) {
-  namespace math = boost::math;
+double variance_of_quantile(std::span<const double> sorted, double share) {
   if (sorted.size() < 2) return infinite;
   constexpr double z_of_interval = 2.576;
   const auto count = static_cast<double>(sorted.size());
-  const double rank = std::round((count + 1) / 2 - z_of_interval * std::sqrt(count) / 2);
-  const auto low = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
-  const double outside =
-      math::cdf(math::binomial(count, 0.5), static_cast<double>(low));  // on one side
-  const double z = student_t_upper_quantile(outside, infinite);
-  const double error = (sorted[sorted.size() - 1 - low] - sorted[low]) / (2 * z);
+  const double centre = count * share + 0.5;
+  const double reach = z_of_interval * std::sqrt(count * share * (1 - share));
+  const double low = std::max(std::round(centre - reach), 1.0) - 1;
+  const double high = std::min(std::round(centre + reach), count) - 1;
+  // Of the values below the quantile, what leaves it outside on either side.
+  const boost::math::binomial below(count, share);
+  const double z =
+      student_t_upper_quantile(boost::math::cdf(below, low), infinite) +
+      student_t_upper_quantile(boost::math::cdf(boost::math::complement(below, high)), infinite);
+  const double error =
+      (sorted[static_cast<std::size_t>(high)] - sorted[static_cast<std::size_t>(low)]) / z;
   return error * error;
 }
 

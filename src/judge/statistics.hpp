@@ -26,9 +26,13 @@ inline constexpr double variance_of_median_to_mean = std::numbers::pi / 2;
 [[nodiscard]] double robust_variance(std::span<const double> values);
 [[nodiscard]] double robust_degrees(std::size_t values);
 
-// The variance of the median of these values, from its distribution-free interval of 99 % or, of
-// few values, the widest there is. `sorted` in ascending order; infinite for fewer than two.
-[[nodiscard]] double variance_of_median(std::span<const double> sorted);
+// The variance of a quantile of these values (`share` of them below it), from its distribution-free
+// interval of 99 % or, of few values, the widest there is. `sorted` in ascending order; infinite
+// for fewer than two.
+[[nodiscard]] double variance_of_quantile(std::span<const double> sorted, double share);
+[[nodiscard]] inline double variance_of_median(std::span<const double> sorted) {
+  return variance_of_quantile(sorted, 0.5);
+}
 
 // P(T > t) for Student's t; `degrees` > 0, infinite for the normal distribution.
 [[nodiscard]] double student_t_upper_tail(double t, double degrees);

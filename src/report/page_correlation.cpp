@@ -112,9 +112,10 @@ std::string global_text(const CorrelationPair& pair) {
   if (global.groups < 2 || !pair.result.admitted()) return {};
   const std::string what =
       global.since_acceptance
-          ? fmt::format("changed by {} ± {:.1f} % since the device was accepted, beside {} anchors",
-                        percent(global.delta), 100 * std::expm1(global.standard_error),
-                        global.groups)
+          ? fmt::format(
+                "changed by {} ± {:.1f} % since the device was accepted (the lower quartile of its "
+                "configurations), beside {} anchors",
+                percent(global.delta), 100 * std::expm1(global.standard_error), global.groups)
           : fmt::format("lies {} ± {:.1f} % from the line of {} groups of anchors",
                         percent(global.delta), 100 * std::expm1(global.standard_error),
                         global.groups);

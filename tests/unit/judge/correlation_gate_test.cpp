@@ -363,7 +363,7 @@ TEST_F(CorrelationGateTest, AProgramThatBecameSlowerSinceAcceptanceIsTold) {
   const auto slower = with(result, Verdict::regression);
   ASSERT_EQ(slower.size(), 1U) << text(result);
   EXPECT_THAT(slower[0].message, HasSubstr("the whole program became +"));
-  EXPECT_THAT(slower[0].message, HasSubstr("slower since this device was accepted, beside 12"));
+  EXPECT_THAT(slower[0].message, HasSubstr("slower since this device was accepted"));
   EXPECT_NEAR(slower[0].numbers.at("global_delta"), std::log(1.10), 0.01);
 }
 

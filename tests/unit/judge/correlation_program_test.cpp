@@ -129,7 +129,7 @@ TEST(Correlation, AWildAnchorDoesNotHideWhatChanged) {
   cases.back().log_time_b += std::log(3);
   const GlobalShift global = correlate(cases, KnownDevice{}.beside_anchors()).global;
   EXPECT_TRUE(global.slower);
-  EXPECT_NEAR(global.delta, std::log(1.10), 0.02);
+  EXPECT_NEAR(global.delta, std::log(1.10) - 0.0067, 0.01);  // the quartile of 1 % of noise
 }
 
 // One level of two is the slower one, however much: that is not the program as a whole.

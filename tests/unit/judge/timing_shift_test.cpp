@@ -148,6 +148,24 @@ TEST(TimingShift, StoredMinutesOfOneWitnessHideNoSlowerProgram) {
   }
 }
 
+// Five runs of one device hardly tell how far the witnesses are apart; of three they do.
+TEST(TimingShift, DevicesLendEachOtherTheirScatter) {
+  const auto draw = [](std::size_t devices) {
+    std::vector<TimingCase> cases;
+    for (std::size_t i = 0; i < devices; ++i) {
+      for (TimingCase& each : Device{.anchor_noise = 0.01}.draw(i + 1)) {
+        each.device = fmt::format("d{}", i);
+        cases.push_back(std::move(each));
+      }
+    }
+    return cases;
+  };
+  const ProgramJudgement alone = judge_timings(draw(1)).programs.at(0);
+  const ProgramJudgement among = judge_timings(draw(3)).programs.at(0);
+  EXPECT_DOUBLE_EQ(among.log_ratio, alone.log_ratio);
+  EXPECT_GT(among.degrees, 2 * alone.degrees);
+}
+
 // The device's own slowness is the body's to tell; the anchors do not contradict.
 TEST(TimingShift, ASlowerDeviceIsNoSlowerProgram) {
   const DeviceScore s = score(Device{.device_slower_by = 1.25});
