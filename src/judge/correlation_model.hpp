@@ -49,7 +49,8 @@
 // 1/(s_g² + e), e what a technique's times scatter by from run to run beyond the techniques' median
 // (of many short launches by a factor of three): α′ is the weighted mean, s_g² by Paule and Mandel
 // (1982); Student's t with Σs_g²w − 1 degrees. Where all e are 0 that is the mean, the sample
-// variance, s_g²(1 + 1/k) and k − 1. Told from 10 % on.
+// variance, s_g²(1 + 1/k) and k − 1. Told from 10 % on, of a device that was accepted (but nothing
+// knows v_d) where Δ since then is as much.
 
 #include <cstddef>
 #include <limits>

@@ -97,6 +97,19 @@ std::vector<double> changes_of(std::span<const CorrelationCase> cases, bool of_a
   return changes;
 }
 
+struct Changes {
+  std::vector<double> program;
+  std::vector<double> anchors;
+  [[nodiscard]] bool known() const {
+    return anchors.size() >= Model::least_anchors && program.size() >= Model::least_configurations;
+  }
+  // Of three quarters of the program at least.
+  [[nodiscard]] double beyond_anchors() const {
+    const double rank = Model::share_not_slower * static_cast<double>(program.size() - 1);
+    return program[static_cast<std::size_t>(rank)] - median(anchors);
+  }
+};
+
 // p and what goes with it, from Δ, its error and its degrees.
 void decide(double least_effect, GlobalShift& global) {
   const double least = std::log(least_effect);
@@ -109,19 +122,19 @@ void decide(double least_effect, GlobalShift& global) {
   global.suspected = global.p <= Model::false_global_suspects && global.delta >= least;
 }
 
-void judge_since_acceptance(std::span<const double> program, std::span<const double> anchors,
-                            const KnownVariance& beside_anchors, GlobalShift& global) {
-  const auto quarter =
-      static_cast<std::size_t>(Model::share_not_slower * static_cast<double>(program.size() - 1));
+void judge_since_acceptance(const Changes& changes, const KnownVariance& beside_anchors,
+                            GlobalShift& global) {
+  const std::vector<double>& anchors = changes.anchors;
   global.since_acceptance = true;
   global.groups = anchors.size();
-  global.delta = program[quarter] - median(anchors);
+  global.delta = changes.beyond_anchors();
   const double of_anchors =
       variance_of_median_to_mean * robust_variance(anchors) / static_cast<double>(anchors.size()) +
       least_variance;
   const KnownVariance whole =
       KnownVariance{of_anchors, robust_degrees(anchors.size())} +
-      KnownVariance{variance_of_quantile(program, Model::share_not_slower)} + beside_anchors;
+      KnownVariance{variance_of_quantile(changes.program, Model::share_not_slower)} +
+      beside_anchors;
   global.standard_error = std::sqrt(whole.variance);
   global.degrees = whole.degrees;
   decide(Model::least_change, global);
@@ -168,11 +181,9 @@ void judge_program(std::span<const CorrelationCase> cases, const RobustLine& fit
   leave_excess(groups);
   const RandomEffects anchors = random_effects(groups);
   result.anchor_intercept = anchors.centre;
-  const std::vector<double> of_program = changes_of(cases, false);
-  const std::vector<double> of_anchors = changes_of(cases, true);
-  if (of_anchors.size() >= Model::least_anchors &&
-      of_program.size() >= Model::least_configurations && beside_anchors.degrees > 0) {
-    judge_since_acceptance(of_program, of_anchors, beside_anchors, global);
+  const Changes changes{changes_of(cases, false), changes_of(cases, true)};
+  if (changes.known() && beside_anchors.degrees > 0) {
+    judge_since_acceptance(changes, beside_anchors, global);
     return;
   }
   // α − α′ = (ȳ − βx̄) − (ȳ′ − βx̄′): the slope's error moves both, all but for the distance of
@@ -186,6 +197,10 @@ void judge_program(std::span<const CorrelationCase> cases, const RobustLine& fit
   global.standard_error =
       std::sqrt(anchors.variance + anchors.centre_variance + std::max(of_line, 0.0));
   decide(Model::least_effect, global);
+  // What stood when B was accepted is its character.
+  if (changes.known() && !Model::is_worth_telling(changes.beyond_anchors())) {
+    global.slower = global.suspected = false;
+  }
 }
 
 }  // namespace triptych::judge

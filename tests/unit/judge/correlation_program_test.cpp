@@ -148,6 +148,22 @@ TEST(Correlation, HalfOfTheProgramIsNotTheWhole) {
   }
 }
 
+// No stored run says how far the program and the anchors are apart by chance: the anchors' line
+// judges, but what stood when the device was accepted is no news.
+TEST(Correlation, WhatAnAcceptedProgramLiesAboveTheAnchorsByIsItsCharacter) {
+  Bench bench{.anchor_scatter = 0.01};
+  bench.planted = [](const CorrelationCase&) { return std::log(1.25); };
+  auto cases = bench.draw(1);
+  EXPECT_TRUE(correlate(cases).global.slower);
+  for (CorrelationCase& each : cases) each.known_log_time_b = each.log_time_b;
+  EXPECT_FALSE(correlate(cases).global.slower);
+  EXPECT_FALSE(correlate(cases).global.suspected);
+  for (CorrelationCase& each : cases) {
+    if (!each.anchor) *each.known_log_time_b -= std::log(1.15);
+  }
+  EXPECT_TRUE(correlate(cases).global.slower);
+}
+
 // BCG vaccine trials (Colditz et al. 1994), ln relative risk and its variance, rounded to four
 // digits as they are often printed: R's metafor has τ² = 0.318, −0.715 ± 0.181 by Paule and Mandel;
 // the digits beyond are of a bisection in another language.
