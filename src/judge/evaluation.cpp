@@ -64,10 +64,8 @@ std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
   const auto is_own = [=, judging = judging_pairs(tallies)](const TrialKind& kind) {
     return kind.confirmed == confirmed && judging.contains({kind.method, kind.plan, kind.subject});
   };
-  const auto at = [=](Spread spread, double least_percent) {
-    return [=](const TrialKind& kind) {
-      return is_own(kind) && kind.spread == spread && kind.percent >= least_percent;
-    };
+  const auto of = [=](Spread spread) {
+    return [=](const TrialKind& kind) { return is_own(kind) && kind.spread == spread; };
   };
   const auto of_ten_percent = [=](Spread spread) {
     return [=](const TrialKind& kind) {
@@ -83,10 +81,10 @@ std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
   };
   const std::string name = confirmed ? "correlation, confirmed: " : "correlation: ";
   std::vector<Aim> result{
-      aim(name + "25 % and more of one configuration found", tallies, &Tally::detected, 1, true,
-          at(Spread::configuration, 25)),
-      aim(name + "5 % and more of a factor level found", tallies, &Tally::detected, 1, true,
-          at(Spread::level, 5)),
+      aim(name + "a configuration that is slower by 25 % found", tallies, &Tally::to_be_caught, 1,
+          true, of(Spread::configuration)),
+      aim(name + "a factor level that is slower by 5 % found", tallies, &Tally::to_be_caught, 1,
+          true, of(Spread::level)),
       aim(name + "false among the discoveries, accepted device", tallies, &Tally::false_discoveries,
           0.05, false, on("accepted device", planted_somewhere)),
       aim(name + "false among the discoveries, new device", tallies, &Tally::false_discoveries,
@@ -142,6 +140,12 @@ std::string_view name_of(Spread spread) {
       break;
   }
   return "scrambled";
+}
+
+std::optional<double> must_be_caught(Spread spread) {
+  if (spread == Spread::configuration) return std::log(1.25);
+  if (spread == Spread::level) return std::log(1.05);
+  return std::nullopt;
 }
 
 SmallestFound smallest_found(const Tallies& tallies, double share) {

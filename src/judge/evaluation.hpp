@@ -63,6 +63,9 @@ struct TrialKind {
 // Percentages from which on a configuration's slowdown is counted with those of like size.
 inline constexpr std::array<double, 7> cost_classes{0, 1, 2, 3, 5, 10, 20};
 
+// What the correlation has to catch, in ln t.
+[[nodiscard]] std::optional<double> must_be_caught(Spread spread);
+
 struct Tally {
   Rate detected;           // trials in which (part of) what was planted is called slower; of
                            // Spread::scrambled, in which the pair is refused
@@ -72,9 +75,11 @@ struct Tally {
   Rate undecided;          // configurations about which nothing is said
   Rate first_named;        // of trials that name something: the first is what was planted
   Rate split;              // of what was found: more work, or more time for the same, told rightly
-  Rate to_be_caught;       // of `found` in turns, those that really cost what has to be caught
-  Rate in_doubt;           // of trials by one launch: the device is to be measured again
-  Rate same_bytes;         // verdicts that were the same to the byte when asked for again
+  // Of `found` in turns, and of `detected` by the correlation, what really cost so much that it has
+  // to be caught.
+  Rate to_be_caught;
+  Rate in_doubt;    // of trials by one launch: the device is to be measured again
+  Rate same_bytes;  // verdicts that were the same to the byte when asked for again
   // What was planted really cost, ln t planted over unplanted, of each trial: extra work has costs
   // of its own, which on short frames are larger than its share.
   std::vector<double> costs;

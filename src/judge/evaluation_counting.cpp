@@ -25,6 +25,8 @@ class PairCount {
     }
     if (!trial_.planted.empty()) {
       tally_.detected.count(detected_);
+      const auto caught = must_be_caught(trial_.spread);
+      if (caught && trial_.cost >= *caught) tally_.to_be_caught.count(detected_);
       if (!trial_.confirmed) tally_.costs.push_back(trial_.cost);
     }
     tally_.false_alarms.count(alarmed_);

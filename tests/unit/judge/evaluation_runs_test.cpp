@@ -97,9 +97,10 @@ class EvaluateRuns : public testing::Test {
           kind.confirmed != confirmed) {
         continue;
       }
-      for (const auto rate : {&Tally::detected, &Tally::found, &Tally::false_alarms,
-                              &Tally::false_discoveries, &Tally::undecided, &Tally::first_named,
-                              &Tally::split, &Tally::in_doubt, &Tally::same_bytes}) {
+      for (const auto rate :
+           {&Tally::detected, &Tally::found, &Tally::false_alarms, &Tally::false_discoveries,
+            &Tally::undecided, &Tally::first_named, &Tally::split, &Tally::in_doubt,
+            &Tally::same_bytes, &Tally::to_be_caught}) {
         add(total.*rate, tally.*rate);
       }
     }
@@ -170,6 +171,12 @@ TEST_F(EvaluateRuns, FindsWhatIsPlantedAndNamesIt) {
     for (const double cost : tally.costs) EXPECT_NEAR(cost, std::log(1.25), 0.05);
   }
   expect_all(sum(tallies, "correlation", Spread::level, 25).first_named);
+  // Every level costs more than a twentieth, about half of the configurations a quarter or more.
+  const Tally levels = sum(tallies, "correlation", Spread::level, 25);
+  EXPECT_EQ(levels.to_be_caught.trials, levels.detected.trials);
+  const Tally single = sum(tallies, "correlation", Spread::configuration, 25);
+  EXPECT_GT(single.to_be_caught.trials, 0U);
+  EXPECT_LT(single.to_be_caught.trials, single.detected.trials);
   expect_all(sum(tallies, "correlation", Spread::scrambled).detected);
   expect_all(sum(tallies, "gate", Spread::none).same_bytes);
   // Two ordered pairs of devices, in both states of acceptance.

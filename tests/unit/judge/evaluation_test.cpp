@@ -98,14 +98,15 @@ TEST(Evaluation, OfTheCorrelationOnlyPairsThatJudgeAreAsked) {
   const std::string method = "correlation, new device";
   const auto add = [&](const char* subject, std::size_t refused, std::size_t found) {
     tallies[{method, "p", subject, Spread::none}].undecided = {refused, 480};
-    tallies[{method, "p", subject, Spread::configuration, 25}].detected = {found, 40};
+    tallies[{method, "p", subject, Spread::configuration, 25}].to_be_caught = {found, 40};
     tallies[{method, "p", subject, Spread::scrambled}].detected = {8, 8};
   };
   add("alike", 96, 39);
   add("unlike", 240, 0);
   const JudgingPair alike{method, "p", "alike"};
   EXPECT_EQ(judging_pairs(tallies), std::set{alike});
-  const Rate found = aim_of(tallies, "correlation: 25 % and more of one configuration found").rate;
+  const Rate found =
+      aim_of(tallies, "correlation: a configuration that is slower by 25 % found").rate;
   EXPECT_EQ(found.hits, 39U);
   EXPECT_EQ(found.trials, 40U);
   EXPECT_EQ(aim_of(tallies, "correlation: uncorrelated pairs refused").rate.trials, 16U);
