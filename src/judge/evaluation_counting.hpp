@@ -17,6 +17,7 @@ struct Trial {
   std::set<std::pair<std::string, std::string>> planted = {};  // (device, configuration)
   std::pair<std::string, std::string> level = {};              // factor, level; Spread::level only
   double cost = 0;         // of what is planted, measured: see Tally
+  double cost_again = 0;   // in the second launch, where there is one
   bool more_work = false;  // Spread::configuration only: else more time for the same work
   bool confirmed = false;  // the result is that of two launches: see TrialKind
 };

@@ -193,7 +193,10 @@ class Trials {
     trial.planted = names_of(chosen(first.changed, [](const Record&) { return true; }));
     if (trial.planted.empty()) return;
     std::optional<Attempt> second;
-    if (const PooledRun* other = neighbour(run)) second = {other->before, planted(*other)};
+    if (const PooledRun* other = neighbour(run)) {
+      second = {other->before, planted(*other)};
+      trial.cost_again = cost_in(*other, second->changed);
+    }
     judge_.judge(trial, first, second, devices);
   }
 
