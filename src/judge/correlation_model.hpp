@@ -109,7 +109,6 @@ struct CorrelationCase {
   // ln t that B itself had when it was accepted, the median of its runs: what differed then is the
   // device's character.
   std::optional<double> known_log_time_b = {};
-  double known_variance_b = 0;          // of that median, known as well as variance_b
   std::optional<WorkChange> work = {};  // from A to B
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "judge/anchor.hpp"
@@ -56,6 +55,7 @@ class Pairs {
       }
     }
     if (view.request.plan == anchors_plan) return;
+    find_scatter_beside_anchors();
     anchors_ = anchors_of(view);
     for (const record::Record& anchor : anchors_) records_[anchor.device].push_back(&anchor);
   }
@@ -90,26 +90,29 @@ class Pairs {
     return result;
   }
 
-  // Of a device's program beside its anchors from run to run, moderated over all stored devices.
-  [[nodiscard]] KnownVariance beside_anchors(const std::string& key) const {
-    KnownVariance own{0, 0};
-    std::vector<double> variances;
-    std::vector<double> degrees;
+  void find_scatter_beside_anchors() {
     for (const StoredDevice& device : stored_) {
       const auto anchors = std::ranges::find(stored_anchors_, device.key, &StoredDevice::key);
-      if (anchors == stored_anchors_.end()) continue;
-      const KnownVariance scatter =
-          scatter_beside_anchors(device.timings, anchors->timings, view_.records.front().run);
-      if (scatter.degrees == 0) continue;
-      variances.push_back(scatter.variance);
-      degrees.push_back(scatter.degrees);
-      if (device.key == key) own = scatter;
+      beside_anchors_.push_back(anchors == stored_anchors_.end()
+                                    ? KnownVariance{0, 0}
+                                    : scatter_beside_anchors(device.timings, anchors->timings,
+                                                             view_.records.front().run));
     }
-    if (variances.empty()) return own;
-    const VariancePrior prior = fit_variance_prior(variances, degrees);
+  }
+
+  // Moderated over all stored devices; no degrees where it is known of none.
+  [[nodiscard]] KnownVariance beside_anchors(const std::string& key) const {
+    const auto known = std::ranges::find_if(
+        beside_anchors_, [](const KnownVariance& each) { return each.degrees > 0; });
+    if (known == beside_anchors_.end()) return {0, 0};
+    const VariancePrior prior = fit_variance_prior(beside_anchors_);
+    for (std::size_t i = 0; i < stored_.size(); ++i) {
+      if (stored_[i].key == key && beside_anchors_[i].degrees > 0) {
+        return moderated(prior, beside_anchors_[i]);
+      }
+    }
     // Unknown of B, it is taken as others'.
-    if (own.degrees == 0) return {prior.variance, std::max(prior.degrees, degrees.front())};
-    return {moderated_variance(prior, own.variance, own.degrees), prior.degrees + own.degrees};
+    return {prior.variance, std::max(prior.degrees, known->degrees)};
   }
 
   [[nodiscard]] CorrelationPair against_stored(const record::Device& device,
@@ -122,7 +125,7 @@ class Pairs {
     const StoredTimes of_b = stored_under(device.key());
     const VariancePrior scatter_a = scatter_between_runs(of_a);
     const VariancePrior scatter_b = scatter_between_runs(of_b);
-    std::size_t known_runs = std::numeric_limits<std::size_t>::max();  // of B
+    std::vector<std::size_t> known_runs;  // of B
     for (const record::Record* record : records_.at(device.id)) {
       if (!of_a.contains(record->configuration)) continue;
       const std::string_view clock = common_clock(*record, of_a.at(record->configuration));
@@ -148,7 +151,7 @@ class Pairs {
           scatter_b.variance > 0 ? variance_of_a_run(scatter_b, runs_b) : of_a_run;
       if (!runs_b.empty()) {
         each.known_log_time_b = median(runs_b);
-        known_runs = std::min(known_runs, runs_b.size());
+        known_runs.push_back(runs_b.size());
       }
       if (of_b_run.variance > each.variance_b) {
         each.variance_b = of_b_run.variance;
@@ -158,7 +161,9 @@ class Pairs {
       pair.cases.push_back(std::move(each));
     }
     KnownVariance beside = beside_anchors(device.key());
-    beside.variance *= 1 + share_of_median(known_runs);
+    if (!known_runs.empty()) {
+      beside.variance *= 1 + share_of_median(std::ranges::min(known_runs));
+    }
     pair.result = correlate(pair.cases, beside);
     return pair;
   }
@@ -196,6 +201,8 @@ class Pairs {
   Baselines anchor_baselines_;
   std::vector<StoredDevice> stored_;
   std::vector<StoredDevice> stored_anchors_;
+  // Of the program beside its anchors from run to run, of each of stored_ in turn.
+  std::vector<KnownVariance> beside_anchors_;
   std::vector<record::Record> anchors_;  // of the latest run of the anchors' plan
   std::map<std::string, std::vector<const record::Record*>> records_;  // by device
 };

@@ -21,9 +21,6 @@ double square(double value) {
   return value * value;
 }
 
-// A clock's steps may make ratios identical.
-constexpr double least_variance = 1e-12;
-
 struct Weighted {
   double sum = 0;  // of the weights
   double centre = 0;
@@ -130,7 +127,7 @@ void judge_since_acceptance(const Changes& changes, const KnownVariance& beside_
   global.delta = changes.beyond_anchors();
   const double of_anchors =
       variance_of_median_to_mean * robust_variance(anchors) / static_cast<double>(anchors.size()) +
-      least_variance;
+      least_timing_variance;
   const KnownVariance whole =
       KnownVariance{of_anchors, robust_degrees(anchors.size())} +
       KnownVariance{variance_of_quantile(changes.program, Model::share_not_slower)} +
@@ -157,13 +154,13 @@ RandomEffects random_effects(std::span<const KnownEffect> effects) {
     return weigh(effects, variance).deviation - expected;
   };
   RandomEffects result;
-  result.variance = least_variance;
-  if (excess(least_variance) > 0) {
+  result.variance = least_timing_variance;
+  if (excess(least_timing_variance) > 0) {
     // Above the variance of all, whatever is known of each, nothing is left to explain.
-    const double most = sample_variance(values) + least_variance;
+    const double most = sample_variance(values) + least_timing_variance;
     std::uintmax_t steps = 200;
     const auto bracket = boost::math::tools::toms748_solve(
-        excess, least_variance, most, boost::math::tools::eps_tolerance<double>(40), steps);
+        excess, least_timing_variance, most, boost::math::tools::eps_tolerance<double>(40), steps);
     result.variance = std::midpoint(bracket.first, bracket.second);
   }
   const Weighted weighted = weigh(effects, result.variance);

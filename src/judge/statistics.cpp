@@ -80,6 +80,11 @@ double robust_degrees(std::size_t values) {
   return robust_fit(values).degrees;
 }
 
+KnownVariance scatter_of(std::span<const double> logarithms) {
+  return {std::max(robust_variance(logarithms), least_timing_variance),
+          robust_degrees(logarithms.size())};
+}
+
 double variance_of_quantile(std::span<const double> sorted, double share) {
   if (sorted.size() < 2) return infinite;
   constexpr double z_of_interval = 2.576;
@@ -141,14 +146,18 @@ std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values
   return adjusted;
 }
 
-// Newton's method on 1/ψ', which is convex and nearly linear: it approaches from one side (Smyth
-// 2004, appendix). Outside the range the asymptotes are exact to double precision.
+KnownVariance moderated(const VariancePrior& prior, const KnownVariance& own) {
+  return {moderated_variance(prior, own.variance, own.degrees), prior.degrees + own.degrees};
+}
+
 KnownVariance operator+(const KnownVariance& a, const KnownVariance& b) {
   const double sum = a.variance + b.variance;
   const double squares = a.variance * a.variance / a.degrees + b.variance * b.variance / b.degrees;
   return {sum, squares > 0 ? sum * sum / squares : infinite};
 }
 
+// Newton's method on 1/ψ', which is convex and nearly linear: it approaches from one side (Smyth
+// 2004, appendix). Outside the range the asymptotes are exact to double precision.
 double inverse_trigamma(double y) {
   if (y > 1e7) return 1 / std::sqrt(y);
   if (y < 1e-6) return 1 / y;
@@ -181,6 +190,17 @@ VariancePrior fit_variance_prior(std::span<const double> variances,
   if (excess <= 0) return {infinite, std::exp(centre)};
   const double half = inverse_trigamma(excess);
   return {2 * half, std::exp(centre + digamma(half) - std::log(half))};
+}
+
+VariancePrior fit_variance_prior(std::span<const KnownVariance> variances) {
+  std::vector<double> values;
+  std::vector<double> degrees;
+  for (const KnownVariance& each : variances) {
+    if (each.degrees == 0) continue;
+    values.push_back(each.variance);
+    degrees.push_back(each.degrees);
+  }
+  return fit_variance_prior(values, degrees);
 }
 
 double moderated_variance(const VariancePrior& prior, double variance, double degrees) {

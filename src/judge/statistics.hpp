@@ -26,6 +26,19 @@ inline constexpr double variance_of_median_to_mean = std::numbers::pi / 2;
 [[nodiscard]] double robust_variance(std::span<const double> values);
 [[nodiscard]] double robust_degrees(std::size_t values);
 
+// A variance that is known with so many degrees of freedom.
+struct KnownVariance {
+  double variance = 0;
+  double degrees = std::numeric_limits<double>::infinity();
+};
+// Of a sum of two independent values, with Satterthwaite's (1946) degrees: (Σu)²/Σ(u²/ν).
+[[nodiscard]] KnownVariance operator+(const KnownVariance& a, const KnownVariance& b);
+
+// The smallest variance of ln t: clocks step, so that identical medians occur; 1e-6 of the time.
+inline constexpr double least_timing_variance = 1e-12;
+// robust_variance, no less than that, and robust_degrees, of values of ln t.
+[[nodiscard]] KnownVariance scatter_of(std::span<const double> logarithms);
+
 // The variance of a quantile of these values (`share` of them below it), from its distribution-free
 // interval of 99 % or, of few values, the widest there is. `sorted` in ascending order; infinite
 // for fewer than two.
@@ -56,18 +69,14 @@ struct VariancePrior {
 // `variances` > 0 with their `degrees` > 0. One group teaches nothing: d₀ = 0.
 [[nodiscard]] VariancePrior fit_variance_prior(std::span<const double> variances,
                                                std::span<const double> degrees);
+// Of those with any degrees: no others are known.
+[[nodiscard]] VariancePrior fit_variance_prior(std::span<const KnownVariance> variances);
 // s̃² = (d₀s₀² + d·s²)/(d₀ + d)
 [[nodiscard]] double moderated_variance(const VariancePrior& prior, double variance,
                                         double degrees);
 
-// A variance that is known with so many degrees of freedom.
-struct KnownVariance {
-  double variance = 0;
-  double degrees = std::numeric_limits<double>::infinity();
-};
-// Of a sum of two independent values, with Satterthwaite's (1946) degrees: (Σu)²/Σ(u²/ν).
-[[nodiscard]] KnownVariance operator+(const KnownVariance& a, const KnownVariance& b);
-
+// The same, known as well as both together.
+[[nodiscard]] KnownVariance moderated(const VariancePrior& prior, const KnownVariance& own);
 // The x > 0 with ψ'(x) = y, y > 0.
 [[nodiscard]] double inverse_trigamma(double y);
 

@@ -1,17 +1,12 @@
 #include "judge/stored_scatter.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "judge/anchor_run.hpp"
 
 namespace triptych::judge {
 namespace {
-
-double variance_between(const std::vector<double>& logarithms) {
-  constexpr double least = 1e-12;  // a clock's steps make runs identical
-  return std::max(robust_variance(logarithms), least);
-}
 
 // Of each run, the deviations of these configurations from their own medians.
 using Deviations = std::map<std::string, std::vector<double>>;
@@ -44,25 +39,21 @@ std::vector<double> runs_by(std::string_view clock, const StoredTimes& stored,
 }
 
 VariancePrior scatter_between_runs(const StoredTimes& stored) {
-  std::vector<double> variances;
-  std::vector<double> degrees;
+  std::vector<KnownVariance> scatter;
   for (const auto& [configuration, runs] : stored) {
     std::vector<double> logarithms;
     for (const StoredTiming& timing : runs) {
       if (timing.clock == runs.back().clock) logarithms.push_back(std::log(timing.median_ns));
     }
-    if (logarithms.size() < 2) continue;
-    variances.push_back(variance_between(logarithms));
-    degrees.push_back(robust_degrees(logarithms.size()));
+    if (logarithms.size() >= 2) scatter.push_back(scatter_of(logarithms));
   }
-  return fit_variance_prior(variances, degrees);
+  return fit_variance_prior(scatter);
 }
 
 KnownVariance variance_of_a_run(const VariancePrior& prior, const std::vector<double>& runs) {
   // As well known as another configuration's lets expect; from a single one alone, hardly at all.
   if (runs.size() < 2) return {prior.variance, prior.degrees > 0 ? prior.degrees : 1};
-  const double degrees = robust_degrees(runs.size());
-  return {moderated_variance(prior, variance_between(runs), degrees), prior.degrees + degrees};
+  return moderated(prior, scatter_of(runs));
 }
 
 double share_of_median(std::size_t runs) {
@@ -84,7 +75,7 @@ KnownVariance scatter_beside_anchors(const StoredTimes& program, const StoredTim
     distances.push_back(median(deviations) - median(of_anchors.at(*beside)));
   }
   if (distances.size() < least_runs) return {0, 0};
-  return {variance_between(distances), robust_degrees(distances.size())};
+  return scatter_of(distances);
 }
 
 }  // namespace triptych::judge

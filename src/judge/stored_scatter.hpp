@@ -2,7 +2,6 @@
 // What a device's stored runs scatter by: each configuration, and the program beside the anchors.
 
 #include <map>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>

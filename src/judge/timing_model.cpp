@@ -15,10 +15,9 @@ namespace {
 struct Levelled {
   double runs = 0;
   double log_ratio = 0;
-  double shift = 0;  // of this run against the stored ones
-  double variance = 0;
+  double shift = 0;       // of this run against the stored ones
+  KnownVariance scatter;  // of the stored runs
   double variance_of_shift = 0;
-  double degrees = 0;
 };
 
 Levelled level(const TimingCase& timing, const CaseShift& shift) {
@@ -27,9 +26,8 @@ Levelled level(const TimingCase& timing, const CaseShift& shift) {
   result.runs = static_cast<double>(stored.size());
   result.log_ratio = std::log(timing.median_ns) - shift.now - median(stored);
   result.shift = std::log(timing.median_ns) - median(stored_logarithms(timing)) - result.log_ratio;
-  result.variance = std::max(robust_variance(stored), least_timing_variance);
+  result.scatter = scatter_of(stored);
   result.variance_of_shift = shift.variance;
-  result.degrees = robust_degrees(stored.size());
   return result;
 }
 
@@ -37,14 +35,11 @@ Levelled level(const TimingCase& timing, const CaseShift& shift) {
 VariancePrior prior_of(std::span<const TimingCase* const> cases,
                        std::span<const Levelled> levelled) {
   const bool only_anchors = std::ranges::all_of(cases, &TimingCase::anchor);
-  std::vector<double> variances;
-  std::vector<double> degrees;
+  std::vector<KnownVariance> scatter;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (cases[i]->anchor && !only_anchors) continue;
-    variances.push_back(levelled[i].variance);
-    degrees.push_back(levelled[i].degrees);
+    if (!cases[i]->anchor || only_anchors) scatter.push_back(levelled[i].scatter);
   }
-  return fit_variance_prior(variances, degrees);
+  return fit_variance_prior(scatter);
 }
 
 // v_r; 0 where fewer than two cases tell any: one's halves may agree by chance.
@@ -61,30 +56,17 @@ double typical_variance_of_rounds(std::span<const TimingCase* const> cases) {
 TimingJudgement judge_case(const TimingCase& timing, const Levelled& values,
                            const VariancePrior& prior, double pooled_degrees, double of_rounds) {
   TimingJudgement result;
-  const double variance = moderated_variance(prior, values.variance, values.degrees);
+  const KnownVariance run = moderated(prior, values.scatter);
   // No more freedom than all the data together have.
-  result.degrees = std::min(prior.degrees + values.degrees, pooled_degrees);
-  result.standard_error = std::sqrt(variance * (1 + variance_of_median_to_mean / values.runs) +
+  result.degrees = std::min(run.degrees, pooled_degrees);
+  result.standard_error = std::sqrt(run.variance * (1 + variance_of_median_to_mean / values.runs) +
                                     values.variance_of_shift);
-  result.busy_variance = std::max(of_rounds - variance, 0.0);
+  result.busy_variance = std::max(of_rounds - run.variance, 0.0);
   result.baseline_ns = std::exp(median(stored_logarithms(timing)));
   result.log_ratio = values.log_ratio;
   result.shift = values.shift;
   result.test(timing.tolerance);
   return result;
-}
-
-// Of how far the program and the anchors are apart from run to run.
-VariancePrior scatter_of_programs(const std::vector<DeviceShifts>& devices) {
-  std::vector<double> variances;
-  std::vector<double> degrees;
-  for (const DeviceShifts& device : devices) {
-    const KnownVariance scatter = device.scatter_of_program();
-    if (scatter.degrees == 0) continue;
-    variances.push_back(scatter.variance);
-    degrees.push_back(scatter.degrees);
-  }
-  return fit_variance_prior(variances, degrees);
 }
 
 void judge_device(std::span<const TimingCase* const> cases, const DeviceShifts& shifts,
@@ -93,7 +75,7 @@ void judge_device(std::span<const TimingCase* const> cases, const DeviceShifts& 
   double pooled_degrees = 0;
   for (const TimingCase* timing : cases) {
     levelled.push_back(level(*timing, shifts.of(*timing)));
-    pooled_degrees += levelled.back().degrees;
+    pooled_degrees += levelled.back().scatter.degrees;
   }
   const VariancePrior prior = prior_of(cases, levelled);
   const double of_rounds = typical_variance_of_rounds(cases);
@@ -115,11 +97,14 @@ void judge_devices(std::span<const TimingCase> cases, TimingJudgements& result) 
     device.judgements.push_back(&result.cases[i]);
   }
   std::vector<DeviceShifts> shifts;
-  for (const auto& [name, device] : by_name) shifts.emplace_back(device.cases);
-  const VariancePrior scatter = scatter_of_programs(shifts);
+  std::vector<KnownVariance> scatter;
+  for (const auto& [name, device] : by_name) {
+    scatter.push_back(shifts.emplace_back(device.cases).scatter_of_program());
+  }
+  const VariancePrior of_all = fit_variance_prior(scatter);
   auto next = shifts.begin();
   for (const auto& [name, device] : by_name) {
-    next->judge_program(scatter);
+    next->judge_program(of_all);
     judge_device(device.cases, *next, device.judgements);
     if (next->program()) result.programs.push_back(*next->program());
     ++next;

@@ -50,10 +50,10 @@ DeviceShifts::DeviceShifts(std::span<const TimingCase* const> cases) {
   by_anchors_ = medians(anchors_, nullptr);
   by_anchors_.variance = scatter_of_anchors();
   if (body_.now.size() < TimingModel::least_body) return;
-  const CaseShift body = medians(body_, nullptr);
+  by_body_ = medians(body_, nullptr);
   for (const auto& [run, shift] : by_anchors_.stored) {
-    const auto of_body = body.stored.find(run);
-    if (of_body == body.stored.end()) continue;
+    const auto of_body = by_body_.stored.find(run);
+    if (of_body == by_body_.stored.end()) continue;
     distances_.push_back(of_body->second - shift);
     anchor_shifts_.push_back(shift);
   }
@@ -98,14 +98,11 @@ double DeviceShifts::scatter_of_anchors() const {
 }
 
 double DeviceShifts::scatter_of_body() const {
-  std::vector<double> variances;
-  std::vector<double> degrees;
+  std::vector<KnownVariance> scatter;
   for (const auto& [value, timing] : body_.now) {
-    const std::vector<double> values = stored_logarithms(*timing, medians(body_, timing));
-    variances.push_back(std::max(robust_variance(values), least_timing_variance));
-    degrees.push_back(robust_degrees(values.size()));
+    scatter.push_back(scatter_of(stored_logarithms(*timing, medians(body_, timing))));
   }
-  return fit_variance_prior(variances, degrees).variance;
+  return fit_variance_prior(scatter).variance;
 }
 
 // v_b
@@ -117,27 +114,25 @@ double DeviceShifts::variance_of_body(const TimingCase* left_out) const {
 }
 
 KnownVariance DeviceShifts::scatter_of_program() const {
-  if (distances_.size() < TimingModel::least_runs) return {0, 0};
-  return {std::max(robust_variance(distances_), least_timing_variance),
-          robust_degrees(distances_.size())};
+  return distances_.size() < TimingModel::least_runs ? KnownVariance{0, 0} : scatter_of(distances_);
 }
 
 void DeviceShifts::judge_program(const VariancePrior& others) {
   const KnownVariance own = scatter_of_program();
   if (own.degrees == 0) return;
   typical_scatter_ = scatter_of_body();
-  const double seen =
-      moderated_variance(others, own.variance, own.degrees) * prediction(distances_.size());
+  const KnownVariance among = moderated(others, own);
+  const double seen = among.variance * prediction(distances_.size());
   const auto anchors = static_cast<double>(anchors_.now.size());
   ProgramJudgement program;
   program.device = body_.now.front().second->device;
   program.configurations = body_.now.size();
   program.anchors = anchors_.now.size();
-  program.degrees = seen >= by_anchors_.variance ? others.degrees + own.degrees
-                                                 : std::max(anchors - 1, 1.0) * own.degrees;
+  program.degrees =
+      seen >= by_anchors_.variance ? among.degrees : std::max(anchors - 1, 1.0) * own.degrees;
   by_anchors_.variance = std::max(by_anchors_.variance, seen);
   program.device_shift = by_anchors_.now - median(anchor_shifts_);
-  program.log_ratio = medians(body_, nullptr).now - by_anchors_.now - median(distances_);
+  program.log_ratio = by_body_.now - by_anchors_.now - median(distances_);
   program.standard_error = std::sqrt(by_anchors_.variance + variance_of_body(nullptr));
   std::vector<double> tolerances;
   for (const auto& [value, timing] : body_.now) tolerances.push_back(timing->tolerance);

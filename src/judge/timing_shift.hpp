@@ -15,9 +15,6 @@
 
 namespace triptych::judge {
 
-// The smallest variance of ln t: clocks step, so that identical medians occur; 1e-6 of the time.
-inline constexpr double least_timing_variance = 1e-12;
-
 // What is to be taken out of one case.
 struct CaseShift {
   std::map<std::string, double> stored;  // by run; a run that is not there was not shifted
@@ -62,6 +59,7 @@ class DeviceShifts {
   Witness anchors_;
   Witness body_;
   CaseShift by_anchors_;               // and the variance V, where there is a program to be judged
+  CaseShift by_body_;                  // of all of it
   double typical_scatter_ = 0;         // s₀² of the body
   std::vector<double> distances_;      // d of the stored runs
   std::vector<double> anchor_shifts_;  // in them

@@ -5,11 +5,8 @@
 
 #include <cmath>
 
-#include "core/file.hpp"
-#include "core/hash.hpp"
-#include "core/image_io.hpp"
 #include "core/json.hpp"
-#include "fixture.hpp"
+#include "correlation_fixture.hpp"
 #include "judge/timing_model.hpp"
 
 namespace triptych::judge {
@@ -17,111 +14,6 @@ namespace {
 
 using core::ExitCode;
 using testing::HasSubstr;
-
-// A plan of 48 configurations and the anchors' own, on the device "a:known" whose runs are accepted
-// and on "b:new", half as fast.
-class CorrelationGateTest : public JudgeTest {
- protected:
-  static constexpr const char* plan = "volume/correlation";
-  static constexpr const char* anchors = "anchors/frozen";
-  using Times = std::function<double(const record::Record&)>;  // factor on a record's times
-
-  CorrelationGateTest() {
-    request_.plan = plan;
-    request_.checks = {Check::correlation};
-    request_.truth = nullptr;
-  }
-
-  static record::Device device(const std::string& id) {
-    record::Device device;
-    device.id = id;
-    device.api = "gl";
-    device.driver_version = "1";
-    return device;
-  }
-
-  void add(const std::string& run, const std::string& in_plan, const std::string& on,
-           record::Record record, double level, const Times& times) {
-    record.run = run;
-    record.plan = in_plan;
-    record.suite = in_plan.substr(0, in_plan.find('/'));
-    record.device = on;
-    record.scene = record.configuration;
-    record.outcome = record::Outcome::measured;
-    record.kernel_hash = "k";
-    const double speed = on == "b:new" ? 2 : 1;
-    // How a configuration differs from the line is a device's own, its noise is a run's.
-    const double own = on == "b:new" ? 0.02 * std::sin(level * 1e3) : 0;
-    const double factor = times ? times(record) : 1;
-    for (int frame = 0; frame < 7; ++frame) {
-      record.wall_ns.push_back(factor * speed * std::exp(level + own + 0.005 * scatter()));
-    }
-    if (record.suite != "anchors") {
-      const auto bytes = core::encode_exr(truth_of(record.scene));
-      record.image = core::content_hash(bytes);
-      store_.add_image(record.image, bytes);
-    }
-    store_.add_record(record);
-  }
-
-  void measure(const std::string& run, const std::string& on, const Times& times = {}) {
-    store_.add_run({run, plan, "2026-02-01T00:00:00Z", {}});
-    store_.add_device(run, device(on), {});
-    for (int i = 0; i < 48; ++i) {
-      record::Record record;
-      record.technique = i % 2 == 0 ? "raycast" : "raycast_fragment";
-      record.factors = {{"technique", record.technique},
-                        {"data", fmt::format("d{}", i / 2 % 4)},
-                        {"step", fmt::format("{}", i / 8)}};
-      record.configuration =
-          fmt::format("data=d{},step={},technique={}", i / 2 % 4, i / 8, record.technique);
-      record.counters = {{"samples", 1000}};
-      add(run, plan, on, record, 14 + 0.06 * i, times);
-    }
-  }
-
-  void measure_anchors(const std::string& run, const std::string& on) {
-    store_.add_run({run, anchors, "2026-02-01T00:00:00Z", {}});
-    store_.add_device(run, device(on), {});
-    int i = 0;
-    for (const char* technique :
-         {"anchor_arithmetic", "anchor_fetch", "anchor_memory", "anchor_raster"}) {
-      for (int size = 1; size <= 4; size *= 2) {
-        record::Record record;
-        record.technique = technique;
-        record.factors = {{"technique", technique}, {"size", fmt::format("{}", size)}};
-        record.configuration = fmt::format("size={},technique={}", size, technique);
-        add(run, anchors, on, record, 14.3 + 0.1 * ++i + std::log(size), {});
-      }
-    }
-  }
-
-  void accept_plan(const std::string& run, const char* of) {
-    AcceptRequest request;
-    request.plan = of;
-    request.reason = "a test";
-    request.date = "2026-02-01";
-    request.truth = [](const record::Record& record) { return truth_of(record.scene); };
-    (void)accept(store_, run, folder_.path() / "baselines", request);
-  }
-
-  void accept_known(std::size_t runs = TimingModel::least_runs) {
-    for (std::size_t i = 1; i <= runs; ++i) {
-      measure_anchors(fmt::format("a{}", i), "a:known");
-      accept_plan(fmt::format("a{}", i), anchors);
-      measure(fmt::format("known{}", i), "a:known");
-      accept_plan(fmt::format("known{}", i), plan);
-    }
-  }
-
-  [[nodiscard]] GateResult judge(const std::string& run) const {
-    return judge_run(store_, run, Baselines(folder_.path() / "baselines", plan), request_);
-  }
-
- private:
-  double scatter() { return random_.uniform(-1, 1) + random_.uniform(-1, 1); }
-  core::Random random_{11};
-};
 
 TEST_F(CorrelationGateTest, ASlowerDevicePasses) {
   accept_known();
