@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/measuring.hpp"
+#include "report/finding_groups.hpp"
 #include "report/page.hpp"
 
 namespace triptych::app {
@@ -29,13 +30,15 @@ bool measure_suspects_again(const judge::GateResult& result, const std::string& 
 }
 
 void print_text(const judge::GateResult& result) {
-  std::map<judge::Verdict, int> counts;
-  for (const judge::Finding& finding : result.findings) {
-    ++counts[finding.verdict];
+  for (const report::FindingGroup& group : report::grouped(result.findings)) {
+    const judge::Finding& finding = *group.first;
     if (finding.verdict == judge::Verdict::pass) continue;
-    fmt::print("{:<12} {} {}: {}\n", judge::name_of(finding.verdict), finding.test,
-               finding.configuration, finding.message);
+    const std::string subject = group.subject();
+    fmt::print("{:<12} {}{}{}: {}\n", judge::name_of(finding.verdict), finding.test,
+               subject.empty() ? "" : " ", subject, finding.message);
   }
+  std::map<judge::Verdict, int> counts;
+  for (const judge::Finding& finding : result.findings) ++counts[finding.verdict];
   for (const auto& [verdict, count] : counts) fmt::print("{} {}  ", count, judge::name_of(verdict));
   fmt::print("\n{}\n", result.headline());
 }

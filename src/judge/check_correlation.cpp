@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "judge/anchor.hpp"
 #include "judge/correlation_pairs.hpp"
@@ -32,26 +33,32 @@ std::string short_name(const std::string& key) {
 
 class PairReport {
  public:
-  PairReport(const RunView& view, const CorrelationPair& pair, std::vector<Finding>& findings)
+  // `decided`: some stored device can judge this one.
+  PairReport(const RunView& view, const CorrelationPair& pair, bool decided,
+             std::vector<Finding>& findings)
       : view_(view),
         pair_(pair),
+        decided_(decided),
         result_(pair.result),
         other_(short_name(pair.other_key)),
         findings_(findings) {}
 
   void run() {
     if (!result_.admitted()) {
-      add(Verdict::advisory, fmt::format("cannot be judged by {}: {}; {}", other_,
-                                         fmt::join(result_.refusals, "; "), remedy()));
+      add(Verdict::advisory,
+          fmt::format("cannot be judged by {}: {}; {}", other_, fmt::join(result_.refusals, "; "),
+                      decided_ ? "another stored device decides" : remedy()));
       add_numbers();
+      return;
+    }
+    if (!pair_.decides) {
+      report_farther();
       return;
     }
     for (std::size_t i = 0; i < pair_.cases.size(); ++i) report_configuration(i);
     for (const LevelEffect& level : result_.levels) report_level(level);
     report_global();
-    if (slower_) return;
-    add(Verdict::pass, fmt::format("as {} lets expect: {}", other_, fit_text()));
-    add_numbers();
+    if (!slower_) report_as_expected();
   }
 
  private:
@@ -72,6 +79,35 @@ class PairReport {
     }
     add(decides && !few ? Verdict::regression : Verdict::advisory, std::move(message));
     findings_.back().subject = what + "by " + pair_.other_key;
+  }
+
+  void report_as_expected() {
+    add(Verdict::pass, fmt::format("as {} lets expect: {}", other_, fit_text()));
+    add_numbers();
+  }
+
+  // What it says beside the nearest: its own character is in it as well.
+  void report_farther() {
+    std::vector<std::string> slower;
+    for (const LevelEffect& level : result_.levels) {
+      if (!level.slower || level.standing) continue;
+      slower.push_back(fmt::format("{} {:+.1f} %", level_name(level), percent(level.effect)));
+    }
+    const auto configurations = std::ranges::count_if(
+        result_.judgements,
+        [](const ConfigurationJudgement& each) { return each.slower && !each.standing; });
+    if (configurations > 0) slower.push_back(fmt::format("{} configurations", configurations));
+    if (result_.global.slower) slower.emplace_back("the program as a whole");
+    if (slower.empty()) {
+      report_as_expected();
+      return;
+    }
+    add(Verdict::advisory,
+        fmt::format("slower by {}: {}; another stored device correlates better than with {:.4f} "
+                    "and decides",
+                    other_, fmt::join(slower, ", "), result_.rho));
+    findings_.back().subject = "by " + pair_.other_key;
+    add_numbers();
   }
 
   [[nodiscard]] std::string fit_text() const {
@@ -209,6 +245,7 @@ class PairReport {
 
   const RunView& view_;
   const CorrelationPair& pair_;
+  bool decided_;
   const Correlation& result_;
   std::string other_;
   std::vector<Finding>& findings_;
@@ -221,10 +258,14 @@ CorrelationFindings check_correlations(const RunView& view, const WrongImages& w
   CorrelationFindings result;
   result.pairs = correlation_pairs(view, wrong);
   std::set<std::string> held;
+  std::set<std::string> decided;
+  for (const CorrelationPair& pair : result.pairs) {
+    if (pair.decides) decided.insert(pair.device);
+  }
   for (const CorrelationPair& pair : result.pairs) {
     if (pair.within_run) continue;
     held.insert(pair.device);
-    PairReport(view, pair, result.findings).run();
+    PairReport(view, pair, decided.contains(pair.device), result.findings).run();
   }
   for (const auto& [id, device] : view.devices) {
     const bool measured = std::ranges::any_of(

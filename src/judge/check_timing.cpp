@@ -135,7 +135,8 @@ class TimingCheck {
   // Its time is judged where it was measured.
   void report_taken_over(const record::Record& record) {
     add(record, Verdict::skipped,
-        fmt::format("measured as {}, which the scene cannot tell from it ({})", record.same_as,
+        fmt::format("its frames are another configuration's, which its scene cannot tell from it "
+                    "({})",
                     record.reason));
   }
 
@@ -154,7 +155,8 @@ class TimingCheck {
                                       stored.size(), TimingModel::least_runs);
     const double ratio = now / std::exp(mean(logarithms));
     if (other_clocks > 0) message += fmt::format("; {} more are of another clock", other_clocks);
-    if (!stored.empty()) message += fmt::format("; now {:.3f} × their mean", ratio);
+    message += stored.empty() ? "; store them with " + view_.accept_command()
+                              : fmt::format("; now {:.3f} × their mean", ratio);
     add(record, Verdict::advisory, std::move(message));
     set_number(findings_.back(), "median_ns", now);
     set_number(findings_.back(), "ratio", ratio);

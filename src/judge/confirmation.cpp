@@ -69,6 +69,7 @@ bool is_in_doubt(const CorrelationPair& pair) {
   if (!result.admitted()) {
     return result.refused_for_scatter() && result.scale <= largest_scale_in_doubt;
   }
+  if (!pair.decides) return false;
   return std::ranges::any_of(result.judgements, is_suspect<ConfigurationJudgement>) ||
          std::ranges::any_of(result.levels, is_suspect<LevelEffect>) || result.global.suspected;
 }

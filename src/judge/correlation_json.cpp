@@ -76,6 +76,7 @@ Json to_json(const CorrelationPair& pair) {
           {"other", pair.other},
           {"other_key", pair.other_key},
           {"within_run", pair.within_run},
+          {"decides", pair.decides},
           {"unlike_clocks", pair.unlike_clocks},
           {"unlike_anchors", pair.unlike_anchors},
           {"stored_runs", pair.stored_runs},

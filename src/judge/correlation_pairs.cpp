@@ -8,6 +8,7 @@
 #include "judge/anchor_run.hpp"
 #include "judge/statistics.hpp"
 #include "judge/stored_scatter.hpp"
+#include "judge/timing_model.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -207,10 +208,33 @@ class Pairs {
   std::map<std::string, std::vector<const record::Record*>> records_;  // by device
 };
 
+// By the correlation of all, whatever line was taken: a scale beside an offset hides how unlike a
+// level is.
+bool is_nearer(const CorrelationPair& pair, const CorrelationPair& than) {
+  const auto may_fail = [](const CorrelationPair& each) {
+    return each.stored_runs >= TimingModel::least_runs;
+  };
+  return may_fail(pair) == may_fail(than) ? pair.result.rho > than.result.rho : may_fail(pair);
+}
+
+// One for each device: every other stored device adds a character of its own to the answer, and a
+// chance of its own to be wrong.
+void choose_deciding(std::vector<CorrelationPair>& pairs) {
+  std::map<std::string_view, CorrelationPair*> nearest;
+  for (CorrelationPair& pair : pairs) {
+    if (pair.within_run || !pair.result.admitted()) continue;
+    const auto [known, first] = nearest.try_emplace(pair.device, &pair);
+    if (!first && is_nearer(pair, *known->second)) known->second = &pair;
+  }
+  for (const auto& [device, pair] : nearest) pair->decides = true;
+}
+
 }  // namespace
 
 std::vector<CorrelationPair> correlation_pairs(const RunView& view, const WrongImages& wrong) {
-  return Pairs(view, wrong).run();
+  std::vector<CorrelationPair> pairs = Pairs(view, wrong).run();
+  choose_deciding(pairs);
+  return pairs;
 }
 
 }  // namespace triptych::judge

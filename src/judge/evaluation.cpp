@@ -61,8 +61,11 @@ std::vector<Aim> aims_of(const std::string& method, const Tallies& tallies, bool
 }
 
 std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
-  const auto is_own = [=, judging = judging_pairs(tallies)](const TrialKind& kind) {
+  const auto judges = [=, judging = judging_pairs(tallies)](const TrialKind& kind) {
     return kind.confirmed == confirmed && judging.contains({kind.method, kind.plan, kind.subject});
+  };
+  const auto is_own = [=](const TrialKind& kind) {
+    return judges(kind) && kind.method != by_the_nearest;
   };
   const auto of = [=](Spread spread) {
     return [=](const TrialKind& kind) { return is_own(kind) && kind.spread == spread; };
@@ -79,6 +82,11 @@ std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
   const auto on = [](std::string_view which, const Chosen& chosen) {
     return [=](const TrialKind& kind) { return chosen(kind) && kind.method.ends_with(which); };
   };
+  // What the gate says where several devices are stored.
+  const auto nearest_finds = [=](const TrialKind& kind) {
+    return judges(kind) && kind.method == by_the_nearest &&
+           (kind.spread == Spread::configuration || kind.spread == Spread::level);
+  };
   const std::string name = confirmed ? "correlation, confirmed: " : "correlation: ";
   std::vector<Aim> result{
       aim(name + "a configuration that is slower by 25 % found", tallies, &Tally::to_be_caught, 1,
@@ -89,6 +97,8 @@ std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
           0.05, false, on("accepted device", planted_somewhere)),
       aim(name + "false among the discoveries, new device", tallies, &Tally::false_discoveries,
           0.05, false, on("new device", planted_somewhere)),
+      aim(name + "false among the discoveries, new device by the nearest of all others", tallies,
+          &Tally::false_discoveries, 0.05, false, nearest_finds),
       aim(name + "10 % of everything found, accepted device", tallies, &Tally::detected, 0.9, true,
           on("accepted device", of_ten_percent(Spread::global))),
       aim(name + "10 % of everything found, new device", tallies, &Tally::detected, 0.9, true,
@@ -102,7 +112,9 @@ std::vector<Aim> aims_of_correlation(const Tallies& tallies, bool confirmed) {
   };
   if (confirmed) return result;
   result.push_back(aim(name + "uncorrelated pairs refused", tallies, &Tally::detected, 1, true,
-                       [](const TrialKind& kind) { return kind.spread == Spread::scrambled; }));
+                       [](const TrialKind& kind) {
+                         return kind.spread == Spread::scrambled && kind.method != by_the_nearest;
+                       }));
   return result;
 }
 

@@ -48,9 +48,13 @@ enum class Spread : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Spread spread);
 
+// The method of trials in which a new device is judged by the nearest of all others.
+inline constexpr std::string_view by_the_nearest = "correlation, new device by the nearest";
+
 // Trials of one kind are counted together.
 struct TrialKind {
-  std::string method;   // "compare", "history", "correlation, new device", "…, accepted device"
+  // "compare", "history", "correlation, new device", "correlation, accepted device", by_the_nearest
+  std::string method;
   std::string plan;     // whose configurations were measured
   std::string subject;  // a device, or "B by A"
   Spread spread = Spread::none;

@@ -81,17 +81,16 @@ void sort_out(const std::string& plan, std::vector<PooledRun> runs, std::vector<
   pools.push_back(std::move(pool));
 }
 
-// A copy of a run under an id of its own, of all devices or of one.
+// A copy of a run under an id of its own, of these devices.
 void add_copy(const PooledRun& run, const std::string& plan, const std::string& id,
-              const std::vector<record::Record>& records, const std::string& device,
+              const std::vector<record::Record>& records, const std::set<std::string>& devices,
               record::Store& store) {
   store.add_run({id, plan, "", {}});
   for (const auto& entry : run.devices) {
-    if (device.empty() || entry.device.id == device)
-      store.add_device(id, entry.device, entry.clocks);
+    if (devices.contains(entry.device.id)) store.add_device(id, entry.device, entry.clocks);
   }
   for (record::Record record : records) {
-    if (!device.empty() && record.device != device) continue;
+    if (!devices.contains(record.device)) continue;
     record.run = id;
     store.add_record(record);
   }
@@ -142,8 +141,9 @@ std::vector<RunPool> pool_runs(const record::Store& store) {
 
 TrialStore::TrialStore(const RunPool& pool, std::size_t number, const std::filesystem::path& file)
     : run_(pool.unplanted.at(number)), number_(number), store_(file, record::Store::Mode::append) {
-  add_copy(run_, std::string(anchors_plan), anchors_id(number), run_.anchors, {}, store_);
-  add_copy(run_, pool.plan, run_id(number), run_.records, {}, store_);
+  const std::set<std::string> all = devices_of(pool);
+  add_copy(run_, std::string(anchors_plan), anchors_id(number), run_.anchors, all, store_);
+  add_copy(run_, pool.plan, run_id(number), run_.records, all, store_);
 }
 
 void TrialStore::put(const std::vector<record::Record>& records) {
@@ -177,22 +177,35 @@ Launch TrialStore::launch() const {
 
 TrialHistory::TrialHistory(const RunPool& pool, const std::set<std::size_t>& left_out,
                            const std::filesystem::path& folder) {
-  std::vector<std::string> known{""};
-  for (const auto& entry : pool.unplanted.front().devices) known.push_back(entry.device.id);
-  for (std::size_t which = 0; which < known.size(); ++which) {
-    const std::filesystem::path root = folder / std::to_string(which);
-    record::Store history(folder / fmt::format("{}.sqlite", which), record::Store::Mode::append);
+  const std::set<std::string> all = devices_of(pool);
+  std::set<std::set<std::string>> known{all};
+  for (const std::string& device : all) {
+    known.insert({device});
+    std::set<std::string> others = all;
+    others.erase(device);
+    known.insert(others);
+  }
+  for (const std::set<std::string>& devices : known) {
+    const std::string name = std::to_string(baselines_.size());
+    const std::filesystem::path root = folder / name;
+    record::Store history(folder / (name + ".sqlite"), record::Store::Mode::append);
     for (std::size_t i = 0; i < pool.unplanted.size(); ++i) {
       if (left_out.contains(i)) continue;
       const PooledRun& run = pool.unplanted[i];
-      add_copy(run, pool.plan, run_id(i), run.records, known[which], history);
+      add_copy(run, pool.plan, run_id(i), run.records, devices, history);
       accept_copy(history, run_id(i), pool.plan, root);
       if (run.anchors.empty()) continue;
-      add_copy(run, std::string(anchors_plan), anchors_id(i), run.anchors, known[which], history);
+      add_copy(run, std::string(anchors_plan), anchors_id(i), run.anchors, devices, history);
       accept_copy(history, anchors_id(i), std::string(anchors_plan), root);
     }
-    baselines_.emplace(known[which], Baselines(root, pool.plan));
+    baselines_.emplace(devices, Baselines(root, pool.plan));
   }
+}
+
+std::set<std::string> devices_of(const RunPool& pool) {
+  std::set<std::string> devices;
+  for (const auto& entry : pool.unplanted.front().devices) devices.insert(entry.device.id);
+  return devices;
 }
 
 }  // namespace triptych::judge

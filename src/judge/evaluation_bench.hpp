@@ -65,13 +65,16 @@ class TrialHistory {
   TrialHistory(const RunPool& pool, const std::set<std::size_t>& left_out,
                const std::filesystem::path& folder);
 
-  // By the device whose runs are stored, "" for all devices'.
-  [[nodiscard]] const Baselines& of(const std::string& device) const {
-    return baselines_.at(device);
+  // By the devices whose runs are stored: all, one, or all but one.
+  [[nodiscard]] const Baselines& of(const std::set<std::string>& devices) const {
+    return baselines_.at(devices);
   }
 
  private:
-  std::map<std::string, Baselines> baselines_;
+  std::map<std::set<std::string>, Baselines> baselines_;
 };
+
+// The ids of the devices in a pool.
+[[nodiscard]] std::set<std::string> devices_of(const RunPool& pool);
 
 }  // namespace triptych::judge

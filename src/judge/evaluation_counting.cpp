@@ -104,6 +104,16 @@ class PairCount {
   bool alarmed_ = false;
 };
 
+void count_pair(TrialKind kind, const CorrelationPair& pair, const GateResult& result,
+                const Trial& trial, Tallies& tallies) {
+  kind.spread = trial.spread;
+  kind.percent = trial.percent;
+  kind.confirmed = trial.confirmed;
+  Tally& tally = tallies[kind];
+  PairCount(pair, trial, tally).run();
+  if (!trial.confirmed) tally.in_doubt.count(result.in_doubt.contains(pair.device));
+}
+
 }  // namespace
 
 std::set<std::pair<std::string, std::string>> names_of(const std::vector<record::Record>& records) {
@@ -149,10 +159,18 @@ void count_correlations(const std::string& plan, const std::string& method,
                         const GateResult& result, const Trial& trial, Tallies& tallies) {
   for (const CorrelationPair& pair : result.correlations) {
     if (pair.within_run) continue;
-    const std::string subject = pair.device + " by " + pair.other;
-    Tally& tally = tallies[{method, plan, subject, trial.spread, trial.percent, trial.confirmed}];
-    PairCount(pair, trial, tally).run();
-    if (!trial.confirmed) tally.in_doubt.count(result.in_doubt.contains(pair.device));
+    count_pair({method, plan, pair.device + " by " + pair.other}, pair, result, trial, tallies);
+  }
+}
+
+void count_deciding(const std::string& plan, const std::string& method, const GateResult& result,
+                    const Trial& trial, Tallies& tallies) {
+  const CorrelationPair* deciding = nullptr;
+  for (const CorrelationPair& pair : result.correlations) {
+    if (!pair.within_run && (deciding == nullptr || pair.decides)) deciding = &pair;
+  }
+  if (deciding != nullptr) {
+    count_pair({method, plan, deciding->device}, *deciding, result, trial, tallies);
   }
 }
 

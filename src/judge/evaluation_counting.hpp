@@ -34,5 +34,8 @@ void count_history(const std::string& plan, const GateResult& result, const Tria
 // found where it is called slower beyond chance, whether it decides or only advises.
 void count_correlations(const std::string& plan, const std::string& method,
                         const GateResult& result, const Trial& trial, Tallies& tallies);
+// The one device that was judged, by the stored one that decides.
+void count_deciding(const std::string& plan, const std::string& method, const GateResult& result,
+                    const Trial& trial, Tallies& tallies);
 
 }  // namespace triptych::judge

@@ -33,7 +33,8 @@ void judge_by(const Baselines& baselines, const Launch& first, const std::option
 TrialJudge::TrialJudge(const RunPool& pool, std::set<Check> checks,
                        const std::filesystem::path& folder)
     : pool_(pool), checks_(std::move(checks)), folder_(folder) {
-  for (const auto& entry : pool.unplanted.front().devices) devices_.push_back(entry.device.id);
+  const std::set<std::string> devices = devices_of(pool);
+  devices_.assign(devices.begin(), devices.end());
   std::filesystem::create_directories(folder);
 }
 
@@ -85,34 +86,47 @@ void TrialJudge::judge(const Trial& trial, const Attempt& first,
   one.restore();
 }
 
-// By all devices' baselines and, for a device that is not known yet, by each other one's alone.
+// By all devices' baselines and, for a device that is not known yet, by each other one's alone and
+// by the nearest of all others.
 void TrialJudge::judge_by_all(const Trial& trial, const Launches& launches,
                               const std::vector<std::string>& devices) {
   const std::vector<std::string>& judged = devices.empty() ? devices_ : devices;
-  const auto judge_with = [&](const std::string& known, const std::set<Check>& checks,
-                              const auto& count) {
-    judge_by(launches.stored.of(known), launches.first, launches.second, request(checks, devices),
-             trial, count);
+  const auto judge_with = [&](const std::set<std::string>& known, const std::set<Check>& checks,
+                              const std::vector<std::string>& of, const auto& count) {
+    judge_by(launches.stored.of(known), launches.first, launches.second, request(checks, of), trial,
+             count);
   };
-  judge_with("", checks_, [&](const GateResult& result, const Trial& counted) {
+  const std::set<std::string> all = devices_of(pool_);
+  judge_with(all, checks_, devices, [&](const GateResult& result, const Trial& counted) {
     if (checks_.contains(Check::timing)) {
       count_history(pool_.plan, result, counted, judged, tallies_);
     }
     count_correlations(pool_.plan, "correlation, accepted device", result, counted, tallies_);
   });
   if (!checks_.contains(Check::correlation)) return;
-  std::set<std::string> others(devices_.begin(), devices_.end());
+  std::set<std::string> others = all;
   if (judged.size() == 1) others.erase(judged.front());
   for (const std::string& other : others) {
-    judge_with(other, {Check::correlation}, [&](const GateResult& result, const Trial& counted) {
-      count_correlations(pool_.plan, "correlation, new device", result, counted, tallies_);
-    });
+    judge_with({other}, {Check::correlation}, devices,
+               [&](const GateResult& result, const Trial& counted) {
+                 count_correlations(pool_.plan, "correlation, new device", result, counted,
+                                    tallies_);
+               });
+  }
+  for (const std::string& device : judged) {
+    std::set<std::string> known = all;
+    known.erase(device);
+    if (known.size() < 2) continue;  // the only other one is the nearest
+    judge_with(known, {Check::correlation}, {device},
+               [&](const GateResult& result, const Trial& counted) {
+                 count_deciding(pool_.plan, std::string(by_the_nearest), result, counted, tallies_);
+               });
   }
 }
 
 void TrialJudge::judge_twice(std::size_t run) {
   const auto verdict = [&] {
-    return to_json(judge_launches(store(run, 0).launch(), {}, history({run}).of(""),
+    return to_json(judge_launches(store(run, 0).launch(), {}, history({run}).of(devices_of(pool_)),
                                   request(checks_, {})))
         .dump();
   };

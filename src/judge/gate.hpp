@@ -70,6 +70,8 @@ struct CorrelationPair {
   std::string other;               // A: id of the one that it is held against
   std::string other_key;           // Device::key() of A
   bool within_run = false;         // A was measured in the same run; else it is a stored baseline
+  bool decides = false;            // of the stored ones that can judge B the nearest, with the
+                                   // largest ρ: the others advise
   std::size_t unlike_clocks = 0;   // configurations left out: other clocks timed them on A
   std::size_t unlike_anchors = 0;  // and anchors
   std::size_t stored_runs = 0;     // of A, of the configuration with the fewest
@@ -102,8 +104,8 @@ struct GateResult {
 // "configuration", "message", "numbers"}], "in_doubt": [device], "measured_again": [device],
 // "correlations": [as of the pair], "accuracies": [as of the scene]}
 [[nodiscard]] nlohmann::json to_json(const GateResult& result);
-// {"device", "other", "other_key", "within_run", "unlike_clocks", "refusals", …, "configurations",
-// "levels", "global"}; what is no number is null.
+// {"device", "other", "other_key", "within_run", "decides", "unlike_clocks", "refusals", …,
+// "configurations", "levels", "global"}; what is no number is null.
 [[nodiscard]] nlohmann::json to_json(const CorrelationPair& pair);
 
 struct GateRequest {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "report/finding_groups.hpp"
+
 namespace triptych::report {
 namespace {
 
@@ -18,11 +20,12 @@ std::string cell(std::string text) {
   return text;
 }
 
-std::string table(std::span<const judge::Finding> findings) {
+std::string table(std::span<const FindingGroup> groups) {
   std::string text = "| verdict | test | configuration | message |\n|---|---|---|---|\n";
-  for (const judge::Finding& finding : findings) {
+  for (const FindingGroup& group : groups) {
+    const judge::Finding& finding = *group.first;
     text += fmt::format("| {} | `{}` | {} | {} |\n", judge::name_of(finding.verdict), finding.test,
-                        cell(finding.configuration), cell(finding.message));
+                        cell(group.subject()), cell(finding.message));
   }
   return text;
 }
@@ -31,8 +34,9 @@ std::string table(std::span<const judge::Finding> findings) {
 
 std::string markdown(const judge::GateResult& result) {
   std::string text = fmt::format("## {}: {}\n\n", result.plan, result.headline());
-  const std::span<const judge::Finding> all(result.findings);
-  const std::span<const judge::Finding> worst = all.first(std::min(shown_openly, all.size()));
+  const std::vector<FindingGroup> groups = grouped(result.findings);
+  const std::span<const FindingGroup> all(groups);
+  const std::span<const FindingGroup> worst = all.first(std::min(shown_openly, all.size()));
   if (!worst.empty()) text += table(worst);
   if (all.size() > worst.size()) {
     text += fmt::format("\n<details><summary>{} more</summary>\n\n{}\n</details>\n",

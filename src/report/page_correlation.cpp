@@ -44,11 +44,14 @@ std::string admission(const CorrelationPair& pair) {
         pair.result.line_beside.empty()
             ? ""
             : fmt::format(" The line is beside an offset of {}.", escape(pair.result.line_beside));
-    return fmt::format("<p>{}{}</p>",
-                       pair.within_run
-                           ? "The two are alike enough that one could judge the other."
-                           : "<b class=\"pass\">Admitted</b>: this baseline judges the device.",
-                       beside);
+    std::string_view role = "<b class=\"pass\">Admitted</b>: this baseline judges the device.";
+    if (!pair.decides) {
+      role =
+          "<b class=\"pass\">Admitted</b>, but another stored device correlates better and "
+          "decides.";
+    }
+    if (pair.within_run) role = "The two are alike enough that one could judge the other.";
+    return fmt::format("<p>{}{}</p>", role, beside);
   }
   std::string text = fmt::format("<p><b class=\"cannot_judge\">Refused</b>: {}",
                                  escape(fmt::format("{}", fmt::join(pair.result.refusals, "; "))));

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "report/charts.hpp"
+#include "report/finding_groups.hpp"
 #include "report/html.hpp"
 #include "report/page_sections.hpp"
 
@@ -17,12 +18,13 @@ using Rows = std::vector<std::vector<std::string>>;
 
 constexpr std::size_t openly_listed = 40;
 
-std::string finding_rows(std::span<const judge::Finding* const> findings) {
+std::string finding_rows(std::span<const FindingGroup> groups) {
   Rows rows{{"verdict", "test", "configuration", "what was found"}};
-  for (const judge::Finding* finding : findings) {
+  for (const FindingGroup& group : groups) {
+    const judge::Finding& finding = *group.first;
     rows.push_back(
-        {fmt::format("<span class=\"verdict {0}\">{0}</span>", judge::name_of(finding->verdict)),
-         escape(finding->test), escape(finding->configuration), escape(finding->message)});
+        {fmt::format("<span class=\"verdict {0}\">{0}</span>", judge::name_of(finding.verdict)),
+         escape(finding.test), escape(group.subject()), escape(finding.message)});
   }
   return table(rows, "findings");
 }
@@ -104,13 +106,12 @@ std::string taken_over(const PlanData& plan) {
 }  // namespace
 
 std::string verdict_section(const PlanData& plan) {
-  std::vector<const judge::Finding*> notable;
-  std::vector<const judge::Finding*> rest;
-  for (const judge::Finding& finding : plan.verdict->findings) {
-    const bool quiet = finding.verdict == judge::Verdict::pass ||
-                       finding.verdict == judge::Verdict::skipped ||
-                       finding.verdict == judge::Verdict::advisory;
-    (quiet || notable.size() >= openly_listed ? rest : notable).push_back(&finding);
+  std::vector<FindingGroup> notable;
+  std::vector<FindingGroup> rest;
+  for (const FindingGroup& group : grouped(plan.verdict->findings)) {
+    const bool quiet = group.first->verdict == judge::Verdict::pass ||
+                       group.first->verdict == judge::Verdict::skipped;
+    (quiet || notable.size() >= openly_listed ? rest : notable).push_back(group);
   }
   std::string text = verdict_matrix(*plan.verdict);
   if (!notable.empty()) text += finding_rows(notable);

@@ -15,8 +15,8 @@
 
 namespace triptych::judge {
 
-// A plan of 48 configurations and the anchors' own, on the device "a:known" whose runs are accepted
-// and on "b:new", half as fast.
+// A plan of 48 configurations and the anchors' own, on the device "a:known" whose runs are
+// accepted, on "b:new", half as fast, and on others.
 class CorrelationGateTest : public JudgeTest {
  protected:
   static constexpr const char* plan = "volume/correlation";
@@ -93,7 +93,7 @@ class CorrelationGateTest : public JudgeTest {
     }
   }
 
-  void accept_plan(const std::string& run, const char* of) {
+  void accept_plan(const std::string& run, const std::string& of) {
     AcceptRequest request;
     request.plan = of;
     request.reason = "a test";
@@ -102,14 +102,19 @@ class CorrelationGateTest : public JudgeTest {
     (void)accept(store_, run, folder_.path() / "baselines", request);
   }
 
-  void accept_known(std::size_t runs = TimingModel::least_runs) {
+  void accept_runs_of(const std::string& on, std::size_t runs, const Times& times = {}) {
     for (std::size_t i = 1; i <= runs; ++i) {
-      measure_anchors(fmt::format("a{}", i), "a:known");
-      accept_plan(fmt::format("a{}", i), anchors);
-      measure(fmt::format("known{}", i), "a:known");
-      accept_plan(fmt::format("known{}", i), plan);
+      // As real ids do, they stand in the order of time: anchors are measured first.
+      const std::string beside = fmt::format("{} {} anchors", on, i);
+      measure_anchors(beside, on);
+      accept_plan(beside, anchors);
+      const std::string run = fmt::format("{} {} plan", on, i);
+      measure(run, on, times);
+      accept_plan(run, plan);
     }
   }
+
+  void accept_known(std::size_t runs = TimingModel::least_runs) { accept_runs_of("a:known", runs); }
 
   [[nodiscard]] GateResult judge(const std::string& run) const {
     return judge_run(store_, run, Baselines(folder_.path() / "baselines", plan), request_);

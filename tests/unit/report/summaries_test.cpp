@@ -1,5 +1,7 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "report/finding_groups.hpp"
 #include "report/junit.hpp"
 #include "report/markdown.hpp"
 
@@ -20,8 +22,8 @@ judge::GateResult some_result() {
                                .verdict = judge::Verdict::advisory,
                                .test = "volume.quick.timing.gl:x",
                                .device = "gl:x",
-                               .configuration = "step=1",
-                               .message = "too few runs"});
+                               .configuration = fmt::format("step={}", i),
+                               .message = fmt::format("now {} × their mean", i)});
   }
   return result;
 }
@@ -42,6 +44,46 @@ TEST(Markdown, ShowsTheWorstAndFoldsTheRest) {
   EXPECT_TRUE(text.starts_with("## volume/quick: FAIL"));
   EXPECT_NE(text.find("3 < 4 \\| pixels"), std::string::npos) << text;
   EXPECT_NE(text.find("<summary>3 more</summary>"), std::string::npos);
+}
+
+judge::Finding finding(judge::Verdict verdict, const std::string& device,
+                       const std::string& configuration) {
+  return {.check = judge::Check::timing,
+          .verdict = verdict,
+          .test = "volume.quick.timing." + device,
+          .device = device,
+          .configuration = configuration,
+          .message = "the same"};
+}
+
+TEST(FindingGroups, WhatIsSaidOfManyConfigurationsIsSaidOncePerDevice) {
+  using enum judge::Verdict;
+  const std::vector<judge::Finding> findings{
+      finding(advisory, "gl:x", "step=1"), finding(advisory, "gl:x", "step=2"),
+      finding(advisory, "gl:y", "step=1"), finding(skipped, "gl:x", "step=1"),
+      finding(advisory, "gl:x", "step=4")};
+  const std::vector<FindingGroup> groups = grouped(findings);
+  ASSERT_EQ(groups.size(), 3);
+  EXPECT_EQ(groups[0].subject(), "3 configurations");
+  EXPECT_EQ(groups[0].first, findings.data());
+  EXPECT_EQ(groups[1].subject(), "step=1");
+  EXPECT_EQ(groups[1].first->device, "gl:y");
+  EXPECT_EQ(groups[2].first->verdict, skipped);
+}
+
+TEST(FindingGroups, WhatFailedOrCouldNotBeJudgedStandsAlone) {
+  using enum judge::Verdict;
+  for (const judge::Verdict verdict : {regression, waived, cannot_judge}) {
+    const std::vector<judge::Finding> findings{finding(verdict, "gl:x", "step=1"),
+                                               finding(verdict, "gl:x", "step=2")};
+    EXPECT_EQ(grouped(findings).size(), 2) << judge::name_of(verdict);
+  }
+}
+
+TEST(FindingGroups, FindingsAboutADeviceStandAlone) {
+  const std::vector<judge::Finding> findings(2, finding(judge::Verdict::advisory, "gl:x", ""));
+  ASSERT_EQ(grouped(findings).size(), 2);
+  EXPECT_EQ(grouped(findings)[0].subject(), "");
 }
 
 }  // namespace

@@ -1,0 +1,90 @@
+// Of several stored devices the nearest decides.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "correlation_fixture.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using core::ExitCode;
+using testing::HasSubstr;
+
+class NearestDeviceTest : public CorrelationGateTest {
+ protected:
+  // A device that is faster by a fifth at one technique, which makes all others slow at it.
+  static double of_far(const record::Record& record) {
+    return record.technique == "raycast_fragment" ? 0.8 : 1;
+  }
+
+  static const CorrelationPair& by(const GateResult& result, const std::string& other) {
+    return *std::ranges::find(result.correlations, other, &CorrelationPair::other);
+  }
+};
+
+TEST_F(NearestDeviceTest, AFartherDevicesCharacterAdvises) {
+  accept_known();
+  accept_runs_of("c:far", TimingModel::least_runs, of_far);
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new");
+  const GateResult result = judge("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  EXPECT_TRUE(by(result, "a:known").decides);
+  EXPECT_FALSE(by(result, "c:far").decides);
+  ASSERT_TRUE(by(result, "c:far").result.admitted());
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_EQ(advice.size(), 1U) << text(result);
+  EXPECT_THAT(advice[0].message,
+              HasSubstr("slower by c:far; driver 1: technique=raycast_fragment"));
+  EXPECT_THAT(advice[0].message, HasSubstr("another stored device correlates better"));
+  EXPECT_FALSE(result.in_doubt.contains("b:new")) << "by a device that does not decide";
+}
+
+TEST_F(NearestDeviceTest, WhatTheNearestSaysFails) {
+  accept_known();
+  accept_runs_of("c:far", TimingModel::least_runs, of_far);
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new",
+          [](const record::Record& r) { return r.factors.at("data") == "d1" ? 1.25 : 1; });
+  const GateResult result = judge("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::regression);
+  for (const Finding& slower : with(result, Verdict::regression)) {
+    EXPECT_THAT(slower.message, HasSubstr("a:known; driver 1 lets expect"));
+    EXPECT_THAT(slower.configuration.empty() ? slower.message : slower.configuration,
+                HasSubstr("data=d1"));
+  }
+}
+
+// Fewer runs than a verdict needs: it would only advise.
+TEST_F(NearestDeviceTest, OneThatMayFailDecidesBeforeANearerOne) {
+  accept_known(TimingModel::least_runs - 1);
+  accept_runs_of("c:far", TimingModel::least_runs, of_far);
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new");
+  const GateResult result = judge("b");
+  EXPECT_FALSE(by(result, "a:known").decides);
+  EXPECT_TRUE(by(result, "c:far").decides);
+  EXPECT_EQ(result.exit_code(), ExitCode::regression) << text(result);
+}
+
+TEST_F(NearestDeviceTest, BesideOneThatJudgesARefusedOneSaysSo) {
+  accept_known();
+  int turn = 0;  // each configuration by a factor of its own, the same in every run
+  accept_runs_of("c:unlike", TimingModel::least_runs,
+                 [&](const record::Record&) { return std::exp(0.4 * std::sin(turn++ % 48)); });
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new");
+  const GateResult result = judge("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_EQ(advice.size(), 1U) << text(result);
+  EXPECT_THAT(advice[0].message, HasSubstr("cannot be judged by c:unlike"));
+  EXPECT_THAT(advice[0].message, HasSubstr("another stored device decides"));
+}
+
+}  // namespace
+}  // namespace triptych::judge
