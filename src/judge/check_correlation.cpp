@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 
 #include "judge/anchor.hpp"
 #include "judge/correlation_pairs.hpp"
@@ -40,7 +41,7 @@ class PairReport {
         pair_(pair),
         decided_(decided),
         result_(pair.result),
-        other_(short_name(pair.other_key)),
+        other_(pair.of_itself ? "its own history" : short_name(pair.other_key)),
         findings_(findings) {}
 
   void run() {
@@ -146,6 +147,9 @@ class PairReport {
                        pair_.unlike_clocks, view_.accept_command())
                  : fmt::format("use a plan with more configurations, or {}",
                                view_.accept_command());
+    }
+    if (pair_.of_itself) {
+      return fmt::format("compare builds here with triptych compare {}", view_.request.plan);
     }
     return fmt::format(
         "the devices are too unlike; accept this device's own baseline with {}, or "
@@ -258,10 +262,7 @@ CorrelationFindings check_correlations(const RunView& view, const WrongImages& w
   CorrelationFindings result;
   result.pairs = correlation_pairs(view, wrong);
   std::set<std::string> held;
-  std::set<std::string> decided;
-  for (const CorrelationPair& pair : result.pairs) {
-    if (pair.decides) decided.insert(pair.device);
-  }
+  const std::set<std::string> decided = decided_devices(result.pairs);
   for (const CorrelationPair& pair : result.pairs) {
     if (pair.within_run) continue;
     held.insert(pair.device);

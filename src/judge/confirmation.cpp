@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "judge/correlation_pairs.hpp"
 #include "judge/run_view.hpp"
 #include "judge/statistics.hpp"
 #include "judge/timing_model.hpp"
@@ -63,11 +64,12 @@ bool is_suspect(const Judgement& judgement) {
   return judgement.suspected && !judgement.standing;
 }
 
-bool is_in_doubt(const CorrelationPair& pair) {
+// `decided`: some stored device can judge it.
+bool is_in_doubt(const CorrelationPair& pair, bool decided) {
   const Correlation& result = pair.result;
   if (pair.within_run || pair.stored_runs < TimingModel::least_runs) return false;
   if (!result.admitted()) {
-    return result.refused_for_scatter() && result.scale <= largest_scale_in_doubt;
+    return !decided && result.refused_for_scatter() && result.scale <= largest_scale_in_doubt;
   }
   if (!pair.decides) return false;
   return std::ranges::any_of(result.judgements, is_suspect<ConfigurationJudgement>) ||
@@ -135,8 +137,9 @@ void join_launches(std::vector<record::Record>& records, std::span<const record:
 
 std::set<std::string> devices_in_doubt(const GateResult& result) {
   std::set<std::string> devices = in_doubt_by_history(result.findings);
+  const std::set<std::string> decided = decided_devices(result.correlations);
   for (const CorrelationPair& pair : result.correlations) {
-    if (is_in_doubt(pair)) devices.insert(pair.device);
+    if (is_in_doubt(pair, decided.contains(pair.device))) devices.insert(pair.device);
   }
   return devices;
 }

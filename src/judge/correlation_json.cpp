@@ -76,6 +76,7 @@ Json to_json(const CorrelationPair& pair) {
           {"other", pair.other},
           {"other_key", pair.other_key},
           {"within_run", pair.within_run},
+          {"of_itself", pair.of_itself},
           {"decides", pair.decides},
           {"unlike_clocks", pair.unlike_clocks},
           {"unlike_anchors", pair.unlike_anchors},

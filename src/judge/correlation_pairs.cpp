@@ -66,7 +66,9 @@ class Pairs {
     for (const auto& [id, device] : view_.devices) {
       if (!records_.contains(id)) continue;
       for (const StoredDevice& other : stored_) {
-        if (other.key != device.key()) pairs.push_back(against_stored(device, other));
+        CorrelationPair pair = against_stored(device, other);
+        // A device of whose own runs none but this one is stored has no history.
+        if (!pair.of_itself || !pair.cases.empty()) pairs.push_back(std::move(pair));
       }
     }
     for (const auto& [id, device] : view_.devices) {
@@ -122,6 +124,7 @@ class Pairs {
     pair.device = device.id;
     pair.other = other.id;
     pair.other_key = other.key;
+    pair.of_itself = other.key == device.key();
     const StoredTimes of_a = stored_under(other.key);
     const StoredTimes of_b = stored_under(device.key());
     const VariancePrior scatter_a = scatter_between_runs(of_a);
@@ -130,7 +133,10 @@ class Pairs {
     for (const record::Record* record : records_.at(device.id)) {
       if (!of_a.contains(record->configuration)) continue;
       const std::string_view clock = common_clock(*record, of_a.at(record->configuration));
-      const auto runs_a = runs_by(clock, of_a, record->configuration);
+      // A run that was accepted is no witness against itself.
+      const auto runs_a = runs_by(clock, of_a, record->configuration,
+                                  pair.of_itself ? std::string_view(record->run) : "");
+      if (runs_a.empty() && pair.of_itself) continue;
       if (runs_a.empty() || record->time_ns_by(clock).empty()) {
         ++(is_anchor(*record) ? pair.unlike_anchors : pair.unlike_clocks);
         continue;
@@ -235,6 +241,14 @@ std::vector<CorrelationPair> correlation_pairs(const RunView& view, const WrongI
   std::vector<CorrelationPair> pairs = Pairs(view, wrong).run();
   choose_deciding(pairs);
   return pairs;
+}
+
+std::set<std::string> decided_devices(const std::vector<CorrelationPair>& pairs) {
+  std::set<std::string> devices;
+  for (const CorrelationPair& pair : pairs) {
+    if (pair.decides) devices.insert(pair.device);
+  }
+  return devices;
 }
 
 }  // namespace triptych::judge

@@ -158,20 +158,19 @@ void count_history(const std::string& plan, const GateResult& result, const Tria
 void count_correlations(const std::string& plan, const std::string& method,
                         const GateResult& result, const Trial& trial, Tallies& tallies) {
   for (const CorrelationPair& pair : result.correlations) {
-    if (pair.within_run) continue;
+    if (pair.within_run || pair.of_itself) continue;
     count_pair({method, plan, pair.device + " by " + pair.other}, pair, result, trial, tallies);
   }
 }
 
-void count_deciding(const std::string& plan, const std::string& method, const GateResult& result,
-                    const Trial& trial, Tallies& tallies) {
+void count_deciding(const std::string& plan, const std::string& method, const std::string& device,
+                    const GateResult& result, const Trial& trial, Tallies& tallies) {
   const CorrelationPair* deciding = nullptr;
   for (const CorrelationPair& pair : result.correlations) {
-    if (!pair.within_run && (deciding == nullptr || pair.decides)) deciding = &pair;
+    if (pair.within_run || pair.device != device) continue;
+    if (deciding == nullptr || pair.decides) deciding = &pair;
   }
-  if (deciding != nullptr) {
-    count_pair({method, plan, deciding->device}, *deciding, result, trial, tallies);
-  }
+  if (deciding != nullptr) count_pair({method, plan, device}, *deciding, result, trial, tallies);
 }
 
 }  // namespace triptych::judge

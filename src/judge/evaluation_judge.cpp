@@ -101,7 +101,12 @@ void TrialJudge::judge_by_all(const Trial& trial, const Launches& launches,
     if (checks_.contains(Check::timing)) {
       count_history(pool_.plan, result, counted, judged, tallies_);
     }
-    count_correlations(pool_.plan, "correlation, accepted device", result, counted, tallies_);
+    if (checks_.contains(Check::correlation)) {
+      for (const std::string& device : judged) {
+        count_deciding(pool_.plan, "correlation, accepted device", device, result, counted,
+                       tallies_);
+      }
+    }
   });
   if (!checks_.contains(Check::correlation)) return;
   std::set<std::string> others = all;
@@ -119,7 +124,8 @@ void TrialJudge::judge_by_all(const Trial& trial, const Launches& launches,
     if (known.size() < 2) continue;  // the only other one is the nearest
     judge_with(known, {Check::correlation}, {device},
                [&](const GateResult& result, const Trial& counted) {
-                 count_deciding(pool_.plan, std::string(by_the_nearest), result, counted, tallies_);
+                 count_deciding(pool_.plan, std::string(by_the_nearest), device, result, counted,
+                                tallies_);
                });
   }
 }

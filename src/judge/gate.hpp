@@ -70,6 +70,7 @@ struct CorrelationPair {
   std::string other;               // A: id of the one that it is held against
   std::string other_key;           // Device::key() of A
   bool within_run = false;         // A was measured in the same run; else it is a stored baseline
+  bool of_itself = false;          // A is B: its own stored runs
   bool decides = false;            // of the stored ones that can judge B the nearest, with the
                                    // largest ρ: the others advise
   std::size_t unlike_clocks = 0;   // configurations left out: other clocks timed them on A
@@ -104,8 +105,8 @@ struct GateResult {
 // "configuration", "message", "numbers"}], "in_doubt": [device], "measured_again": [device],
 // "correlations": [as of the pair], "accuracies": [as of the scene]}
 [[nodiscard]] nlohmann::json to_json(const GateResult& result);
-// {"device", "other", "other_key", "within_run", "decides", "unlike_clocks", "refusals", …,
-// "configurations", "levels", "global"}; what is no number is null.
+// {"device", "other", "other_key", "within_run", "of_itself", "decides", "unlike_clocks",
+// "refusals", …, "configurations", "levels", "global"}; what is no number is null.
 [[nodiscard]] nlohmann::json to_json(const CorrelationPair& pair);
 
 struct GateRequest {

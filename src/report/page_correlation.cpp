@@ -129,9 +129,10 @@ std::string global_text(const CorrelationPair& pair) {
 }
 
 std::string pair_part(const PlanData& plan, const CorrelationPair& pair, std::size_t index) {
-  std::string text = fmt::format(
-      "<h4>{} against {}{}</h4><p class=\"system\">{}</p>", escape(pair.device), escape(pair.other),
-      pair.within_run ? ", of the same run" : "", escape(pair.other_key));
+  std::string text =
+      fmt::format("<h4>{} against {}{}</h4><p class=\"system\">{}</p>", escape(pair.device),
+                  pair.of_itself ? "its own history" : escape(pair.other),
+                  pair.within_run ? ", of the same run" : "", escape(pair.other_key));
   text += admission(pair);
   if (pair.cases.empty()) return text;
   const std::string id = fmt::format("{}-correlation{}", plan.anchor, index);

@@ -237,8 +237,9 @@ TEST_F(CorrelationGateTest, WhatWasAcceptedOnThisDeviceIsItsCharacter) {
   const GateResult result = judge("b2");
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
   const auto advice = with(result, Verdict::advisory);
-  ASSERT_EQ(advice.size(), 1U) << text(result);
-  EXPECT_THAT(advice[0].message, HasSubstr("as when this device was accepted"));
+  ASSERT_EQ(advice.size(), 2U) << text(result);
+  EXPECT_THAT(advice[0].message, HasSubstr("cannot be judged by its own history: 0 anchors"));
+  EXPECT_THAT(advice[1].message, HasSubstr("as when this device was accepted"));
 }
 
 // Accepted once, it needs no like device to tell a tenth: its own anchors and times of then do.
@@ -259,10 +260,9 @@ TEST_F(CorrelationGateTest, AProgramThatBecameSlowerSinceAcceptanceIsTold) {
   EXPECT_NEAR(slower[0].numbers.at("global_delta"), std::log(1.10), 0.01);
 }
 
-TEST_F(CorrelationGateTest, ADeviceIsNotHeldAgainstItself) {
-  accept_known();
-  measure("k", "a:known");
-  const GateResult result = judge("k");
+TEST_F(CorrelationGateTest, TheFirstAcceptedRunHasNobodyToBeHeldAgainst) {
+  accept_known(1);
+  const GateResult result = judge("a:known 1 plan");
   EXPECT_TRUE(result.correlations.empty());
   const auto advice = with(result, Verdict::advisory);
   ASSERT_EQ(advice.size(), 1U);
@@ -278,10 +278,12 @@ TEST_F(CorrelationGateTest, DevicesOfOneRunAreShownAndNotJudged) {
     store_.add_record(record);
   }
   const GateResult result = judge("b");
-  ASSERT_EQ(result.correlations.size(), 2U);
-  EXPECT_TRUE(result.correlations[1].within_run);
-  EXPECT_EQ(result.correlations[1].device, "b:new");
-  EXPECT_EQ(result.correlations[1].other, "a:known");
+  ASSERT_EQ(result.correlations.size(), 3U);
+  const CorrelationPair& shown = result.correlations[2];
+  EXPECT_TRUE(shown.within_run);
+  EXPECT_FALSE(shown.decides);
+  EXPECT_EQ(shown.device, "b:new");
+  EXPECT_EQ(shown.other, "a:known");
 }
 
 TEST_F(CorrelationGateTest, JsonHoldsTheWholePair) {

@@ -71,6 +71,36 @@ TEST_F(NearestDeviceTest, OneThatMayFailDecidesBeforeANearerOne) {
   EXPECT_EQ(result.exit_code(), ExitCode::regression) << text(result);
 }
 
+// Nothing is nearer than a device to itself.
+TEST_F(NearestDeviceTest, AnAcceptedDeviceIsJudgedByItsOwnHistory) {
+  accept_known();
+  accept_runs_of("b:new", TimingModel::least_runs);
+  measure_anchors("x anchors", "b:new");
+  measure("x plan", "b:new");
+  const GateResult result = judge("x plan");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  EXPECT_TRUE(by(result, "b:new").of_itself);
+  EXPECT_TRUE(by(result, "b:new").decides);
+  EXPECT_FALSE(by(result, "a:known").decides);
+  EXPECT_THAT(text(result), HasSubstr("as its own history lets expect"));
+}
+
+// A twentieth on the longest times, which by another device's line its character blurs.
+TEST_F(NearestDeviceTest, ByItsOwnHistoryATwentiethOfTheLongestTimesIsFound) {
+  accept_known();
+  accept_runs_of("b:new", TimingModel::least_runs);
+  measure_anchors("x anchors", "b:new");
+  measure("x plan", "b:new",
+          [](const record::Record& r) { return r.factors.at("step") == "5" ? 1.05 : 1; });
+  const GateResult result = judge("x plan");
+  const auto longest_by = [&](const std::string& other) {
+    return *std::ranges::find(by(result, other).result.levels, "5", &LevelEffect::level);
+  };
+  ASSERT_TRUE(by(result, "b:new").decides);
+  EXPECT_TRUE(longest_by("b:new").slower);
+  EXPECT_LT(longest_by("b:new").standard_error, longest_by("a:known").standard_error / 2);
+}
+
 TEST_F(NearestDeviceTest, BesideOneThatJudgesARefusedOneSaysSo) {
   accept_known();
   int turn = 0;  // each configuration by a factor of its own, the same in every run

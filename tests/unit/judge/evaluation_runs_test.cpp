@@ -179,7 +179,7 @@ TEST_F(EvaluateRuns, FindsWhatIsPlantedAndNamesIt) {
   EXPECT_LT(single.to_be_caught.trials, single.detected.trials);
   expect_all(sum(tallies, "correlation", Spread::scrambled).detected);
   expect_all(sum(tallies, "gate", Spread::none).same_bytes);
-  // Two ordered pairs of devices, in both states of acceptance.
+  // Two devices, accepted or not.
   EXPECT_EQ(sum(tallies, "correlation", Spread::none).false_alarms.trials, 4U * 6U);
 }
 
