@@ -26,10 +26,17 @@ std::string level_name(const LevelEffect& level) {
   return name;
 }
 
-// The id and the driver: what a person calls a device. Its key goes on with what else it depends
-// on.
-std::string short_name(const std::string& key) {
-  return key.substr(0, key.find("; API "));
+// What a person calls the other device: its id and driver, of a key that goes on with what else it
+// depends on, and whether that processor was another.
+std::string name_of_other(const CorrelationPair& pair, const std::string& own_key) {
+  if (pair.of_itself) return "its own history";
+  const auto processor = [](const std::string& key) {
+    const auto at = key.find("; CPU ");
+    if (at == std::string::npos) return std::string();
+    return key.substr(at, key.find(';', at + 1) - at);
+  };
+  const std::string name = pair.other_key.substr(0, pair.other_key.find("; API "));
+  return processor(pair.other_key) == processor(own_key) ? name : name + " on another processor";
 }
 
 class PairReport {
@@ -41,7 +48,7 @@ class PairReport {
         pair_(pair),
         decided_(decided),
         result_(pair.result),
-        other_(pair.of_itself ? "its own history" : short_name(pair.other_key)),
+        other_(name_of_other(pair, view.devices.at(pair.device).key())),
         findings_(findings) {}
 
   void run() {
@@ -97,7 +104,10 @@ class PairReport {
     const auto configurations = std::ranges::count_if(
         result_.judgements,
         [](const ConfigurationJudgement& each) { return each.slower && !each.standing; });
-    if (configurations > 0) slower.push_back(fmt::format("{} configurations", configurations));
+    if (configurations > 0) {
+      slower.push_back(
+          fmt::format("{} configuration{}", configurations, configurations == 1 ? "" : "s"));
+    }
     if (result_.global.slower) slower.emplace_back("the program as a whole");
     if (slower.empty()) {
       report_as_expected();

@@ -216,6 +216,27 @@ bool are_offsets_of(const Group& group, std::span<const double> offsets) {
   return moved == group.inside;
 }
 
+// From a line; of the group that it is beside with the offset.
+void estimate_beside(const std::vector<const CorrelationCase*>& cases, const RobustLine& fit,
+                     std::span<const double> offsets, std::vector<Group>& groups) {
+  const std::vector<double> x = values_of(cases, &CorrelationCase::log_time_a);
+  std::vector<double> apart = fit.residuals;
+  for (std::size_t i = 0; i < offsets.size(); ++i) apart[i] += offsets[i];
+  for (Group& group : groups) {
+    estimate(x, are_offsets_of(group, offsets) ? apart : fit.residuals, fit.scale, group);
+  }
+}
+
+// From what a device's own times changed by: its slope is 1, and what another would explain is a
+// level of long or short times.
+void estimate_changes(const std::vector<const CorrelationCase*>& cases, double scale,
+                      std::vector<Group>& groups) {
+  std::vector<double> changes;
+  for (const CorrelationCase* each : cases) changes.push_back(each->log_time_b - each->log_time_a);
+  const std::vector<double> nothing(cases.size(), 0);
+  for (Group& group : groups) estimate(nothing, changes, scale, group);
+}
+
 }  // namespace
 
 std::optional<LineBesideLevel> line_beside_a_level(std::span<const CorrelationCase> all,
@@ -260,17 +281,16 @@ double detectable_in_errors(std::size_t tests, double degrees) {
 }
 
 std::vector<LevelEffect> level_effects(std::span<const CorrelationCase> all, const RobustLine& fit,
-                                       std::span<const double> offsets) {
+                                       std::span<const double> offsets, bool of_itself) {
   const auto cases = configurations_of(all);
-  const std::vector<double> x = values_of(cases, &CorrelationCase::log_time_a);
-  std::vector<double> apart = fit.residuals;
-  for (std::size_t i = 0; i < offsets.size(); ++i) apart[i] += offsets[i];
   std::vector<Group> groups = groups_of(cases);
-  std::vector<double> p;
-  for (Group& group : groups) {
-    estimate(x, are_offsets_of(group, offsets) ? apart : fit.residuals, fit.scale, group);
-    p.push_back(group.named.p);
+  if (of_itself) {
+    estimate_changes(cases, fit.scale, groups);
+  } else {
+    estimate_beside(cases, fit, offsets, groups);
   }
+  std::vector<double> p;
+  for (const Group& group : groups) p.push_back(group.named.p);
   const auto q = benjamini_hochberg_adjusted(p);
   std::vector<LevelEffect> result;
   for (std::size_t i = 0; i < groups.size(); ++i) {

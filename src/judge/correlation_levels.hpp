@@ -13,10 +13,12 @@ namespace triptych::judge {
 
 // Every level that holds enough of the configurations and leaves enough out, those that are slower
 // than the rest before the others, each by the share of the residuals that they explain. `fit` is
-// of the cases that are no anchors, in their order; `offsets` of a line beside a level, else empty.
+// of the cases that are no anchors, in their order; `offsets` of a line beside a level, else empty;
+// `of_itself` as of correlate().
 [[nodiscard]] std::vector<LevelEffect> level_effects(std::span<const CorrelationCase> cases,
                                                      const RobustLine& fit,
-                                                     std::span<const double> offsets);
+                                                     std::span<const double> offsets,
+                                                     bool of_itself);
 
 // The line beside an offset of the level whose effect is the most standard errors: of those inside
 // or outside, whichever are more, of equally many the faster.

@@ -227,7 +227,8 @@ bool CorrelationModel::is_worth_telling(double effect) {
   return effect >= std::log(least_effect);
 }
 
-Correlation correlate(std::span<const CorrelationCase> cases, const KnownVariance& beside_anchors) {
+Correlation correlate(std::span<const CorrelationCase> cases, const KnownVariance& beside_anchors,
+                      bool of_itself) {
   Correlation result;
   const Times times = log_times(cases);
   result.configurations = times.a.size();
@@ -257,7 +258,7 @@ Correlation correlate(std::span<const CorrelationCase> cases, const KnownVarianc
   place(cases, fit, result);
   if (!result.admitted()) return result;
   judge_configurations(cases, fit, result);
-  result.levels = level_effects(cases, fit, line.offsets);
+  result.levels = level_effects(cases, fit, line.offsets, of_itself);
   judge_program(cases, fit, beside_anchors, result);
   return result;
 }

@@ -22,6 +22,9 @@
 // with each side's wild points weighted down about that side's own median: a level that is slower
 // as a whole is no outlier to itself, and one that holds the long times does not hide in the slope.
 //
+// Where A is B itself, some time ago, the slope is 1 and effects are estimated from y − x: beside a
+// free slope, a slower level of the long times would be taken for a steeper line.
+//
 // One level apart. The level whose effect is the most standard errors, if that is beyond chance, is
 // given an offset of its own, and the line is fitted beside it: a level of long times tilts the
 // line of all, and others would be named for that. The line is of those inside or outside,
@@ -181,8 +184,10 @@ struct Correlation {
 };
 
 // `beside_anchors`: of how far the configurations' and the anchors' changes since B was accepted
-// are apart by chance, as stored runs say; no degrees: nothing says it.
+// are apart by chance, as stored runs say; no degrees: nothing says it. `of_itself`: A is B some
+// time ago, so that levels are estimated from y − x.
 [[nodiscard]] Correlation correlate(std::span<const CorrelationCase> cases,
-                                    const KnownVariance& beside_anchors = {0, 0});
+                                    const KnownVariance& beside_anchors = {0, 0},
+                                    bool of_itself = false);
 
 }  // namespace triptych::judge

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "judge/anchor.hpp"
@@ -171,7 +172,7 @@ class Pairs {
     if (!known_runs.empty()) {
       beside.variance *= 1 + share_of_median(std::ranges::min(known_runs));
     }
-    pair.result = correlate(pair.cases, beside);
+    pair.result = correlate(pair.cases, beside, pair.of_itself);
     return pair;
   }
 
@@ -214,13 +215,14 @@ class Pairs {
   std::map<std::string, std::vector<const record::Record*>> records_;  // by device
 };
 
-// By the correlation of all, whatever line was taken: a scale beside an offset hides how unlike a
-// level is.
+// Nothing is nearer than a device to itself, whatever of its program is slower today. Of others by
+// the correlation of all: a scale beside an offset hides how unlike a level is.
 bool is_nearer(const CorrelationPair& pair, const CorrelationPair& than) {
-  const auto may_fail = [](const CorrelationPair& each) {
-    return each.stored_runs >= TimingModel::least_runs;
+  const auto nearness = [](const CorrelationPair& each) {
+    const bool may_fail = each.stored_runs >= TimingModel::least_runs;
+    return std::tuple(may_fail, each.of_itself, each.result.rho);
   };
-  return may_fail(pair) == may_fail(than) ? pair.result.rho > than.result.rho : may_fail(pair);
+  return nearness(pair) > nearness(than);
 }
 
 // One for each device: every other stored device adds a character of its own to the answer, and a

@@ -34,6 +34,7 @@ class CorrelationGateTest : public JudgeTest {
     device.id = id;
     device.api = "gl";
     device.driver_version = "1";
+    device.cpu_features = id.starts_with("c:") ? "avx512f" : "avx2";
     return device;
   }
 

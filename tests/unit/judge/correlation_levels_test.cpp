@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <set>
+#include <string>
 
 #include "core/random.hpp"
 #include "judge/correlation_model.hpp"
@@ -38,6 +40,37 @@ TEST(Correlation, SeesATwentiethOnAFactorLevelAndNamesItFirst) {
                     });
                   }),
             most(trials, 0.05));
+}
+
+// Half of the configurations, the longer: by its own history a device is judged at a slope of 1.
+TEST(Correlation, OfItselfTheLongerHalfSlowerByATwelfthIsAllThatIsNamed) {
+  Bench bench{.slope = 1, .noise = 0.015};
+  const auto named = [&](std::uint64_t seed, bool of_itself) {
+    auto drawn = bench.draw(seed);
+    for (CorrelationCase& each : drawn) {
+      if (each.anchor) continue;
+      const bool longer = each.factors.at("skip") == "bricks";
+      // Times that little but this level spreads.
+      const double moved = (longer ? 17 : 14) - 0.9 * (each.log_time_a - 14) - 14;
+      each.log_time_a += moved;
+      each.log_time_b += moved + (longer ? std::log(13.0 / 12) : 0);
+    }
+    std::set<std::string> levels;
+    for (const LevelEffect& level : correlate(drawn, {0, 0}, of_itself).levels) {
+      if (level.slower) levels.insert(level.level);
+    }
+    return levels;
+  };
+  const std::set<std::string> planted{"bricks"};
+  int found = 0;
+  int beside_a_slope = 0;
+  constexpr int trials = 50;
+  for (std::uint64_t seed = 1; seed <= trials; ++seed) {
+    found += named(seed, true) == planted ? 1 : 0;
+    beside_a_slope += named(seed, false) == planted ? 1 : 0;
+  }
+  EXPECT_GE(found, least(trials, 0.95));
+  EXPECT_LT(beside_a_slope, found);
 }
 
 TEST(Correlation, ALevelOfLongTimesDoesNotHideInTheSlope) {

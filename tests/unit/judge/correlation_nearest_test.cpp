@@ -38,8 +38,9 @@ TEST_F(NearestDeviceTest, AFartherDevicesCharacterAdvises) {
   ASSERT_TRUE(by(result, "c:far").result.admitted());
   const auto advice = with(result, Verdict::advisory);
   ASSERT_EQ(advice.size(), 1U) << text(result);
-  EXPECT_THAT(advice[0].message,
-              HasSubstr("slower by c:far; driver 1: technique=raycast_fragment"));
+  EXPECT_THAT(
+      advice[0].message,
+      HasSubstr("slower by c:far; driver 1 on another processor: technique=raycast_fragment"));
   EXPECT_THAT(advice[0].message, HasSubstr("another stored device correlates better"));
   EXPECT_FALSE(result.in_doubt.contains("b:new")) << "by a device that does not decide";
 }

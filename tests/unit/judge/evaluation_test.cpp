@@ -112,6 +112,21 @@ TEST(Evaluation, OfTheCorrelationOnlyPairsThatJudgeAreAsked) {
   EXPECT_EQ(aim_of(tallies, "correlation: uncorrelated pairs refused").rate.trials, 16U);
 }
 
+TEST(Evaluation, WhatTheNearestSaysIsAskedForItself) {
+  Tallies tallies;
+  const std::string nearest(by_the_nearest);
+  tallies[{nearest, "p", "device", Spread::none}].undecided = {0, 480};
+  Tally& planted = tallies[{nearest, "p", "device", Spread::configuration, 25}];
+  planted.false_discoveries = {5, 10};
+  planted.to_be_caught = {9, 10};
+  const auto trials = [&](const char* name) { return aim_of(tallies, name).rate.trials; };
+  EXPECT_EQ(trials("correlation: false among the discoveries, new device by the nearest of all "
+                   "others"),
+            10U);
+  EXPECT_EQ(trials("correlation: false among the discoveries, new device"), 0U);
+  EXPECT_EQ(trials("correlation: a configuration that is slower by 25 % found"), 0U);
+}
+
 TEST(Evaluation, AShuffleIsAnOrder) {
   core::Random random(5);
   const auto order = shuffled(100, random);
