@@ -113,10 +113,8 @@ class PairReport {
       report_as_expected();
       return;
     }
-    add(Verdict::advisory,
-        fmt::format("slower by {}: {}; another stored device correlates better than with {:.4f} "
-                    "and decides",
-                    other_, fmt::join(slower, ", "), result_.rho));
+    add(Verdict::advisory, fmt::format("slower by {}: {}; a nearer one than by ρ = {:.4f} decides",
+                                       other_, fmt::join(slower, ", "), result_.rho));
     findings_.back().subject = "by " + pair_.other_key;
     add_numbers();
   }

@@ -201,10 +201,16 @@ struct JudgingLine {
   std::vector<double> offsets;  // of a line beside a level
 };
 
+// Of itself a device's residuals are one run's chance: those of a calm run beside stored ones of
+// which each had slow minutes of its own scatter less than the next run will.
+void leave_scatter_of_runs(std::span<const CorrelationCase> cases, RobustLine& fit) {
+  fit.scale = std::max(fit.scale, std::sqrt(typical_scatter(cases)));
+}
+
 // In place of the line through all, which may be none.
-void take_another_line(std::span<const CorrelationCase> cases, bool refused, JudgingLine& line,
-                       Correlation& result) {
-  if (refused) {
+void take_another_line(std::span<const CorrelationCase> cases, bool refused, bool of_itself,
+                       JudgingLine& line, Correlation& result) {
+  if (refused && !of_itself) {  // whose line of acceptance is y = x, without any scatter
     if (auto accepted = line_of_acceptance(cases)) {
       line.fit = std::move(*accepted);
       result.line_of_acceptance = true;
@@ -212,6 +218,7 @@ void take_another_line(std::span<const CorrelationCase> cases, bool refused, Jud
     }
   }
   auto beside = line_beside_a_level(cases, line.fit);
+  if (beside && of_itself) leave_scatter_of_runs(cases, beside->fit);
   if (!beside || !refusals_of(beside->fit, result.rho).empty()) return;
   const bool is_told = beside->p <= Model::share_of_false_alarms &&
                        std::abs(beside->offset) >= std::log(Model::least_level_effect);
@@ -240,12 +247,13 @@ Correlation correlate(std::span<const CorrelationCase> cases, const KnownVarianc
     return result;
   }
   JudgingLine line{robust_line(times.a, times.b), {}};
+  if (of_itself) leave_scatter_of_runs(cases, line.fit);
   result.r = raw_r(times);
   result.rho = pearson_r(times.a, times.b);
   const auto refusals = refusals_of(line.fit, result.rho);
   // Times that no longer go together at all are not a matter of how much is slower.
   if (result.admitted() && result.rho >= Model::least_rho) {
-    take_another_line(cases, !refusals.empty(), line, result);
+    take_another_line(cases, !refusals.empty(), of_itself, line, result);
   }
   if (!result.line_of_acceptance && result.line_beside.empty()) {
     result.refusals.insert(result.refusals.end(), refusals.begin(), refusals.end());

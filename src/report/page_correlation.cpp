@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "judge/correlation_pairs.hpp"
 #include "report/correlation_chart.hpp"
 #include "report/html.hpp"
 #include "report/page_sections.hpp"
@@ -147,10 +149,13 @@ std::string pair_part(const PlanData& plan, const CorrelationPair& pair, std::si
 
 std::string correlation_section(const PlanData& plan) {
   std::string stored;
+  std::string farther;
   std::string consistency;
   std::size_t index = 0;
+  const std::set<std::string> decided = judge::decided_devices(plan.verdict->correlations);
   for (const CorrelationPair& pair : plan.verdict->correlations) {
-    (pair.within_run ? consistency : stored) += pair_part(plan, pair, index++);
+    const bool aside = !pair.decides && decided.contains(pair.device);
+    (pair.within_run ? consistency : aside ? farther : stored) += pair_part(plan, pair, index++);
   }
   if (index == 0) return {};
   std::string text =
@@ -158,6 +163,11 @@ std::string correlation_section(const PlanData& plan) {
       "on this one upwards. A triangle is an anchor, frozen work that tells a slower device from a "
       "slower program; the dashed line is the anchors’ own.</p>" +
       stored;
+  if (!farther.empty()) {
+    text += fmt::format(
+        "<details><summary>What stored devices that do not decide say</summary>{}</details>\n",
+        farther);
+  }
   if (!consistency.empty()) {
     text += fmt::format(
         "<details><summary>The devices of this run among each other: shown, not "

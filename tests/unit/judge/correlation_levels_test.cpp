@@ -73,6 +73,21 @@ TEST(Correlation, OfItselfTheLongerHalfSlowerByATwelfthIsAllThatIsNamed) {
   EXPECT_LT(beside_a_slope, found);
 }
 
+// A calm run beside stored ones that had slow minutes: the next run may have such minutes as well.
+TEST(Correlation, OfItselfNoLineScattersLessThanItsStoredRuns) {
+  auto cases = Bench{.slope = 1, .noise = 0.01}.draw(1);
+  for (CorrelationCase& each : cases) {
+    each.known_log_time_b = each.log_time_a;
+    if (!each.anchor) each.variance_b = 0.12 * 0.12;
+  }
+  const Correlation result = correlate(cases, {0, 0}, true);
+  EXPECT_NEAR(result.scale, 0.12, 1e-3);
+  EXPECT_FALSE(result.line_of_acceptance);
+  ASSERT_EQ(result.refusals.size(), 1U);
+  EXPECT_THAT(result.refusals[0], testing::HasSubstr("the residuals scatter by 0.120"));
+  EXPECT_TRUE(correlate(cases).admitted());
+}
+
 TEST(Correlation, ALevelOfLongTimesDoesNotHideInTheSlope) {
   Bench bench{.noise = 0.03, .repeats = 2};
   const auto cases = [&](std::uint64_t seed) {

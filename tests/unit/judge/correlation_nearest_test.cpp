@@ -41,7 +41,7 @@ TEST_F(NearestDeviceTest, AFartherDevicesCharacterAdvises) {
   EXPECT_THAT(
       advice[0].message,
       HasSubstr("slower by c:far; driver 1 on another processor: technique=raycast_fragment"));
-  EXPECT_THAT(advice[0].message, HasSubstr("another stored device correlates better"));
+  EXPECT_THAT(advice[0].message, HasSubstr("a nearer one than by ρ = 0.9"));
   EXPECT_FALSE(result.in_doubt.contains("b:new")) << "by a device that does not decide";
 }
 
@@ -84,6 +84,18 @@ TEST_F(NearestDeviceTest, AnAcceptedDeviceIsJudgedByItsOwnHistory) {
   EXPECT_TRUE(by(result, "b:new").decides);
   EXPECT_FALSE(by(result, "a:known").decides);
   EXPECT_THAT(text(result), HasSubstr("as its own history lets expect"));
+}
+
+TEST_F(NearestDeviceTest, SoItIsWhereAnotherCorrelatesBetter) {
+  accept_known();
+  int turn = 0;
+  accept_runs_of("b:new", TimingModel::least_runs,
+                 [&](const record::Record&) { return std::exp(0.08 * std::sin(turn++ % 48)); });
+  measure_anchors("x anchors", "b:new");
+  measure("x plan", "b:new");
+  const GateResult result = judge("x plan");
+  ASSERT_LT(by(result, "b:new").result.rho, by(result, "a:known").result.rho);
+  EXPECT_TRUE(by(result, "b:new").decides);
 }
 
 // A twentieth on the longest times, which by another device's line its character blurs.
