@@ -204,6 +204,7 @@ struct JudgingLine {
 // Of itself a device's residuals are one run's chance: those of a calm run beside stored ones of
 // which each had slow minutes of its own scatter less than the next run will.
 void leave_scatter_of_runs(std::span<const CorrelationCase> cases, RobustLine& fit) {
+  if (!(fit.scale > 0)) return;  // an exact line is one
   fit.scale = std::max(fit.scale, std::sqrt(typical_scatter(cases)));
 }
 

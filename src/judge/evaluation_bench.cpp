@@ -183,7 +183,7 @@ TrialHistory::TrialHistory(const RunPool& pool, const std::set<std::size_t>& lef
     known.insert({device});
     std::set<std::string> others = all;
     others.erase(device);
-    known.insert(others);
+    if (!others.empty()) known.insert(others);
   }
   for (const std::set<std::string>& devices : known) {
     const std::string name = std::to_string(baselines_.size());
