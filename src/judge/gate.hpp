@@ -71,8 +71,8 @@ struct CorrelationPair {
   std::string other_key;           // Device::key() of A
   bool within_run = false;         // A was measured in the same run; else it is a stored baseline
   bool of_itself = false;          // A is B: its own stored runs
-  bool decides = false;            // of the stored ones that can judge B the nearest, with the
-                                   // largest ρ: the others advise
+  bool decides = false;            // of the stored ones that can judge B the nearest: its own
+                                   // history, else the largest ρ; the others advise
   std::size_t unlike_clocks = 0;   // configurations left out: other clocks timed them on A
   std::size_t unlike_anchors = 0;  // and anchors
   std::size_t stored_runs = 0;     // of A, of the configuration with the fewest

@@ -21,6 +21,13 @@ class NearestDeviceTest : public CorrelationGateTest {
     return record.technique == "raycast_fragment" ? 0.8 : 1;
   }
 
+  // Of one more run of "b:new".
+  [[nodiscard]] GateResult judge_new(const Times& times = {}) {
+    measure_anchors("x anchors", "b:new");
+    measure("x plan", "b:new", times);
+    return judge("x plan");
+  }
+
   static const CorrelationPair& by(const GateResult& result, const std::string& other) {
     return *std::ranges::find(result.correlations, other, &CorrelationPair::other);
   }
@@ -29,9 +36,7 @@ class NearestDeviceTest : public CorrelationGateTest {
 TEST_F(NearestDeviceTest, AFartherDevicesCharacterAdvises) {
   accept_known();
   accept_runs_of("c:far", TimingModel::least_runs, of_far);
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new");
-  const GateResult result = judge("b");
+  const GateResult result = judge_new();
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
   EXPECT_TRUE(by(result, "a:known").decides);
   EXPECT_FALSE(by(result, "c:far").decides);
@@ -48,10 +53,8 @@ TEST_F(NearestDeviceTest, AFartherDevicesCharacterAdvises) {
 TEST_F(NearestDeviceTest, WhatTheNearestSaysFails) {
   accept_known();
   accept_runs_of("c:far", TimingModel::least_runs, of_far);
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new",
-          [](const record::Record& r) { return r.factors.at("data") == "d1" ? 1.25 : 1; });
-  const GateResult result = judge("b");
+  const GateResult result =
+      judge_new([](const record::Record& r) { return r.factors.at("data") == "d1" ? 1.25 : 1; });
   EXPECT_EQ(result.exit_code(), ExitCode::regression);
   for (const Finding& slower : with(result, Verdict::regression)) {
     EXPECT_THAT(slower.message, HasSubstr("a:known; driver 1 lets expect"));
@@ -64,9 +67,7 @@ TEST_F(NearestDeviceTest, WhatTheNearestSaysFails) {
 TEST_F(NearestDeviceTest, OneThatMayFailDecidesBeforeANearerOne) {
   accept_known(TimingModel::least_runs - 1);
   accept_runs_of("c:far", TimingModel::least_runs, of_far);
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new");
-  const GateResult result = judge("b");
+  const GateResult result = judge_new();
   EXPECT_FALSE(by(result, "a:known").decides);
   EXPECT_TRUE(by(result, "c:far").decides);
   EXPECT_EQ(result.exit_code(), ExitCode::regression) << text(result);
@@ -76,9 +77,7 @@ TEST_F(NearestDeviceTest, OneThatMayFailDecidesBeforeANearerOne) {
 TEST_F(NearestDeviceTest, AnAcceptedDeviceIsJudgedByItsOwnHistory) {
   accept_known();
   accept_runs_of("b:new", TimingModel::least_runs);
-  measure_anchors("x anchors", "b:new");
-  measure("x plan", "b:new");
-  const GateResult result = judge("x plan");
+  const GateResult result = judge_new();
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
   EXPECT_TRUE(by(result, "b:new").of_itself);
   EXPECT_TRUE(by(result, "b:new").decides);
@@ -91,9 +90,7 @@ TEST_F(NearestDeviceTest, SoItIsWhereAnotherCorrelatesBetter) {
   int turn = 0;
   accept_runs_of("b:new", TimingModel::least_runs,
                  [&](const record::Record&) { return std::exp(0.08 * std::sin(turn++ % 48)); });
-  measure_anchors("x anchors", "b:new");
-  measure("x plan", "b:new");
-  const GateResult result = judge("x plan");
+  const GateResult result = judge_new();
   ASSERT_LT(by(result, "b:new").result.rho, by(result, "a:known").result.rho);
   EXPECT_TRUE(by(result, "b:new").decides);
 }
@@ -102,10 +99,8 @@ TEST_F(NearestDeviceTest, SoItIsWhereAnotherCorrelatesBetter) {
 TEST_F(NearestDeviceTest, ByItsOwnHistoryATwentiethOfTheLongestTimesIsFound) {
   accept_known();
   accept_runs_of("b:new", TimingModel::least_runs);
-  measure_anchors("x anchors", "b:new");
-  measure("x plan", "b:new",
-          [](const record::Record& r) { return r.factors.at("step") == "5" ? 1.05 : 1; });
-  const GateResult result = judge("x plan");
+  const GateResult result =
+      judge_new([](const record::Record& r) { return r.factors.at("step") == "5" ? 1.05 : 1; });
   const auto longest_by = [&](const std::string& other) {
     return *std::ranges::find(by(result, other).result.levels, "5", &LevelEffect::level);
   };
@@ -119,9 +114,7 @@ TEST_F(NearestDeviceTest, BesideOneThatJudgesARefusedOneSaysSo) {
   int turn = 0;  // each configuration by a factor of its own, the same in every run
   accept_runs_of("c:unlike", TimingModel::least_runs,
                  [&](const record::Record&) { return std::exp(0.4 * std::sin(turn++ % 48)); });
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new");
-  const GateResult result = judge("b");
+  const GateResult result = judge_new();
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
   const auto advice = with(result, Verdict::advisory);
   ASSERT_EQ(advice.size(), 1U) << text(result);
