@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 
@@ -26,47 +27,114 @@ std::string level_name(const LevelEffect& level) {
   return name;
 }
 
-// What a person calls the other device: its id and driver, of a key that goes on with what else it
-// depends on, and whether that processor was another.
-std::string name_of_other(const CorrelationPair& pair, const std::string& own_key) {
-  if (pair.of_itself) return "its own history";
-  const auto processor = [](const std::string& key) {
-    const auto at = key.find("; CPU ");
-    if (at == std::string::npos) return std::string();
-    return key.substr(at, key.find(';', at + 1) - at);
-  };
-  const std::string name = pair.other_key.substr(0, pair.other_key.find("; API "));
-  return processor(pair.other_key) == processor(own_key) ? name : name + " on another processor";
+// Id and driver, of a key that goes on with what else times depend on.
+std::string id_and_driver(const std::string& key) {
+  return key.substr(0, key.find("; API "));
 }
 
+bool is_of_another_processor(const CorrelationPair& pair, const RunView& view) {
+  const auto processor = [](const std::string& key) {
+    const auto at = key.find("; CPU ");
+    return at == std::string::npos ? std::string() : key.substr(at, key.find(';', at + 1) - at);
+  };
+  return processor(pair.other_key) != processor(view.devices.at(pair.device).key());
+}
+
+// What a person calls the other device.
+std::string name_of_other(const CorrelationPair& pair, const RunView& view) {
+  if (pair.of_itself) return "its own history";
+  return id_and_driver(pair.other_key) +
+         (is_of_another_processor(pair, view) ? " on another processor" : "");
+}
+
+// The same among several: the driver only where it is not that of this run.
+std::string short_name_of_other(const CorrelationPair& pair, const RunView& view) {
+  const auto here = view.devices.find(pair.other);
+  const std::string name = id_and_driver(pair.other_key);
+  const bool same = here != view.devices.end() && id_and_driver(here->second.key()) == name;
+  return fmt::format("{} ({}ρ = {:.4f})", same ? pair.other : name,
+                     is_of_another_processor(pair, view) ? "another processor, " : "",
+                     pair.result.rho);
+}
+
+// What is slower by another device, in a few words; empty where nothing is.
+std::string slower_text(const Correlation& result) {
+  std::vector<std::string> slower;
+  for (const LevelEffect& level : result.levels) {
+    if (!level.slower || level.standing) continue;
+    slower.push_back(fmt::format("{} {:+.1f} %", level_name(level), percent(level.effect)));
+  }
+  const auto configurations = std::ranges::count_if(
+      result.judgements,
+      [](const ConfigurationJudgement& each) { return each.slower && !each.standing; });
+  if (configurations > 0) {
+    slower.push_back(
+        fmt::format("{} configuration{}", configurations, configurations == 1 ? "" : "s"));
+  }
+  if (result.global.slower) slower.emplace_back("the program as a whole");
+  return fmt::format("{}", fmt::join(slower, ", "));
+}
+
+// Of one device, what all stored ones say that do not decide, in one line: their own character is
+// in it as well. Where nothing is slower by them it is no news that one is too unlike to judge.
+class AsideReport {
+ public:
+  void add(const CorrelationPair& pair, const std::string& other) {
+    if (!pair.result.admitted()) {
+      refused_.push_back(other);
+      return;
+    }
+    const std::string slower = slower_text(pair.result);
+    if (slower.empty()) {
+      expected_.push_back(other);
+    } else {
+      slower_.push_back(fmt::format("by {}: {}", other, slower));
+    }
+  }
+
+  [[nodiscard]] Verdict verdict() const {
+    return slower_.empty() ? Verdict::pass : Verdict::advisory;
+  }
+
+  [[nodiscard]] std::string message() const {
+    std::vector<std::string> parts;
+    if (!slower_.empty()) parts.push_back(fmt::format("slower {}", fmt::join(slower_, "; ")));
+    if (!expected_.empty())
+      parts.push_back(fmt::format("as {} let expect", fmt::join(expected_, ", ")));
+    if (!refused_.empty())
+      parts.push_back(fmt::format("cannot be judged by {}", fmt::join(refused_, ", ")));
+    return fmt::format("beside what decides: {}", fmt::join(parts, "; "));
+  }
+
+ private:
+  std::vector<std::string> slower_;
+  std::vector<std::string> expected_;
+  std::vector<std::string> refused_;
+};
+
+// A pair that decides, or one that would if it could.
 class PairReport {
  public:
-  // `decided`: some stored device can judge this one.
-  PairReport(const RunView& view, const CorrelationPair& pair, bool decided,
-             std::vector<Finding>& findings)
+  PairReport(const RunView& view, const CorrelationPair& pair, std::vector<Finding>& findings)
       : view_(view),
         pair_(pair),
-        decided_(decided),
         result_(pair.result),
-        other_(name_of_other(pair, view.devices.at(pair.device).key())),
+        other_(name_of_other(pair, view)),
         findings_(findings) {}
 
   void run() {
     if (!result_.admitted()) {
-      add(Verdict::advisory,
-          fmt::format("cannot be judged by {}: {}; {}", other_, fmt::join(result_.refusals, "; "),
-                      decided_ ? "another stored device decides" : remedy()));
+      add(Verdict::advisory, fmt::format("cannot be judged by {}: {}; {}", other_,
+                                         fmt::join(result_.refusals, "; "), remedy()));
       add_numbers();
-      return;
-    }
-    if (!pair_.decides) {
-      report_farther();
       return;
     }
     for (std::size_t i = 0; i < pair_.cases.size(); ++i) report_configuration(i);
     for (const LevelEffect& level : result_.levels) report_level(level);
     report_global();
-    if (!slower_) report_as_expected();
+    if (slower_) return;
+    add(Verdict::pass, fmt::format("as {} lets expect: {}", other_, fit_text()));
+    add_numbers();
   }
 
  private:
@@ -87,36 +155,6 @@ class PairReport {
     }
     add(decides && !few ? Verdict::regression : Verdict::advisory, std::move(message));
     findings_.back().subject = what + "by " + pair_.other_key;
-  }
-
-  void report_as_expected() {
-    add(Verdict::pass, fmt::format("as {} lets expect: {}", other_, fit_text()));
-    add_numbers();
-  }
-
-  // What it says beside the nearest: its own character is in it as well.
-  void report_farther() {
-    std::vector<std::string> slower;
-    for (const LevelEffect& level : result_.levels) {
-      if (!level.slower || level.standing) continue;
-      slower.push_back(fmt::format("{} {:+.1f} %", level_name(level), percent(level.effect)));
-    }
-    const auto configurations = std::ranges::count_if(
-        result_.judgements,
-        [](const ConfigurationJudgement& each) { return each.slower && !each.standing; });
-    if (configurations > 0) {
-      slower.push_back(
-          fmt::format("{} configuration{}", configurations, configurations == 1 ? "" : "s"));
-    }
-    if (result_.global.slower) slower.emplace_back("the program as a whole");
-    if (slower.empty()) {
-      report_as_expected();
-      return;
-    }
-    add(Verdict::advisory, fmt::format("slower by {}: {}; a nearer one than by ρ = {:.4f} decides",
-                                       other_, fmt::join(slower, ", "), result_.rho));
-    findings_.back().subject = "by " + pair_.other_key;
-    add_numbers();
   }
 
   [[nodiscard]] std::string fit_text() const {
@@ -143,9 +181,9 @@ class PairReport {
     }
     if (result_.anchors < Model::least_anchors) {
       return fmt::format(
-          "measure anchors into the same store with triptych run {0}, and accept them on the other "
-          "device with triptych accept {0} --reason TEXT",
-          anchors_plan);
+          "measure anchors into the same store with triptych run {0}, and accept them{1} with "
+          "triptych accept {0} --reason TEXT",
+          anchors_plan, pair_.of_itself ? "" : " on the other device");
     }
     if (result_.configurations < Model::least_configurations) {
       return pair_.unlike_clocks > 0
@@ -257,7 +295,6 @@ class PairReport {
 
   const RunView& view_;
   const CorrelationPair& pair_;
-  bool decided_;
   const Correlation& result_;
   std::string other_;
   std::vector<Finding>& findings_;
@@ -270,11 +307,21 @@ CorrelationFindings check_correlations(const RunView& view, const WrongImages& w
   CorrelationFindings result;
   result.pairs = correlation_pairs(view, wrong);
   std::set<std::string> held;
+  std::map<std::string, AsideReport> aside;
   const std::set<std::string> decided = decided_devices(result.pairs);
   for (const CorrelationPair& pair : result.pairs) {
     if (pair.within_run) continue;
     held.insert(pair.device);
-    PairReport(view, pair, decided.contains(pair.device), result.findings).run();
+    if (!pair.decides && !pair.of_itself && decided.contains(pair.device)) {
+      aside[pair.device].add(pair, short_name_of_other(pair, view));
+    } else {
+      PairReport(view, pair, result.findings).run();
+    }
+  }
+  for (const auto& [id, report] : aside) {
+    result.findings.push_back(finding_about(view, view.devices.at(id), Check::correlation,
+                                            report.verdict(), report.message()));
+    result.findings.back().subject = "by others";
   }
   for (const auto& [id, device] : view.devices) {
     const bool measured = std::ranges::any_of(

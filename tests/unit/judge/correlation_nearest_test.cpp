@@ -45,8 +45,8 @@ TEST_F(NearestDeviceTest, AFartherDevicesCharacterAdvises) {
   ASSERT_EQ(advice.size(), 1U) << text(result);
   EXPECT_THAT(
       advice[0].message,
-      HasSubstr("slower by c:far; driver 1 on another processor: technique=raycast_fragment"));
-  EXPECT_THAT(advice[0].message, HasSubstr("a nearer one than by ρ = 0.9"));
+      HasSubstr("beside what decides: slower by c:far; driver 1 (another processor, ρ = 0.9"));
+  EXPECT_THAT(advice[0].message, HasSubstr("): technique=raycast_fragment"));
   EXPECT_FALSE(result.in_doubt.contains("b:new")) << "by a device that does not decide";
 }
 
@@ -109,17 +109,27 @@ TEST_F(NearestDeviceTest, ByItsOwnHistoryATwentiethOfTheLongestTimesIsFound) {
   EXPECT_LT(longest_by("b:new").standard_error, longest_by("a:known").standard_error / 2);
 }
 
-TEST_F(NearestDeviceTest, BesideOneThatJudgesARefusedOneSaysSo) {
+TEST_F(NearestDeviceTest, BesideOneThatJudgesARefusedOneIsNoAdvice) {
   accept_known();
   int turn = 0;  // each configuration by a factor of its own, the same in every run
   accept_runs_of("c:unlike", TimingModel::least_runs,
                  [&](const record::Record&) { return std::exp(0.4 * std::sin(turn++ % 48)); });
   const GateResult result = judge_new();
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  EXPECT_TRUE(with(result, Verdict::advisory).empty()) << text(result);
+  EXPECT_THAT(text(result), HasSubstr("beside what decides: cannot be judged by c:unlike"));
+}
+
+// However many there are.
+TEST_F(NearestDeviceTest, WhatOthersSayIsOneLineOfADevice) {
+  accept_known();
+  accept_runs_of("c:far", TimingModel::least_runs, of_far);
+  accept_runs_of("d:far", TimingModel::least_runs, of_far);
+  const GateResult result = judge_new();
   const auto advice = with(result, Verdict::advisory);
   ASSERT_EQ(advice.size(), 1U) << text(result);
-  EXPECT_THAT(advice[0].message, HasSubstr("cannot be judged by c:unlike"));
-  EXPECT_THAT(advice[0].message, HasSubstr("another stored device decides"));
+  EXPECT_THAT(advice[0].message, HasSubstr("slower by c:far"));
+  EXPECT_THAT(advice[0].message, HasSubstr("; by d:far"));
 }
 
 }  // namespace
