@@ -30,8 +30,7 @@ core::ExitCode write_report(const ReportArguments& arguments) {
   }
   write_text(arguments.out, page_of(store, truths, arguments.baselines));
   if (!arguments.benchmark_json.empty()) {
-    write_text(arguments.benchmark_json,
-               report::benchmark_json(store, store.latest_run(plans_of(store).front())->id));
+    write_text(arguments.benchmark_json, report::benchmark_json(store, latest_runs(store)));
   }
   fmt::print("{}\n", arguments.out);
   return core::ExitCode::pass;
@@ -47,7 +46,7 @@ void add_report_command(Commands& commands) {
   command->add_option("--out", arguments->out)->capture_default_str();
   command->add_option("--baselines", arguments->baselines, "Folder of the baselines");
   command->add_option("--benchmark-json", arguments->benchmark_json,
-                      "Also write Google Benchmark's JSON of the (first) plan");
+                      "Also write Google Benchmark's JSON of all its plans' latest runs");
 }
 
 }  // namespace triptych::app

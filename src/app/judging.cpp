@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/measuring.hpp"
+#include "judge/anchor.hpp"
 #include "report/finding_groups.hpp"
 #include "report/page.hpp"
 
@@ -46,18 +47,26 @@ void print_text(const judge::GateResult& result) {
 std::vector<std::string> plans_of(const record::Store& store) {
   std::set<std::string> plans;
   for (const record::Run& run : store.runs()) plans.insert(run.plan);
-  return {plans.begin(), plans.end()};
+  std::vector<std::string> sorted(plans.begin(), plans.end());
+  std::ranges::stable_partition(
+      sorted, [](const std::string& plan) { return plan != judge::anchors_plan; });
+  return sorted;
+}
+
+std::vector<record::Run> latest_runs(const record::Store& store) {
+  std::vector<record::Run> runs;
+  for (const std::string& plan : plans_of(store)) runs.push_back(*store.latest_run(plan));
+  return runs;
 }
 
 std::string page_of(const record::Store& store, Truths& truths, const std::string& baselines) {
   report::PageRequest request{
       .plans = {}, .truth = [&](const record::Record& record) { return truths.of(record); }};
-  for (const std::string& plan : plans_of(store)) {
-    const record::Run run = *store.latest_run(plan);
+  for (const record::Run& run : latest_runs(store)) {
     request.plans.push_back(
         {.run = run,
-         .verdict = judge::judge_run(store, run.id, judge::Baselines(baselines, plan),
-                                     request_of(truths, plan))});
+         .verdict = judge::judge_run(store, run.id, judge::Baselines(baselines, run.plan),
+                                     request_of(truths, run.plan))});
   }
   return report::page(store, request);
 }
