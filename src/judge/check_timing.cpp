@@ -228,7 +228,7 @@ class TimingCheck {
 
   void report(std::size_t index, const TimingJudgement& judgement) {
     const TimingCase& timing = cases_[index];
-    const Verdict verdict = verdict_of(judgement, timing.tolerance);
+    const Verdict verdict = of_plan(verdict_of(judgement, timing.tolerance));
     const record::Record& record = *judged_[index].record;
     std::string message = fmt::format(
         "{:.4g} ms, {:.4g} ms in {} stored runs: {:+.1f} % ± {:.1f} %, {:.1f} % tolerated, p = "
@@ -252,6 +252,7 @@ class TimingCheck {
           view_.request.plan;
     }
     if (judgement.faster) message += "; keep it with " + view_.accept_command();
+    if (verdict == Verdict::advisory) message += "; the device, not the program";
     add(record, verdict, std::move(message));
     add_numbers(findings_.back(), judgement, timing.tolerance);
     set_number(findings_.back(), "median_ns", timing.median_ns);
@@ -259,6 +260,14 @@ class TimingCheck {
     set_number(findings_.back(), "shift", judgement.shift);
     set_number(findings_.back(), "runs", static_cast<double>(timing.stored_ns.size()));
     if (work) set_number(findings_.back(), "work_ratio", std::exp(work->log_ratio));
+  }
+
+  // Frozen work that takes longer, or another time in every run, is how the device is today: worth
+  // knowing, and no regression of any program.
+  [[nodiscard]] Verdict of_plan(Verdict verdict) const {
+    const bool of_device = view_.request.plan == anchors_plan;
+    const bool fails = verdict == Verdict::regression || verdict == Verdict::cannot_judge;
+    return of_device && fails ? Verdict::advisory : verdict;
   }
 
   static void add_numbers(Finding& finding, const TimingTest& test, double tolerance) {
@@ -275,8 +284,9 @@ class TimingCheck {
   void report(const ProgramJudgement& program) {
     const Verdict verdict = verdict_of(program, program.tolerance);
     std::string message = fmt::format(
-        "the program as a whole is {:+.1f} % ± {:.1f} % slower than {} anchors ({:+.1f} %) allow, "
-        "by {} configurations, {:.1f} % tolerated, p = {:.2g}",
+        "the program as a whole: {:+.1f} % ± {:.1f} % against what {} anchors ({:+.1f} %) allow, "
+        "by "
+        "{} configurations, {:.1f} % tolerated, p = {:.2g}",
         100 * std::expm1(program.log_ratio), 100 * std::expm1(program.half_width), program.anchors,
         100 * std::expm1(program.device_shift), program.configurations,
         100 * std::expm1(program.tolerance), program.faster ? program.p_faster : program.p_slower);
@@ -301,11 +311,11 @@ class TimingCheck {
       if (!reported.insert(cases_[i].device).second) continue;
       findings_.push_back(finding_about(
           view_, view_.devices.at(cases_[i].device), Check::timing, Verdict::advisory,
-          fmt::format(
-              "the device itself is {:+.1f} % slower than in its stored runs, by {} anchors{}; "
-              "this was taken out of its other answers",
-              100 * std::expm1(shift), judgements.cases[i].anchors,
-              witnesses_beside_anchors(judgements.programs, cases_[i].device))));
+          fmt::format("the device itself: {:+.1f} % against its stored runs, by {} anchors{}; this "
+                      "was taken "
+                      "out of its other answers",
+                      100 * std::expm1(shift), judgements.cases[i].anchors,
+                      witnesses_beside_anchors(judgements.programs, cases_[i].device))));
       set_number(findings_.back(), "shift", shift);
     }
   }

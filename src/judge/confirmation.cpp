@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "judge/anchor.hpp"
 #include "judge/correlation_pairs.hpp"
 #include "judge/run_view.hpp"
 #include "judge/statistics.hpp"
@@ -76,7 +77,8 @@ bool is_in_doubt(const CorrelationPair& pair, bool decided) {
          std::ranges::any_of(result.levels, is_suspect<LevelEffect>) || result.global.suspected;
 }
 
-// Of the timing check's p-values, those of configurations together and each program's for itself.
+// What may be slower – of the timing check's p-values, those of configurations together and each
+// program's for itself – and what noise kept from being told.
 std::set<std::string> in_doubt_by_history(const std::vector<Finding>& findings) {
   std::set<std::string> devices;
   std::vector<const Finding*> tested;
@@ -84,6 +86,7 @@ std::set<std::string> in_doubt_by_history(const std::vector<Finding>& findings) 
   for (const Finding& finding : findings) {
     const auto own = finding.numbers.find("p");
     if (finding.check != Check::timing || own == finding.numbers.end()) continue;
+    if (finding.verdict == Verdict::cannot_judge) devices.insert(finding.device);
     if (finding.subject == "program") {
       if (own->second <= TimingModel::false_program_suspects) devices.insert(finding.device);
     } else if (finding.numbers.contains("half_width")) {
@@ -136,6 +139,7 @@ void join_launches(std::vector<record::Record>& records, std::span<const record:
 }
 
 std::set<std::string> devices_in_doubt(const GateResult& result) {
+  if (result.plan == anchors_plan) return {};  // no program that could be slower
   std::set<std::string> devices = in_doubt_by_history(result.findings);
   const std::set<std::string> decided = decided_devices(result.correlations);
   for (const CorrelationPair& pair : result.correlations) {

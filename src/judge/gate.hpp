@@ -88,8 +88,8 @@ struct GateResult {
   std::vector<AccuracyScene> accuracies = {};      // likewise; by device, then as measured
   std::set<std::string> devices = {};              // that measured something, of those asked for
   std::set<std::string> measured_again = {};       // of these, all of it, by another launch
-  // On which something may be slower that is no regression yet, or noise kept a stored device from
-  // judging; and all with a regression in time. Another launch should settle it.
+  // On which something may be slower that is no regression yet, noise left a time open or kept a
+  // stored device from judging; and all with a regression in time. Another launch should settle it.
   std::set<std::string> in_doubt = {};
   // In doubt, and no other launch has settled it.
   [[nodiscard]] std::vector<std::string> left_in_doubt() const;

@@ -127,7 +127,7 @@ void JudgeTest::confirm(const std::string& run, const std::string& again, const 
   store_.add_run(said);
 }
 
-void JudgeTest::add_anchors(const std::string& run, double factor) {
+void JudgeTest::add_anchors(const std::string& run, double factor, double longest) {
   store_.add_run({run, std::string(anchors_plan), "2026-02-01T00:00:00Z", {}});
   for (const record::Device& device : devices()) {
     store_.add_device(run, device, {});
@@ -142,7 +142,7 @@ void JudgeTest::add_anchors(const std::string& run, double factor) {
       record.configuration = fmt::format("size={},technique=anchor_arithmetic", size);
       record.outcome = record::Outcome::measured;
       record.counters = {{"checksum", 7}};
-      record.wall_ns = noisy(1e6 * size * factor);
+      record.wall_ns = noisy(1e6 * size * factor * (size == 8 ? longest : 1));
       store_.add_record(record);
     }
   }

@@ -41,8 +41,8 @@ class JudgeTest : public testing::Test {
   // Says that `again`, which is there, was measured to confirm `run`.
   void confirm(const std::string& run, const std::string& again, const std::string& of = plan);
   // Eight records of anchors/frozen on each device, with as much noise, `factor` times as long as
-  // usual.
-  void add_anchors(const std::string& run, double factor);
+  // usual, the longest by `longest` more.
+  void add_anchors(const std::string& run, double factor, double longest = 1);
   void accept_anchors(const std::string& run);
   // Eight accepted runs, r1 … r8.
   void accept_history(const Tweak& tweak = {});

@@ -5,48 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/file.hpp"
-#include "fixture.hpp"
+#include "judge/anchor.hpp"
+#include "timing_fixture.hpp"
 
 namespace triptych::judge {
 namespace {
 
 using core::ExitCode;
 using testing::HasSubstr;
-using testing::Not;
-
-class TimingGateTest : public JudgeTest {
- protected:
-  static Tweak times(double factor, const std::string& configuration = {}) {
-    return [=](record::Record& record, core::Image&) {
-      if (!configuration.empty() && record.configuration != configuration) return;
-      for (double& ns : record.wall_ns) ns *= factor;
-    };
-  }
-
-  // Its device times are a fifth of the wall's, so that mixing the two would show.
-  static Tweak by_the_device(const Tweak& times) {
-    return [=](record::Record& record, core::Image& image) {
-      times(record, image);
-      record.device_ns = record.wall_ns;
-      for (double& ns : record.device_ns) ns /= 5;
-      record.device_clock_trusted = true;
-    };
-  }
-
-  // Eight runs, each with its anchors, of which every second is of a slower day.
-  void accept_history_with_anchors(double slow_day = 1) {
-    for (int i = 1; i <= 8; ++i) {
-      const double day = i % 2 == 0 ? slow_day : 1.0;
-      add_anchors(fmt::format("r{}-anchors", i), day);
-      accept_anchors(fmt::format("r{}-anchors", i));
-      add_run(fmt::format("r{}-run", i), times(day));
-      (void)accept_run(fmt::format("r{}-run", i));
-    }
-  }
-};
 
 TEST_F(TimingGateTest, NoiseAlonePasses) {
   accept_history();
@@ -194,7 +162,7 @@ TEST_F(TimingGateTest, ASlowerMachineIsNoSlowerProgram) {
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
   const auto advice = with(result, Verdict::advisory, Check::timing);
   ASSERT_EQ(advice.size(), 3U);  // one per device
-  EXPECT_THAT(advice[0].message, HasSubstr("the device itself is +3"));
+  EXPECT_THAT(advice[0].message, HasSubstr("the device itself: +3"));
   add_run("c", [](record::Record& record, core::Image& image) {
     times(1.3)(record, image);
     times(1.2, plain_)(record, image);
@@ -232,149 +200,8 @@ TEST_F(TimingGateTest, ASlowerProgramBesideStillAnchorsIsToldAsOne) {
   const auto whole = std::ranges::find(slower, "program", &Finding::subject);
   ASSERT_NE(whole, slower.end());
   EXPECT_TRUE(whole->configuration.empty());
-  EXPECT_THAT(whole->message, HasSubstr("the program as a whole is +"));
+  EXPECT_THAT(whole->message, HasSubstr("the program as a whole: +"));
   EXPECT_NEAR(whole->numbers.at("ratio"), 1.3, 0.03);
-}
-
-// Of two launches the quieter one counts, of each thing for itself.
-TEST_F(TimingGateTest, ASecondLaunchConfirmsOnlyWhatItShowsToo) {
-  accept_history();
-  add_run("b", [](record::Record& record, core::Image& image) {
-    times(1.2, bricks_)(record, image);
-    times(1.2, plain_)(record, image);
-  });
-  add_run("c", times(1.2, plain_));
-  const GateResult alone = gate("b");
-  ASSERT_EQ(with(alone, Verdict::regression).size(), 6U);
-  EXPECT_EQ(alone.in_doubt.size(), 3U);
-  EXPECT_THAT(alone.headline(), HasSubstr("; in doubt until --confirm: "));
-  const GateResult result = gate("b", "c");
-  const auto slower = with(result, Verdict::regression);
-  ASSERT_EQ(slower.size(), 3U) << text(result);
-  for (const Finding& each : slower) EXPECT_EQ(each.configuration, plain_);
-  EXPECT_EQ(result.findings.front().verdict, Verdict::regression);
-  EXPECT_THAT(result.headline(), HasSubstr("; by two launches: "));
-  EXPECT_THAT(result.headline(), Not(HasSubstr("in doubt")));
-  const auto advice = with(result, Verdict::advisory, Check::timing);
-  ASSERT_EQ(advice.size(), 3U);
-  EXPECT_THAT(advice[0].message, HasSubstr("not so on a fresh launch"));
-  // What only the second shows is none of the first's.
-  EXPECT_EQ(with(gate("c", "b"), Verdict::regression).size(), 3U);
-}
-
-// What the quieter launch's anchors say belongs to it.
-TEST_F(TimingGateTest, TheAnchorsOfBothLaunchesAreTakenTogether) {
-  accept_history_with_anchors();
-  add_anchors("s-anchors", 1.3);
-  add_run("s-run", times(1.3));
-  add_anchors("t-anchors", 1);
-  add_run("t-run");
-  const GateResult result = gate("s-run", "t-run");
-  EXPECT_EQ(result.measured_again.size(), 3U);
-  EXPECT_EQ(with(result, Verdict::pass, Check::timing).size(), 12U + 3U) << text(result);
-}
-
-// Of a device that nobody asked about the first launch says it all.
-TEST_F(TimingGateTest, ALaunchCountsOfTheDevicesAskedFor) {
-  accept_history();
-  add_run("b", times(1.2, plain_));
-  add_run("c");
-  const std::string one = *gate("b").in_doubt.begin();
-  const GateResult result = gate("b", "c", std::set<std::string>{one});
-  EXPECT_EQ(result.measured_again, std::set<std::string>{one});
-  const auto slower = with(result, Verdict::regression);
-  ASSERT_EQ(slower.size(), 2U) << text(result);
-  for (const Finding& each : slower) EXPECT_NE(each.device, one);
-}
-
-// Not slower beyond doubt, and in doubt.
-TEST_F(TimingGateTest, WhatMayBeSlowerIsInDoubtBeforeItIsARegression) {
-  accept_history();
-  bool doubted = false;
-  for (int tenths = 20; tenths <= 50 && !doubted; ++tenths) {
-    const std::string run = fmt::format("run{}", tenths);
-    add_run(run, times(1 + 0.001 * tenths, plain_));
-    const GateResult result = gate(run);
-    doubted = !result.in_doubt.empty() && with(result, Verdict::regression).empty();
-  }
-  EXPECT_TRUE(doubted);
-}
-
-TEST_F(TimingGateTest, ARunLikeTheStoredOnesIsInNoDoubt) {
-  accept_history();
-  add_run("b");
-  EXPECT_TRUE(gate("b").in_doubt.empty());
-}
-
-// Another program's times say nothing of this one.
-TEST_F(TimingGateTest, ALaunchOfOtherCodeConfirmsNothing) {
-  accept_history();
-  add_run("b", times(1.2, plain_));
-  add_run("c", [](record::Record& record, core::Image&) { record.kernel_hash += "-other"; });
-  const GateResult result = gate("b", "c");
-  EXPECT_TRUE(result.measured_again.empty());
-  EXPECT_EQ(with(result, Verdict::regression).size(), 3U);
-}
-
-// The same of a run in the store that says which one it confirms.
-TEST_F(TimingGateTest, ARunInTheStoreConfirms) {
-  accept_history();
-  add_run("b", [](record::Record& record, core::Image& image) {
-    times(1.2, bricks_)(record, image);
-    times(1.2, plain_)(record, image);
-  });
-  EXPECT_TRUE(gate("b").measured_again.empty());
-  add_run("c", times(1.2, plain_));
-  confirm("b", "c");
-  const GateResult result = gate("b");
-  EXPECT_EQ(result.measured_again.size(), 3U);
-  const auto slower = with(result, Verdict::regression);
-  ASSERT_EQ(slower.size(), 3U) << text(result);
-  for (const Finding& each : slower) {
-    EXPECT_EQ(each.configuration, plain_);
-    EXPECT_THAT(each.message, HasSubstr("; so too on a fresh launch"));
-  }
-}
-
-// Each of several may take back.
-TEST_F(TimingGateTest, SlowerIsWhatEveryLaunchShows) {
-  accept_history();
-  add_run("b", times(1.2, plain_));
-  add_run("c", times(1.2, plain_));
-  add_run("d");
-  confirm("b", "c");
-  EXPECT_EQ(with(gate("b"), Verdict::regression).size(), 3U);
-  confirm("b", "d");
-  EXPECT_TRUE(with(gate("b"), Verdict::regression).empty());
-}
-
-// A device that was not measured again, or in part only, has been cleared of nothing.
-TEST_F(TimingGateTest, HalfALaunchConfirmsNothing) {
-  accept_history();
-  add_run("b", times(1.2, plain_));
-  const std::string cut_short = "vulkan:lavapipe";
-  add_run("c", [&](record::Record& record, core::Image&) {
-    if (record.device == cut_short && record.configuration != plain_) {
-      record.outcome = record::Outcome::crashed;
-    }
-  });
-  confirm("b", "c");
-  const GateResult result = gate("b");
-  const auto slower = with(result, Verdict::regression);
-  ASSERT_EQ(slower.size(), 1U) << text(result);
-  EXPECT_EQ(slower.front().device, cut_short);
-  EXPECT_THAT(slower.front().message, Not(HasSubstr("fresh launch")));
-}
-
-// Only times may change from one launch to the next.
-TEST_F(TimingGateTest, AFreshLaunchExcusesNoCounter) {
-  accept_history();
-  add_run("b", [](record::Record& record, core::Image&) {
-    if (record.configuration == plain_) record.counters["samples"] += 1;
-  });
-  add_run("c");
-  confirm("b", "c");
-  EXPECT_EQ(with(gate("b"), Verdict::regression, Check::counters).size(), 3U);
 }
 
 TEST_F(TimingGateTest, AnchorsThatNobodyAcceptedTellNothing) {
@@ -411,6 +238,22 @@ TEST_F(TimingGateTest, WildScatterIsUndecided) {
   ASSERT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
   EXPECT_THAT(with(result, Verdict::cannot_judge, Check::timing).at(0).message,
               HasSubstr("settle it with triptych compare volume/quick"));
+}
+
+// Frozen work tells how the device is, of no program.
+TEST_F(TimingGateTest, ASlowerAnchorIsNoRegression) {
+  accept_history_with_anchors();
+  add_anchors("s-anchors", 1, 1.5);
+  GateRequest request = request_;
+  request.plan = anchors_plan;
+  const GateResult result = judge_run(
+      store_, "s-anchors", Baselines(folder_.path() / "baselines", request.plan), request);
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  const auto advice = with(result, Verdict::advisory, Check::timing);
+  ASSERT_EQ(advice.size(), 3U) << text(result);
+  EXPECT_NEAR(advice[0].numbers.at("ratio"), 1.5, 0.03);
+  EXPECT_THAT(advice[0].message, HasSubstr("; the device, not the program"));
+  EXPECT_TRUE(result.in_doubt.empty());
 }
 
 }  // namespace
