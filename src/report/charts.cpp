@@ -51,6 +51,7 @@ std::string time_chart(const PlanData& plan) {
                     {"title", nullptr},
                     {"header", {{"labelLimit", 420}, {"labelFontSize", 11}}}}},
                   {"columns", 2},
+                  {"resolve", {{"axis", {{"x", "independent"}}}}},
                   {"spec", {{"width", 380}, {"layer", Json::array({box, points})}}},
                   {"config", {{"view", {{"stroke", "#ddd"}}}, {"axis", {{"labelLimit", 200}}}}}};
   return spec.dump();

@@ -14,12 +14,22 @@ double milliseconds(double log_ns) {
   return 1e-6 * std::exp(log_ns);
 }
 
+bool has_line(const judge::CorrelationPair& pair) {
+  return !pair.cases.empty() && pair.result.line.slope != 0;
+}
+
 std::string kind_of(const judge::CorrelationCase& each,
                     const judge::ConfigurationJudgement& judgement) {
   if (each.anchor) return "anchor";
   if (judgement.standing) return "slower, as when accepted";
   if (judgement.slower) return "slower";
   return judgement.faster ? "faster" : "as expected";
+}
+
+bool names_any(const judge::CorrelationPair& pair) {
+  return std::ranges::any_of(pair.result.judgements, [](const auto& judgement) {
+    return (judgement.slower && !judgement.standing) || judgement.faster;
+  });
 }
 
 Json points(const judge::CorrelationPair& pair) {
@@ -64,6 +74,28 @@ Json line_layer(const judge::CorrelationPair& pair, double intercept, const Json
       {"data", {{"values", line_points(pair, intercept)}}}, {"mark", mark}, {"encoding", position}};
 }
 
+Json axis_of_deviations(const judge::CorrelationPair& pair) {
+  double largest = std::expm1(pair.result.smallest_effect);
+  for (std::size_t i = 0; i < pair.cases.size(); ++i) {
+    if (pair.cases[i].anchor) continue;
+    largest = std::max(largest, std::abs(std::expm1(pair.result.judgements[i].residual)));
+  }
+  return {{"field", "deviation"},
+          {"type", "quantitative"},
+          {"title", "from the line"},
+          {"axis", {{"format", "+.0%"}}},
+          {"scale", {{"domain", {-1.1 * largest, 1.1 * largest}}, {"nice", false}}}};
+}
+
+// A level of the deviation across the panel.
+Json rule_layer(double deviation, const Json& axis, bool dashed) {
+  Json mark{{"type", "rule"}, {"color", "#555"}, {"strokeWidth", 1}};
+  if (dashed) mark["strokeDash"] = Json::array({2, 3});
+  return {{"data", {{"values", Json::array({{{"deviation", deviation}}})}}},
+          {"mark", mark},
+          {"encoding", {{"y", axis}}}};
+}
+
 Json point_layer(const Json& position) {
   Json encoding = position;
   encoding["color"] = {{"field", "technique"}, {"type", "nominal"}};
@@ -78,7 +110,8 @@ Json point_layer(const Json& position) {
                                      {{"field", "a"}, {"format", ".3f"}},
                                      {{"field", "b"}, {"format", ".3f"}},
                                      {{"field", "deviation"}, {"format", "+.1%"}}});
-  return {{"mark", {{"type", "point"}, {"filled", true}, {"size", 55}, {"opacity", 0.75}}},
+  return {{"mark",
+           {{"type", "point"}, {"filled", true}, {"size", 55}, {"opacity", 0.75}, {"clip", true}}},
           {"encoding", encoding}};
 }
 
@@ -91,24 +124,45 @@ Json label_layer(const Json& position) {
           {"encoding", encoding}};
 }
 
-}  // namespace
+Json panel(const Json& layers) {
+  return {{"width", 400}, {"height", 380}, {"layer", layers}};
+}
 
-std::string correlation_chart(const judge::CorrelationPair& pair) {
-  const Json position{{"x", axis("a", pair.other)}, {"y", axis("b", pair.device)}};
+// Times against times, with the lines.
+Json times_panel(const judge::CorrelationPair& pair, const Json& across) {
+  const Json position{{"x", across}, {"y", axis("b", pair.device)}};
   Json layers = Json::array();
-  if (!pair.cases.empty() && pair.result.line.slope != 0) {
+  if (has_line(pair)) {
     layers.push_back(line_layer(pair, pair.result.line.intercept, position, false));
     if (std::isfinite(pair.result.anchor_intercept)) {
       layers.push_back(line_layer(pair, pair.result.anchor_intercept, position, true));
     }
   }
   layers.push_back(point_layer(position));
-  layers.push_back(label_layer(position));
+  return panel(layers);
+}
+
+// What is left beside the line, in percent; above the dotted rule one configuration alone shows.
+Json deviations_panel(const judge::CorrelationPair& pair, const Json& across) {
+  const Json upwards = axis_of_deviations(pair);
+  const Json position{{"x", across}, {"y", upwards}};
+  Json layers = Json::array({rule_layer(0, upwards, false),
+                             rule_layer(std::expm1(pair.result.smallest_effect), upwards, true),
+                             point_layer(position)});
+  // A layer that its filter leaves empty has no extent, of which Vega warns.
+  if (names_any(pair)) layers.push_back(label_layer(position));
+  return panel(layers);
+}
+
+}  // namespace
+
+std::string correlation_chart(const judge::CorrelationPair& pair) {
+  const Json across = axis("a", pair.of_itself ? "its stored runs" : pair.other);
+  Json panels = Json::array({times_panel(pair, across)});
+  if (has_line(pair)) panels.push_back(deviations_panel(pair, across));
   const Json spec{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
                   {"data", {{"values", points(pair)}}},
-                  {"width", 430},
-                  {"height", 380},
-                  {"layer", layers},
+                  {"hconcat", panels},
                   {"config", {{"view", {{"stroke", "#ddd"}}}, {"legend", {{"labelLimit", 220}}}}}};
   return spec.dump();
 }

@@ -34,6 +34,16 @@ std::string escape(std::string_view text) {
   return result;
 }
 
+std::string breakable(std::string_view text) {
+  std::string result;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t to = std::min(text.find_first_of(".:,=/", from), text.size() - 1) + 1;
+    result += escape(text.substr(from, to - from)) + "<wbr>";
+    from = to;
+  }
+  return result;
+}
+
 std::string data_uri(std::span<const std::byte> png) {
   static constexpr std::string_view digits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -53,8 +63,9 @@ std::string data_uri(std::span<const std::byte> png) {
 
 namespace {
 
-// "12.3 ms", "1 234", "-0.5": a number and at most a unit of two letters.
+// "12.3 ms", "1 234", "-0.5 ± 0.1": a number and at most a unit of two letters.
 bool is_quantity(std::string_view cell) {
+  cell = cell.substr(0, cell.find(" ±"));
   if (cell.empty() || (cell[0] != '-' && cell[0] != '+' &&
                        std::isdigit(static_cast<unsigned char>(cell[0])) == 0)) {
     return false;
@@ -64,17 +75,33 @@ bool is_quantity(std::string_view cell) {
   return letters <= 2 && std::ranges::count(cell, '.') <= 1;
 }
 
+// Below their heads, of cells that are not empty.
+std::vector<bool> columns_of_quantities(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<bool> result;
+  for (std::size_t column = 0; column < rows.front().size(); ++column) {
+    bool any = false;
+    bool all = true;
+    for (std::size_t row = 1; row < rows.size(); ++row) {
+      const std::string& cell = rows[row].at(column);
+      any = any || !cell.empty();
+      all = all && (cell.empty() || is_quantity(cell));
+    }
+    result.push_back(any && all);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string table(const std::vector<std::vector<std::string>>& rows, std::string_view css_class) {
   std::string text = fmt::format("<div class=\"scroll\"><table class=\"{}\">\n", css_class);
+  const std::vector<bool> numbers = columns_of_quantities(rows);
   bool head = true;
   for (const auto& row : rows) {
     text += "<tr>";
-    for (const std::string& cell : row) {
-      const bool number = is_quantity(cell);
+    for (std::size_t i = 0; i < row.size(); ++i) {
       text += fmt::format("<{0}{1}>{2}</{0}>", head ? "th" : "td",
-                          number && !head ? " class=\"number\"" : "", cell);
+                          numbers.at(i) ? " class=\"number\"" : "", row[i]);
     }
     text += "</tr>\n";
     head = false;

@@ -12,11 +12,14 @@ namespace triptych::report {
 // Text for HTML and XML, element content and attributes alike.
 [[nodiscard]] std::string escape(std::string_view text);
 
+// The same, which may be broken after what separates parts of a test's id or a configuration.
+[[nodiscard]] std::string breakable(std::string_view text);
+
 // "data:image/png;base64,…"
 [[nodiscard]] std::string data_uri(std::span<const std::byte> png);
 
-// A table from cells that are HTML already; the first row is its head. Cells beginning with a digit
-// or a sign are set flush right by the style sheet's class "number".
+// A table from cells that are HTML already; the first row is its head. Columns of quantities
+// are set flush right by the style sheet's class "number".
 [[nodiscard]] std::string table(const std::vector<std::vector<std::string>>& rows,
                                 std::string_view css_class = {});
 

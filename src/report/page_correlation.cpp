@@ -10,6 +10,7 @@
 #include "judge/correlation_pairs.hpp"
 #include "report/correlation_chart.hpp"
 #include "report/html.hpp"
+#include "report/page_frame.hpp"
 #include "report/page_sections.hpp"
 
 namespace triptych::report {
@@ -138,10 +139,7 @@ std::string pair_part(const PlanData& plan, const CorrelationPair& pair, std::si
   text += admission(pair);
   if (pair.cases.empty()) return text;
   const std::string id = fmt::format("{}-correlation{}", plan.anchor, index);
-  text += fmt::format(
-      "<div class=\"chart\" id=\"{0}\"></div><script>vegaEmbed('#{0}', {1}, {{actions: false, "
-      "renderer: 'svg'}});</script>",
-      id, correlation_chart(pair));
+  text += chart(id, correlation_chart(pair));
   return text + fit_table(pair) + global_text(pair) + outlier_table(pair) + level_table(pair);
 }
 
@@ -161,7 +159,10 @@ std::string correlation_section(const PlanData& plan) {
   std::string text =
       "<h3>Other devices</h3><p>Each point is a configuration: its time on another device across, "
       "on this one upwards. A triangle is an anchor, frozen work that tells a slower device from a "
-      "slower program; the dashed line is the anchors’ own.</p>" +
+      "slower program; the dashed line is the anchors’ own. Beside it what is left of each beyond "
+      "the "
+      "line, without anchors that lie outside; above the dotted rule one configuration alone would "
+      "show.</p>" +
       stored;
   if (!farther.empty()) {
     text += fmt::format(

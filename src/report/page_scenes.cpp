@@ -67,6 +67,7 @@ std::vector<SameBits> grouped_by_bits(const std::vector<const record::Record*>& 
       groups.push_back({record});
     }
   }
+  std::ranges::stable_sort(groups, {}, [](const SameBits& group) { return group.front()->device; });
   return groups;
 }
 

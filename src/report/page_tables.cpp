@@ -9,6 +9,7 @@
 #include "report/charts.hpp"
 #include "report/finding_groups.hpp"
 #include "report/html.hpp"
+#include "report/page_frame.hpp"
 #include "report/page_sections.hpp"
 
 namespace triptych::report {
@@ -24,7 +25,7 @@ std::string finding_rows(std::span<const FindingGroup> groups) {
     const judge::Finding& finding = *group.first;
     rows.push_back(
         {fmt::format("<span class=\"verdict {0}\">{0}</span>", judge::name_of(finding.verdict)),
-         escape(finding.test), escape(group.subject()), escape(finding.message)});
+         breakable(finding.test), breakable(group.subject()), escape(finding.message)});
   }
   return table(rows, "findings");
 }
@@ -121,18 +122,20 @@ std::string verdict_section(const PlanData& plan) {
 }
 
 std::string devices_section(const PlanData& plan) {
-  Rows rows{{"device", "name", "driver", "API", "clock", "driver's statistics",
-             "processor features, environment"}};
+  Rows rows{{"device", "name", "driver", "API"}};
+  Rows witnesses{{"device", "clock", "driver's statistics", "processor features, environment"}};
   for (const auto& [device, clocks] : plan.devices) {
     std::string environment = escape(device.cpu_features);
     for (const auto& [name, value] : device.environment) {
       environment += fmt::format("<div>{}={}</div>", escape(name), escape(value));
     }
     rows.push_back({escape(device.id), escape(device.name + " (" + device.vendor + ")"),
-                    escape(device.driver_version), escape(device.api_version), clock_text(clocks),
-                    dialect_text(device), environment});
+                    escape(device.driver_version), escape(device.api_version)});
+    witnesses.push_back({escape(device.id), clock_text(clocks), dialect_text(device), environment});
   }
-  return "<h3>Devices</h3>" + table(rows, "devices");
+  return "<h3>Devices</h3>" + table(rows) +
+         folded("What their clocks and statistics are worth, and what they ran on",
+                table(witnesses));
 }
 
 std::string times_section(const PlanData& plan) {
@@ -151,12 +154,10 @@ std::string times_section(const PlanData& plan) {
          record->loop_frames > 0 ? duration(record->loop_wall_ns / record->loop_frames) : "",
          duration(record->prepare_ns)});
   }
-  return fmt::format(
-             "<h3>Times</h3><p>Every timed frame is a tick, its quartiles a box. “In a loop” is "
-             "the wall clock of "
-             "frames drawn back to back.</p><div class=\"chart\" id=\"{0}-times\"></div>"
-             "<script>vegaEmbed('#{0}-times', {1}, {{actions: false, renderer: 'svg'}});</script>",
-             plan.anchor, time_chart(plan)) +
+  return "<h3>Times</h3><p>Every timed frame is a tick, its quartiles a box. “In a loop” is the "
+         "wall "
+         "clock of frames drawn back to back.</p>" +
+         chart(plan.anchor + "-times", time_chart(plan)) +
          folded("The numbers", table(rows, "times")) + taken_over(plan);
 }
 

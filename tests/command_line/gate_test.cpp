@@ -125,19 +125,5 @@ TEST(Gate, AcceptNeedsAReasonAndAnHonestRun) {
   EXPECT_FALSE(std::filesystem::exists(program.folder() / "b"));
 }
 
-TEST(Gate, TheReportNeedsNoNetwork) {
-  const Program program;
-  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(right_picture(program), 1, 1)).code, 0);
-  const Result written = program.run(
-      "report --store s.sqlite --baselines b --out r/page.html "
-      "--benchmark-json r/benchmark.json");
-  ASSERT_EQ(written.code, 0) << written.output;
-  std::ifstream in(program.folder() / "r/page.html");
-  const std::string page(std::istreambuf_iterator<char>(in), {});
-  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
-  EXPECT_NE(page.find("null:scripted"), std::string::npos);
-  EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace triptych::command_line

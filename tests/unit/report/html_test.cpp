@@ -11,6 +11,11 @@ TEST(Html, EscapesWhatHasMeaning) {
   EXPECT_EQ(escape("a<b & \"c\">\x01"), "a&lt;b &amp; &quot;c&quot;&gt;");
 }
 
+TEST(Html, BreaksBetweenParts) {
+  EXPECT_EQ(breakable("gl:x,a=<1"), "gl:<wbr>x,<wbr>a=<wbr>&lt;1<wbr>");
+  EXPECT_EQ(breakable(""), "");
+}
+
 // RFC 4648, section 10.
 TEST(Html, DataUriIsBase64) {
   const auto encoded = [](std::string_view text) {
@@ -34,10 +39,12 @@ TEST(Html, NumbersAreGrouped) {
   EXPECT_EQ(grouped(1234567), "1\u2009234\u2009567");
 }
 
-TEST(Html, OnlyQuantitiesAreFlushRight) {
-  const std::string text = table({{"head"}, {"12.3 ms"}, {"3.1+debian"}, {"gl"}});
-  EXPECT_NE(text.find("<td class=\"number\">12.3 ms"), std::string::npos);
-  EXPECT_NE(text.find("<td>3.1+debian"), std::string::npos);
+TEST(Html, ColumnsOfQuantitiesAreFlushRight) {
+  const std::string text =
+      table({{"API", "time"}, {"4.5", "12.3 ms"}, {"3.1+debian", ""}, {"gl", "-0.01 ± 0.08"}});
+  EXPECT_NE(text.find("<td>4.5</td><td class=\"number\">12.3 ms"), std::string::npos) << text;
+  EXPECT_NE(text.find("<td>gl</td><td class=\"number\">-0.01"), std::string::npos) << text;
+  EXPECT_NE(text.find("<th>API</th><th class=\"number\">time"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -1,0 +1,95 @@
+// The pages that a person opens, made of scripted devices' runs.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "program.hpp"
+#include "support/draw_charts.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using testing::HasSubstr;
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class ReportTest : public testing::Test {
+ protected:
+  void measure(const std::string& plan_and_factors) const {
+    const Result result = program_.run(
+        "run " + plan_and_factors + " --device 'null:*' --store s.sqlite",
+        R"({"devices": [1, 1.7], "base_ns": 1e6, "ns_per_sample": 50, "noise": 0.002})");
+    ASSERT_EQ(result.code, 0) << result.output;
+  }
+  [[nodiscard]] std::string report(const std::string& more = {}) const {
+    const Result result =
+        program_.run("report --store s.sqlite --baselines b --out page.html " + more);
+    EXPECT_EQ(result.code, 0) << result.output;
+    return text_of(program_.folder() / "page.html");
+  }
+
+  Program program_;
+};
+
+constexpr const char* small = " --set data=generate:gaussian_blob:16 --set viewport=16";
+
+TEST_F(ReportTest, EveryChartDraws) {
+  measure(std::string("volume/quick") + small);
+  measure(std::string("volume/accuracy") + small);
+  static_cast<void>(report());
+  ASSERT_EQ(program_.run("analyze --store s.sqlite --out analysis").code, 0);
+  for (const auto& [page, chart] : {std::pair("page.html", "#plan0-accuracy-time: "),
+                                    {"page.html", "#plan1-times: "},
+                                    {"analysis/analysis.html", "#volume-1: "}}) {
+    const test::DrawnCharts charts = test::draw_charts(program_.folder() / page);
+    EXPECT_TRUE(charts.all) << charts.text;
+    EXPECT_THAT(charts.text, HasSubstr(chart));
+  }
+}
+
+TEST_F(ReportTest, NeedsNoNetwork) {
+  measure(std::string("volume/quick") + small);
+  const std::string page = report();
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+  EXPECT_THAT(page, HasSubstr("null:scripted"));
+  EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
+}
+
+TEST_F(ReportTest, BeginsWithEveryPlansVerdictTheAnchorsLast) {
+  measure("anchors/frozen");
+  measure(std::string("volume/quick") + small);
+  const std::string page = report();
+  const auto quick = page.find("<a href=\"#plan0\">volume/quick</a>");
+  const auto anchors = page.find("<a href=\"#plan1\">anchors/frozen</a>");
+  EXPECT_LT(quick, anchors);
+  EXPECT_LT(anchors, page.find("<section id=\"plan0\"><h2>volume/quick</h2>"));
+}
+
+// Of one plan alone it would leave out what a store that CI keeps is there for.
+TEST_F(ReportTest, BenchmarkJsonHoldsEveryPlan) {
+  measure("anchors/frozen");
+  measure(std::string("volume/quick") + small);
+  static_cast<void>(report("--benchmark-json benchmark.json"));
+  const auto json = nlohmann::json::parse(text_of(program_.folder() / "benchmark.json"));
+  EXPECT_TRUE(json.at("context").contains("device null:scripted"));
+  std::set<std::string> plans;
+  for (const auto& entry : json.at("benchmarks")) {
+    const auto plan = entry.at("plan").get<std::string>();
+    plans.insert(plan);
+    EXPECT_THAT(entry.at("run_name").get<std::string>(),
+                testing::StartsWith(plan + "/null:scripted"));
+    EXPECT_THAT(entry.at("name").get<std::string>(),
+                testing::StartsWith(entry.at("run_name").get<std::string>()));
+  }
+  EXPECT_EQ(plans, (std::set<std::string>{"anchors/frozen", "volume/quick"}));
+}
+
+}  // namespace
+}  // namespace triptych::command_line
