@@ -37,7 +37,10 @@ std::string heat_map(const Json& rows, const Json& x, const Json& y, Json value,
   Json number = value;
   number["format"] = format;
   number.erase("scale");
-  const Json cell{{"mark", "rect"}, {"encoding", {{"color", value}, {"tooltip", details}}}};
+  value["legend"] = {{"format", format}};
+  // Light enough for a black number on either end of the scale.
+  const Json cell{{"mark", {{"type", "rect"}, {"opacity", 0.7}}},
+                  {"encoding", {{"color", value}, {"tooltip", details}}}};
   const Json text{{"mark", {{"type", "text"}, {"fontSize", 10}}}, {"encoding", {{"text", number}}}};
   spec["encoding"] = {{"x", x}, {"y", y}};
   spec["layer"] = Json::array({cell, text});

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "judge/analysis/tables.hpp"
 #include "report/analysis_charts.hpp"
 #include "report/html.hpp"
@@ -20,14 +23,30 @@ std::string cell_text(const Json& cell) {
   return cell.is_number_float() ? fmt::format("{:.4g}", cell.get<double>()) : cell.dump();
 }
 
+// What all rows hold fixed, which then need not each say so; nothing where they differ.
+std::optional<std::string> held_by_all(const Table& table_of) {
+  if (table_of.rows.empty() || !table_of.rows.front().contains("held")) return std::nullopt;
+  const Json& held = table_of.rows.front().at("held");
+  const bool same =
+      std::ranges::all_of(table_of.rows, [&](const Json& row) { return row.at("held") == held; });
+  if (!same || !held.is_string()) return std::nullopt;
+  return held.get<std::string>();
+}
+
 std::string html_table(const Table& table_of) {
+  const std::optional<std::string> held = held_by_all(table_of);
+  std::vector<std::string> columns = table_of.columns;
+  if (held) std::erase(columns, "held");
   std::vector<std::vector<std::string>> rows{{}};
-  for (const std::string& column : table_of.columns) rows.front().push_back(escape(column));
+  for (const std::string& column : columns) rows.front().push_back(escape(column));
   for (const Json& row : table_of.rows) {
     std::vector<std::string>& cells = rows.emplace_back();
-    for (const std::string& column : table_of.columns) cells.push_back(cell_text(row.at(column)));
+    for (const std::string& column : columns) cells.push_back(cell_text(row.at(column)));
   }
-  return "<p>" + escape(table_of.title) + ".</p>" + table(rows);
+  const std::string all =
+      held ? "<p class=\"system\">held: " + (held->empty() ? "nothing" : escape(*held)) + "</p>"
+           : "";
+  return "<p>" + escape(table_of.title) + ".</p>" + all + table(rows);
 }
 
 // The sections of one suite; figures are numbered for their element ids.
@@ -57,7 +76,8 @@ class SuitePage {
 
  private:
   void add_figure(const std::string& title, const std::string& label, const std::string& spec) {
-    text_ += fmt::format("<h4>{}</h4><p class=\"system\">{}</p>{}", escape(title), escape(label),
+    text_ += fmt::format("<div class=\"figure\"><h4>{}</h4><p class=\"system\">{}</p>{}</div>",
+                         escape(title), escape(label),
                          chart(fmt::format("{}-{}", analysis_.dataset.suite, ++figures_), spec));
   }
   [[nodiscard]] const Table* table_named(std::string_view name) const {

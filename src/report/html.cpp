@@ -75,7 +75,7 @@ bool is_quantity(std::string_view cell) {
   return letters <= 2 && std::ranges::count(cell, '.') <= 1;
 }
 
-// Below their heads, of cells that are not empty.
+// Below their heads, of cells that hold something.
 std::vector<bool> columns_of_quantities(const std::vector<std::vector<std::string>>& rows) {
   std::vector<bool> result;
   for (std::size_t column = 0; column < rows.front().size(); ++column) {
@@ -83,8 +83,9 @@ std::vector<bool> columns_of_quantities(const std::vector<std::vector<std::strin
     bool all = true;
     for (std::size_t row = 1; row < rows.size(); ++row) {
       const std::string& cell = rows[row].at(column);
-      any = any || !cell.empty();
-      all = all && (cell.empty() || is_quantity(cell));
+      const bool nothing = cell.empty() || cell == "–";
+      any = any || !nothing;
+      all = all && (nothing || is_quantity(cell));
     }
     result.push_back(any && all);
   }
