@@ -227,17 +227,56 @@ void estimate_beside(const std::vector<const CorrelationCase*>& cases, const Rob
   }
 }
 
+double errors_of(const Group& group) {
+  return std::abs(group.named.effect) / group.named.standard_error;
+}
+
+// The one whose effect is the most standard errors. The two levels of a factor that has no more are
+// as far apart but for rounding: the slower one.
+const Group& most_apart(const std::vector<Group>& groups) {
+  constexpr double rounding = 1e-9;
+  const double most = std::ranges::max(std::views::transform(groups, errors_of));
+  const Group* apart = nullptr;
+  for (const Group& group : groups) {
+    if (errors_of(group) < (1 - rounding) * most) continue;
+    if (apart == nullptr || group.named.effect > apart->named.effect) apart = &group;
+  }
+  return *apart;
+}
+
+// Of an effect as large by chance in any of so many levels.
+double p_of_any(double errors, std::size_t levels, std::size_t configurations) {
+  const auto degrees = static_cast<double>(configurations - parameters);
+  return std::min(2 * student_t_upper_tail(errors, degrees) * static_cast<double>(levels), 1.0);
+}
+
 // From what a device's own times changed by: its slope is 1, and what another would explain is a
-// level of long or short times.
+// level of long or short times. Beside the level that is apart, if one is: on either side of any
+// other it would be half of the values, and which of them count as wild a matter of chance.
 void estimate_changes(const std::vector<const CorrelationCase*>& cases, double scale,
                       std::vector<Group>& groups) {
   std::vector<double> changes;
   for (const CorrelationCase* each : cases) changes.push_back(each->log_time_b - each->log_time_a);
   const std::vector<double> nothing(cases.size(), 0);
   for (Group& group : groups) estimate(nothing, changes, scale, group);
+  if (groups.empty() || !(scale > 0)) return;
+  const Group apart = most_apart(groups);
+  const double p = p_of_any(errors_of(apart), groups.size(), cases.size());
+  if (!is_level_told(apart.named.effect, p)) return;
+  std::vector<double> offsets;
+  for (const bool inside : apart.inside) offsets.push_back(inside ? apart.named.effect : 0);
+  for (std::size_t i = 0; i < changes.size(); ++i) changes[i] -= offsets[i];
+  for (Group& group : groups) {
+    if (!are_offsets_of(group, offsets)) estimate(nothing, changes, scale, group);
+  }
 }
 
 }  // namespace
+
+bool is_level_told(double effect, double p) {
+  return p <= Model::share_of_false_alarms &&
+         std::abs(effect) >= std::log(Model::least_level_effect);
+}
 
 std::optional<LineBesideLevel> line_beside_a_level(std::span<const CorrelationCase> all,
                                                    const RobustLine& fit) {
@@ -245,19 +284,9 @@ std::optional<LineBesideLevel> line_beside_a_level(std::span<const CorrelationCa
   const std::vector<double> x = values_of(cases, &CorrelationCase::log_time_a);
   const std::vector<double> y = values_of(cases, &CorrelationCase::log_time_b);
   std::vector<Group> groups = groups_of(cases);
-  const std::size_t levels = groups.size();
   if (groups.empty() || !(fit.scale > 0)) return std::nullopt;
   for (Group& group : groups) estimate(x, fit.residuals, fit.scale, group);
-  // The two levels of a factor that has no more are as far apart but for rounding: the slower one.
-  const auto distance = [](const Group& group) {
-    return std::abs(group.named.effect) / group.named.standard_error;
-  };
-  constexpr double rounding = 1e-9;
-  const double most = std::ranges::max(std::views::transform(groups, distance));
-  std::erase_if(groups,
-                [&](const Group& group) { return distance(group) < (1 - rounding) * most; });
-  const Group& apart =
-      std::ranges::max(groups, {}, [](const Group& group) { return group.named.effect; });
+  const Group& apart = most_apart(groups);
   OffsetLine found = line_with_offset(x, y, fit, apart);
   const std::size_t outside = cases.size() - apart.named.size;
   const bool of_inside =
@@ -268,10 +297,9 @@ std::optional<LineBesideLevel> line_beside_a_level(std::span<const CorrelationCa
     const double own = inside ? found.offset : 0;
     offsets.push_back(of_inside ? own - found.offset : own);
   }
-  const auto degrees = static_cast<double>(cases.size() - parameters);
-  const double p = 2 * student_t_upper_tail(most, degrees) * static_cast<double>(levels);
-  return LineBesideLevel{apart.named.factor + "=" + apart.named.level, found.offset,
-                         std::min(p, 1.0), std::move(found.fit), std::move(offsets)};
+  const double p = p_of_any(errors_of(apart), groups.size(), cases.size());
+  return LineBesideLevel{apart.named.factor + "=" + apart.named.level, found.offset, p,
+                         std::move(found.fit), std::move(offsets)};
 }
 
 double detectable_in_errors(std::size_t tests, double degrees) {

@@ -33,6 +33,9 @@ struct LineBesideLevel {
 [[nodiscard]] std::optional<LineBesideLevel> line_beside_a_level(
     std::span<const CorrelationCase> cases, const RobustLine& fit);
 
+// Whether an effect, of p by chance in any level, is beyond chance and what devices differ by.
+[[nodiscard]] bool is_level_told(double effect, double p);
+
 // How many standard errors an effect must have to be found with the probability
 // CorrelationModel::power as the only one among `tests` (Benjamini–Hochberg's first step).
 [[nodiscard]] double detectable_in_errors(std::size_t tests, double degrees);

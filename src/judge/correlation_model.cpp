@@ -221,10 +221,9 @@ void take_another_line(std::span<const CorrelationCase> cases, bool refused, boo
   auto beside = line_beside_a_level(cases, line.fit);
   if (beside && of_itself) leave_scatter_of_runs(cases, beside->fit);
   if (!beside || !refusals_of(beside->fit, result.rho).empty()) return;
-  const bool is_told = beside->p <= Model::share_of_false_alarms &&
-                       std::abs(beside->offset) >= std::log(Model::least_level_effect);
   const double most = refused ? Model::share_beside_level : 1;
-  if (!is_told || !(beside->fit.scale <= most * line.fit.scale)) return;
+  if (!is_level_told(beside->offset, beside->p) || !(beside->fit.scale <= most * line.fit.scale))
+    return;
   line = {std::move(beside->fit), std::move(beside->offsets)};
   result.line_beside = std::move(beside->name);
 }

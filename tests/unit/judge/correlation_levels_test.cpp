@@ -224,6 +224,27 @@ TEST(Correlation, ALevelIsHeldAgainstTwoThatDiffer) {
   }
 }
 
+// On either side of any other level half are slower, and which of them count as wild is chance.
+TEST(Correlation, OfItselfASlowerHalfNamesNoOtherLevel) {
+  Bench bench{.slope = 1, .noise = 0.04};
+  double size = 0;
+  bench.planted = [&](const CorrelationCase& each) {
+    return each.factors.at("skip") == "bricks" ? std::log(size) : 0;
+  };
+  int others = 0;
+  constexpr int trials = 300;
+  for (const double planted : {1.25, 1.3}) {
+    size = planted;
+    for (std::uint64_t seed = 1; seed <= trials; ++seed) {
+      const auto levels = correlate(bench.draw(seed), {0, 0}, true).levels;
+      EXPECT_EQ(levels.front().level, "bricks");
+      others += std::ranges::any_of(
+          levels, [](const LevelEffect& level) { return level.slower && level.level != "bricks"; });
+    }
+  }
+  EXPECT_LE(others, most(2 * trials, 0.001));
+}
+
 TEST(Correlation, LevelsOfTheSameConfigurationsAreOne) {
   auto cases = Bench{}.draw(1);
   for (CorrelationCase& each : cases) each.factors["sampler"] = each.factors["technique"];
