@@ -129,6 +129,13 @@ double explained_share(const std::vector<double>& r, const Group& group) {
   return total > 0 ? within * within * (1 / size + 1 / rest) / total : 0;
 }
 
+// Of so many configurations. On an exact line any effect is beyond chance.
+double p_of_slower(const LevelEffect& level, std::size_t configurations) {
+  if (!(level.standard_error > 0)) return level.effect > 0 ? 0 : 1;
+  return student_t_upper_tail(level.effect / level.standard_error,
+                              static_cast<double>(configurations - parameters));
+}
+
 // From residuals r with the scale ŝ.
 void estimate(const std::vector<double>& x, const std::vector<double>& r, double scale,
               Group& group) {
@@ -141,16 +148,12 @@ void estimate(const std::vector<double>& x, const std::vector<double>& r, double
     if (scale > 0) weights[i] = bisquare_weight(own[i], scale);
   }
   const Contrast found = contrast(x, r, group.inside, weights);
-  const auto degrees = static_cast<double>(r.size() - parameters);
   LevelEffect& level = group.named;
   level.effect = found.effect;
   level.standard_error =
       scale > 0 ? scale * std::sqrt(robust_variance(own, scale, parameters) / found.information)
                 : 0;
-  // On an exact line any effect is beyond chance.
-  level.p = level.standard_error > 0
-                ? student_t_upper_tail(level.effect / level.standard_error, degrees)
-                : (level.effect > 0 ? 0 : 1);
+  level.p = p_of_slower(level, r.size());
   level.share = explained_share(r, group);
 }
 
@@ -252,7 +255,9 @@ double p_of_any(double errors, std::size_t levels, std::size_t configurations) {
 
 // From what a device's own times changed by: its slope is 1, and what another would explain is a
 // level of long or short times. Beside the level that is apart, if one is: on either side of any
-// other it would be half of the values, and which of them count as wild a matter of chance.
+// other it would be half of the values, and which of them count as wild a matter of chance. But an
+// offset is not one number for all of its level, and what makes one level apart, a slow minute say,
+// may reach into others: their errors are no less than with it.
 void estimate_changes(const std::vector<const CorrelationCase*>& cases, double scale,
                       std::vector<Group>& groups) {
   std::vector<double> changes;
@@ -267,7 +272,12 @@ void estimate_changes(const std::vector<const CorrelationCase*>& cases, double s
   for (const bool inside : apart.inside) offsets.push_back(inside ? apart.named.effect : 0);
   for (std::size_t i = 0; i < changes.size(); ++i) changes[i] -= offsets[i];
   for (Group& group : groups) {
-    if (!are_offsets_of(group, offsets)) estimate(nothing, changes, scale, group);
+    if (are_offsets_of(group, offsets)) continue;
+    LevelEffect& level = group.named;
+    const double with_it = level.standard_error;
+    estimate(nothing, changes, scale, group);
+    level.standard_error = std::max(level.standard_error, with_it);
+    level.p = p_of_slower(level, cases.size());
   }
 }
 
