@@ -17,7 +17,7 @@ using judge::Rate;
 using judge::Tally;
 using judge::TrialKind;
 
-constexpr std::array<std::pair<const char*, Rate Tally::*>, 10> rates{{
+constexpr std::array<std::pair<const char*, Rate Tally::*>, 11> rates{{
     {"detected", &Tally::detected},
     {"found", &Tally::found},
     {"to_be_caught", &Tally::to_be_caught},
@@ -26,6 +26,7 @@ constexpr std::array<std::pair<const char*, Rate Tally::*>, 10> rates{{
     {"cannot_tell", &Tally::undecided},
     {"first_named", &Tally::first_named},
     {"work_or_throughput", &Tally::split},
+    {"left_open", &Tally::left_open},
     {"measured_again", &Tally::in_doubt},
     {"same_bytes", &Tally::same_bytes},
 }};

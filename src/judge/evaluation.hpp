@@ -82,6 +82,7 @@ struct Tally {
   // Of `found` in turns, and of `detected` by the correlation, what really cost so much that it has
   // to be caught.
   Rate to_be_caught;
+  Rate left_open;   // trials of history in which noise leaves something open: the gate's code 2
   Rate in_doubt;    // of trials by one launch: the device is to be measured again
   Rate same_bytes;  // verdicts that were the same to the byte when asked for again
   // What was planted really cost, ln t planted over unplanted, of each trial: extra work has costs

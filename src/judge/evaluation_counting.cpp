@@ -130,6 +130,7 @@ void count_history(const std::string& plan, const GateResult& result, const Tria
     Tally& tally = tallies[{"history", plan, device, trial.spread, trial.percent, trial.confirmed}];
     bool detected = false;
     bool alarmed = false;
+    bool open = false;
     for (const Finding& finding : result.findings) {
       if (finding.check != Check::timing || finding.device != device) continue;
       const bool whole = finding.configuration.empty();
@@ -139,6 +140,7 @@ void count_history(const std::string& plan, const GateResult& result, const Tria
       if (slower) tally.false_discoveries.count(!planted);
       detected = detected || (slower && planted);
       alarmed = alarmed || (slower && !planted);
+      open = open || finding.verdict == Verdict::cannot_judge;
       if (whole) continue;
       if (planted) tally.found.count(slower);
       if (trial.confirmed) continue;
@@ -151,6 +153,7 @@ void count_history(const std::string& plan, const GateResult& result, const Tria
       if (!trial.confirmed) tally.costs.push_back(trial.cost);
     }
     tally.false_alarms.count(alarmed);
+    tally.left_open.count(open);
     if (!trial.confirmed) tally.in_doubt.count(result.in_doubt.contains(device));
   }
 }

@@ -30,8 +30,8 @@ struct Trial {
 void count_history(const std::string& plan, const GateResult& result, const Trial& trial,
                    const std::vector<std::string>& devices, Tallies& tallies);
 
-// Each device by each other stored one, what stood when the device was accepted left out. A level is
-// found where it is called slower beyond chance, whether it decides or only advises.
+// Each device by each other stored one, what stood when the device was accepted left out. A level
+// is found where it is called slower beyond chance, whether it decides or only advises.
 void count_correlations(const std::string& plan, const std::string& method,
                         const GateResult& result, const Trial& trial, Tallies& tallies);
 // One of the devices that were judged, by the stored one that decides; where none can judge it, by

@@ -100,7 +100,7 @@ class EvaluateRuns : public testing::Test {
       for (const auto rate :
            {&Tally::detected, &Tally::found, &Tally::false_alarms, &Tally::false_discoveries,
             &Tally::undecided, &Tally::first_named, &Tally::split, &Tally::in_doubt,
-            &Tally::same_bytes, &Tally::to_be_caught}) {
+            &Tally::left_open, &Tally::same_bytes, &Tally::to_be_caught}) {
         add(total.*rate, tally.*rate);
       }
     }
@@ -219,6 +219,24 @@ TEST_F(EvaluateRuns, ASlowMinuteIsNotConfirmed) {
   EXPECT_GE(again.hits, once.hits);
   EXPECT_LT(again.hits, again.trials);
   EXPECT_EQ(sum(tallies, "history", Spread::none, 0, true).in_doubt.trials, 0U);
+}
+
+// A third of a run's times are longer, and its rounds too far apart to call that slower.
+TEST_F(EvaluateRuns, WhatNoiseLeavesOpenASecondLaunchTells) {
+  for (int round = 0; round < 7; ++round) measure(0);
+  std::vector<record::Record> noisy = store_.records("run3");
+  for (std::size_t i = 0; i < noisy.size(); i += 3) {
+    for (double& ns : noisy[i].wall_ns) ns *= 1.4;
+    noisy[i].rounds_ns = {noisy[i].wall_ns.front(), 2 * noisy[i].wall_ns.front()};
+    store_.add_record(noisy[i]);
+  }
+  const Tallies tallies = evaluate();
+  const Rate once = sum(tallies, "history", Spread::none).left_open;
+  const Rate confirmed = sum(tallies, "history", Spread::none, 0, true).left_open;
+  EXPECT_GT(once.hits, 0U);
+  EXPECT_LT(confirmed.hits, once.hits);
+  EXPECT_EQ(confirmed.trials, once.trials);
+  EXPECT_GE(sum(tallies, "history", Spread::none).in_doubt.hits, once.hits);
 }
 
 TEST_F(EvaluateRuns, OnePlantedRunHasNoSecond) {
