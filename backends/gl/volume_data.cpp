@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "technique/volume/bricks.hpp"
+#include "technique/volume/brick_map.hpp"
 #include "technique/volume/preintegration.hpp"
 
 namespace triptych::gl_backend {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "technique/volume/bricks.hpp"
+#include "technique/volume/brick_map.hpp"
 #include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
 #include "technique/volume/preintegration.hpp"

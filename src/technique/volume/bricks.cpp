@@ -4,9 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "technique/volume/brick_kinds.hpp"
-#include "technique/volume/brick_reach.hpp"
-
 namespace triptych::technique {
 namespace {
 
@@ -146,15 +143,6 @@ bool any_brick_is_empty(const scene::VolumeScene& scene, const BrickLayout& layo
     return all_visible;
   });
   return !all_visible;
-}
-
-std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip, double adapt) {
-  if (skip == Skip::none) return {1};
-  const BrickRanges ranges = brick_ranges(*scene.grid, brick_layout(scene, skip, adapt));
-  if (adapt > 0) return brick_kinds(ranges, scene, adapt);
-  const auto visible = brick_visibility(ranges, scene.transfer_function);
-  if (skip == Skip::distance) return brick_reach(ranges.counts, visible);
-  return {visible.begin(), visible.end()};
 }
 
 }  // namespace triptych::technique

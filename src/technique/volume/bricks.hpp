@@ -57,9 +57,4 @@ struct BrickRanges {
 // empty space: scenes begin with a corner of their box.
 [[nodiscard]] bool any_brick_is_empty(const scene::VolumeScene& scene, const BrickLayout& layout);
 
-// What the kernels are given: 1 or 0 per brick for Skip::bricks, or with `adapt` brick_kinds;
-// brick_reach for Skip::distance; one word that nothing reads for Skip::none.
-[[nodiscard]] std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip,
-                                                  double adapt = 0);
-
 }  // namespace triptych::technique

@@ -10,6 +10,7 @@
 
 #include "core/random.hpp"
 #include "scene/generators.hpp"
+#include "technique/volume/brick_map.hpp"
 
 namespace triptych::technique {
 namespace {

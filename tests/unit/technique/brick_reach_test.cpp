@@ -9,6 +9,7 @@
 
 #include "core/random.hpp"
 #include "scene/generators.hpp"
+#include "technique/volume/brick_map.hpp"
 #include "technique/volume/bricks.hpp"
 
 namespace triptych::technique {
