@@ -84,6 +84,7 @@ class TimingCheck {
     }
     call_witnesses();
     const TimingJudgements judgements = judge_timings(cases_);
+    excuses_open_ = are_few_open(judgements.cases);
     for (std::size_t i = 0; i < judged_.size(); ++i) report(i, judgements.cases[i]);
     for (const ProgramJudgement& program : judgements.programs) report(program);
     report_shifts(judgements);
@@ -226,9 +227,23 @@ class TimingCheck {
     return runs;
   }
 
+  // Of a hundred times some are always too noisy to tell; which, is another matter every day.
+  [[nodiscard]] bool are_few_open(const std::vector<TimingJudgement>& judgements) const {
+    std::size_t open = 0;
+    for (std::size_t i = 0; i < judged_.size(); ++i) {
+      if (verdict_of(judgements[i], cases_[i].tolerance) != Verdict::cannot_judge) continue;
+      if (judgements[i].log_ratio >= std::log(TimingModel::must_be_told)) return false;
+      ++open;
+    }
+    return static_cast<double>(open) <=
+           TimingModel::largest_share_open * static_cast<double>(judged_.size());
+  }
+
   void report(std::size_t index, const TimingJudgement& judgement) {
     const TimingCase& timing = cases_[index];
-    const Verdict verdict = of_plan(verdict_of(judgement, timing.tolerance));
+    const Verdict told = verdict_of(judgement, timing.tolerance);
+    const bool open = told == Verdict::cannot_judge;
+    const Verdict verdict = of_plan(open && excuses_open_ ? Verdict::advisory : told);
     const record::Record& record = *judged_[index].record;
     std::string message = fmt::format(
         "{:.4g} ms, {:.4g} ms in {} stored runs: {:+.1f} % ± {:.1f} %, {:.1f} % tolerated, p = "
@@ -246,13 +261,13 @@ class TimingCheck {
       message += "; " + why_text(work, judgement.log_ratio);
     }
     if (judged_[index].other_code) message += "; the device code changed since";
-    if (verdict == Verdict::cannot_judge) {
+    if (open) {
       message +=
           "; too much scatter or too coarse a clock to tell: settle it with triptych compare " +
           view_.request.plan;
     }
     if (judgement.faster) message += "; keep it with " + view_.accept_command();
-    if (verdict == Verdict::advisory) message += "; the device, not the program";
+    if (verdict != told && !(open && excuses_open_)) message += "; the device, not the program";
     add(record, verdict, std::move(message));
     add_numbers(findings_.back(), judgement, timing.tolerance);
     set_number(findings_.back(), "median_ns", timing.median_ns);
@@ -367,6 +382,7 @@ class TimingCheck {
   Resolutions resolutions_;
   std::vector<TimingCase> cases_;  // those of judged_, then the witnesses
   std::vector<Judged> judged_;
+  bool excuses_open_ = false;  // what noise leaves open is little enough to be advice
   std::vector<Finding> findings_;
 };
 

@@ -76,6 +76,9 @@ struct TimingModel {
   // A configuration passes only where a slowdown by this factor can be excluded; where noise or a
   // coarse clock leave it possible, nothing is decided.
   static constexpr double must_be_told = 1.20;
+  // Of a run's configurations, what noise may leave open before the run cannot be judged. None of
+  // them may itself have come out slower by must_be_told.
+  static constexpr double largest_share_open = 0.05;
 };
 
 struct TimingCase {
