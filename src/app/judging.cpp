@@ -44,18 +44,13 @@ void print_text(const judge::GateResult& result) {
   fmt::print("\n{}\n", result.headline());
 }
 
-std::vector<std::string> plans_of(const record::Store& store) {
+std::vector<record::Run> latest_runs(const record::Store& store) {
   std::set<std::string> plans;
   for (const record::Run& run : store.runs()) plans.insert(run.plan);
-  std::vector<std::string> sorted(plans.begin(), plans.end());
-  std::ranges::stable_partition(
-      sorted, [](const std::string& plan) { return plan != judge::anchors_plan; });
-  return sorted;
-}
-
-std::vector<record::Run> latest_runs(const record::Store& store) {
   std::vector<record::Run> runs;
-  for (const std::string& plan : plans_of(store)) runs.push_back(*store.latest_run(plan));
+  for (const std::string& plan : plans) runs.push_back(*store.latest_run(plan));
+  std::ranges::stable_partition(
+      runs, [](const record::Run& run) { return run.plan != judge::anchors_plan; });
   return runs;
 }
 

@@ -23,11 +23,8 @@ namespace triptych::app {
 // headline.
 void print_text(const judge::GateResult& result);
 
-// The plans that a store holds runs of, sorted, that of the anchors last: it is measured for the
-// others' sake.
-[[nodiscard]] std::vector<std::string> plans_of(const record::Store& store);
-
-// The latest run of each, in that order.
+// The latest run of each plan in a store, by the plans' names, that of the anchors last: it is
+// measured for the others' sake.
 [[nodiscard]] std::vector<record::Run> latest_runs(const record::Store& store);
 
 // The report on the latest run of each plan in a store, which holds one.

@@ -243,7 +243,8 @@ class TimingCheck {
     const TimingCase& timing = cases_[index];
     const Verdict told = verdict_of(judgement, timing.tolerance);
     const bool open = told == Verdict::cannot_judge;
-    const Verdict verdict = of_plan(open && excuses_open_ ? Verdict::advisory : told);
+    const bool excused = open && excuses_open_;
+    const Verdict verdict = of_plan(excused ? Verdict::advisory : told);
     const record::Record& record = *judged_[index].record;
     std::string message = fmt::format(
         "{:.4g} ms, {:.4g} ms in {} stored runs: {:+.1f} % ± {:.1f} %, {:.1f} % tolerated, p = "
@@ -267,7 +268,7 @@ class TimingCheck {
           view_.request.plan;
     }
     if (judgement.faster) message += "; keep it with " + view_.accept_command();
-    if (verdict != told && !(open && excuses_open_)) message += "; the device, not the program";
+    if (verdict != told && !excused) message += "; the device, not the program";
     add(record, verdict, std::move(message));
     add_numbers(findings_.back(), judgement, timing.tolerance);
     set_number(findings_.back(), "median_ns", timing.median_ns);
@@ -300,8 +301,7 @@ class TimingCheck {
     const Verdict verdict = verdict_of(program, program.tolerance);
     std::string message = fmt::format(
         "the program as a whole: {:+.1f} % ± {:.1f} % against what {} anchors ({:+.1f} %) allow, "
-        "by "
-        "{} configurations, {:.1f} % tolerated, p = {:.2g}",
+        "by {} configurations, {:.1f} % tolerated, p = {:.2g}",
         100 * std::expm1(program.log_ratio), 100 * std::expm1(program.half_width), program.anchors,
         100 * std::expm1(program.device_shift), program.configurations,
         100 * std::expm1(program.tolerance), program.faster ? program.p_faster : program.p_slower);
@@ -327,8 +327,7 @@ class TimingCheck {
       findings_.push_back(finding_about(
           view_, view_.devices.at(cases_[i].device), Check::timing, Verdict::advisory,
           fmt::format("the device itself: {:+.1f} % against its stored runs, by {} anchors{}; this "
-                      "was taken "
-                      "out of its other answers",
+                      "was taken out of its other answers",
                       100 * std::expm1(shift), judgements.cases[i].anchors,
                       witnesses_beside_anchors(judgements.programs, cases_[i].device))));
       set_number(findings_.back(), "shift", shift);

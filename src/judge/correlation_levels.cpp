@@ -209,14 +209,18 @@ OffsetLine line_with_offset(const std::vector<double>& x, const std::vector<doub
   return result;
 }
 
+// Whether they are the same, or one is all that the other is not.
+bool split_alike(const std::vector<bool>& a, std::vector<bool> b) {
+  if (a == b) return true;
+  b.flip();
+  return a == b;
+}
+
 // Whether these offsets are the group's, or those of all others.
 bool are_offsets_of(const Group& group, std::span<const double> offsets) {
   std::vector<bool> moved;
   for (const double offset : offsets) moved.push_back(offset != 0);
-  if (moved.empty()) return false;
-  if (moved == group.inside) return true;
-  moved.flip();
-  return moved == group.inside;
+  return split_alike(group.inside, std::move(moved));
 }
 
 // From a line; of the group that it is beside with the offset.
@@ -265,14 +269,14 @@ void estimate_changes(const std::vector<const CorrelationCase*>& cases, double s
   const std::vector<double> nothing(cases.size(), 0);
   for (Group& group : groups) estimate(nothing, changes, scale, group);
   if (groups.empty() || !(scale > 0)) return;
-  const Group apart = most_apart(groups);
+  const Group& apart = most_apart(groups);
   const double p = p_of_any(errors_of(apart), groups.size(), cases.size());
   if (!is_level_told(apart.named.effect, p)) return;
-  std::vector<double> offsets;
-  for (const bool inside : apart.inside) offsets.push_back(inside ? apart.named.effect : 0);
-  for (std::size_t i = 0; i < changes.size(); ++i) changes[i] -= offsets[i];
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    changes[i] -= apart.inside[i] ? apart.named.effect : 0;
+  }
   for (Group& group : groups) {
-    if (are_offsets_of(group, offsets)) continue;
+    if (split_alike(group.inside, apart.inside)) continue;
     LevelEffect& level = group.named;
     const double with_it = level.standard_error;
     estimate(nothing, changes, scale, group);

@@ -26,12 +26,6 @@ std::string kind_of(const judge::CorrelationCase& each,
   return judgement.faster ? "faster" : "as expected";
 }
 
-bool names_any(const judge::CorrelationPair& pair) {
-  return std::ranges::any_of(pair.result.judgements, [](const auto& judgement) {
-    return (judgement.slower && !judgement.standing) || judgement.faster;
-  });
-}
-
 Json points(const judge::CorrelationPair& pair) {
   Json values = Json::array();
   for (std::size_t i = 0; i < pair.cases.size(); ++i) {
@@ -45,6 +39,15 @@ Json points(const judge::CorrelationPair& pair) {
                       {"kind", kind_of(each, judgement)}});
   }
   return values;
+}
+
+// Those that are slower or faster.
+Json named_points(const judge::CorrelationPair& pair) {
+  Json named = Json::array();
+  for (const Json& point : points(pair)) {
+    if (point.at("kind") == "slower" || point.at("kind") == "faster") named.push_back(point);
+  }
+  return named;
 }
 
 // From the smallest to the largest time on A: straight on two logarithmic axes.
@@ -115,11 +118,11 @@ Json point_layer(const Json& position) {
           {"encoding", encoding}};
 }
 
-Json label_layer(const Json& position) {
+// Of points that are there: a layer without any has no extent, of which Vega warns.
+Json label_layer(const Json& named, const Json& position) {
   Json encoding = position;
   encoding["text"] = {{"field", "deviation"}, {"type", "quantitative"}, {"format", "+.0%"}};
-  return {{"transform",
-           Json::array({{{"filter", {{"field", "kind"}, {"oneOf", {"slower", "faster"}}}}}})},
+  return {{"data", {{"values", named}}},
           {"mark", {{"type", "text"}, {"align", "left"}, {"dx", 7}, {"fontSize", 11}}},
           {"encoding", encoding}};
 }
@@ -149,8 +152,8 @@ Json deviations_panel(const judge::CorrelationPair& pair, const Json& across) {
   Json layers = Json::array({rule_layer(0, upwards, false),
                              rule_layer(std::expm1(pair.result.smallest_effect), upwards, true),
                              point_layer(position)});
-  // A layer that its filter leaves empty has no extent, of which Vega warns.
-  if (names_any(pair)) layers.push_back(label_layer(position));
+  const Json named = named_points(pair);
+  if (!named.empty()) layers.push_back(label_layer(named, position));
   return panel(layers);
 }
 

@@ -160,9 +160,8 @@ std::string correlation_section(const PlanData& plan) {
       "<h3>Other devices</h3><p>Each point is a configuration: its time on another device across, "
       "on this one upwards. A triangle is an anchor, frozen work that tells a slower device from a "
       "slower program; the dashed line is the anchors’ own. Beside it what is left of each beyond "
-      "the "
-      "line, without anchors that lie outside; above the dotted rule one configuration alone would "
-      "show.</p>" +
+      "the line, without anchors that lie outside; above the dotted rule one configuration alone "
+      "would show.</p>" +
       stored;
   if (!farther.empty()) {
     text += fmt::format(

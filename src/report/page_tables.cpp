@@ -155,8 +155,7 @@ std::string times_section(const PlanData& plan) {
          duration(record->prepare_ns)});
   }
   return "<h3>Times</h3><p>Every timed frame is a tick, its quartiles a box. “In a loop” is the "
-         "wall "
-         "clock of frames drawn back to back.</p>" +
+         "wall clock of frames drawn back to back.</p>" +
          chart(plan.anchor + "-times", time_chart(plan)) +
          folded("The numbers", table(rows, "times")) + taken_over(plan);
 }

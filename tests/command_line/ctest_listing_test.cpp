@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include "program.hpp"
@@ -19,8 +18,7 @@ std::string tests_of(const Program& program, const std::string& plan,
   const Result listed =
       program.run("ctest " + plan + " --out tests.cmake --folder .", "{}", wrapper);
   EXPECT_EQ(listed.code, 0) << listed.output;
-  std::ifstream in(program.folder() / "tests.cmake");
-  return {std::istreambuf_iterator<char>(in), {}};
+  return program.read("tests.cmake");
 }
 
 // Errors, orders, counters and pictures need no times.

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -14,11 +13,6 @@ namespace triptych::command_line {
 namespace {
 
 using testing::HasSubstr;
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 class ReportTest : public testing::Test {
  protected:
@@ -32,7 +26,7 @@ class ReportTest : public testing::Test {
     const Result result =
         program_.run("report --store s.sqlite --baselines b --out page.html " + more);
     EXPECT_EQ(result.code, 0) << result.output;
-    return text_of(program_.folder() / "page.html");
+    return program_.read("page.html");
   }
 
   Program program_;
@@ -77,7 +71,7 @@ TEST_F(ReportTest, BenchmarkJsonHoldsEveryPlan) {
   measure("anchors/frozen");
   measure(std::string("volume/quick") + small);
   static_cast<void>(report("--benchmark-json benchmark.json"));
-  const auto json = nlohmann::json::parse(text_of(program_.folder() / "benchmark.json"));
+  const auto json = nlohmann::json::parse(program_.read("benchmark.json"));
   EXPECT_TRUE(json.at("context").contains("device null:scripted"));
   std::set<std::string> plans;
   for (const auto& entry : json.at("benchmarks")) {

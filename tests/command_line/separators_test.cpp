@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -25,11 +24,6 @@ class Separators : public testing::Test {
 
   static void expect_says(const Result& result, std::string_view text) {
     EXPECT_NE(result.output.find(text), std::string::npos) << result.output;
-  }
-
-  [[nodiscard]] std::string read(const std::string& name) const {
-    std::ifstream in(program.folder() / name);
-    return {std::istreambuf_iterator<char>(in), {}};
   }
 
   // Of the finding about the configuration of this data in the gate's JSON.
@@ -66,17 +60,17 @@ TEST_F(Separators, RunAcceptGateReport) {
       "gate plan.yaml --check counters --baselines b --store s.sqlite --junit j.xml --json");
   EXPECT_EQ(verdict(gate, "a%2Cb%3Dc.nrrd"), "pass") << gate.output;
   EXPECT_EQ(verdict(gate, "field.nrrd"), "cannot_judge") << gate.output;
-  expect_says({.output = read("j.xml")}, "data=a%2Cb%3Dc.nrrd,");
+  expect_says({.output = program.read("j.xml")}, "data=a%2Cb%3Dc.nrrd,");
   const Result report = program.run("report --store s.sqlite --out page.html");
   ASSERT_EQ(report.code, 0) << report.output;
-  EXPECT_NE(read("page.html").find("data=a,b=c.nrrd"), std::string::npos);
+  EXPECT_NE(program.read("page.html").find("data=a,b=c.nrrd"), std::string::npos);
 }
 
 TEST_F(Separators, Render) {
   const Result drawn = program.run(
       "render volume --device null:scripted --set data=a%2Cb=c.nrrd --set viewport=16 --out out");
   ASSERT_EQ(drawn.code, 0) << drawn.output;
-  expect_says({.output = read("out/frame.json")}, "\"data\": \"a,b=c.nrrd\"");
+  expect_says({.output = program.read("out/frame.json")}, "\"data\": \"a,b=c.nrrd\"");
 }
 
 }  // namespace

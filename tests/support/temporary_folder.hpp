@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -25,6 +26,11 @@ class TemporaryFolder : public core::TemporaryFolder {
   }
   std::filesystem::path write(const std::string& name, std::span<const std::byte> bytes) const {
     return write(name, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  }
+  // All of a file in the folder; empty where there is none.
+  [[nodiscard]] std::string read(const std::string& name) const {
+    std::ifstream in(path() / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
   }
 };
 

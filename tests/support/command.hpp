@@ -1,0 +1,31 @@
+#pragma once
+// A command of the shell, with what it said.
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+namespace triptych::test {
+
+struct Result {
+  int code = -1;       // 128 and the signal's number where one ended it
+  std::string output;  // both streams
+};
+
+inline Result run_command(const std::string& command) {
+  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("cannot start " + command);
+  Result result;
+  std::array<char, 4096> bytes{};
+  while (const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), pipe)) {
+    result.output.append(bytes.data(), got);
+  }
+  const int status = ::pclose(pipe);
+  result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return result;
+}
+
+}  // namespace triptych::test
