@@ -60,7 +60,7 @@ class Description {
       throw core::InputError(
           place, fmt::format("unknown key '{}'; expected ObjectFileName, Resolution, Format, "
                              "SliceThickness or Endianness",
-                             trimmed(line.substr(0, colon))));
+                             quotable(trimmed(line.substr(0, colon)))));
     }
     const Entry entry{std::string(trimmed(line.substr(colon + 1))), place};
     if (!entries_.emplace(key, entry).second) {
@@ -86,14 +86,15 @@ ScalarType parse_format(const Entry& entry) {
   throw core::InputError(
       entry.place, fmt::format("unknown format '{}'; expected UCHAR, CHAR, USHORT, SHORT, FLOAT or "
                                "DOUBLE",
-                               entry.value));
+                               quotable(entry.value)));
 }
 
 bool parse_endianness(const Entry* entry) {
   if (entry == nullptr || lower_case(entry->value) == "little") return false;
   if (lower_case(entry->value) == "big") return true;
   throw core::InputError(
-      entry->place, fmt::format("unknown endianness '{}'; expected LITTLE or BIG", entry->value));
+      entry->place,
+      fmt::format("unknown endianness '{}'; expected LITTLE or BIG", quotable(entry->value)));
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ Volume read_dat(const std::filesystem::path& file) {
   volume.size = parse_sizes(resolution.value, resolution.place);
   volume.type = parse_format(description.require("format", "Format"));
   if (const Entry* spacing = description.find("slicethickness")) {
-    volume.spacing = parse_spacings(spacing->value, spacing->place);
+    volume.spacing = parse_spacings(spacing->value, volume.size, spacing->place);
   }
   RawVoxels source;
   source.file = data_file_beside(file, data.value, data.place);

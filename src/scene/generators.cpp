@@ -212,15 +212,8 @@ constexpr std::array<Generator, 8> generators{{
     {{"gaussian_blob", "a Gaussian: closed form for every ray"}, gaussian_blob},
 }};
 
-}  // namespace
-
-std::vector<GeneratorInfo> volume_generators() {
-  std::vector<GeneratorInfo> infos;
-  for (const Generator& generator : generators) infos.push_back(generator.info);
-  return infos;
-}
-
-Volume generate_volume(std::string_view name, std::array<int, 3> size) {
+// Throws InputError for what it cannot make.
+const Generator& generator_of(std::string_view name, std::array<int, 3> size) {
   for (const int n : size) {
     if (n < 1 || n > largest_side) {
       throw core::InputError(
@@ -235,7 +228,23 @@ Volume generate_volume(std::string_view name, std::array<int, 3> size) {
     throw core::InputError(
         fmt::format("unknown volume generator '{}'; expected one of{}", name, known));
   }
-  Volume volume = found->make(size);
+  return *found;
+}
+
+}  // namespace
+
+std::vector<GeneratorInfo> volume_generators() {
+  std::vector<GeneratorInfo> infos;
+  for (const Generator& generator : generators) infos.push_back(generator.info);
+  return infos;
+}
+
+void check_volume_generator(std::string_view name, std::array<int, 3> size) {
+  static_cast<void>(generator_of(name, size));
+}
+
+Volume generate_volume(std::string_view name, std::array<int, 3> size) {
+  Volume volume = generator_of(name, size).make(size);
   const bool cube = size[0] == size[1] && size[1] == size[2];
   volume.name = cube ? fmt::format("generate:{}:{}", name, size[0])
                      : fmt::format("generate:{}:{}x{}x{}", name, size[0], size[1], size[2]);

@@ -41,8 +41,10 @@ struct GeneratorInfo {
 // The eight above, in that order.
 [[nodiscard]] std::vector<GeneratorInfo> volume_generators();
 
-// Throws InputError for an unknown name or a size outside 1…4096 per axis. The volume's name is
-// generate:NAME:SIZE.
+// Throws InputError for an unknown name or a size outside 1…4096 per axis; makes nothing.
+void check_volume_generator(std::string_view name, std::array<int, 3> size);
+
+// Throws as check_volume_generator does. The volume's name is generate:NAME:SIZE.
 [[nodiscard]] Volume generate_volume(std::string_view name, std::array<int, 3> size);
 
 }  // namespace triptych::scene

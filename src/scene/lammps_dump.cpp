@@ -112,7 +112,7 @@ std::string_view read_headers(LineReader& reader, Frame& frame) {
   for (;;) {
     const std::string_view line = reader.require("ITEM: ATOMS");
     if (!line.starts_with(item)) {
-      reader.reject(fmt::format("expected 'ITEM: …', found '{}'", line.substr(0, 40)));
+      reader.reject(fmt::format("expected 'ITEM: …', found '{}'", quotable(line)));
     }
     const std::string_view header = line.substr(item.size());
     if (header.starts_with("ATOMS")) return header.substr(5);

@@ -47,13 +47,14 @@ void LineReader::reject_at(int line, const std::string& message) const {
 
 double LineReader::number(std::string_view word, std::string_view what) const {
   const auto value = parse_number<double>(trimmed(word));
-  if (!value) reject(fmt::format("{}: expected a number, found '{}'", what, trimmed(word)));
+  if (!value)
+    reject(fmt::format("{}: expected a number, found '{}'", what, quotable(trimmed(word))));
   return *value;
 }
 
 std::uint64_t LineReader::count(std::string_view word, std::string_view what) const {
   const auto value = parse_number<std::uint64_t>(trimmed(word));
-  if (!value) reject(fmt::format("expected {}, found '{}'", what, trimmed(word)));
+  if (!value) reject(fmt::format("expected {}, found '{}'", what, quotable(trimmed(word))));
   if (*value > most_particles) {
     reject(fmt::format("{} particles are too many; at most {}", *value, most_particles));
   }
@@ -62,7 +63,8 @@ std::uint64_t LineReader::count(std::string_view word, std::string_view what) co
 
 std::int64_t LineReader::integer(std::string_view word, std::string_view what) const {
   const auto value = parse_number<std::int64_t>(trimmed(word));
-  if (!value) reject(fmt::format("{}: expected a whole number, found '{}'", what, trimmed(word)));
+  if (!value)
+    reject(fmt::format("{}: expected a whole number, found '{}'", what, quotable(trimmed(word))));
   return *value;
 }
 

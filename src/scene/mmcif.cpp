@@ -39,9 +39,12 @@ class Tokens {
     return ahead_;
   }
   void take() { ahead_.reset(); }
+  // Whether a line that begins with '#' came before the word, or the end, that was last seen.
+  [[nodiscard]] bool after_mark() const { return after_mark_; }
 
  private:
   std::optional<Token> read() {
+    after_mark_ = false;
     for (;;) {
       const std::size_t begin = rest_.find_first_not_of(" \t");
       if (begin != std::string_view::npos && rest_[begin] != '#') {
@@ -54,6 +57,7 @@ class Tokens {
         return std::nullopt;
       }
       rest_ = *line;
+      if (rest_.starts_with('#')) after_mark_ = true;
       if (rest_.starts_with(';')) return text_field();
     }
   }
@@ -92,6 +96,7 @@ class Tokens {
   std::string_view rest_;  // of the current line
   std::optional<Token> ahead_;
   bool ended_ = false;
+  bool after_mark_ = false;
 };
 
 // Where the columns that matter stand in a row.
@@ -177,12 +182,19 @@ ParticleSet read_rows(Tokens& tokens, const Columns& columns, std::uint64_t fram
 
 ParticleSet read_mmcif(LineReader& reader, std::uint64_t frame, ColourKind colour) {
   Tokens tokens(reader);
+  bool closes_parts = false;
   while (tokens.peek()) {
-    const bool loop = tokens.peek()->is_keyword() && lower_case(tokens.peek()->text) == "loop_";
+    const std::string word = tokens.peek()->is_keyword() ? lower_case(tokens.peek()->text) : "";
     tokens.take();
-    if (!loop) continue;
+    // Whoever closes the heading with '#' closes every part; others only put it before each.
+    if (word.starts_with("data_")) closes_parts = tokens.peek() && tokens.after_mark();
+    if (word != "loop_") continue;
     if (const auto columns = read_columns(tokens)) {
-      return read_rows(tokens, *columns, frame, colour, reader);
+      ParticleSet set = read_rows(tokens, *columns, frame, colour, reader);
+      if (closes_parts && !tokens.peek() && !tokens.after_mark()) {
+        reader.reject("the file ends here, where '#' was expected");
+      }
+      return set;
     }
   }
   reader.reject(fmt::format("expected a loop over {}, found none", category));

@@ -51,7 +51,7 @@ class Tree {
     const auto below = range.first(middle);
     const auto above = range.subspan(middle + 1);
     search(offset < 0 ? below : above, (axis + 1) % 3, from, best);
-    if (offset * offset <= best) search(offset < 0 ? above : below, (axis + 1) % 3, from, best);
+    if (offset * offset < best) search(offset < 0 ? above : below, (axis + 1) % 3, from, best);
   }
 
   std::span<Place> places_;
@@ -62,7 +62,8 @@ class Tree {
 std::optional<double> median_nearest_distance(std::vector<Place> places) {
   constexpr std::size_t most_asked = 100'000;
   std::erase_if(places, [](const Place& place) {
-    return !std::ranges::all_of(place, [](double x) { return std::isfinite(x); });
+    return !std::ranges::all_of(place,
+                                [](double x) { return std::isfinite(static_cast<float>(x)); });
   });
   std::ranges::sort(places);
   places.erase(std::unique(places.begin(), places.end()), places.end());

@@ -148,7 +148,8 @@ void Header::add(std::string_view line, const core::FilePlace& place) {
   if (line.substr(colon).starts_with(":=")) return;
   const std::string name = canonical(line.substr(0, colon));
   if (name != "sample units" && std::find(known.begin(), known.end(), name) == known.end()) {
-    throw core::InputError(place, fmt::format("unknown NRRD field '{}'", line.substr(0, colon)));
+    throw core::InputError(place,
+                           fmt::format("unknown NRRD field '{}'", quotable(line.substr(0, colon))));
   }
   if (!fields_.emplace(name, Field{std::string(trimmed(line.substr(colon + 1))), place}).second) {
     throw core::InputError(place, fmt::format("field '{}' is given twice", name));
@@ -180,7 +181,7 @@ ScalarType parse_type(const Field& field) {
       field.place,
       fmt::format(
           "type '{}' is not supported; expected int8, uint8, int16, uint16, float or double",
-          field.value));
+          quotable(field.value)));
 }
 
 RawEncoding parse_encoding(const Field& field) {
@@ -189,7 +190,7 @@ RawEncoding parse_encoding(const Field& field) {
   if (name == "gzip" || name == "gz") return RawEncoding::gzip;
   throw core::InputError(
       field.place,
-      fmt::format("encoding '{}' is not supported; expected raw or gzip", field.value));
+      fmt::format("encoding '{}' is not supported; expected raw or gzip", quotable(field.value)));
 }
 
 bool parse_big_endian(const Header& header, ScalarType type) {
@@ -202,8 +203,8 @@ bool parse_big_endian(const Header& header, ScalarType type) {
   const std::string name = lower_case(field->value);
   if (name == "little") return false;
   if (name == "big") return true;
-  throw core::InputError(field->place,
-                         fmt::format("endian '{}'; expected little or big", field->value));
+  throw core::InputError(
+      field->place, fmt::format("endian '{}'; expected little or big", quotable(field->value)));
 }
 
 using Vector = std::array<double, 3>;
@@ -226,7 +227,8 @@ Vector take_vector(std::string_view& text, const core::FilePlace& place) {
   for (std::size_t c = 0; c < vector.size(); ++c) {
     const auto number = parse_number<double>(words[c]);
     if (!number || !std::isfinite(*number)) {
-      throw core::InputError(place, fmt::format("'{}'; expected a finite number", words[c]));
+      throw core::InputError(place,
+                             fmt::format("'{}'; expected a finite number", quotable(words[c])));
     }
     vector.at(c) = *number;
   }
@@ -237,17 +239,18 @@ double dot(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-std::array<double, 3> parse_directions(const Field& field) {
+std::array<double, 3> parse_directions(const Field& field, const std::array<int, 3>& size) {
   constexpr double largest_cosine = 1e-3;
   std::string_view text = field.value;
   std::array<Vector, 3> axes{};
   std::array<double, 3> spacing{};
   for (std::size_t i = 0; i < 3; ++i) {
     axes.at(i) = take_vector(text, field.place);
-    spacing.at(i) = usable_spacing(std::sqrt(dot(axes.at(i), axes.at(i))), field.place);
+    spacing.at(i) = usable_spacing(std::sqrt(dot(axes.at(i), axes.at(i))), size.at(i), field.place);
   }
   if (!trimmed(text).empty()) {
-    throw core::InputError(field.place, fmt::format("unexpected '{}' after three vectors", text));
+    throw core::InputError(field.place,
+                           fmt::format("unexpected '{}' after three vectors", quotable(text)));
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
@@ -261,22 +264,22 @@ std::array<double, 3> parse_directions(const Field& field) {
   return spacing;
 }
 
-std::array<double, 3> parse_spacing(const Header& header) {
+std::array<double, 3> parse_spacing(const Header& header, const std::array<int, 3>& size) {
   const Field* spacings = header.find("spacings");
   const Field* directions = header.find("space directions");
   if (spacings != nullptr && directions != nullptr) {
     throw core::InputError(directions->place,
                            "'space directions' and 'spacings' exclude each other");
   }
-  if (directions != nullptr) return parse_directions(*directions);
-  if (spacings != nullptr) return parse_spacings(spacings->value, spacings->place);
+  if (directions != nullptr) return parse_directions(*directions, size);
+  if (spacings != nullptr) return parse_spacings(spacings->value, size, spacings->place);
   return {1, 1, 1};
 }
 
 void require_three_axes(const Field& dimension) {
   if (parse_number<int>(dimension.value) != 3) {
-    throw core::InputError(dimension.place,
-                           fmt::format("dimension '{}'; expected 3 axes", dimension.value));
+    throw core::InputError(
+        dimension.place, fmt::format("dimension '{}'; expected 3 axes", quotable(dimension.value)));
   }
 }
 
@@ -284,7 +287,8 @@ std::int64_t parse_skip(const Field* field, std::int64_t lowest, std::string_vie
   if (field == nullptr) return 0;
   const auto count = parse_number<std::int64_t>(field->value);
   if (!count || *count < lowest) {
-    throw core::InputError(field->place, fmt::format("'{}'; expected {}", field->value, expected));
+    throw core::InputError(field->place,
+                           fmt::format("'{}'; expected {}", quotable(field->value), expected));
   }
   return *count;
 }
@@ -340,7 +344,7 @@ Volume read_nrrd(const std::filesystem::path& file) {
   volume.type = parse_type(header.require("type"));
   const Field& sizes = header.require("sizes");
   volume.size = parse_sizes(sizes.value, sizes.place);
-  volume.spacing = parse_spacing(header);
+  volume.spacing = parse_spacing(header, volume.size);
   RawVoxels source = locate(header, file);
   source.big_endian = parse_big_endian(header, volume.type);
   read_voxels(volume, source);

@@ -22,7 +22,12 @@ namespace {
 
 constexpr std::string_view generator_prefix = "generate:";
 
-ParticleSet generate(std::string_view data, ColourKind colour, const Progress& progress) {
+struct Generated {
+  std::string_view name;
+  std::uint64_t count;
+};
+
+Generated parse_generated(std::string_view data) {
   const std::string_view rest = data.substr(generator_prefix.size());
   const std::size_t colon = rest.find(':');
   const auto count = colon == std::string_view::npos
@@ -32,7 +37,7 @@ ParticleSet generate(std::string_view data, ColourKind colour, const Progress& p
     throw core::InputError(
         fmt::format("'{}': expected generate:NAME:COUNT with a whole number", data));
   }
-  return generate_particles(rest.substr(0, colon), *count, colour, progress);
+  return {rest.substr(0, colon), *count};
 }
 
 struct Source {
@@ -109,7 +114,10 @@ ParticleSet read(const Source& source, ColourKind colour, const Progress& progre
 ParticleSet load_particles(std::string_view data, ColourKind colour,
                            const std::vector<std::filesystem::path>& folders,
                            const Progress& progress) {
-  if (data.starts_with(generator_prefix)) return generate(data, colour, progress);
+  if (data.starts_with(generator_prefix)) {
+    const auto [name, count] = parse_generated(data);
+    return generate_particles(name, count, colour, progress);
+  }
   const auto source = find_source(data, folders);
   if (!source) {
     std::string where;
@@ -121,6 +129,12 @@ ParticleSet load_particles(std::string_view data, ColourKind colour,
   set.hash = particle_hash(set);
   if (progress) progress(1);
   return set;
+}
+
+void check_generated_particles(std::string_view data) {
+  if (!data.starts_with(generator_prefix)) return;
+  const auto [name, count] = parse_generated(data);
+  check_particle_generator(name, count);
 }
 
 bool particles_present(std::string_view data, const std::vector<std::filesystem::path>& folders) {

@@ -298,17 +298,8 @@ constexpr std::array<Generator, 7> generators{{
     {{"hidden", "the wall of a tenth as many, the others behind it"}, hidden},
 }};
 
-}  // namespace
-
-std::vector<GeneratorInfo> particle_generators() {
-  std::vector<GeneratorInfo> infos;
-  infos.reserve(generators.size());
-  for (const Generator& generator : generators) infos.push_back(generator.info);
-  return infos;
-}
-
-ParticleSet generate_particles(std::string_view name, std::uint64_t count, ColourKind colour,
-                               const Progress& progress) {
+// Throws InputError for what it cannot make.
+const Generator& generator_of(std::string_view name, std::uint64_t count) {
   const auto found = std::ranges::find(
       generators, name, [](const Generator& generator) { return generator.info.name; });
   if (found == generators.end()) {
@@ -321,8 +312,27 @@ ParticleSet generate_particles(std::string_view name, std::uint64_t count, Colou
     throw core::InputError(
         fmt::format("generate:{}:{}: expected a count from 1 to {}", name, count, largest_count));
   }
+  return *found;
+}
+
+}  // namespace
+
+std::vector<GeneratorInfo> particle_generators() {
+  std::vector<GeneratorInfo> infos;
+  infos.reserve(generators.size());
+  for (const Generator& generator : generators) infos.push_back(generator.info);
+  return infos;
+}
+
+void check_particle_generator(std::string_view name, std::uint64_t count) {
+  static_cast<void>(generator_of(name, count));
+}
+
+ParticleSet generate_particles(std::string_view name, std::uint64_t count, ColourKind colour,
+                               const Progress& progress) {
+  const Generator& generator = generator_of(name, count);
   Maker maker(count, colour, progress);
-  found->make(maker);
+  generator.make(maker);
   ParticleSet set = maker.take();
   set.name = fmt::format("generate:{}:{}", name, count);
   set.hash = particle_hash(set);

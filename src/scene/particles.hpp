@@ -73,6 +73,10 @@ using Progress = std::function<void(double share)>;
                                          const std::vector<std::filesystem::path>& folders = {},
                                          const Progress& progress = {});
 
+// Throws as load_particles does of generated particles that cannot be made, without making them.
+// Files are left to load_particles.
+void check_generated_particles(std::string_view data);
+
 // Whether `data` names something that can be loaded here; false for a file that is not present.
 [[nodiscard]] bool particles_present(std::string_view data,
                                      const std::vector<std::filesystem::path>& folders = {});

@@ -14,11 +14,11 @@ std::string_view columns(std::string_view line, std::size_t first, std::size_t l
   return line.size() < first ? std::string_view{} : line.substr(first - 1, last - first + 1);
 }
 
-// The element in its own columns, or, in files older than those, from the name: its first two
-// columns hold the symbol, adjusted to the right.
+// The element in its own columns, or, in files older than those, which have other things or nothing
+// there, from the name: its first two columns hold the symbol, adjusted to the right.
 std::string element_of(std::string_view line) {
   const std::string_view symbol = trimmed(columns(line, 77, 78));
-  if (!symbol.empty()) return proper_symbol(symbol);
+  if (atomic_number(symbol)) return proper_symbol(symbol);
   const std::string_view name = columns(line, 13, 16);
   const bool two_letters = name.front() != ' ' && (name.front() < '0' || name.front() > '9');
   if (two_letters && trimmed(name).size() < 4 && atomic_number(name.substr(0, 2))) {
@@ -45,7 +45,8 @@ ParticleSet read_pdb(LineReader& reader, std::uint64_t frame, ColourKind colour)
   Atoms atoms;
   std::uint64_t models = 0;  // that have begun
   bool in_model = false;
-  bool is_entry = false;
+  bool is_entry = false;     // of the PDB
+  bool has_heading = false;  // of a whole structure; those with models may leave it at their ends
   bool ended = false;
   while (const auto line = reader.next()) {
     const std::string_view record = trimmed(columns(*line, 1, 6));
@@ -63,12 +64,15 @@ ParticleSet read_pdb(LineReader& reader, std::uint64_t frame, ColourKind colour)
       in_model = false;
     } else if (record == "HEADER") {
       is_entry = true;
+    } else if (record == "TITLE" || record == "CRYST1") {
+      has_heading = true;
     } else if (record == "END") {
       ended = true;
     }
   }
   if (in_model) reader.reject("the file ends here, where ENDMDL was expected");
-  if (is_entry && !ended) reader.reject("the file ends here, where END was expected");
+  const bool needs_end = is_entry || (has_heading && models == 0);
+  if (needs_end && !ended) reader.reject("the file ends here, where END was expected");
   if (frame > 0 && frame >= models) {
     reader.reject(fmt::format("there is no frame {}; the file has {}", frame,
                               std::max<std::uint64_t>(models, 1)));

@@ -81,6 +81,19 @@ void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed, I
   }
 }
 
+// Room is set aside for all of them, so that none is copied, but taken only as they come: a claim
+// alone costs no memory.
+std::size_t inflate_into(std::vector<std::byte>& voxels, std::uint64_t needed, Inflater& inflater) {
+  constexpr std::uint64_t piece = std::uint64_t{16} << 20;
+  voxels.reserve(needed);
+  for (;;) {
+    const std::size_t before = voxels.size();
+    voxels.resize(before + std::min(piece, needed - before));
+    const std::size_t got = inflater.read(std::span(voxels).subspan(before));
+    if (before + got < voxels.size() || voxels.size() == needed) return before + got;
+  }
+}
+
 void read_gzip(Volume& volume, const RawVoxels& source, std::uint64_t needed, InputFile& file) {
   // Deflate's densest code spends one bit on 129 bytes; more cannot come out of this file.
   constexpr std::uint64_t largest_ratio = 1032;
@@ -97,8 +110,7 @@ void read_gzip(Volume& volume, const RawVoxels& source, std::uint64_t needed, In
   Inflater inflater([&file](std::span<std::byte> bytes) { return file.read(bytes); },
                     source.file.string());
   inflater.skip(skip);
-  volume.voxels.resize(needed);
-  const std::size_t filled = inflater.read(volume.voxels);
+  const std::size_t filled = inflate_into(volume.voxels, needed, inflater);
   if (filled != needed) {
     throw core::InputError(
         source.sizes_place,
@@ -167,22 +179,31 @@ std::array<int, 3> parse_sizes(std::string_view text, const core::FilePlace& pla
     if (!n || *n < 1) {
       throw core::InputError(
           place, fmt::format("size '{}' along axis {}; expected a whole number from 1 to {}",
-                             words[axis], axis, std::numeric_limits<int>::max()));
+                             quotable(words[axis]), axis, std::numeric_limits<int>::max()));
     }
     size.at(axis) = *n;
   }
   return size;
 }
 
-double usable_spacing(double spacing, const core::FilePlace& place) {
+double usable_spacing(double spacing, int size, const core::FilePlace& place) {
+  constexpr double shortest = 1e-30;
+  constexpr double longest = 1e30;
   if (!(spacing > 0 && std::isfinite(spacing))) {
     throw core::InputError(place,
                            fmt::format("spacing {}; expected a positive, finite number", spacing));
   }
+  if (spacing < shortest || spacing * size > longest) {
+    throw core::InputError(place,
+                           fmt::format("spacing {} of {} voxels; expected a box of lengths from {} "
+                                       "to {}, which single precision can hold",
+                                       spacing, size, shortest, longest));
+  }
   return spacing;
 }
 
-std::array<double, 3> parse_spacings(std::string_view text, const core::FilePlace& place) {
+std::array<double, 3> parse_spacings(std::string_view text, const std::array<int, 3>& size,
+                                     const core::FilePlace& place) {
   const auto words = split_words(text);
   if (words.size() != 3) {
     throw core::InputError(place, fmt::format("expected 3 spacings, got {}", words.size()));
@@ -191,10 +212,10 @@ std::array<double, 3> parse_spacings(std::string_view text, const core::FilePlac
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto value = parse_number<double>(words[axis]);
     if (!value) {
-      throw core::InputError(
-          place, fmt::format("spacing '{}'; expected a positive, finite number", words[axis]));
+      throw core::InputError(place, fmt::format("spacing '{}'; expected a positive, finite number",
+                                                quotable(words[axis])));
     }
-    spacing.at(axis) = usable_spacing(*value, place);
+    spacing.at(axis) = usable_spacing(*value, size.at(axis), place);
   }
   return spacing;
 }
@@ -204,7 +225,7 @@ std::filesystem::path data_file_beside(const std::filesystem::path& header, std:
   const std::filesystem::path file = header.parent_path() / std::filesystem::path(name);
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(file, unreadable)) {
-    throw core::InputError(place, fmt::format("the data file '{}' is not there", name));
+    throw core::InputError(place, fmt::format("the data file '{}' is not there", quotable(name)));
   }
   return file;
 }

@@ -26,17 +26,20 @@ struct RawVoxels {
 };
 
 // Fills volume.voxels, whose size and type are set, and its range from the finite voxels (0..0 when
-// there is none). One copy of the voxels is held, and none is allocated before the file is known to
-// be long enough. Throws InputError when the data are shorter or longer than size and type say or
-// the gzip stream is broken, IoError when the file cannot be read.
+// there is none). One copy of the voxels is held. Of a plain file none is allocated before it is
+// known to be long enough; of a compressed one memory is used as the voxels come out of it. Throws
+// InputError when the data are shorter or longer than size and type say or the gzip stream is
+// broken, IoError when the file cannot be read.
 void read_voxels(Volume& volume, const RawVoxels& source);
 
 // Parts of a header that all formats share; errors carry `place`.
 [[nodiscard]] std::array<int, 3> parse_sizes(std::string_view text, const core::FilePlace& place);
 [[nodiscard]] std::array<double, 3> parse_spacings(std::string_view text,
+                                                   const std::array<int, 3>& size,
                                                    const core::FilePlace& place);
-// A spacing must be a positive number, neither NaN nor infinite.
-[[nodiscard]] double usable_spacing(double spacing, const core::FilePlace& place);
+// A spacing must be a positive number, and neither it nor the length of all `size` voxels along its
+// axis may come near the ends of single precision.
+[[nodiscard]] double usable_spacing(double spacing, int size, const core::FilePlace& place);
 
 // The file that a header names, relative to the header's folder. Throws InputError when it is not
 // there.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/text.hpp"
+
 namespace triptych::scene {
 namespace {
 
@@ -47,6 +49,18 @@ std::string lower_case(std::string_view text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return lower;
+}
+
+std::string quotable(std::string_view word) {
+  constexpr int longest = 40;
+  std::string text;
+  for (int i = 0; i < longest && !word.empty(); ++i) {
+    const std::size_t length = core::utf8_length(word);
+    const std::string_view character = word.substr(0, length);
+    text += length > 0 && core::is_line(character) ? character : core::replacement_character;
+    word.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return word.empty() ? text : text + "…";
 }
 
 }  // namespace triptych::scene

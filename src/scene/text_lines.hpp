@@ -19,6 +19,10 @@ namespace triptych::scene {
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 [[nodiscard]] std::string lower_case(std::string_view text);
 
+// A word of a file as a message quotes it: on one line, at most 40 characters of it, and none that
+// a terminal would act on.
+[[nodiscard]] std::string quotable(std::string_view word);
+
 // The number that the whole word spells, if it does and the type can hold it.
 template <typename Number>
 [[nodiscard]] std::optional<Number> parse_number(std::string_view word) {

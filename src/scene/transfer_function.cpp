@@ -130,12 +130,24 @@ Entries from_text(std::string_view text, const std::string& file) {
   return entries;
 }
 
+// Whether bytes are the start of a text: lines, and all of them of comments or of what numbers are
+// written with.
+bool starts_a_text(std::string_view bytes) {
+  const auto lines = split_lines(bytes);
+  return lines.size() > 1 && std::ranges::all_of(lines, [](std::string_view line) {
+           if (line.find_first_not_of("0123456789+-.eE \t") == std::string_view::npos) return true;
+           const auto is_control = [](char c) { return c >= 0 && c < ' ' && c != '\t'; };
+           return line.starts_with('#') && std::ranges::none_of(line, is_control);
+         });
+}
+
 Entries from_file(const std::filesystem::path& file) {
   const std::vector<std::byte> bytes = core::read_file(file);
-  // No text of 256 entries is this short: four digits, three blanks and a line end each make 2047
-  // bytes.
-  if (bytes.size() == 4 * std::tuple_size_v<Entries>) return from_bytes(bytes);
-  return from_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  // A text of 256 entries is longer, as four digits, three blanks and a line end each make 2047
+  // bytes: but one that was cut off may be of any length.
+  const bool is_table = bytes.size() == 4 * std::tuple_size_v<Entries> && !starts_a_text(text);
+  return is_table ? from_bytes(bytes) : from_text(text, file.string());
 }
 
 }  // namespace

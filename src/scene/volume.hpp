@@ -74,6 +74,10 @@ struct VoxelGrid {
 [[nodiscard]] Volume load_volume(std::string_view data,
                                  const std::vector<std::filesystem::path>& folders = {});
 
+// Throws as load_volume does of a generated volume that cannot be made, without making it. Files
+// are left to load_volume.
+void check_generated_volume(std::string_view data);
+
 // Whether `data` names something that can be loaded here; false for a file that is not present.
 [[nodiscard]] bool is_present(std::string_view data,
                               const std::vector<std::filesystem::path>& folders = {});

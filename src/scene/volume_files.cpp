@@ -37,17 +37,25 @@ std::array<int, 3> parse_size(std::string_view text, std::string_view data) {
   return size;
 }
 
-Volume generate(std::string_view data) {
+struct Generated {
+  std::string_view name;
+  std::array<int, 3> size;
+};
+
+Generated parse_generated(std::string_view data) {
   const std::string_view rest = data.substr(generator_prefix.size());
   const std::size_t colon = rest.find(':');
   if (colon == std::string_view::npos) reject_size(data);
-  return generate_volume(rest.substr(0, colon), parse_size(rest.substr(colon + 1), data));
+  return {rest.substr(0, colon), parse_size(rest.substr(colon + 1), data)};
 }
 
 }  // namespace
 
 Volume load_volume(std::string_view data, const std::vector<std::filesystem::path>& folders) {
-  if (data.starts_with(generator_prefix)) return generate(data);
+  if (data.starts_with(generator_prefix)) {
+    const auto [name, size] = parse_generated(data);
+    return generate_volume(name, size);
+  }
   const auto file = find_file(data, folders);
   if (!file) {
     std::string where;
@@ -68,6 +76,12 @@ Volume load_volume(std::string_view data, const std::vector<std::filesystem::pat
   }
   volume.name = data;
   return volume;
+}
+
+void check_generated_volume(std::string_view data) {
+  if (!data.starts_with(generator_prefix)) return;
+  const auto [name, size] = parse_generated(data);
+  check_volume_generator(name, size);
 }
 
 bool is_present(std::string_view data, const std::vector<std::filesystem::path>& folders) {

@@ -11,11 +11,12 @@ namespace {
 std::string element_of(std::string_view word, const LineReader& reader) {
   if (const auto number = parse_number<int>(word)) {
     const auto symbol = symbol_of(*number);
-    if (!symbol) reader.reject(fmt::format("expected an element, found '{}'", word));
+    if (!symbol) reader.reject(fmt::format("expected an element, found '{}'", quotable(word)));
     return std::string(*symbol);
   }
   const std::string_view letters = word.substr(0, word.find_first_of("0123456789_-+."));
-  if (letters.empty()) reader.reject(fmt::format("expected an element, found '{}'", word));
+  if (letters.empty())
+    reader.reject(fmt::format("expected an element, found '{}'", quotable(word)));
   return proper_symbol(letters);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -40,6 +41,23 @@ TEST(NearestNeighbours, LeaveOutEqualAndInfinitePlaces) {
   EXPECT_EQ(median_nearest_distance(places), 3);
   EXPECT_EQ(median_nearest_distance({{1, 2, 3}, {1, 2, 3}}), std::nullopt);
   EXPECT_EQ(median_nearest_distance({}), std::nullopt);
+}
+
+// Squares that overflow or vanish tell nothing of which side is nearer.
+TEST(NearestNeighbours, LeaveOutPlacesBeyondSinglePrecisionAndStayFast) {
+  std::vector<Place> places;
+  for (int i = 0; i < 1000; ++i) places.push_back({i * 0.5, 0, 0});
+  for (int i = 0; i < 2000; ++i) places.push_back({1e200 * (i + 1), 0, 0});
+  EXPECT_EQ(median_nearest_distance(places), 0.5);
+  const auto seconds_of = [](double unit) {
+    std::vector<Place> line;
+    for (int i = 0; i < 30'000; ++i) line.push_back({unit * i, unit * (i % 173), unit * (i % 71)});
+    const auto start = std::chrono::steady_clock::now();
+    static_cast<void>(median_nearest_distance(std::move(line)));
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  EXPECT_LT(seconds_of(1e-200), 10 * seconds_of(1) + 0.05);
+  EXPECT_LT(seconds_of(1e200), 10 * seconds_of(1) + 0.05);
 }
 
 TEST(NearestNeighbours, AskASampleOfMany) {

@@ -2,12 +2,15 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/random.hpp"
 #include "raw_files.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -187,6 +190,10 @@ TEST(Nrrd, BrokenHeadersNameTheirLine) {
       {with_line("spacings: 1 inf 1"), ":3: spacing inf"},
       {with_line("spacings: 1 0 1"), ":3: spacing 0"},
       {with_line("spacings: 1 -2 1"), ":3: spacing -2"},
+      {with_line("spacings: 1 1e-31 1"), ":3: spacing 1e-31 of 1 voxels; expected"},
+      {with_line("spacings: 1e31 1 1"), ":3: spacing 1e+31 of 2 voxels; expected"},
+      {with_line("spacings: 0.7e30 1 1"), ":3: spacing 7e+29 of 2 voxels; expected"},
+      {with_line("space directions: (0.7e30,0,0) (0,1,0) (0,0,1)"), ":3: spacing 7e+29 of 2 vox"},
       {with_line("spacings: 1 1"), ":3: expected 3 spacings, got 2"},
       {with_line("spacings: 1 1 one"), ":3: spacing 'one'"},
       {with_line("space directions: (1,0,0) (0,1,0)"), ":3: expected three vectors"},
@@ -199,6 +206,10 @@ TEST(Nrrd, BrokenHeadersNameTheirLine) {
       {with_line("encoding: bzip2"), ":3: encoding 'bzip2' is not supported; expected raw or gzip"},
       {with_line("encoding: txt"), ":3: encoding 'txt'"},
       {with_line("encodng: raw"), ":3: unknown NRRD field 'encodng'"},
+      {with_line(std::string(99, 'e') + ": raw"),
+       ":3: unknown NRRD field '" + std::string(40, 'e') + "…'"},
+      {with_line("encoding: r\x1b[2Jaw"), ":3: encoding 'r\uFFFD[2Jaw' is not supported"},
+      {with_line("sizes: 2 1 \x1b[2J"), ":3: size '\uFFFD[2J' along axis 2"},
       {with_line("a line of nothing"), ":3: expected 'field: value', 'key:=value' or a comment"},
       {with_line("byte skip: -2"), ":3: '-2'; expected a whole number from 0 on, or -1"},
       {with_line("byte skip: x"), ":3: 'x'"},
@@ -254,6 +265,28 @@ TEST(Nrrd, DataThatDisagreeWithTheSizesNameThatLine) {
       {huge + "\n" + gzipped("AB"),
        ":4: 9999 x 9999 x 9999 voxels of u8 need 999700029999 bytes of "},
   });
+}
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+// What the header claims is within what gzip could hold, but far from what it does.
+TEST(Nrrd, AClaimTakesNoMemoryBeforeTheDataAreThere) {
+  core::Random random(1);
+  std::string bytes(std::size_t{1} << 20, '\0');
+  for (char& byte : bytes) byte = static_cast<char>(random.uniform() * 256 - 128);
+  std::string header = minimal;
+  header.replace(header.find("raw"), 3, "gzip");
+  header.replace(header.find("2 1 1"), 5, "1024 1024 1000");
+  const std::string text = header + "\n" + gzipped(bytes);
+  const std::uint64_t before = peak_memory_bytes();
+  expect_rejected({{text,
+                    ":4: 1024 x 1024 x 1000 voxels of u8 need 1048576000 bytes of data, but "
+                    "the gzip stream in a.nrrd holds 1048576"}});
+  EXPECT_LT(peak_memory_bytes() - before, std::uint64_t{300} << 20);
 }
 
 TEST(Nrrd, BrokenGzipStreamsAreBadInput) {

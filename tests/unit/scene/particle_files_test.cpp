@@ -53,6 +53,18 @@ TEST(Pdb, TakesElementsFromNamesWhereThereAreNone) {
   EXPECT_EQ(set.spheres[2][3], 1.39F);
 }
 
+// Columns 73 to 80 held the entry and the number of the line once.
+TEST(Pdb, TakesElementsFromNamesWhereTheirColumnsHoldSomethingElse) {
+  const ParticleSet set =
+      load("a.pdb",
+           "ATOM      1  CA  THR A   1       1.000   2.000   3.000  1.00 13.79      1CRN1070\n"
+           "HETATM    2 ZN    ZN A   1       1.000   2.000   3.000  1.00 13.79      1CRN  71\n"
+           "ATOM      3  N   THR A   1       1.000   2.000   3.000  1.00 13.79          XX\n");
+  EXPECT_EQ(set.spheres[0][3], 1.7F);
+  EXPECT_EQ(set.spheres[1][3], 1.39F);
+  EXPECT_EQ(set.spheres[2][3], 1.55F);
+}
+
 TEST(Pdb, FramesAreModels) {
   const std::string atom = "ATOM      1  CA  THR A   1       1.000   2.000   3.000\n";
   const std::string text =
@@ -70,6 +82,13 @@ TEST(Pdb, RefusesBrokenFiles) {
   expect_refused("a.pdb", pdb.substr(0, 190), ":3:", "expected an atom with its place");
   expect_refused("a.pdb", replaced(pdb, "END\n", ""), ":5:", "END was expected");
   expect_refused("a.pdb", "REMARK\n", ":1:", "found none");
+  const std::string atom = "ATOM      1  CA  THR A   1       1.000   2.000   3.000\n";
+  for (const std::string head : {"TITLE     A PROTEIN\n", "CRYST1   52.000   58.600   61.900\n"}) {
+    expect_refused("a.pdb", head + atom, ":2:", "END was expected");
+    EXPECT_EQ(load("a.pdb", head + atom + "END\n").count(), 1U);
+    // Whoever writes models may leave it at their ends.
+    EXPECT_EQ(load("a.pdb", head + "MODEL        1\n" + atom + "ENDMDL\n").count(), 1U);
+  }
 }
 
 TEST(Pdb, DropsPlacesThatAreNotFinite) {
@@ -110,6 +129,20 @@ TEST(Mmcif, RefusesBrokenFiles) {
   expect_refused("a.cif", "data_X\n", ":1:", "expected a loop over _atom_site.");
   expect_refused("a.cif", "data_X\n_a\n;text\n", ":3:", "the ';' that ends a text field");
   expect_refused("a.cif", "data_X\n_a 'text\n", ":2:", "expected a closing '");
+}
+
+// The PDB closes each part with '#', the heading too.
+TEST(Mmcif, RefusesALoopThatIsCutOff) {
+  const std::string loop =
+      "loop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
+      "_atom_site.Cartn_z\nC 1 2 3\nN 4 5 6\n";
+  const std::string closing = "data_X\n# \n_entry.id X\n#\n" + loop;
+  expect_refused("a.cif", closing, ":11:", "the file ends here, where '#' was expected");
+  EXPECT_EQ(load("a.cif", closing + "#\n").count(), 2U);
+  EXPECT_EQ(load("a.cif", closing + "_entry.more 1\n").count(), 2U);
+  // Others only put it between parts, or nowhere.
+  EXPECT_EQ(load("a.cif", "# made by hand\n#\ndata_X\n_entry.id X\n#\n" + loop).count(), 2U);
+  EXPECT_EQ(load("a.cif", "data_X\n" + loop).count(), 2U);
 }
 
 const std::string gro =
@@ -212,6 +245,17 @@ TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
   EXPECT_THAT([] { static_cast<void>(load_particles("generate:uniform", ColourKind::rgba8)); },
               ThrowsMessage<core::InputError>(HasSubstr("expected generate:NAME:COUNT")));
   EXPECT_THROW(load_particles("generate:uniform:1e3", ColourKind::rgba8), core::InputError);
+}
+
+// A message is a line that a terminal can show, whatever the file holds.
+TEST(ParticleFiles, QuoteShortlyAndPrintably) {
+  const std::string quoted = "found '" + std::string(40, '7') + "…'";
+  expect_refused("a.xyz", std::string(100, '7') + "\n", ":1:", quoted);
+  expect_refused("a.xyz", "1\n\nC 0 0 " + std::string(400, '7') + "x\n", ":3:", quoted);
+  expect_refused("a.xyz", "1\n\nC 0 0 1\x1b[2Jµ\xff\x80\n",
+                 ":3:", "found '1\uFFFD[2Jµ\uFFFD\uFFFD'");
+  expect_refused("a.xyz", "1\n\n-\x7f 0 0 0\n", ":3:", "expected an element, found '-\uFFFD'");
+  expect_refused("a.dump", std::string(100, '7') + "\n", ":1:", quoted);
 }
 
 TEST(ParticleFiles, TellTheirProgressInHundredths) {

@@ -107,6 +107,26 @@ TEST(TransferFunction, BrokenFilesAreNamedWithTheirLine) {
   expect("", ": the file ends after 0 entries; expected 256");
 }
 
+// As long as a table of bytes.
+TEST(TransferFunction, TextCutOffIsNotTakenForBytes) {
+  const TemporaryFolder folder;
+  for (const std::string start : {"", "# made by hand: µ\n"}) {
+    const std::string text = (start + repeated("12 0.5 1e1 0\r\n", 256)).substr(0, 1024);
+    const auto file = folder.write("c.tf", text);
+    EXPECT_THAT([&] { (void)load_transfer_function(file.string()); },
+                ThrowsMessage<core::InputError>(HasSubstr(file.string() + ":")))
+        << start;
+  }
+  // Bytes that could be text, but for one.
+  std::string bytes = repeated("0 0\n", 256);
+  bytes[600] = '\1';
+  EXPECT_EQ(load_transfer_function(folder.write("c.rgba", bytes).string()).entries[0][0],
+            48 / 255.0F);
+  EXPECT_EQ(load_transfer_function(folder.write("d.rgba", std::string(1024, '0')).string())
+                .entries[255][3],
+            48 / 255.0F);
+}
+
 TEST(TransferFunction, UnknownNamesAreBadInput) {
   EXPECT_THAT([] { (void)load_transfer_function("hase"); },
               ThrowsMessage<core::InputError>(AllOf(HasSubstr("'hase'"), HasSubstr("surfaces"))));

@@ -1,0 +1,57 @@
+#include "core/text.hpp"
+
+namespace triptych::core {
+namespace {
+
+unsigned char byte_at(std::string_view text, std::size_t index) {
+  return index < text.size() ? static_cast<unsigned char>(text[index]) : 0;
+}
+
+bool is_continuation(unsigned char byte) {
+  return byte >= 0x80 && byte <= 0xBF;
+}
+
+// Whether the second byte may follow the first: neither a longer spelling than needed, nor half of
+// a surrogate pair, nor beyond U+10FFFF.
+bool may_follow(unsigned char first, unsigned char second) {
+  if (!is_continuation(second)) return false;
+  if (first == 0xE0) return second >= 0xA0;
+  if (first == 0xED) return second <= 0x9F;
+  if (first == 0xF0) return second >= 0x90;
+  if (first == 0xF4) return second <= 0x8F;
+  return true;
+}
+
+// C0, DEL and C1, the separators of lines and paragraphs, and what is no character in XML.
+bool is_control(std::string_view character) {
+  if (character.size() == 1) return character.front() < 0x20 || character.front() == 0x7F;
+  if (character.size() == 2) return character >= "\u0080" && character <= "\u009F";
+  return character == "\u2028" || character == "\u2029" || character == "\uFFFE" ||
+         character == "\uFFFF";
+}
+
+}  // namespace
+
+std::size_t utf8_length(std::string_view text) {
+  if (text.empty()) return 0;
+  const unsigned char first = byte_at(text, 0);
+  if (first < 0x80) return 1;
+  if (first < 0xC2 || first > 0xF4) return 0;
+  const std::size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  if (!may_follow(first, byte_at(text, 1))) return 0;
+  for (std::size_t i = 2; i < length; ++i) {
+    if (!is_continuation(byte_at(text, i))) return 0;
+  }
+  return length;
+}
+
+bool is_line(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0 || is_control(text.substr(0, length))) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+}  // namespace triptych::core
