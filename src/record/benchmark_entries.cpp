@@ -1,6 +1,7 @@
 #include "record/benchmark_entries.hpp"
 
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 
 namespace triptych::record {
 namespace {
@@ -34,7 +35,7 @@ std::string pack_benchmark_entries(const Json& entries) {
     patches.push_back(patch(before, entry));
     before = entry;
   }
-  return Json{{patches_key, std::move(patches)}}.dump();
+  return core::json_text(Json{{patches_key, std::move(patches)}});
 }
 
 Json unpack_benchmark_entries(std::string_view text) {

@@ -107,7 +107,12 @@ Outcome outcome(std::string_view name) {
 std::string Device::key() const {
   std::string key = fmt::format("{}; driver {}; API {}", one_line(id), one_line(driver_version),
                                 one_line(api_version));
-  if (!cpu_features.empty()) key += "; CPU " + one_line(cpu_features);
+  // Of a CPU device the features say what code is made; hardware of one driver differs by its name.
+  if (!cpu_features.empty()) {
+    key += "; CPU " + one_line(cpu_features);
+  } else if (!name.empty()) {
+    key += "; GPU " + one_line(name);
+  }
   for (const auto& [variable, value] : environment) {
     key += fmt::format("; {}={}", one_line(variable), one_line(value));
   }

@@ -42,7 +42,8 @@ struct Device {
   // looked. It follows from the driver and is no part of any key.
   std::map<std::string, std::string> statistics_dialect = {};
 
-  // id, driver version, API version, CPU features, environment: what timings and bits depend on.
+  // id, driver version, API version, CPU features or else the name of the hardware, environment:
+  // what timings and bits depend on.
   // One line of text; `key_hash` is a short file name made of it.
   [[nodiscard]] std::string key() const;
   [[nodiscard]] std::string key_hash() const;

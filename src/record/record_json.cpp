@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 #include "record/record.hpp"
 
 namespace triptych::record {
@@ -23,9 +24,7 @@ Json encode(double value) {
 }
 
 Json encode(const std::string& text) {
-  // nlohmann's printer is the one place that knows how to mend UTF-8; valid text comes back as it
-  // was.
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
+  return core::mended_utf8(text);
 }
 
 template <typename T>

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 #include "record/store_file.hpp"
 #include "record/store_records.hpp"
 #include "record/store_values.hpp"
@@ -16,7 +17,7 @@ using core::Json;
 // As Json prints it: text that is not UTF-8 must not stop a run (see record.hpp).
 std::string text_of(const std::map<std::string, std::string>& map, const char* field,
                     const Json& owner) {
-  return map.empty() ? "{}" : owner.at(field).dump();
+  return map.empty() ? "{}" : core::json_text(owner.at(field));
 }
 
 std::map<std::string, std::string> map_of(const std::string& text) {
@@ -85,6 +86,7 @@ struct Store::State {
       SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
       action();
       transaction.commit();
+      require_file(file, database);
     });
   }
 

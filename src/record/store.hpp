@@ -32,9 +32,11 @@ class Store {
 
   // Throws IoError (cannot open, read-only, disk full) and InputError (not a store, or of another
   // schema version: says which one it is, which one is expected and what to do). Every call waits
-  // up to `busy_limit` for another process that is writing, then throws IoError. A store in a
-  // read-only folder can be read unless its writer was killed there: its log, which then holds the
-  // last records, cannot be replayed. One Store is used by one thread at a time.
+  // up to `busy_limit` for another process that is writing, then throws IoError; so does one that
+  // writes when the file was removed or renamed meanwhile. `file` names a file, whatever SQLite
+  // would take the name for; an empty one is refused. A store in a read-only folder can be read
+  // unless its writer was killed there: its log, which then holds the last records, cannot be
+  // replayed. One Store is used by one thread at a time.
   Store(const std::filesystem::path& file, Mode mode,
         std::chrono::milliseconds busy_limit = std::chrono::seconds(10));
   ~Store();

@@ -198,9 +198,14 @@ bool has_log(const std::filesystem::path& file) {
   return !ignored && size > 0;
 }
 
+// SQLite takes ":memory:" and "file:…" for no files; what begins with a slash always is one.
+std::string file_name(const std::filesystem::path& file) {
+  return std::filesystem::absolute(file).string();
+}
+
 std::string immutable_uri(const std::filesystem::path& file) {
   std::string uri = "file:";
-  for (const char c : std::filesystem::absolute(file).string()) {
+  for (const char c : file_name(file)) {
     if (c == '%' || c == '?' || c == '#') {
       uri += fmt::format("%{:02x}", static_cast<unsigned>(c));
     } else {
@@ -217,7 +222,7 @@ int milliseconds_of(std::chrono::milliseconds limit) {
 SQLite::Database open_to_read(const std::filesystem::path& file,
                               std::chrono::milliseconds busy_limit) {
   try {
-    SQLite::Database database(file.string(), SQLite::OPEN_READONLY, milliseconds_of(busy_limit));
+    SQLite::Database database(file_name(file), SQLite::OPEN_READONLY, milliseconds_of(busy_limit));
     require_our_schema(database, file);
     return database;
   } catch (const SQLite::Exception& error) {
@@ -251,7 +256,7 @@ void create_schema(SQLite::Database& database) {
 
 SQLite::Database open_to_append(const std::filesystem::path& file,
                                 std::chrono::milliseconds busy_limit) {
-  SQLite::Database database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+  SQLite::Database database(file_name(file), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                             milliseconds_of(busy_limit));
   // SQLite opens a file that it may not write for reading, without a word.
   if (sqlite3_db_readonly(database.getHandle(), "main") == 1) {
@@ -272,6 +277,7 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
 
 SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode mode,
                                  std::chrono::milliseconds busy_limit) {
+  if (file.empty()) throw core::InputError("a store needs the name of a file");
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
     throw core::IoError(fmt::format("{}: is a folder, not a store", file.string()));
@@ -284,6 +290,16 @@ SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode 
     }
     return open_to_read(file, busy_limit);
   });
+}
+
+void require_file(const std::filesystem::path& file, const SQLite::Database& database) {
+  int moved = 0;
+  const int answer =
+      sqlite3_file_control(database.getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &moved);
+  if (answer != SQLITE_OK || moved == 0) return;
+  throw core::IoError(
+      fmt::format("{}: was removed or renamed while it was open; what is added now would be lost",
+                  file.string()));
 }
 
 void throw_store_error(const std::filesystem::path& file, const SQLite::Exception& error) {

@@ -94,8 +94,6 @@ std::int64_t seq_of(const SQLite::Database& database, const Record& r) {
 
 using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
 
-using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
-
 // Calls `read(record, row)` for every row of a table under the run's records; `columns` are those
 // behind the first, which names the record. A table that came after version 1 of the schema is
 // missing from a store that was read but never written since: its records have no such rows.

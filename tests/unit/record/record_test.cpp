@@ -74,8 +74,8 @@ TEST(RecordTest, TestIdKeepsToItsAlphabet) {
   record.device = "vulkan:lavapipe";
   EXPECT_EQ(record.test_id("image"), "volume.quick.image.vulkan:lavapipe");
   record.plan = "My Plan";
-  record.device = "opencl:PoCL#1";
-  EXPECT_EQ(record.test_id("timing"), "volume.my_plan.timing.opencl:pocl_1");
+  record.device = "opencl:PoCL#2";
+  EXPECT_EQ(record.test_id("timing"), "volume.my_plan.timing.opencl:pocl_2");
   EXPECT_THAT(record.test_id("a\"b\n"), MatchesRegex("[a-z0-9_.:-]+"));
 }
 
@@ -97,7 +97,7 @@ TEST(DeviceTest, KeyChangesWithEverythingTimingsDependOn) {
     keys.insert(other.key());
     hashes.insert(other.key_hash());
   };
-  add([](Device& d) { d.id += "#1"; });
+  add([](Device& d) { d.id += "#2"; });
   add([](Device& d) { d.driver_version += "x"; });
   add([](Device& d) { d.api_version += "x"; });
   add([](Device& d) { d.cpu_features += ",avx512"; });
@@ -116,6 +116,17 @@ TEST(DeviceTest, KeyChangesWithEverythingTimingsDependOn) {
   other.name = "as marketed";
   other.statistics_dialect.clear();
   EXPECT_EQ(other.key(), device.key());
+}
+
+// One driver serves many boards.
+TEST(DeviceTest, HardwareIsKnownByItsName) {
+  Device device = sample_device("vulkan:nvidia");
+  device.cpu_features.clear();
+  device.name = "Board 1";
+  Device other = device;
+  other.name = "Board 2";
+  EXPECT_NE(other.key(), device.key());
+  EXPECT_THAT(device.key(), HasSubstr("; GPU Board 1"));
 }
 
 TEST(DeviceTest, KeysAreOneLineAndFileNames) {

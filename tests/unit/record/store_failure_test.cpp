@@ -284,6 +284,24 @@ TEST_F(StoreTest, CreatedByAnotherBetweenLookAndLock) {
   EXPECT_THAT(Store(file_, Mode::read).records("late"), SizeIs(10));
 }
 
+TEST_F(StoreTest, FileTakenAwayWhileItIsOpen) {
+  Store store(file_, Mode::append);
+  store.add_run(sample_run());
+  std::filesystem::remove(file_);
+  try {
+    store.add_record(sample_record());
+    FAIL() << "was kept nowhere, without a word";
+  } catch (const core::IoError& error) {
+    EXPECT_THAT(error.what(), AllOf(StartsWith(file_.string()), HasSubstr("removed or renamed")));
+  }
+}
+
+TEST_F(StoreTest, AFileNeedsAName) {
+  for (const Mode mode : {Mode::read, Mode::append}) {
+    EXPECT_THAT(refusal<core::InputError>("", mode), HasSubstr("needs the name of a file"));
+  }
+}
+
 // --- kills and full disks
 // ------------------------------------------------------------------------------------
 

@@ -233,7 +233,7 @@ TEST_F(StoreTest, OfDevicesInAnOlderStoreNoDialectIsKnown) {
   EXPECT_EQ(devices.front().device, plain);
 
   Store again(file_, Mode::append);
-  again.add_device("run-1", sample_device("null:scripted#1"), {});
+  again.add_device("run-1", sample_device("null:scripted#2"), {});
   const auto both = again.devices("run-1");
   ASSERT_THAT(both, SizeIs(2));
   EXPECT_THAT(both.front().device.statistics_dialect, IsEmpty());

@@ -1,0 +1,19 @@
+#pragma once
+// Input that is broken – a file, or levels that do not go together – is no fault of the device, and
+// no device could draw it: its configurations are skipped, with a reason that says so, and cannot
+// be judged.
+
+#include <string_view>
+
+#include "record/record.hpp"
+
+namespace triptych::record {
+
+// What such a reason begins with.
+inline constexpr std::string_view bad_input = "bad input: ";
+
+[[nodiscard]] inline bool has_bad_input(const Record& record) {
+  return record.outcome == Outcome::skipped && record.reason.starts_with(bad_input);
+}
+
+}  // namespace triptych::record

@@ -1,0 +1,11 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace triptych::record {
+
+// The id (Device::id) of a driver's devices in the order it lists them: the first is `id`, the
+// second "<id>#2".
+[[nodiscard]] std::string numbered_id(std::string_view id, int number);
+
+}  // namespace triptych::record
