@@ -2,7 +2,7 @@
 
 #include "measure/factor.hpp"
 #include "scene/camera.hpp"
-#include "scene/particle_generators.hpp"
+#include "scene/particles.hpp"
 #include "scene/transfer_function.hpp"
 #include "suites/particles/stress_cases.hpp"
 
@@ -14,12 +14,6 @@ using measure::Decides;
 using measure::Factor;
 using measure::number;
 using measure::text;
-
-std::vector<std::string_view> generator_names() {
-  std::vector<std::string_view> names;
-  for (const scene::GeneratorInfo& each : scene::particle_generators()) names.push_back(each.name);
-  return names;
-}
 
 constexpr double any_field_of_view = 60;  // for checking a camera's spelling
 
@@ -68,7 +62,7 @@ void check_value(const Factor& factor, std::string_view value,
       static_cast<void>(scene::camera_at(value, scene::Box{}, any_field_of_view));
     }
   } else if (factor.name == "data") {
-    if (value.starts_with("generate:")) measure::check_generator(value, generator_names());
+    scene::check_generated_particles(value);
     static_cast<void>(stress_data(value));
   } else if (factor.name == "transfer_function") {
     static_cast<void>(scene::load_transfer_function(value, folders));

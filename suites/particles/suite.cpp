@@ -7,9 +7,12 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "core/json.hpp"
 #include "measure/factor.hpp"
 #include "reference/spheres.hpp"
+#include "scene/file_table.hpp"
+#include "scene/particle_generators.hpp"
 #include "suites/particles/factors.hpp"
 #include "suites/particles/plain_work.hpp"
 #include "suites/particles/stress_cases.hpp"
@@ -31,6 +34,9 @@ class ParticleSuite final : public measure::SuiteWithTruth {
   const std::vector<measure::Factor>& factors() const override { return particle_factors(); }
   void check(const measure::Factor& factor, std::string_view value) const override {
     check_value(factor, value, folders_);
+  }
+  std::vector<scene::GeneratorInfo> generators() const override {
+    return scene::particle_generators();
   }
 
   std::vector<std::string_view> plan_names() const override;
@@ -64,6 +70,8 @@ class ParticleSuite final : public measure::SuiteWithTruth {
   [[nodiscard]] const StressScene& own(std::string_view factor) const;
   [[nodiscard]] scene::Camera camera(const Configuration& configuration) const;
   [[nodiscard]] scene::ParticleScene scene(const Configuration& configuration);
+  // What decides the picture and is not among the factors, but for the particles.
+  [[nodiscard]] std::string beside_factors(const Configuration& configuration);
 
   std::vector<std::filesystem::path> folders_;
   Loaded loaded_;
@@ -183,10 +191,20 @@ std::string ParticleSuite::truth_key(const Configuration& configuration,
   const scene::ParticleScene pictured = scene(configuration);
   const reference::SphereErrorModel model =
       error_model(pictured, technique::computed_at(configuration.at("ray")));
-  return fmt::format("spheres {} data {} model {:a} {:a} {:a} {:a} {:a}",
+  return fmt::format("spheres {} data {} model {:a} {:a} {:a} {:a} {:a}{}",
                      reference::spheres_version, pictured.particles->hash, model.margin_px,
                      model.lateral_px, model.lateral_relative, model.depth_relative,
-                     model.colour_relative);
+                     model.colour_relative, beside_factors(configuration));
+}
+
+std::string ParticleSuite::beside_factors(const Configuration& configuration) {
+  std::string text;
+  const std::string table = scene::file_table_hash(scene(configuration).intensity_colours);
+  if (!table.empty()) text += " table " + table;
+  if (stress_data(configuration.at("data"))) {
+    text += " frame " + core::content_hash(describe(configuration).dump());
+  }
+  return text;
 }
 
 nlohmann::json ParticleSuite::describe(const Configuration& configuration) {
@@ -208,11 +226,11 @@ nlohmann::json ParticleSuite::describe(const Configuration& configuration) {
 std::string ParticleSuite::limit_key(const Configuration& configuration) {
   return fmt::format(
       "spheres {} data {} {}, colour {}, transfer_function {}, radius_scale {}, camera {}, fov {}, "
-      "viewport {}",
+      "viewport {}{}",
       reference::spheres_version, configuration.at("data"), scene(configuration).particles->hash,
       configuration.at("colour"), configuration.at("transfer_function"),
       configuration.at("radius_scale"), configuration.at("camera"), configuration.at("fov"),
-      configuration.at("viewport"));
+      configuration.at("viewport"), beside_factors(configuration));
 }
 
 // A pixel shows what the ray through its centre meets: there is nothing to refine, and the truth in

@@ -2,8 +2,8 @@
 
 #include "measure/factor.hpp"
 #include "scene/camera.hpp"
-#include "scene/generators.hpp"
 #include "scene/transfer_function.hpp"
+#include "scene/volume.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/stress_cases.hpp"
 
@@ -15,12 +15,6 @@ using measure::Decides;
 using measure::Factor;
 using measure::number;
 using measure::text;
-
-std::vector<std::string_view> generator_names() {
-  std::vector<std::string_view> names;
-  for (const scene::GeneratorInfo& each : scene::volume_generators()) names.push_back(each.name);
-  return names;
-}
 
 }  // namespace
 
@@ -74,7 +68,7 @@ void check_value(const Factor& factor, std::string_view value,
   } else if (factor.name == "camera") {
     static_cast<void>(scene::camera_at(value, scene::Box{}, field_of_view));
   } else if (factor.name == "data") {
-    if (value.starts_with("generate:")) measure::check_generator(value, generator_names());
+    scene::check_generated_volume(value);
     static_cast<void>(analytic_data(value));
     static_cast<void>(stress_data(value));
   } else if (factor.name == "transfer_function") {

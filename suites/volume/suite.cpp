@@ -11,6 +11,7 @@
 #include "measure/factor.hpp"
 #include "reference/volume.hpp"
 #include "scene/denormals.hpp"
+#include "scene/file_table.hpp"
 #include "scene/generators.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/factors.hpp"
@@ -34,6 +35,9 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   const std::vector<measure::Factor>& factors() const override { return volume_factors(); }
   void check(const measure::Factor& factor, std::string_view value) const override {
     check_value(factor, value, folders_);
+  }
+  std::vector<scene::GeneratorInfo> generators() const override {
+    return scene::volume_generators();
   }
 
   std::vector<std::string_view> plan_names() const override;
@@ -235,6 +239,14 @@ measure::Truth VolumeSuite::truth(const Configuration& configuration,
   return {.image = truth.image(), .bound = truth.bound_image()};
 }
 
+// What a transfer function's file holds, for the factors have its name only.
+std::string table_text(const Configuration& configuration,
+                       const scene::TransferFunction& function) {
+  if (configuration.at("transfer_function") == own_level) return {};
+  const std::string hash = scene::file_table_hash(function);
+  return hash.empty() ? hash : " table " + hash;
+}
+
 std::string VolumeSuite::truth_key(const Configuration& configuration,
                                    const std::map<std::string, double>& precision) {
   const auto [pictured, model] = judged(configuration, precision);
@@ -249,7 +261,7 @@ std::string VolumeSuite::truth_key(const Configuration& configuration,
   if (stress_data(configuration.at("data"))) {
     key += " frame " + core::content_hash(describe_frame(pictured, model.ert, model.adapt).dump());
   }
-  return key;
+  return key + table_text(configuration, pictured.transfer_function);
 }
 
 nlohmann::json VolumeSuite::describe(const Configuration& configuration) {
@@ -277,12 +289,16 @@ std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& 
 // The step is no part of it: it is what tends to zero.
 std::string VolumeSuite::limit_key(const Configuration& configuration) {
   if (stress_data(configuration.at("data"))) return {};
+  const Loaded& loaded = load_as_it_is(configuration);
+  const scene::TransferFunction function =
+      levels_of(configuration, loaded.stress).transfer_function(folders_);
   return fmt::format(
       "converged {} data {} {}, transfer_function {}, shading {}, camera {}, "
-      "viewport {}",
-      reference::volume_version, configuration.at("data"), load_as_it_is(configuration).grid->hash,
+      "viewport {}{}",
+      reference::volume_version, configuration.at("data"), loaded.grid->hash,
       configuration.at("transfer_function"), configuration.at("shading"),
-      configuration.at("camera"), configuration.at("viewport"));
+      configuration.at("camera"), configuration.at("viewport"),
+      table_text(configuration, function));
 }
 
 measure::Limit VolumeSuite::limit(const Configuration& configuration) {

@@ -29,6 +29,20 @@ double largest_stored(scene::VoxelFormat format) {
   return 1;
 }
 
+// How far from `origin` a ray from the eye may enter the box: the farthest corner of the faces that
+// the eye sees, and 0 from within.
+double farthest_entry(const scene::Box& box, const glm::dvec3& eye, const glm::dvec3& origin) {
+  double farthest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool below = eye[axis] < box.lo[axis];
+    if (!below && eye[axis] <= box.hi[axis]) continue;
+    glm::dvec3 reach = glm::max(glm::abs(origin - box.lo), glm::abs(origin - box.hi));
+    reach[axis] = std::abs(origin[axis] - (below ? box.lo : box.hi)[axis]);
+    farthest = std::max(farthest, glm::length(reach));
+  }
+  return farthest;
+}
+
 // A length in the largest number of voxels that it may be along an axis.
 double position_error(const scene::VolumeScene& scene, double u) {
   const scene::VoxelGrid& grid = *scene.grid;
@@ -40,8 +54,8 @@ double position_error(const scene::VolumeScene& scene, double u) {
   const double diagonal = glm::length(box.hi) / voxel;
   const double farthest =
       glm::length(glm::max(glm::abs(origin), glm::abs(origin - box.hi))) / voxel;
-  const double outside = std::max(farthest - diagonal, 0.0);
-  double error = glm::length(origin / spacing) + 48 * outside + 25 * diagonal;
+  const double entry = farthest_entry(box, scene.camera.eye, origin) / voxel;
+  double error = glm::length(origin / spacing) + 20 * farthest + 7 * entry + 7 * diagonal;
   if (plane > 0) {
     const double half = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360);
     const double aspect = static_cast<double>(scene.width) / scene.height;

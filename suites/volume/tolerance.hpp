@@ -23,18 +23,24 @@ struct PathPrecision {
 // position, voxels per axis. eye/spacing is rounded once: u·|e|. The direction is a sum of three
 // products
 //   (≤ 6u of its length with ndc's 4 operations) and is normalised (dot 3u, square root ≤ 5u
-//   halved, division 5u), then scaled by 1/spacing (2u): ≤ 20u of its length. The entry t₀ = (face
-//   − e)/v inherits that, one subtraction and one division: ≤ 26u; e + t₀·v adds two: the entry
-//   point is off by at most 48u·t₀|v|. A sample adds (i+½)·g, g = v·h: ≤ 24u of the way inside.
-//   With D the distance of the eye to the farthest corner of the box, L the box's diagonal, both in
-//   the smallest spacing, as the error of a direction is one of its whole length, whatever the
-//   spacing along the axis that it moves a sample on:
-//       u·(|e| + 48·max(D − L, 0) + 24·L + L)
-//   (t₀|v| ≤ D; the part of D inside the box is counted with L.)
-//   Of a far eye rays begin on a plane at the distance s (technique::ray_plane): e and D are then
-//   those of the plane's point on the view axis, found in double precision. A ray's own point adds
-//   ndc, which rounds by 3u whatever it is, times the picture's half diagonal E on the plane, and
-//   six more operations on a length ≤ D: u·(4·E + 6·D).
+//   halved, division 5u), then scaled by 1/spacing (2u): ≤ 20u of its length. So a device's ray is
+//   a straight line that lies within u·(|e| + 20·D) of the true one as far as it is in the box.
+//   That it enters earlier or later for that, and moves all its samples along itself, is the
+//   reference's part (reference/ray.hpp); counted once more here it would be there twice. Along its
+//   own line: the entry t₀ = (face − e)/v is a subtraction and a division, 6u·t₀; in e + t₀·v the
+//   product adds u·t₀|v|, the sum u·L. A sample adds (i+½)·g, g = v·h: 3u of the way inside, and
+//   u·L for the sum. The length of the chord, (t₁ − t₀)/h, errs by 6u·(t₁ + t₀)|v| and 7u·L; the
+//   reference moves either end by what stands here, so half of it is asked for.
+//   With D the distance of the eye to the farthest corner of the box, T that to the farthest corner
+//   of the faces that it sees, where rays enter (0 from within), L the box's diagonal, all in the
+//   smallest spacing, as the error of a direction is one of its whole length, whatever the spacing
+//   along the axis that it moves a sample on:
+//       u·(|e| + 20·D + 7·T + 7·L)
+//   (a sample: 7·T and 5·L; a chord's half, as t₁|v| ≤ D ≤ T + L: 6·T and 6½·L.)
+//   Of a far eye rays begin on a plane at the distance s (technique::ray_plane): e, D and T are
+//   then those of the plane's point on the view axis, found in double precision. A ray's own point
+//   adds ndc, which rounds by 3u whatever it is, times the picture's half diagonal E on the plane,
+//   and six more operations on a length ≤ D: u·(4·E + 6·D).
 // value, normalised. Three nested interpolations a + f·(b − a), 3u each of the largest stored
 // value, then
 //   stored·scale + offset, 2u: 11u·M, M = |scale|·stored_max + |offset|; a u of the table position

@@ -1,10 +1,7 @@
 // Vertex stage of point sprites: the square around the part of the silhouette that lies in the viewport.
 // Spheres that need a larger square than the device draws are left to a second draw, as screen-aligned
-// quads (point_large.vert.glsl). TRI_LARGEST_POINT: the device's largest point, in pixels.
-// TRI_POINT_MARGIN: pixels to add for a device whose points fall short of their square.
-#ifndef TRI_POINT_MARGIN
-#define TRI_POINT_MARGIN 0.0
-#endif
+// quads (point_large.vert.glsl). TRI_POINT_MARGIN: pixels to add for a device whose points fall short of
+// their square. TRI_LARGEST_POINT: the device's largest point, in pixels, less this margin.
 layout(location = 0) in vec4 sphere;
 layout(location = 1) in vec4 colour;
 layout(location = 2) in uint id;

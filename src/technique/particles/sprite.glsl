@@ -26,16 +26,16 @@ Corner nowhere() { return Corner(vec4(2.0, 2.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0));
 void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   vec2 x = tri_sphere_interval(sphere.x, sphere.z, sphere.w);
   vec2 y = tri_sphere_interval(sphere.y, sphere.z, sphere.w);
-  vec2 margin = 0.015625 * u.plane.zw;
-  low = vec2(x.x, y.x) - margin;
-  high = vec2(x.y, y.y) + margin;
+  TRI_PRECISE vec2 margin = 0.015625 * u.plane.zw;
+  TRI_PRECISE vec2 begin = vec2(x.x, y.x) - margin;
+  TRI_PRECISE vec2 end = vec2(x.y, y.y) + margin;
   if (u.eye_rest.w < 1.0) {
-    vec2 shrink = 0.5 * (1.0 - u.eye_rest.w) * (high - low);
-    low += shrink;
-    high -= shrink;
+    TRI_PRECISE vec2 shrink = 0.5 * (1.0 - u.eye_rest.w) * (end - begin);
+    begin += shrink;
+    end -= shrink;
   }
-  low = max(low, -u.plane.xy);
-  high = min(high, u.plane.xy);
+  low = max(begin, -u.plane.xy);
+  high = min(end, u.plane.xy);
 }
 
 // Size in pixels of the square point around these bounds.

@@ -59,15 +59,16 @@ float depth_of_key(uint key) { return uintBitsToFloat(TRI_FAULT == 3 ? ~key : ke
 uint particle_key(uint particle) { return TRI_FAULT == 2 ? ~particle & 0x7FFFFFFFu : particle; }
 uint particle_of_key(uint key) { return TRI_FAULT == 2 ? ~key & 0x7FFFFFFFu : key; }
 
-// Pixels x, y, width, height whose centres the sphere's silhouette may cover; width 0 for none.
+// Pixels x, y, width, height whose centres the sphere's silhouette may cover; width 0 for none. Precise, as
+// front_key is: tiles_fill has room for the entries that tiles_bin counted, and no others.
 ivec4 pixel_rectangle(vec4 sphere) {
   vec2 low;
   vec2 high;
   image_bounds(sphere, low, high);
   vec2 size = vec2(u.viewport.xy);
   // Pixel (x, y) looks through ((x + ½)·plane.z − plane.x, plane.y − (y + ½)·plane.w).
-  vec2 first = vec2(low.x + u.plane.x, u.plane.y - high.y) / u.plane.zw - 0.5;
-  vec2 last = vec2(high.x + u.plane.x, u.plane.y - low.y) / u.plane.zw - 0.5;
+  TRI_PRECISE vec2 first = vec2(low.x + u.plane.x, u.plane.y - high.y) / u.plane.zw - 0.5;
+  TRI_PRECISE vec2 last = vec2(high.x + u.plane.x, u.plane.y - low.y) / u.plane.zw - 0.5;
   ivec2 begin = ivec2(clamp(ceil(first), vec2(0.0), size));
   ivec2 end = ivec2(clamp(floor(last) + 1.0, vec2(0.0), size));
   if (TRI_FAULT == 6) {
@@ -82,8 +83,8 @@ ivec4 pixel_rectangle(vec4 sphere) {
 // distance of the farthest part (tri_sphere_distance); 2⁻¹⁶ is more than it can be.
 uint front_key(vec4 sphere) {
   if (TRI_FAULT == 3) return TRI_LARGEST_KEY;  // nothing is left out
-  float rounding = 1.5259e-5 * (abs(sphere.x) + abs(sphere.y) + abs(sphere.z) + sphere.w);
-  float front = sphere.z + (TRI_FAULT == 4 ? sphere.w : -sphere.w) - rounding;
+  TRI_PRECISE float rounding = 1.5259e-5 * (abs(sphere.x) + abs(sphere.y) + abs(sphere.z) + sphere.w);
+  TRI_PRECISE float front = sphere.z + (TRI_FAULT == 4 ? sphere.w : -sphere.w) - rounding;
   return front > 0.0 ? depth_key(tri_depth(u.eye.w, front)) : TRI_LARGEST_KEY;
 }
 

@@ -105,17 +105,17 @@ TRI_FN float tri_depth(float near, float distance) {
 // Exact bounds along one axis (Mara and McGuire 2013): the sphere's silhouette lies between the two
 // tangents in the plane of that axis and the view axis, at the angles φ ± β with φ = atan2(a, z),
 // sin β = r/√(a² + z²); of them the part within (−90°, 90°) is in front of the eye. Returns (low, high),
-// ±3e38 for no bound, low > high for nothing in front.
+// ±3e38 for no bound, low > high for nothing in front. Precise, as one kernel counts what another writes.
 TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
   const float huge = 3.0e38f;
   float side = a < 0.0f ? 0.0f - a : a;  // by symmetry the axis points to the sphere's side
-  float k2 = side * side + z * z - r * r;
-  float low = 0.0f - huge;
-  float high = huge;
+  TRI_PRECISE float k2 = side * side + z * z - r * r;
+  TRI_PRECISE float low = 0.0f - huge;
+  TRI_PRECISE float high = huge;
   if (k2 > 0.0f) {
-    float k = TRI_SQRT(k2);
-    float low_z = z * k + side * r;
-    float high_z = z * k - side * r;
+    TRI_PRECISE float k = TRI_SQRT(k2);
+    TRI_PRECISE float low_z = z * k + side * r;
+    TRI_PRECISE float high_z = z * k - side * r;
     low = low_z > 0.0f ? (side * k - z * r) / low_z : huge;
     high = high_z > 0.0f ? (side * k + z * r) / high_z : huge;
     if (low_z <= 0.0f) high = 0.0f - huge;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "measure/plan.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/suite.hpp"
 
@@ -13,9 +14,7 @@ namespace triptych::volume_suite {
 namespace {
 
 measure::Configuration configuration_of(const measure::Suite& suite, const std::string& data) {
-  measure::Configuration configuration;
-  for (const measure::Factor& factor : suite.factors())
-    configuration[factor.name] = factor.standard;
+  measure::Configuration configuration = measure::default_plan(suite, {}).configurations.front();
   configuration["data"] = data;
   configuration["transfer_function"] = own_transfer_function;
   configuration["camera"] = "orbit_y:1/9";

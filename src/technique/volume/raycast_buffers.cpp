@@ -1,0 +1,55 @@
+#include "technique/volume/raycast_buffers.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "technique/volume/bricks.hpp"
+#include "technique/volume/extra_work.hpp"
+#include "technique/volume/preintegration.hpp"
+
+namespace triptych::technique {
+namespace {
+
+constexpr std::uint64_t word = sizeof(std::uint32_t);
+
+std::uint64_t brick_bytes(const scene::VolumeScene& scene, const RaycastOptions& options) {
+  std::uint64_t bytes = word;
+  for (const int n :
+       brick_counts(scene.grid->size, brick_layout(scene, options.skip, options.adapt))) {
+    bytes *= static_cast<std::uint64_t>(n);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+RaycastBuffers raycast_buffers(const scene::VolumeScene& scene, const RaycastOptions& options) {
+  const std::uint64_t entries = scene.transfer_function.entries.size();
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
+  const auto drawn = static_cast<std::uint64_t>(
+      drawn_pixels(scene.width, scene.height, options.extra_work_stride));
+  const bool looks_up_pairs = scene.quadrature == scene::Quadrature::preintegrated;
+  return {.picture = 4 * word * drawn,
+          .counters = raycast_counter_stride * word * pixels,
+          .bricks = brick_bytes(scene, options),
+          .pairs = looks_up_pairs ? 4 * word * texels_per_pair * entries * entries : 4 * word};
+}
+
+std::optional<std::string> buffer_reason(const RaycastBuffers& buffers, std::uint64_t most,
+                                         std::string_view limit) {
+  for (const auto& [name, bytes] : std::to_array<std::pair<std::string_view, std::uint64_t>>(
+           {{"picture", buffers.picture},
+            {"counters", buffers.counters},
+            {"brick map", buffers.bricks},
+            {"table of pairs", buffers.pairs}})) {
+    if (bytes <= most) continue;
+    return fmt::format("the raycaster needs {} bytes for its {}; {} = {}", bytes, name, limit,
+                       most);
+  }
+  return std::nullopt;
+}
+
+}  // namespace triptych::technique

@@ -1,0 +1,52 @@
+// What tells whether a truth is that of the scene as it is now.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "measure/plan.hpp"
+#include "suites/particles/suite.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace triptych::particles_suite {
+namespace {
+
+measure::Configuration configuration_of(const measure::Suite& suite, const std::string& data) {
+  measure::Configuration configuration = measure::default_plan(suite, {}).configurations.front();
+  configuration["data"] = data;
+  return configuration;
+}
+
+TEST(Keys, ChangeWithTheTransferFunctionsFile) {
+  const test::TemporaryFolder folder;
+  const auto suite = make_suite({folder.path()});
+  measure::Configuration configuration = configuration_of(*suite, "generate:uniform:10");
+  configuration["colour"] = "intensity";
+  const std::string preset = suite->truth_key(configuration, {});
+  EXPECT_EQ(preset.find("table"), std::string::npos);  // truths in stores stay of use
+  configuration["transfer_function"] = "a.rgba";
+  folder.write("a.rgba", std::string(1024, '\x10'));
+  const std::string truth = suite->truth_key(configuration, {});
+  const std::string limit = suite->limit_key(configuration);
+  EXPECT_EQ(suite->truth_key(configuration, {}), truth);
+  folder.write("a.rgba", std::string(1024, '\x20'));
+  EXPECT_NE(suite->truth_key(configuration, {}), truth);
+  EXPECT_NE(suite->limit_key(configuration), limit);
+}
+
+// A case's own camera is not among the factors.
+TEST(Keys, HoldTheFrameOfAStressCase) {
+  const auto suite = make_suite({});
+  measure::Configuration configuration = configuration_of(*suite, "stress:widest");
+  for (const char* factor : {"camera", "fov", "viewport"}) configuration[factor] = "own";
+  EXPECT_NE(suite->truth_key(configuration, {}).find(" frame "), std::string::npos);
+  EXPECT_NE(suite->limit_key(configuration).find(" frame "), std::string::npos);
+  configuration["data"] = "generate:uniform:10";
+  configuration["camera"] = "orbit_y:1/8";
+  configuration["fov"] = "60";
+  configuration["viewport"] = "64";
+  EXPECT_EQ(suite->truth_key(configuration, {}).find(" frame "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace triptych::particles_suite

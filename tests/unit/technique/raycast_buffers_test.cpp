@@ -1,0 +1,68 @@
+#include "technique/volume/raycast_buffers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <span>
+
+#include "scene/generators.hpp"
+#include "technique/volume/brick_map.hpp"
+#include "technique/volume/extra_work.hpp"
+#include "technique/volume/preintegration.hpp"
+
+namespace triptych::technique {
+namespace {
+
+scene::VolumeScene scene_of(std::array<int, 3> size) {
+  scene::VolumeScene scene;
+  scene.grid = std::make_shared<const scene::VoxelGrid>(
+      scene::encode(scene::generate_volume("gaussian_blob", size), scene::VoxelFormat::u8));
+  scene.transfer_function = scene::load_transfer_function("surfaces");
+  scene.width = 61;
+  scene.height = 40;
+  return scene;
+}
+
+TEST(RaycastBuffers, AreThoseThatAreMade) {
+  for (const std::array<int, 3> size : {std::array{1, 1, 1}, {2, 3, 4}, {24, 17, 9}}) {
+    scene::VolumeScene scene = scene_of(size);
+    for (const auto quadrature : {scene::Quadrature::midpoint, scene::Quadrature::preintegrated}) {
+      scene.quadrature = quadrature;
+      for (const Skip skip : {Skip::bricks, Skip::distance}) {
+        const auto map = brick_map(scene, skip);
+        EXPECT_EQ(raycast_buffers(scene, {.skip = skip}).bricks,
+                  std::as_bytes(std::span(map)).size())
+            << size[0] << ' ' << name_of(skip);
+      }
+    }
+    const auto pairs = preintegrated_pairs(scene.transfer_function);
+    const RaycastBuffers buffers = raycast_buffers(scene, {.extra_work_stride = 5});
+    EXPECT_EQ(buffers.pairs, std::as_bytes(std::span(pairs)).size());
+    EXPECT_EQ(buffers.counters, 61U * 40U * 32U);
+    EXPECT_EQ(buffers.picture, 16U * static_cast<std::uint64_t>(drawn_pixels(61, 40, 5)));
+    EXPECT_EQ(buffers.all(), buffers.pairs + buffers.counters + buffers.picture + buffers.bricks);
+  }
+}
+
+// A volume of 1024³ voxels whose map of bricks of 2³ cells alone is beyond 128 MiB.
+TEST(RaycastBuffers, TheOneThatIsTooLargeIsNamed) {
+  constexpr std::uint64_t most = 1U << 27U;
+  scene::VolumeScene scene = scene_of({2, 2, 2});
+  auto grid = *scene.grid;
+  grid.size = {1024, 1024, 1024};
+  scene.grid = std::make_shared<const scene::VoxelGrid>(grid);
+  const auto reason = [&](Skip skip) {
+    return buffer_reason(raycast_buffers(scene, {.skip = skip}), most, "theLimit").value_or("");
+  };
+  EXPECT_EQ(reason(Skip::distance),
+            "the raycaster needs 536870912 bytes for its brick map; theLimit = 134217728");
+  EXPECT_EQ(reason(Skip::bricks), "");
+  scene.width = 2048;
+  scene.height = 2048;
+  EXPECT_EQ(reason(Skip::bricks), "");
+  scene.width = 2049;
+  EXPECT_EQ(reason(Skip::bricks),
+            "the raycaster needs 134283264 bytes for its counters; theLimit = 134217728");
+}
+
+}  // namespace
+}  // namespace triptych::technique

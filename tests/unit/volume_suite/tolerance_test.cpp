@@ -1,0 +1,65 @@
+// The bound that devices are judged by, on arithmetic that is known.
+
+#include "suites/volume/tolerance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "unit/reference/float_renderer.hpp"
+#include "unit/reference/random_scene.hpp"
+
+namespace triptych::volume_suite {
+namespace {
+
+// A box as flat as a plate: from just above it, rays enter at its far edge.
+scene::VolumeScene plate(const glm::dvec3& eye) {
+  scene::VolumeScene scene =
+      reference::random_scene(5, reference::Character::rough, scene::VoxelFormat::f32);
+  scene.grid = reference::make_grid({64, 4, 64}, {1, 1, 1}, scene::VoxelFormat::f32,
+                                    [](int i, int j, int k) { return (i + j + k) % 3 / 2.0; });
+  scene.camera = reference::look_at(eye, {32, 2, 33});
+  return scene;
+}
+
+TEST(Tolerance, PaysForTheWayToTheFarthestEntry) {
+  const double inside = 7 * std::hypot(64, 4, 64);
+  const auto expect = [&](const glm::dvec3& eye, double corner, double entry) {
+    EXPECT_NEAR(error_model(plate(eye), {}).position_error_voxels,
+                0x1.0p-24 * (glm::length(eye) + 20 * corner + 7 * entry + inside), 1e-12);
+  };
+  expect({1, 5, 1}, std::hypot(63, 5, 63), std::hypot(63, 1, 63));
+  expect({1, 3, 1}, std::hypot(63, 3, 63), 0);
+  // Beyond an edge the eye sees two faces, and the corner farthest from it on the larger one.
+  expect({-10, 5, 1}, std::hypot(74, 5, 63), std::hypot(74, 1, 63));
+}
+
+TEST(Tolerance, HoldsForSinglePrecision) {
+  double largest = 0;
+  const auto judge = [&](const scene::VolumeScene& scene) {
+    const core::Image image = reference::render_float(scene, {});
+    const reference::Truth truth = reference::render_volume(scene, error_model(scene, {}));
+    for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
+      const double bound = truth.bound[i / 4];
+      const double error = std::abs(static_cast<double>(image.rgba[i]) - truth.rgba[i]);
+      EXPECT_LE(error, bound);
+      if (bound > 0) largest = std::max(largest, error / bound);
+    }
+  };
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    scene::VolumeScene scene = reference::random_scene(
+        seed, seed % 2 == 0 ? reference::Character::smooth : reference::Character::rough,
+        scene::VoxelFormat::f32);
+    scene.step_voxels = seed % 3 == 0 ? 0.37 : 1.0;
+    judge(scene);
+  }
+  for (const glm::dvec3& eye : {glm::dvec3{1, 5, 1}, {-40, 4.1, -30}, {32, 300, 32}}) {
+    judge(plate(eye));
+  }
+  EXPECT_GT(largest, 0.02);  // it would hold of any large number
+}
+
+}  // namespace
+}  // namespace triptych::volume_suite
