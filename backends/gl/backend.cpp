@@ -17,6 +17,8 @@
 #include "backends/gl/device_info.hpp"
 #include "backends/gl/isolate.hpp"
 #include "core/error.hpp"
+#include "core/json_text.hpp"
+#include "record/device_id.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -48,8 +50,7 @@ class Walk {
           opened.info = device_info(opened.context->gl(), system_.suffix);
         }
         if (is_repeated(opened.info)) continue;
-        const int number = ++count_[opened.info.id];
-        if (number > 1) opened.info.id += fmt::format("#{}", number);
+        opened.info.id = record::numbered_id(opened.info.id, ++count_[opened.info.id]);
         return opened;
       } catch (const core::Error& error) {
         broken.push_back({candidate.what, error.what()});
@@ -89,8 +90,7 @@ std::string list_as_text(const WindowSystem& system) {
     broken.push_back({std::string(system.name), error.what()});
   }
   for (const auto& [what, reason] : broken) reasons.push_back({what, reason});
-  return nlohmann::json{{"devices", devices}, {"broken", reasons}}.dump(
-      -1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return core::json_text({{"devices", devices}, {"broken", reasons}});
 }
 
 void add(const std::string& text, measure::Listing& listing) {

@@ -4,20 +4,21 @@
 #include "backends/gl/large_points.hpp"
 #include "backends/gl/sprites.hpp"
 #include "backends/gl/techniques.hpp"
+#include "technique/particles/point_margin.hpp"
 
 namespace triptych::gl_backend {
 namespace {
 
-// softpipe draws a point of size s as ⌊s⌋ pixels from the whole one next to its lower end: in a
-// point of two pixels more, every pixel whose centre lies in the square is drawn.
 double margin_of(const Api& gl) {
-  return gl.text(GL_RENDERER).starts_with("softpipe") ? 2 : 0;
+  GLfloat granularity = 0;
+  gl.GetFloatv(GL_POINT_SIZE_GRANULARITY, &granularity);
+  return technique::point_margin(gl.text(GL_RENDERER), static_cast<double>(granularity));
 }
 
 Sprites sprites(const Api& gl) {
   const double margin = margin_of(gl);
   const std::string largest =
-      fmt::format("#define TRI_LARGEST_POINT {:.1f}\n#define TRI_POINT_MARGIN {:.1f}\n",
+      fmt::format("#define TRI_LARGEST_POINT {:#.9g}\n#define TRI_POINT_MARGIN {:#.9g}\n",
                   largest_point(gl) - margin, margin);
   ParticleStage points{GL_VERTEX_SHADER, {"sprite.glsl", "point.vert.glsl"}, largest};
   ParticleStage quads = instance_stage(gl, "point_large.vert.glsl");

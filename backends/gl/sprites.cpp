@@ -192,7 +192,8 @@ class SpriteDrawing final : public Drawing {
         gl.UseProgram(programs.draws[i].cull[pass].get());
         draws[i].cull(gl);
       }
-      gl.MemoryBarrier(GL_COMMAND_BARRIER_BIT);
+      // Commands are drawn next; what was seen is read by the next culling, maybe a frame later.
+      gl.MemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     }
     for (std::size_t i = 0; i < draws.size(); ++i) {
       gl.UseProgram(programs.draws[i].sprites.get());

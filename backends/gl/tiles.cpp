@@ -153,7 +153,7 @@ class TilesDrawing final : public Drawing {
         bin_cells(gl, programs, round);
         buffers_.choose(gl, TileBuffers::Cells::all);
       }
-      if (rounds_.entries > 0 || options_.fault == technique::ParticleFault::missing_barrier) {
+      if (round.entries > 0 || options_.fault == technique::ParticleFault::missing_barrier) {
         run(gl, programs, place, buffers_.groups_for_tiles());
         run(gl, programs, fill, buffers_.spread_groups());
         run(gl, programs, resolve, buffers_.tiles());

@@ -9,6 +9,7 @@
 #include "backends/gl/prepared.hpp"
 #include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
+#include "technique/volume/raycast_buffers.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -142,15 +143,10 @@ std::optional<std::string> volume_unsupported(const Api& gl, const measure::Volu
     return fmt::format("no texture of {}x{}x{} {} ({} bytes) by GL_PROXY_TEXTURE_3D", nx, ny, nz,
                        scene::name_of(grid.format), grid.data.size());
   }
-  // The counters are the largest block of any technique.
-  const auto needed = static_cast<std::int64_t>(counters_size(pixel_count(work)));
-  const std::int64_t most = gl.limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
-  if (needed > most) {
-    return fmt::format(
-        "{}x{} pixels need a storage block of {} bytes, GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
-        work.scene.width, work.scene.height, needed, most);
-  }
-  return std::nullopt;
+  return technique::buffer_reason(
+      technique::raycast_buffers(work.scene, work.options),
+      static_cast<std::uint64_t>(gl.limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)),
+      "GL_MAX_SHADER_STORAGE_BLOCK_SIZE");
 }
 
 std::unique_ptr<measure::Prepared> prepare_volume(Context& context, Stamps stamps,

@@ -4,7 +4,7 @@
 // that depend on what decides a picture (data, camera, step, …) and on nothing else, or images
 // given in the script; times and counts are computed from the work and a seed.
 //
-// Its devices "null:scripted", "null:scripted#1", … are listed only when the environment variable
+// Its devices "null:scripted", "null:scripted#2", … are listed only when the environment variable
 // TRIPTYCH_NULL_SCRIPT holds a script ("{}" will do), or when a Script is given: an ordinary run
 // does not show them, and a worker process inherits the script of its parent.
 //

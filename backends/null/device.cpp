@@ -15,6 +15,7 @@
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
 #include "core/random.hpp"
+#include "record/device_id.hpp"
 #include "technique/catalogue.hpp"
 
 namespace triptych::null_backend {
@@ -165,7 +166,7 @@ std::vector<record::Device> devices_of(const Script& script) {
   std::vector<record::Device> devices;
   for (std::size_t i = 0; i < script.devices.size(); ++i) {
     record::Device& device = devices.emplace_back();
-    device.id = i == 0 ? "null:scripted" : fmt::format("null:scripted#{}", i);
+    device.id = record::numbered_id("null:scripted", static_cast<int>(i) + 1);
     device.api = "null";
     device.name = "Scripted device";
     device.vendor = "Triptych";

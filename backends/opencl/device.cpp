@@ -14,6 +14,7 @@
 #include "backends/opencl/techniques.hpp"
 #include "backends/opencl/volume_data.hpp"
 #include "core/error.hpp"
+#include "technique/volume/raycast_buffers.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
@@ -119,18 +120,19 @@ std::optional<std::string> Device::size_defect(const measure::VolumeWork& work) 
   const std::uint64_t volume = voxels * scene::bytes_of(grid.format);
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(work.scene.width) * static_cast<std::uint64_t>(work.scene.height);
-  const std::uint64_t counters = pixels * technique::raycast_counter_stride * sizeof(std::uint32_t);
   if (pixels * technique::raycast_counter_stride > most_voxels) {
     return fmt::format("{} pixels, the kernel's index reaches {}", pixels,
                        most_voxels / technique::raycast_counter_stride);
   }
-  if (std::max(volume, counters) > most) {
-    return fmt::format(
-        "the volume takes {} bytes and the counters {}, "
-        "CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}",
-        volume, counters, most);
+  if (volume > most) {
+    return fmt::format("the volume takes {} bytes, CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}", volume,
+                       most);
   }
-  const std::uint64_t all = volume + counters + pixels * 4 * sizeof(float);
+  const technique::RaycastBuffers buffers = technique::raycast_buffers(work.scene, work.options);
+  if (auto defect = technique::buffer_reason(buffers, most, "CL_DEVICE_MAX_MEM_ALLOC_SIZE")) {
+    return defect;
+  }
+  const std::uint64_t all = volume + buffers.all();
   if (all > total) {
     return fmt::format("{} bytes are needed, CL_DEVICE_GLOBAL_MEM_SIZE is {}", all, total);
   }

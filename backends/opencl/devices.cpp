@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "measure/cpu_features.hpp"
+#include "record/device_id.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
@@ -92,9 +93,7 @@ std::string defect_of(const cl::Device& device) {
 void add_device(Search& search, const cl::Device& device, const std::string& driver,
                 std::map<std::string, int>& seen) {
   // Numbered before anything can fail, so that an id does not depend on another device's health.
-  const int ordinal = seen[driver]++;
-  const std::string id =
-      ordinal == 0 ? "opencl:" + driver : fmt::format("opencl:{}#{}", driver, ordinal);
+  const std::string id = record::numbered_id("opencl:" + driver, ++seen[driver]);
   try {
     if (const std::string defect = defect_of(device); !defect.empty()) {
       search.broken.push_back({"OpenCL device " + id, defect});

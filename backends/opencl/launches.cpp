@@ -28,21 +28,18 @@ void run(const Session& session, const std::vector<Launch>& launches,
 }
 
 std::optional<double> device_ns(const std::vector<cl::Event>& events) {
-  double sum = 0;
-  for (const cl::Event& event : events) {
-    cl_ulong start = 0;
-    cl_ulong end = 0;
-    try {
-      event.getProfilingInfo(CL_PROFILING_COMMAND_START, &start);
-      event.getProfilingInfo(CL_PROFILING_COMMAND_END, &end);
-    } catch (const cl::Error& error) {
-      if (error.err() == CL_PROFILING_INFO_NOT_AVAILABLE) return std::nullopt;
-      throw;
-    }
-    if (end < start) return std::nullopt;
-    sum += static_cast<double>(end - start);
+  if (events.empty()) return std::nullopt;
+  cl_ulong start = 0;
+  cl_ulong end = 0;
+  try {
+    events.front().getProfilingInfo(CL_PROFILING_COMMAND_START, &start);
+    events.back().getProfilingInfo(CL_PROFILING_COMMAND_END, &end);
+  } catch (const cl::Error& error) {
+    if (error.err() == CL_PROFILING_INFO_NOT_AVAILABLE) return std::nullopt;
+    throw;
   }
-  return sum;
+  if (end < start) return std::nullopt;
+  return static_cast<double>(end - start);
 }
 
 }  // namespace triptych::opencl_backend

@@ -38,7 +38,8 @@ template <typename... Arguments>
 void run(const Session& session, const std::vector<Launch>& launches,
          std::vector<cl::Event>& events);
 
-// Time on the device's clock of all of them together; absent where the device tells none.
+// Time on the device's clock from the start of the first to the end of the last, as the other APIs
+// stamp a frame: what lies between launches is part of it. Absent where the device tells none.
 [[nodiscard]] std::optional<double> device_ns(const std::vector<cl::Event>& events);
 
 }  // namespace triptych::opencl_backend

@@ -5,9 +5,23 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "backends/opencl/particle_programs.hpp"
 #include "technique/particles/option_reason.hpp"
 
 namespace triptych::opencl_backend {
+
+BinTable bin_table(int width, int height, std::size_t compute_units) {
+  constexpr std::size_t per_unit = 8;
+  constexpr std::size_t fewest = 16;
+  constexpr std::size_t most = 512;
+  constexpr std::size_t most_words = std::size_t{1} << 24;
+  const auto parts = [](std::size_t n, std::size_t edge) { return (n + edge - 1) / edge; };
+  const std::size_t columns = parts(static_cast<std::size_t>(width), tile_edge);
+  const std::size_t rows = parts(static_cast<std::size_t>(height), tile_edge);
+  const std::size_t bins = columns * rows + parts(columns, coarse_edge) * parts(rows, coarse_edge);
+  const std::size_t chunks = std::min(std::min(per_unit * compute_units, most), most_words / bins);
+  return {.bins = bins, .chunks = std::max(chunks, fewest)};
+}
 
 std::optional<std::string> particle_defect(const Session& session, std::string_view technique,
                                            const measure::ParticleWork& work) {
@@ -25,14 +39,21 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
   const std::uint64_t count = work.scene.particles->count();
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(work.scene.width) * static_cast<std::uint64_t>(work.scene.height);
-  const std::uint64_t largest = 16 * std::max(count, pixels);  // spheres; the picture
+  const auto units = checked([&] { return session.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(); });
+  const std::uint64_t table =
+      sizeof(cl_uint) * bin_table(work.scene.width, work.scene.height, units).words();
+  const std::uint64_t largest = std::max(16 * std::max(count, pixels), table);
   if (largest > most) {
     return fmt::format(
-        "{} particles and {} pixels take {} bytes, CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}", count,
-        pixels, largest, most);
+        "{} particles and {} pixels take {} bytes in one buffer, CL_DEVICE_MAX_MEM_ALLOC_SIZE is "
+        "{}",
+        count, pixels, largest, most);
   }
-  // Sphere, the same in camera space, rectangle, colour, id; picture, id, depth, winner.
-  const std::uint64_t all = (16 + 16 + 8 + 16 + 4) * count + 28 * pixels;
+  // Sphere, the same in camera space, rectangle, colour, id; picture, id, and for each pass its
+  // depths, winners and counts of entries.
+  const std::uint64_t passes = work.options.extra_work_stride > 0 ? 2 : 1;
+  const std::uint64_t all =
+      (16 + 16 + 8 + 16 + 4) * count + 20 * pixels + passes * (8 * pixels + table);
   if (all > total) {
     return fmt::format("{} bytes are needed, CL_DEVICE_GLOBAL_MEM_SIZE is {}", all, total);
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -7,6 +8,18 @@
 #include "measure/backend.hpp"
 
 namespace triptych::opencl_backend {
+
+// Where entries of bins are counted: by each work item that takes a chunk of the cells, for each
+// bin.
+struct BinTable {
+  std::size_t bins = 0;  // a picture's tiles, and the coarse ones
+  std::size_t chunks = 0;
+
+  [[nodiscard]] std::size_t words() const { return bins * chunks; }
+};
+// Some chunks for each compute unit, so that none waits long for the last; fewer where the table
+// would be larger than what it is to sort.
+[[nodiscard]] BinTable bin_table(int width, int height, std::size_t compute_units);
 
 // Why the device cannot draw these particles so; empty when it can.
 [[nodiscard]] std::optional<std::string> particle_defect(const Session& session,

@@ -23,17 +23,9 @@ std::array<std::size_t, 2> tile_grid(const scene::ParticleScene& scene) {
   return {tiles(scene.width), tiles(scene.height)};
 }
 
-std::size_t bin_count(const std::array<std::size_t, 2>& tiles) {
-  const auto coarse = [](std::size_t n) { return (n + coarse_edge - 1) / coarse_edge; };
-  return tiles[0] * tiles[1] + coarse(tiles[0]) * coarse(tiles[1]);
-}
-
-// Runs of cells that work items take: some for each compute unit, so that none waits long for the
-// last.
-std::size_t chunk_count(const Session& session) {
-  constexpr std::size_t per_unit = 8;
+BinTable bin_table_of(const Session& session, const scene::ParticleScene& scene) {
   const auto units = checked([&] { return session.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(); });
-  return std::clamp<std::size_t>(per_unit * units, 16, 512);
+  return bin_table(scene.width, scene.height, units);
 }
 
 }  // namespace
@@ -47,10 +39,9 @@ ParticleStages::ParticleStages(const Session& session, ParticleData data,
       height_(static_cast<std::size_t>(work.scene.height)),
       pixels_(static_cast<std::size_t>(work.scene.width) * height_),
       tiles_(tile_grid(work.scene)),
-      bins_(bin_count(tiles_)),
-      chunks_(chunk_count(session)),
+      table_(bin_table_of(session, work.scene)),
       data_(std::move(data)),
-      counter_rows_(std::max({bins_, data_.cell_count, chunks_})),
+      counter_rows_(std::max({table_.bins, data_.cell_count, table_.chunks})),
       camera_(make_buffer(4 * data_.count)),
       rectangles_(make_buffer(2 * data_.count)),
       sprite_colours_(make_buffer(colours_sprites_ ? 4 * data_.count : 0)),
@@ -87,17 +78,17 @@ void ParticleStages::forget_hidden() const {
 Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride) {
   Pass pass{.stride = stride,
             .list = make_buffer(data_.cell_count + 1),
-            .counts = make_buffer(chunks_ * bins_),
-            .totals = make_buffer(bins_),
-            .begins = make_buffer(bins_ + 1),
+            .counts = make_buffer(table_.words()),
+            .totals = make_buffer(table_.bins),
+            .begins = make_buffer(table_.bins + 1),
             .depths = make_buffer(pixels_),
             .winners = make_buffer(pixels_)};
   std::vector<Launch> launches{cull(programs)};
   add_binning(programs, pass, drawn_first, launches);
   std::vector<cl::Event> events;
   run(session_, launches, events);
-  std::vector<cl_uint> totals(bins_);
-  session_.queue.enqueueReadBuffer(pass.totals, CL_TRUE, 0, bins_ * sizeof totals[0],
+  std::vector<cl_uint> totals(table_.bins);
+  session_.queue.enqueueReadBuffer(pass.totals, CL_TRUE, 0, table_.bins * sizeof totals[0],
                                    totals.data());
   const std::uint64_t entries = std::reduce(totals.begin(), totals.end(), std::uint64_t{0});
   const std::uint64_t bytes = entries * sizeof(cl_uint);
@@ -124,15 +115,15 @@ Launch ParticleStages::test(const ParticlePrograms& programs) const {
 void ParticleStages::add_binning(const ParticlePrograms& programs, const Pass& pass, cl_uint state,
                                  std::vector<Launch>& to) const {
   const cl::NDRange one(1);
-  const auto bins = static_cast<cl_uint>(bins_);
+  const auto bins = static_cast<cl_uint>(table_.bins);
   to.push_back(make_launch(programs.cells, "list_cells", one, one, data_.parameters, states_, state,
                            pass.stride, pass.list));
-  to.push_back(make_launch(programs.sprites, "count_bins", cl::NDRange(chunks_), one,
+  to.push_back(make_launch(programs.sprites, "count_bins", cl::NDRange(table_.chunks), one,
                            data_.parameters, data_.spheres, data_.cells, pass.list, camera_,
                            rectangles_, bins, pass.counts, counters_));
-  to.push_back(make_launch(programs.cells, "place_chunks", cl::NDRange(round_up(bins_, group)),
-                           cl::NDRange(group), bins, static_cast<cl_uint>(chunks_), pass.counts,
-                           pass.totals, counters_));
+  to.push_back(make_launch(
+      programs.cells, "place_chunks", cl::NDRange(round_up(table_.bins, group)), cl::NDRange(group),
+      bins, static_cast<cl_uint>(table_.chunks), pass.counts, pass.totals, counters_));
   to.push_back(make_launch(programs.cells, "place_bins", cl::NDRange(scan_items),
                            cl::NDRange(scan_items), bins, pass.totals, pass.begins));
 }
@@ -142,11 +133,12 @@ void ParticleStages::add_drawing(const ParticlePrograms& programs, const Pass& p
   const cl::NDRange one(1);
   const cl_uint later = state == drawn_later ? 1 : 0;
   add_binning(programs, pass, state, to);
-  to.push_back(make_launch(programs.sprites, "fill_bins", cl::NDRange(chunks_), one,
+  to.push_back(make_launch(programs.sprites, "fill_bins", cl::NDRange(table_.chunks), one,
                            data_.parameters, data_.cells, pass.list, rectangles_,
-                           static_cast<cl_uint>(bins_), pass.counts, pass.begins, pass.entries));
+                           static_cast<cl_uint>(table_.bins), pass.counts, pass.begins,
+                           pass.entries));
   if (colours_sprites_) {
-    to.push_back(make_launch(programs.shading, "colour_sprites", cl::NDRange(chunks_), one,
+    to.push_back(make_launch(programs.shading, "colour_sprites", cl::NDRange(table_.chunks), one,
                              data_.cells, pass.list, data_.colours, data_.table, sprite_colours_));
   }
   to.push_back(make_launch(programs.sprites, "draw_tiles", cl::NDRange(tiles_[0], tiles_[1]),

@@ -11,6 +11,7 @@
 
 #include "backends/opencl/launches.hpp"
 #include "backends/opencl/particle_data.hpp"
+#include "backends/opencl/particle_limits.hpp"
 #include "backends/opencl/particle_programs.hpp"
 
 namespace triptych::opencl_backend {
@@ -69,8 +70,7 @@ class ParticleStages {
   std::size_t height_;
   std::size_t pixels_;
   std::array<std::size_t, 2> tiles_;
-  std::size_t bins_;
-  std::size_t chunks_;
+  BinTable table_;
   ParticleData data_;
   std::size_t counter_rows_;
   cl::Buffer camera_;          // spheres in camera space

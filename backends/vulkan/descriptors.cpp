@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
+
+#include "core/error.hpp"
 
 namespace triptych::vulkan_backend {
 
@@ -52,10 +53,12 @@ std::vector<vk::DescriptorSet> allocate_sets(const Gpu& gpu, const vk::raii::Des
 
 void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  vk::DescriptorType type, const Buffer& buffer) {
-  const bool storage = type == vk::DescriptorType::eStorageBuffer;
-  const vk::DeviceSize most = storage ? gpu.properties.limits.maxStorageBufferRange : buffer.size();
-  const vk::DescriptorBufferInfo info{.buffer = buffer.get(),
-                                      .range = std::min(buffer.size(), most)};
+  const std::uint32_t most = gpu.properties.limits.maxStorageBufferRange;
+  if (type == vk::DescriptorType::eStorageBuffer && buffer.size() > most) {
+    throw core::NotSupported(fmt::format("needs {} bytes in one buffer; maxStorageBufferRange = {}",
+                                         buffer.size(), most));
+  }
+  const vk::DescriptorBufferInfo info{.buffer = buffer.get(), .range = buffer.size()};
   gpu.device.updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
                                                          .dstBinding = binding,
                                                          .descriptorCount = 1,

@@ -27,8 +27,7 @@ struct Layout {
                                                            const Layout& layout,
                                                            std::uint32_t count);
 
-// As much of the buffer as the device lets a shader see: those that are fetched by index must fit
-// (particle_reason), those that are vertex buffers as well need not.
+// The whole buffer. Throws core::NotSupported where that is more than maxStorageBufferRange.
 void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  vk::DescriptorType type, const Buffer& buffer);
 // The image must be in eShaderReadOnlyOptimal when it is used.

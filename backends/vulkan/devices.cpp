@@ -9,6 +9,7 @@
 
 #include "backends/vulkan/errors.hpp"
 #include "measure/cpu_features.hpp"
+#include "record/device_id.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -151,8 +152,7 @@ std::vector<Candidate> candidates(std::vector<vk::raii::PhysicalDevice> devices)
   std::map<std::string, int> seen;
   for (vk::raii::PhysicalDevice& device : devices) {
     Candidate each = translated([&] { return candidate(std::move(device)); });
-    const int number = ++seen[each.info.id];
-    if (number > 1) each.info.id += fmt::format("#{}", number);
+    each.info.id = record::numbered_id(each.info.id, ++seen[each.info.id]);
     result.push_back(std::move(each));
   }
   return result;

@@ -31,17 +31,16 @@ vk::raii::Instance make_instance(const vk::raii::Context& context) {
   const vk::ApplicationInfo application{.pApplicationName = "triptych",
                                         .apiVersion = VK_API_VERSION_1_1};
   constexpr std::array<const char*, 1> layers{validation_layer};
-  constexpr std::array<const char*, 1> extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
-  const std::uint32_t count = validation_wanted() ? 1 : 0;
-  return translated([&] {
-    return vk::raii::Instance(context, vk::InstanceCreateInfo{
-                                           .pApplicationInfo = &application,
-                                           .enabledLayerCount = count,
-                                           .ppEnabledLayerNames = layers.data(),
-                                           .enabledExtensionCount = count,
-                                           .ppEnabledExtensionNames = extensions.data(),
-                                       });
-  });
+  constexpr std::array<const char*, 2> extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
+                                                  VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  constexpr auto hazards = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
+  const vk::ValidationFeaturesEXT features{.enabledValidationFeatureCount = 1,
+                                           .pEnabledValidationFeatures = &hazards};
+  vk::InstanceCreateInfo info{.pApplicationInfo = &application};
+  if (validation_wanted()) {
+    info.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions).setPNext(&features);
+  }
+  return translated([&] { return vk::raii::Instance(context, info); });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "technique/particles/particle_parameters.hpp"
+#include "technique/particles/point_margin.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -32,9 +33,16 @@ Buffer upload_property(const Gpu& gpu, const technique::Arrangement& arrangement
 
 }  // namespace
 
-int largest_point(const Gpu& gpu) {
-  if (gpu.features.largePoints == VK_FALSE) return 1;
-  return static_cast<int>(gpu.properties.limits.pointSizeRange[1]);
+float point_margin(const Gpu& gpu) {
+  return static_cast<float>(
+      technique::point_margin(gpu.properties.deviceName.data(),
+                              static_cast<double>(gpu.properties.limits.pointSizeGranularity)));
+}
+
+float largest_point(const Gpu& gpu) {
+  const float most =
+      gpu.features.largePoints == VK_TRUE ? gpu.properties.limits.pointSizeRange[1] : 1.0F;
+  return most - point_margin(gpu);
 }
 
 ParticleConstants particle_constants(const Gpu& gpu, const measure::ParticleWork& work) {
@@ -43,7 +51,8 @@ ParticleConstants particle_constants(const Gpu& gpu, const measure::ParticleWork
           .transfer_at_pixel = work.options.transfer == ComputedAt::pixel ? 1 : 0,
           .ray_at_vertex = work.options.ray == ComputedAt::vertex ? 1 : 0,
           .fault = static_cast<std::int32_t>(work.options.fault),
-          .largest_point = largest_point(gpu)};
+          .largest_point = largest_point(gpu),
+          .point_margin = point_margin(gpu)};
 }
 
 vk::Format colour_format(scene::ColourKind kind) {
@@ -103,7 +112,7 @@ ParticleData::ParticleData(const Gpu& gpu, const measure::ParticleWork& work,
       ids_(upload_property(gpu, arrangement, technique::Property::id)),
       cell_boxes_(make_buffer(gpu, std::as_bytes(std::span(arrangement.cells)), eStorageBuffer)) {}
 
-void ParticleData::bind(vk::DescriptorSet set) const {
+void ParticleData::bind(vk::DescriptorSet set, Fetch fetch) const {
   bind_buffer(gpu_, set, particle_parameters_binding, vk::DescriptorType::eUniformBuffer,
               parameters_);
   bind_buffer(gpu_, set, particle_transfer_binding, vk::DescriptorType::eUniformBuffer, transfer_);
@@ -111,10 +120,11 @@ void ParticleData::bind(vk::DescriptorSet set) const {
     bind_buffer(gpu_, set, binding, vk::DescriptorType::eStorageBuffer, buffer);
   };
   storage(particle_counters_binding, counters_);
+  storage(cells_binding, cell_boxes_);
+  if (fetch == Fetch::attributes) return;
   storage(spheres_binding, spheres_);
   storage(colours_binding, colours_);
   storage(ids_binding, ids_);
-  storage(cells_binding, cell_boxes_);
 }
 
 void ParticleData::look_from(const measure::ParticleWork& work) const {

@@ -30,13 +30,16 @@ struct ParticleConstants {
   std::int32_t transfer_at_pixel = 0;
   std::int32_t ray_at_vertex = 0;
   std::int32_t fault = 0;
-  std::int32_t largest_point = 1;  // pixels
+  float largest_point = 1;  // pixels
+  float point_margin = 0;
 };
 [[nodiscard]] ParticleConstants particle_constants(const Gpu& gpu,
                                                    const measure::ParticleWork& work);
 
-// The largest square point that the device draws, in whole pixels.
-[[nodiscard]] int largest_point(const Gpu& gpu);
+// Pixels to add to the size of a point on this device.
+[[nodiscard]] float point_margin(const Gpu& gpu);
+// The largest square that a point can stand for: with the margin, it is as large as they get.
+[[nodiscard]] float largest_point(const Gpu& gpu);
 
 // How a particle's colour is stored, for the vertex fetch.
 [[nodiscard]] vk::Format colour_format(scene::ColourKind kind);
@@ -53,6 +56,9 @@ enum class ParticleCounter : std::uint8_t {
   cells_culled
 };
 
+// How shaders get at particles: as attributes of vertices, or in storage buffers.
+enum class Fetch : std::uint8_t { attributes, by_index };
+
 // Buffers in device memory; nothing of the host's is kept.
 class ParticleData {
  public:
@@ -65,8 +71,9 @@ class ParticleData {
   [[nodiscard]] const Buffer& colours() const noexcept { return colours_; }
   [[nodiscard]] const Buffer& ids() const noexcept { return ids_; }
 
-  // Binds everything above first_free_binding.
-  void bind(vk::DescriptorSet set) const;
+  // Binds everything below first_free_binding; the particles only where they are fetched by index,
+  // as a vertex buffer may be larger than a storage buffer.
+  void bind(vk::DescriptorSet set, Fetch fetch) const;
 
   // Frames from now on are seen from this scene's camera.
   void look_from(const measure::ParticleWork& work) const;

@@ -66,9 +66,10 @@ std::optional<std::string> picture_reason(const Gpu& gpu, int width, int height,
     const std::uint32_t limit =
         std::min({limits.maxFramebufferWidth, limits.maxFramebufferHeight,
                   limits.maxImageDimension2D, std::ranges::min(limits.maxViewportDimensions)});
-    if (static_cast<std::uint32_t>(std::max(width, height)) <= limit) return std::nullopt;
-    return fmt::format("a viewport of {}x{} exceeds the largest frame buffer of {}", width, height,
-                       limit);
+    if (static_cast<std::uint32_t>(std::max(width, height)) > limit) {
+      return fmt::format("a viewport of {}x{} exceeds the largest frame buffer of {}", width,
+                         height, limit);
+    }
   }
   const std::uint64_t bytes =
       pixel_bytes * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
@@ -106,11 +107,14 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
     if (auto reason = cannot_cull(gpu, technique == "quad_instanced")) return reason;
   }
   if (auto reason = storage_reason(gpu, set, technique)) return reason;
-  constexpr std::uint64_t pixel_bytes = 4 * sizeof(float);
+  constexpr std::uint64_t colour = 4 * sizeof(float);
+  constexpr std::uint64_t depth = sizeof(float);
+  const bool reads_depths = work.options.culling == technique::Culling::occlusion;
+  const std::uint64_t pixel_bytes = before_pixels ? (reads_depths ? depth : 0) : colour;
   if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
     return reason;
   }
-  constexpr std::uint64_t picture_bytes = pixel_bytes + 4 * sizeof(std::uint32_t);
+  constexpr std::uint64_t picture_bytes = colour + 4 * sizeof(std::uint32_t);
   return memory_reason(gpu, particle_bytes(set) * set.count() +
                                 picture_bytes * static_cast<std::uint64_t>(scene.width) *
                                     static_cast<std::uint64_t>(scene.height));

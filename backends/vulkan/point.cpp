@@ -63,7 +63,8 @@ std::unique_ptr<measure::Prepared> prepare_point(const Gpu& gpu, const Instance&
   technique.rest->stages = {{eVertex, "point_large.vert.spv", "point_large_counting.vert.spv"}};
   technique.rest->instanced = true;
   technique.rest->topology = vk::PrimitiveTopology::eTriangleStrip;
-  technique.rest_runs = large_runs(work.scene, arrangement, largest_point(gpu));
+  technique.rest_runs =
+      large_runs(work.scene, arrangement, static_cast<double>(largest_point(gpu)));
   return std::make_unique<SpriteFrames>(gpu, instance, work, arrangement, std::move(technique));
 }
 

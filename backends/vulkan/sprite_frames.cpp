@@ -77,7 +77,8 @@ void SpriteFrames::draw_before(const measure::ParticleWork& work) const {
 }
 
 void SpriteFrames::bind() {
-  data_.bind(set_);
+  const bool instanced = technique_.draw.instanced || technique_.rest.has_value();
+  data_.bind(set_, instanced ? Fetch::by_index : Fetch::attributes);
   culling_.bind(set_);
   if (options_.culling != Culling::occlusion) return;
   occlusion_.emplace(gpu_, layout_, data_.cells(), target_.extent(), constants_);

@@ -16,8 +16,8 @@ enum class Needs : std::uint8_t { nothing, drawing, geometry, tessellation };
 
 // The feature that is lacking, if one is.
 [[nodiscard]] std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs);
-// The limit that a picture of this size exceeds. One that is drawn is a frame buffer; otherwise it
-// is a storage buffer of `pixel_bytes` per pixel.
+// The limit that a picture of this size exceeds: of a frame buffer where it is drawn, and of a
+// storage buffer with `pixel_bytes` per pixel, the largest that a technique has.
 [[nodiscard]] std::optional<std::string> picture_reason(const Gpu& gpu, int width, int height,
                                                         Needs needs, std::uint64_t pixel_bytes);
 [[nodiscard]] std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed);

@@ -173,7 +173,7 @@ TilesFrames::TilesFrames(const Gpu& gpu, const Instance& instance,
 }
 
 void TilesFrames::bind() const {
-  data_.bind(set_);
+  data_.bind(set_, Fetch::by_index);
   const auto storage = [&](std::uint32_t binding, const Buffer& buffer) {
     bind_buffer(gpu_, set_, binding, vk::DescriptorType::eStorageBuffer, buffer);
   };
@@ -213,6 +213,7 @@ void TilesFrames::record_round(const vk::raii::CommandBuffer& commands,
                                std::uint32_t again) const {
   // Entries and large spheres of the round before, behind the count of small ones.
   commands.fillBuffer(tiles_.get(), word, 2 * word, 0);
+  barrier(commands);
   push(commands, round.first, round.cells);
   run(commands, pipelines[TilePass::cells], groups_for(round.cells, group));
   barrier(commands);

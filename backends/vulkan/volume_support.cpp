@@ -5,6 +5,7 @@
 #include "backends/vulkan/filter_probe.hpp"
 #include "backends/vulkan/support.hpp"
 #include "backends/vulkan/volume_resources.hpp"
+#include "technique/volume/raycast_buffers.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -41,21 +42,24 @@ std::optional<std::string> volume_size_reason(const Gpu& gpu, const scene::Voxel
 
 std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWork& work,
                                          std::string_view technique, Needs needs) {
-  constexpr std::uint64_t pixel_bytes = 4 * sizeof(float);
   const scene::VolumeScene& scene = work.scene;
   if (auto reason = technique::raycast_reason(technique, scene, work.options)) return reason;
   if (work.options.precision == technique::Precision::fp64 && !gpu.features.shaderFloat64) {
     return "precision fp64 needs shaderFloat64, which the device lacks";
   }
-  const std::uint64_t pixels =
-      static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
   if (auto reason = format_reason(gpu, work)) return reason;
   if (auto reason = volume_size_reason(gpu, *scene.grid)) return reason;
+  constexpr std::uint64_t pixel_bytes = technique::raycast_counter_stride * sizeof(std::uint32_t);
   if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
     return reason;
   }
+  const technique::RaycastBuffers buffers = technique::raycast_buffers(scene, work.options);
+  if (auto reason = technique::buffer_reason(buffers, gpu.properties.limits.maxStorageBufferRange,
+                                             "maxStorageBufferRange")) {
+    return reason;
+  }
   return memory_reason(
-      gpu, scene.grid->voxel_count() * scene::bytes_of(scene.grid->format) + pixel_bytes * pixels);
+      gpu, scene.grid->voxel_count() * scene::bytes_of(scene.grid->format) + buffers.all());
 }
 
 }  // namespace triptych::vulkan_backend

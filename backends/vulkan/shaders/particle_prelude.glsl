@@ -7,8 +7,8 @@ layout(constant_id = 0) const int TRI_COLOUR = 0;
 layout(constant_id = 1) const int TRI_TRANSFER_AT_PIXEL = 0;
 layout(constant_id = 2) const int TRI_RAY_AT_VERTEX = 0;
 layout(constant_id = 3) const int TRI_FAULT = 0;
-layout(constant_id = 4) const int largest_point = 1;
-#define TRI_LARGEST_POINT float(largest_point)
+layout(constant_id = 4) const float TRI_LARGEST_POINT = 1.0;
+layout(constant_id = 5) const float TRI_POINT_MARGIN = 0.0;
 #include "portable/prelude.glsl"
 #include "portable/volume_math.h"
 #include "portable/sphere_math.h"

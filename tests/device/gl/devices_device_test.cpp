@@ -1,6 +1,7 @@
 // Listing and opening; what a device says of itself.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <set>
 
 #include "core/error.hpp"
@@ -9,6 +10,7 @@
 namespace triptych::gl_backend {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 
@@ -113,6 +115,31 @@ TEST(GlDevices, LimitsAreReasonsWithBothNumbers) {
       EXPECT_FALSE(device.unsupported(make_work(technique, make_scene({}))));
     }
     EXPECT_TRUE(device.unsupported(make_work("no_such_technique", make_scene({}))));
+  });
+}
+
+// Neither limit is reached by what frames that are not counted and skip nothing need.
+TEST(GlDevices, CountersAndBrickMapsFitAStorageBlock) {
+  static constexpr const char* limit = "GL_MAX_SHADER_STORAGE_BLOCK_SIZE";
+  for_each_device([](const measure::Device& device) {
+    const double most = std::stod(device.info().limits.at(limit));
+    const int edge = std::stoi(device.info().limits.at("GL_MAX_3D_TEXTURE_SIZE"));
+    scene::VolumeScene scene = make_scene({.voxel = scene::VoxelFormat::u8});
+    auto grid = *scene.grid;
+    const int bricked = static_cast<int>(2 * std::cbrt(most / 4)) + 3;  // bricks of 2³, 4 bytes
+    if (bricked <= edge) {
+      grid.size = {bricked, bricked, bricked};
+      scene.grid = std::make_shared<const scene::VoxelGrid>(grid);
+      EXPECT_THAT(
+          device.unsupported(make_work("raycast", scene, {.skip = technique::Skip::distance}))
+              .value_or(""),
+          AllOf(HasSubstr("brick map"), HasSubstr(limit)));
+      EXPECT_FALSE(
+          device.unsupported(make_work("raycast", scene, {.skip = technique::Skip::bricks})));
+    }
+    scene = make_scene({.width = static_cast<int>(most / 32 / 64) + 1, .height = 64});
+    EXPECT_THAT(device.unsupported(make_work("raycast_fragment", scene)).value_or(""),
+                AllOf(HasSubstr("counters"), HasSubstr(limit)));
   });
 }
 

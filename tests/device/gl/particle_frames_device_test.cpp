@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "technique/particles/tile_rounds.hpp"
 #include "tests/device/gl/gl_particles.hpp"
 
 namespace triptych::gl_backend {
@@ -125,6 +126,42 @@ TEST(GlParticleFrames, StatisticsTellTheStagesInUseAndNoOthers) {
         device.prepare(particle_work("quad_instanced", generated("generate:uniform:300")));
     EXPECT_THAT(culled->frame(Purpose::statistics).counts,
                 Contains(Pair("compute_invocations", Ge(1))));
+  });
+}
+
+// Large spheres in front of small ones, in cells of their own.
+scene::ParticleScene large_before_small() {
+  std::vector<std::array<double, 4>> spheres;
+  for (int i = 0; i < 400; ++i) spheres.push_back({0.01 * (i % 20), 0.01 * (i / 20.0), -4, 1});
+  for (int i = 0; i < 20000; ++i) {
+    spheres.push_back({0.2 * (i % 200) - 20, 0.2 * (i / 200) - 10.0, -60, 0.1});
+  }
+  return seen_from(spheres, {0, 0, 0}, 60);
+}
+
+// Passes over all tiles are made for the rounds that have large spheres, and no others.
+TEST(GlParticleFrames, RoundsWithoutLargeSpheresAreNotResolved) {
+  for_each_device([](measure::Device& device) {
+    if (device.info().driver != "llvmpipe") return;  // which counts invocations exactly
+    const scene::ParticleScene scene = large_before_small();
+    const technique::TileRounds rounds =
+        technique::tile_rounds(scene, technique::arrange(scene), 65535, 1U << 24U);
+    constexpr std::uint64_t group = 64;
+    constexpr std::uint64_t spread = 256;    // groups that share what there is
+    constexpr std::uint64_t tiles = 3 * 3;   // of 45×38 pixels
+    constexpr std::uint64_t pixels = 6 * 5;  // groups of 8×8
+    std::uint64_t groups = spread + pixels;  // index and shade
+    std::uint64_t resolved = 0;
+    for (const technique::TileRound& round : rounds.rounds) {
+      groups += (round.cells + group - 1) / group + round.cells + 1;  // cells, bin, place/farthest
+      if (round.entries > 0) groups += spread + tiles;                // fill, resolve
+      resolved += round.entries > 0 ? 1 : 0;
+    }
+    ASSERT_GT(resolved, 0U);
+    ASSERT_LT(resolved, rounds.rounds.size());
+    const record::Counts counts =
+        device.prepare(particle_work("tiles", scene))->frame(Purpose::statistics).counts;
+    EXPECT_EQ(counts.at("compute_invocations"), group * groups);
   });
 }
 

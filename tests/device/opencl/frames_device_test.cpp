@@ -1,6 +1,11 @@
 // Frames for timing, statistics and counters.
 #include <gmock/gmock.h>
 
+#include <chrono>
+#include <thread>
+
+#include "backends/opencl/devices.hpp"
+#include "backends/opencl/launches.hpp"
 #include "core/error.hpp"
 #include "technique/portable/prelude.hpp"
 #include "technique/volume/bricks.hpp"
@@ -151,6 +156,27 @@ TEST(OpenClFrames, WhatIsNotSupportedIsNotPrepared) {
     EXPECT_THROW(static_cast<void>(device.prepare(make_work("no_such_technique", make_scene({})))),
                  core::NotSupported);
   });
+}
+
+// The host pauses between two commands, and the device's clock goes on.
+TEST(OpenClFrames, WhatLiesBetweenLaunchesIsPartOfTheirTime) {
+  constexpr std::chrono::milliseconds pause{20};
+  constexpr double pause_ns = std::chrono::duration<double, std::nano>(pause).count();
+  for (const Found& each : find_devices().found) {
+    const cl::Context context(each.device);
+    const cl::CommandQueue queue(context, each.device, CL_QUEUE_PROFILING_ENABLE);
+    const cl::Buffer buffer(context, CL_MEM_READ_WRITE, 64);
+    std::vector<cl::Event> events(2);
+    for (cl::Event& event : events) {
+      queue.enqueueFillBuffer(buffer, cl_uint{1}, 0, 64, nullptr, &event);
+      queue.finish();
+      std::this_thread::sleep_for(pause);
+    }
+    const auto first = device_ns({events[0]});
+    if (!first || *first == 0) continue;  // it tells no times
+    EXPECT_LT(*first, pause_ns) << each.info.id;
+    EXPECT_GE(device_ns(events).value_or(0), pause_ns) << each.info.id;
+  }
 }
 
 }  // namespace

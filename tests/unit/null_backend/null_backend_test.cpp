@@ -86,10 +86,10 @@ TEST_F(NullEnvironment, ScriptMakesDevices) {
   const measure::Listing listing = backend->list();
   ASSERT_THAT(listing.devices, SizeIs(2));
   EXPECT_EQ(listing.devices[0].id, "null:scripted");
-  EXPECT_EQ(listing.devices[1].id, "null:scripted#1");
+  EXPECT_EQ(listing.devices[1].id, "null:scripted#2");
   EXPECT_EQ(listing.devices[1].driver_version, "7");
-  EXPECT_EQ(backend->open("null:scripted#1")->info(), listing.devices[1]);
-  EXPECT_THROW(static_cast<void>(backend->open("null:scripted#2")), core::NotSupported);
+  EXPECT_EQ(backend->open("null:scripted#2")->info(), listing.devices[1]);
+  EXPECT_THROW(static_cast<void>(backend->open("null:scripted#3")), core::NotSupported);
 }
 
 TEST_F(NullEnvironment, ScriptThatCannotBeReadIsBroken) {
@@ -160,7 +160,7 @@ TEST(NullTime, IsComputedFromTheWork) {
   const Script script{.devices = {1, 2}, .base_ns = 100, .ns_per_sample = 1};
   // 16·8 pixels, 8 voxels along the longest edge, two samples each.
   EXPECT_THAT(times(script, 3), Each(100 + 16 * 8 * 8 * 2));
-  EXPECT_THAT(times(script, 3, work(), "null:scripted#1"), Each(2 * (100 + 16 * 8 * 8 * 2)));
+  EXPECT_THAT(times(script, 3, work(), "null:scripted#2"), Each(2 * (100 + 16 * 8 * 8 * 2)));
   measure::VolumeWork slowed = volume();
   slowed.options.extra_work_stride = 10;
   EXPECT_NEAR(times(script, 1, work(slowed))[0] / times(script, 1)[0], 1.1, 1e-12);
