@@ -1,9 +1,7 @@
 #include "measure/factor.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 
@@ -70,14 +68,6 @@ std::array<int, 2> parse_viewport(std::string_view value) {
 
 double as_number(const Configuration& configuration, const std::string& factor) {
   return std::strtod(configuration.at(factor).c_str(), nullptr);
-}
-
-void check_generator(std::string_view data, const std::vector<std::string_view>& names) {
-  const std::string_view rest = data.substr(std::string_view("generate:").size());
-  const std::string_view name = rest.substr(0, rest.find(':'));
-  if (std::ranges::find(names, name) != names.end()) return;
-  throw core::InputError(
-      fmt::format("unknown generator '{}'; there are: {}", name, fmt::join(names, " ")));
 }
 
 nlohmann::json camera_json(const scene::Camera& camera) {

@@ -30,9 +30,6 @@ enum class Decides : std::uint8_t { the_picture, how_it_is_made };
 // The value of a factor of kind number.
 [[nodiscard]] double as_number(const Configuration& configuration, const std::string& factor);
 
-// Throws InputError naming the generators there are when "generate:NAME…" names none of them.
-void check_generator(std::string_view data, const std::vector<std::string_view>& names);
-
 // "camera" of frame.json.
 [[nodiscard]] nlohmann::json camera_json(const scene::Camera& camera);
 

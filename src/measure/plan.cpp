@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "measure/plan_combinations.hpp"
 #include "measure/plan_values.hpp"
 #include "measure/plan_yaml.hpp"
@@ -63,6 +64,9 @@ struct PlanSource {
 };
 
 PlanSource read_plan_file(const std::filesystem::path& file) {
+  if (file.empty()) {
+    throw core::InputError("a plan needs a name: of a YAML file, or SUITE/PLAN");
+  }
   std::error_code ignored;
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file, ignored)) {
@@ -117,10 +121,12 @@ Plan make_plan(const std::string& name, const Suite& suite,
                const std::vector<ValuesByFactor>& blocks) {
   Plan plan{.name = name,
             .suite = std::string(suite.name()),
+            .summary = {},
             .configurations = {},
             .varied = {},
             .timed = true,
-            .rounds = 1};
+            .rounds = 1,
+            .hash = {}};
   for (const ValuesByFactor& values : blocks) {
     std::vector<Configuration> all = all_combinations(suite, values, name);
     if (plan.configurations.empty()) {
@@ -157,8 +163,10 @@ Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
     apply(overrides, suite, blocks[i]);
   }
   Plan plan = make_plan(source.name, suite, blocks);
+  plan.summary = text.summary;
   plan.timed = text.timed;
   plan.rounds = text.rounds;
+  plan.hash = core::content_hash(source.yaml);
   return plan;
 }
 

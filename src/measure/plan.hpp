@@ -14,6 +14,7 @@ namespace triptych::measure {
 struct Plan {
   std::string name;  // "volume/quick", or the file's name without its ending
   std::string suite;
+  std::string summary;  // one line
   std::vector<Configuration>
       configurations;               // in order: data varies slowest, then pipelines, then views
   std::vector<std::string> varied;  // factors with more than one value
@@ -21,6 +22,8 @@ struct Plan {
   bool timed = true;
   // Passes over the plan, most of all; what is settled earlier is left out (measure/rounds.hpp).
   int rounds = 1;
+  // Of its text: another plan of the same name has another. Empty where it has no text.
+  std::string hash;
 };
 
 // Overrides from the command line: "--set factor=a,b".

@@ -9,6 +9,9 @@
 #include <numeric>
 #include <optional>
 
+#include "core/json_text.hpp"
+#include "core/text.hpp"
+
 namespace triptych::measure {
 namespace {
 
@@ -61,13 +64,13 @@ std::string canonical_choice(const Factor& factor, const PlacedText& value) {
                                      suggestion(value.text, factor.levels)));
 }
 
-// A configuration is one line, of a list, a table or a baseline.
+// A configuration is one line, of a list, a table or a baseline, and part of JSON and XML.
 std::string canonical_text(const Factor& factor, const PlacedText& value) {
-  if (value.text.empty() || value.text.find_first_of("\n\r") != std::string::npos) {
+  if (value.text.empty() || !core::is_line(value.text)) {
     throw core::InputError(value.place,
-                           fmt::format("'{}': a value is not empty and has no line break; found "
-                                       "'{}'",
-                                       factor.name, value.text));
+                           fmt::format("'{}': a value is not empty and is UTF-8 without line "
+                                       "breaks and control characters; found {}",
+                                       factor.name, core::json_text(value.text)));
   }
   return value.text;
 }

@@ -122,7 +122,7 @@ PlanText parse_plan(std::string_view yaml, const std::string& file) {
     if (key.text == "suite") {
       plan.suite = scalar(pair.second, file, key.text);
     } else if (key.text == "summary") {
-      static_cast<void>(scalar(pair.second, file, key.text));
+      plan.summary = scalar(pair.second, file, key.text).text;
     } else if (key.text == "timed") {
       plan.timed = truth_value(scalar(pair.second, file, key.text));
     } else if (key.text == "rounds") {

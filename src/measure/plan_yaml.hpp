@@ -22,6 +22,7 @@ struct PlanEntry {
 
 struct PlanText {
   PlacedText suite;
+  std::string summary;
   bool timed = true;
   int rounds = 1;
   std::vector<PlanEntry> entries;  // in the order of the file, no factor twice

@@ -89,16 +89,18 @@ std::vector<std::string> faults_for(std::span<const Plant> plants, const std::st
   return faults;
 }
 
-void check_plant(std::string_view fault) {
-  if (named(volume_faults, fault) || named(particle_faults, fault) || is_mishap(fault)) return;
-  if (fault.starts_with(slowdown) && stride_of(fault.substr(slowdown.size()))) return;
+std::string plant_names() {
   std::vector<std::string_view> names;
   for (const auto& [name, unused] : volume_faults) names.push_back(name);
   for (const auto& [name, unused] : particle_faults) names.push_back(name);
   names.insert(names.end(), mishaps.begin(), mishaps.end());
-  throw core::InputError(
-      fmt::format("unknown fault '{}'; there are: {}, slowdown:PERCENT (0.01 to 100)", fault,
-                  fmt::join(names, ", ")));
+  return fmt::format("{}, slowdown:PERCENT (0.01 to 100)", fmt::join(names, ", "));
+}
+
+void check_plant(std::string_view fault) {
+  if (named(volume_faults, fault) || named(particle_faults, fault) || is_mishap(fault)) return;
+  if (fault.starts_with(slowdown) && stride_of(fault.substr(slowdown.size()))) return;
+  throw core::InputError(fmt::format("unknown fault '{}'; there are: {}", fault, plant_names()));
 }
 
 void apply_plant(std::string_view fault, Work& work) {

@@ -23,6 +23,9 @@ struct Plant {
                                                   const std::string& configuration,
                                                   const std::string& device);
 
+// "half_voxel_shift, …, slowdown:PERCENT (0.01 to 100)".
+[[nodiscard]] std::string plant_names();
+
 // Throws InputError for a name that is none of the faults, naming those there are.
 void check_plant(std::string_view fault);
 

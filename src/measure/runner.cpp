@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -28,12 +29,16 @@ std::string utc_now(const char* format) {
   return fmt::format(fmt::runtime(fmt::format("{{:{}}}", format)), fmt::gmtime(now));
 }
 
+constexpr const char* hash_fact = "plan hash";  // in record::Run::system
+
 record::Run new_run(const Plan& plan) {
   std::random_device entropy;
+  auto facts = system_facts();
+  if (!plan.hash.empty()) facts[hash_fact] = plan.hash;
   return {.id = fmt::format("{}-{:08x}", utc_now("%Y%m%dT%H%M%SZ"), entropy()),
           .plan = plan.name,
           .started_at = utc_now("%Y-%m-%dT%H:%M:%SZ"),
-          .system = system_facts()};
+          .system = std::move(facts)};
 }
 
 // The kinds of work whose clocks are needed.
@@ -138,10 +143,33 @@ std::vector<const Configuration*> pending(const RunContext& context, const std::
   return result;
 }
 
+// A file's runs are known by its name alone. Where its text is not the one that a run began with,
+// the run must hold nothing that the plan would not measure now.
+void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& suite,
+                         const record::Store& store) {
+  const auto hash = run.system.find(hash_fact);
+  if (hash == run.system.end() || hash->second == plan.hash) return;
+  std::set<std::string> keys;
+  for (const Configuration& each : plan.configurations) {
+    keys.insert(configuration_key(suite, each));
+  }
+  for (const record::Record& record : store.records(run.id)) {
+    if (keys.contains(record.configuration)) continue;
+    throw core::InputError(
+        fmt::format("run {} of {} holds {}, which this plan does not measure: it has changed since "
+                    "or is another of that name; without --resume it begins a run of its own",
+                    run.id, plan.name, record.configuration));
+  }
+}
+
 // The id of the run to add to: a new one, or the plan's latest when it is to be resumed.
-std::string open_run(const Plan& plan, record::Store& store, const RunOptions& options) {
+std::string open_run(const PlannedRun& planned, record::Store& store) {
+  const auto& [plan, suite, options] = planned;
   const auto latest = store.latest_run(plan.name);
-  if (options.resume && latest) return latest->id;
+  if (options.resume && latest) {
+    refuse_another_plan(*latest, plan, suite, store);
+    return latest->id;
+  }
   record::Run run = new_run(plan);
   if (options.confirm && latest) run.confirms = latest->id;
   store.add_run(run);
@@ -160,6 +188,10 @@ class Measuring {
             const std::function<void(const Progress&)>& tell)
       : context_(context), devices_(devices), tell_(tell) {
     result_.run = context.run;
+    for (const Configuration& configuration : context.plan.configurations) {
+      by_key_[configuration_key(context.suite, configuration)] = &configuration;
+    }
+    if (context.options.resume) count_what_is_there();
   }
 
   // Everything once, by the whole protocol.
@@ -206,12 +238,10 @@ class Measuring {
 
   [[nodiscard]] RunResult conclude() {
     const Stopwatch stopwatch;
-    share_rounds();
     while (!open_.empty()) leave(open_.begin()->first);
     result_.unsettled =
         static_cast<int>(std::ranges::count_if(records_, [](const record::Record& record) {
-          return record.outcome == record::Outcome::measured && record.same_as.empty() &&
-                 !is_settled(record);
+          return record.outcome == record::Outcome::measured && !is_settled(record);
         }));
     result_.wall_ns += stopwatch.ns();
     result_.overhead_ns = result_.wall_ns - work_ns_;
@@ -262,29 +292,44 @@ class Measuring {
     }
   }
 
-  // Rounds after the first were of frames of its own alone.
-  void share_rounds() {
-    std::map<std::pair<std::string_view, std::string_view>, const record::Record*> own;
-    for (const record::Record& record : records_) {
-      if (record.same_as.empty()) own[{record.device, record.configuration}] = &record;
+  // Those that took over its frames have its further rounds too, whether or not the plan holds
+  // them; at once, so that a run that is stopped leaves none behind.
+  void share_rounds(const record::Record& measured) {
+    for (record::Record& twin : twins_) {
+      const bool of_it = twin.device == measured.device && twin.same_as == measured.configuration;
+      if (!of_it || twin.rounds_ns == measured.rounds_ns) continue;
+      take_over(twin, measured);
+      context_.store.update_times(twin);
     }
-    for (record::Record& record : records_) {
-      if (record.same_as.empty()) continue;
-      take_over(record, *own.at({record.device, record.same_as}));
-      context_.store.update_times(record);
+  }
+
+  // Of the plan, on the run's devices: what it is resumed with may be less than it began with.
+  [[nodiscard]] bool is_ours(const record::Record& record) const {
+    return is_on_our_devices(record) && by_key_.contains(record.configuration);
+  }
+
+  [[nodiscard]] bool is_on_our_devices(const record::Record& record) const {
+    return std::ranges::find(devices_, record.device) != devices_.end();
+  }
+
+  void count_what_is_there() {
+    for (const record::Record& record : context_.store.records(context_.run)) {
+      if (!is_ours(record)) continue;
+      count(record, result_);
+      ++result_.there_before;
     }
   }
 
   // What the store knows of this run's devices: with --resume, rounds of before too.
   void remember_records() {
-    for (const Configuration& configuration : context_.plan.configurations) {
-      by_key_[configuration_key(context_.suite, configuration)] = &configuration;
-    }
     for (record::Record& record : context_.store.records(context_.run)) {
-      const bool ours = std::ranges::find(devices_, record.device) != devices_.end() &&
-                        by_key_.contains(record.configuration);
-      if (ours) records_.push_back(std::move(record));
+      if (!record.same_as.empty()) {
+        if (is_on_our_devices(record)) twins_.push_back(std::move(record));
+      } else if (is_ours(record)) {
+        records_.push_back(std::move(record));
+      }
     }
+    for (const record::Record& record : records_) share_rounds(record);
   }
 
   // A configuration that fails now was measured by luck: its record says so.
@@ -303,7 +348,9 @@ class Measuring {
       count(record, result_);
       context_.store.add_record(record);
     } else if (add_round(record, passes)) {
+      ++result_.rounds_added;
       context_.store.update_times(record);
+      share_rounds(record);
     }
     report.done(record);
   }
@@ -314,7 +361,8 @@ class Measuring {
   RunResult result_;
   double work_ns_ = 0;
   std::map<std::string, std::unique_ptr<DeviceRun>> open_;
-  std::vector<record::Record> records_;
+  std::vector<record::Record> records_;  // of the plan, by frames of their own
+  std::vector<record::Record> twins_;    // by those of another
   std::map<std::string, const Configuration*> by_key_;
   std::map<std::pair<std::string, std::string>, record::Record> measured_;  // device, configuration
 };
@@ -329,8 +377,9 @@ std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
   InterruptGuard interrupts;
   std::deque<RunContext> contexts;  // each Measuring refers to its own
   std::deque<Measuring> all;
-  for (const auto& [plan, suite, options] : runs) {
-    contexts.push_back({plan, suite, store, options, interrupts, open_run(plan, store, options),
+  for (const PlannedRun& each : runs) {
+    const auto& [plan, suite, options] = each;
+    contexts.push_back({plan, suite, store, options, interrupts, open_run(each, store),
                         kinds_of(plan, options.protocol)});
     all.emplace_back(contexts.back(), devices, on_progress).first_round();
   }

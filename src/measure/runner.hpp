@@ -39,12 +39,10 @@ struct RunOptions {
 };
 
 // A signal asked the run to stop: its workers are gone, every record made so far is in the store,
-// and `resume` goes on from there.
+// and `resume` goes on from there. Whoever has a store and a --resume to offer says so.
 class Interrupted : public core::Error {
  public:
-  explicit Interrupted(int signal)
-      : Error("interrupted; what was measured is in the store, --resume goes on"),
-        signal_(signal) {}
+  explicit Interrupted(int signal) : Error("interrupted"), signal_(signal) {}
   [[nodiscard]] int signal() const noexcept { return signal_; }
 
  private:
@@ -64,10 +62,13 @@ struct Progress {
 
 struct RunResult {
   std::string run;  // id in the store
+  // What the run holds of the plan on its devices: with `resume`, from before too.
   int measured = 0;
   int taken_over = 0;  // of those, by another configuration's frames (measure/twins.hpp)
   int skipped = 0;
   int failed = 0;          // failed, crashed, hung or lost
+  int there_before = 0;    // of all these, those that a resumed run held already
+  int rounds_added = 0;    // times that one of them was timed again
   int unsettled = 0;       // of several rounds: measured, but the quietest was not seen again
   double wall_ns = 0;      // without what was measured of other plans meanwhile
   double overhead_ns = 0;  // of wall_ns, what was neither opening devices, preparing nor frames
@@ -87,8 +88,9 @@ struct PlannedRun {
 // as can be. A crash, a hang or a lost device costs one configuration; a device whose worker cannot
 // be started twice in a row costs the device, each of its configurations failed with the reason.
 // One result per plan, each of a run of its own. Throws InputError for an unknown fault, for an
-// environment that forbids measuring, and for a resumed run whose device has changed; IoError when
-// the store cannot be written; Interrupted.
+// environment that forbids measuring, and for a resumed run whose device has changed or that holds
+// what its plan, changed since, does not measure; IoError when the store cannot be written;
+// Interrupted.
 [[nodiscard]] std::vector<RunResult> run_plans(
     std::span<const PlannedRun> runs, const std::vector<std::string>& devices, record::Store& store,
     const std::function<void(const Progress&)>& on_progress);

@@ -16,6 +16,7 @@
 #include "measure/backend.hpp"
 #include "measure/loading.hpp"
 #include "record/expectation.hpp"
+#include "scene/generators.hpp"
 
 namespace triptych::measure {
 
@@ -59,6 +60,9 @@ class Suite {
   [[nodiscard]] virtual const std::vector<Factor>& factors() const = 0;
   // Checks a value beyond its kind; throws InputError saying what was expected.
   virtual void check(const Factor& factor, std::string_view value) const = 0;
+
+  // What "generate:NAME:…" may name in its data; none where it takes no data.
+  [[nodiscard]] virtual std::vector<scene::GeneratorInfo> generators() const { return {}; }
 
   // The plans that come with the suite: short name ("quick") and YAML text.
   [[nodiscard]] virtual std::vector<std::string_view> plan_names() const = 0;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/json_text.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -123,8 +124,7 @@ Protocol protocol_from(const Json& json) {
 }  // namespace
 
 void send(int fd, const Message& message) {
-  // A driver's strings need not be UTF-8; a name with a replaced letter is better than no answer.
-  const std::string text = message.json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = core::json_text(message.json);
   Header header;
   header.json_bytes = size_of(text.size());
   header.binary_bytes = size_of(message.binary.size());

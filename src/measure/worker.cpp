@@ -21,6 +21,7 @@
 #include "measure/stopwatch.hpp"
 #include "measure/twins.hpp"
 #include "measure/wire.hpp"
+#include "record/bad_input.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -55,9 +56,10 @@ void describe_work(const Work& work, const Device& device, record::Record& recor
   }
 }
 
-// Every typed error ends here, as the outcome of one configuration.
+// Every typed error ends here, as the outcome of one configuration. `data`: what may have taken
+// too much memory.
 template <typename Act, typename OnFailure>
-void outcome_of(const Act& act, const OnFailure& on_failure) {
+void outcome_of(const Act& act, const std::string& data, const OnFailure& on_failure) {
   try {
     act();
   } catch (const core::NotSupported& error) {
@@ -65,7 +67,7 @@ void outcome_of(const Act& act, const OnFailure& on_failure) {
   } catch (const core::DeviceLost& error) {
     on_failure(record::Outcome::lost, error.what());
   } catch (const std::bad_alloc&) {
-    on_failure(record::Outcome::failed, "out of host memory");
+    on_failure(record::Outcome::failed, "out of host memory with data " + data);
   } catch (const std::exception& error) {
     on_failure(record::Outcome::failed, error.what());
   }
@@ -96,7 +98,7 @@ class Worker {
     const Stopwatch whole;
     Answer answer;
     answer.record.factors = job.configuration;
-    outcome_of([&] { perform(job, answer); },
+    outcome_of([&] { perform(job, answer); }, data_,
                [&](record::Outcome outcome, const std::string& reason) {
                  conclude(answer, outcome, reason);
                });
@@ -135,7 +137,7 @@ class Worker {
   template <typename Act>
   Turn turn(const Act& act) {
     Turn turn;
-    outcome_of([&] { act(turn); },
+    outcome_of([&] { act(turn); }, data_,
                [&](record::Outcome outcome, const std::string& reason) {
                  turn = {.outcome = outcome, .reason = reason, .wall_ns = {}, .device_ns = {}};
                  // Freeing objects of a lost device is what drivers are worst at.
@@ -161,6 +163,8 @@ class Worker {
 
   // What the device can do of it. Resolves the configuration's "auto" levels.
   Work supported_work(Configuration& configuration, const std::vector<std::string>& plants) {
+    const auto data = configuration.find("data");
+    data_ = data == configuration.end() ? "none" : data->second;
     if (std::string reason = suite_.missing_data(configuration); !reason.empty()) {
       throw core::NotSupported(reason);
     }
@@ -170,11 +174,20 @@ class Worker {
     return work;
   }
 
+  // Broken input is no fault of the device's: a skip that says where it is broken.
+  Work work_or_skip(Configuration& configuration, const std::vector<std::string>& plants) {
+    try {
+      return supported_work(configuration, plants);
+    } catch (const core::InputError& error) {
+      throw core::NotSupported(fmt::format("{}{}", record::bad_input, error.what()));
+    }
+  }
+
   void perform(const Job& job, Answer& answer) {
     measuring_ns_ = 0;
     const Stopwatch whole;
     Configuration configuration = job.configuration;
-    const Work work = supported_work(configuration, job.plants);
+    const Work work = work_or_skip(configuration, job.plants);
     const bool may_share = !job.protocol.measure_every && job.plants.empty();
     std::optional<PlainWork> plain;
     if (may_share) plain = suite_.plain(configuration, work);
@@ -214,6 +227,7 @@ class Worker {
   std::vector<record::ClockTrust> clocks_;
   std::unique_ptr<Prepared> held_;
   Twins twins_;
+  std::string data_;         // of the configuration that is being worked on
   double measuring_ns_ = 0;  // of the last job: what measure() accounts for itself
 };
 

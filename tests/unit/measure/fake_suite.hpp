@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <memory>
+#include <new>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -53,8 +54,13 @@ class FakeSuite final : public Suite {
     return configuration.at("data") == "absent" ? "absent: no such file" : "";
   }
 
-  // Loading "slow" takes longer than what is not worth a word.
+  // Loading "slow" takes longer than what is not worth a word, "huge" more memory than there is,
+  // and "torn" is a broken file.
   Work work(Configuration& configuration, const Device& device) override {
+    if (configuration.at("data") == "huge") throw std::bad_alloc();
+    if (configuration.at("data") == "torn") {
+      throw core::InputError({.file = "torn", .line = 3}, "the file ends here");
+    }
     if (configuration.at("data") == "slow") {
       tell({.what = "slow", .share = 0});
       std::this_thread::sleep_for(std::chrono::milliseconds(2100));

@@ -215,8 +215,24 @@ TEST_F(PlanTest, NestedListsAndMappings) {
               AllOf(StartsWith(at(2, 7)), HasSubstr("mapping")));
 }
 
+TEST_F(PlanTest, ValueThatIsNoText) {
+  for (const char* const value : {"a\xff", "\xc0\xaf", "\xed\xa0\x80", "\"a\\x00b\"", "\"a\\tb\"",
+                                  "\"a\\x7f\"", "\"\\x1b[2J\""}) {
+    EXPECT_THAT(refusal(std::string("suite: fake\ndata: [ball, ") + value + "]\n"),
+                AllOf(StartsWith(at(2, 14)), HasSubstr("UTF-8 without")));
+  }
+  EXPECT_THAT(load("suite: fake\ndata: [größe, 体積, \U0001F9CA]\n").configurations, SizeIs(3));
+}
+
+TEST_F(PlanTest, TextOfAnotherPlanHasAnotherHash) {
+  const std::string hash = load("suite: fake\nstep: [1, 2]\n").hash;
+  EXPECT_FALSE(hash.empty());
+  EXPECT_EQ(load("suite: fake\nstep: [1, 2]\n", {{"step", {"2"}}}).hash, hash);
+  EXPECT_NE(load("suite: fake\nstep: [1, 3]\n").hash, hash);
+}
+
 TEST_F(PlanTest, ValueThatWouldBreakALine) {
-  EXPECT_THAT(refusal("suite: fake\ndata: [\"a\\nb\"]\n"), HasSubstr("no line break"));
+  EXPECT_THAT(refusal("suite: fake\ndata: [\"a\\nb\"]\n"), HasSubstr("without line breaks"));
 }
 
 TEST_F(PlanTest, Suite) {

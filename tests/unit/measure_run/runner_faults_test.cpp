@@ -78,6 +78,29 @@ TEST_F(RunFaults, AnApiErrorCostsOneConfigurationAndNoWorker) {
   }
 }
 
+TEST_F(RunFaults, ABrokenFileIsNoFaultOfTheDevice) {
+  const Plan torn = plan({{"technique", {"raycast"}},
+                          {"data", {"torn", "cube"}},
+                          {"step", {"1"}},
+                          {"camera", {"random:7"}}});
+  const RunResult result = run(torn);
+  EXPECT_EQ(result.measured, 1);
+  EXPECT_EQ(result.skipped, 1);
+  EXPECT_EQ(started_workers().size(), 1U);
+  for (const record::Record& record : records(result.run)) {
+    if (record.outcome == Outcome::measured) continue;
+    EXPECT_EQ(record.outcome, Outcome::skipped);
+    EXPECT_EQ(record.reason, "bad input: torn:3: the file ends here");
+  }
+}
+
+TEST_F(RunFaults, DataThatTakeTooMuchMemoryAreNamed) {
+  const RunResult result = run(plan(
+      {{"technique", {"raycast"}}, {"data", {"huge"}}, {"step", {"1"}}, {"camera", {"random:7"}}}));
+  EXPECT_EQ(result.failed, 1);
+  EXPECT_EQ(records(result.run).front().reason, "out of host memory with data huge");
+}
+
 TEST_F(RunFaults, AWorkerThatEndsByItselfIsACrashToo) {
   const Variable leaving(
       "TRIPTYCH_NULL_SCRIPT",

@@ -67,7 +67,8 @@ TEST_F(RunResume, AKilledSupervisorLosesAtMostTheConfigurationInFlight) {
 
   options.resume = true;
   const RunResult result = run(whole);
-  EXPECT_EQ(static_cast<std::size_t>(result.measured), whole.configurations.size() - kept);
+  EXPECT_EQ(static_cast<std::size_t>(result.measured), whole.configurations.size());
+  EXPECT_EQ(static_cast<std::size_t>(result.there_before), kept);
   EXPECT_EQ(told.size(), whole.configurations.size() - kept);
   const record::Store store = open_store();
   EXPECT_EQ(store.runs().size(), 1U);
@@ -107,10 +108,26 @@ TEST_F(RunAgain, AFinishedRunResumesToNothingAndWithoutResumeBeginsAnew) {
   options.resume = true;
   const RunResult again = run(small_plan());
   EXPECT_EQ(again.run, first.run);
-  EXPECT_EQ(again.measured + again.skipped + again.failed, 0);
+  EXPECT_EQ(again.measured, 4);
+  EXPECT_EQ(again.there_before, 4);
+  EXPECT_EQ(again.rounds_added, 0);
   EXPECT_EQ(started_workers().size(), 1U);
   options.resume = false;
   EXPECT_NE(run(small_plan()).run, first.run);
+}
+
+TEST_F(RunAgain, AChangedPlanGoesOnOnlyWithWhatItWouldMeasureItself) {
+  const RunResult first = run(plan({{"technique", {"raycast"}}, {"data", {"cube"}}}));
+  options.resume = true;
+  Plan larger = plan({{"technique", {"raycast"}}});
+  larger.hash = "of the plan with more data";
+  EXPECT_EQ(run(larger).run, first.run);
+  Plan another = plan({{"technique", {"raycast"}}, {"data", {"ball"}}});
+  EXPECT_EQ(run(another).run, first.run) << "a part of the same plan";
+  another.hash = "of another plan";
+  EXPECT_THROW(run(another), core::InputError);
+  options.resume = false;
+  EXPECT_NE(run(another).run, first.run);
 }
 
 TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
@@ -120,7 +137,8 @@ TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
     // Would no longer be trusted if it were calibrated again.
     const Variable lying("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "device_over_wall": 0.5})");
     const RunResult more = run(small_plan());
-    EXPECT_EQ(more.measured, 2);
+    EXPECT_EQ(more.measured, 4);
+    EXPECT_EQ(more.there_before, 2);
     EXPECT_TRUE(open_store().devices(more.run).at(0).clocks.at(0).trusted);
   }
   const Variable updated("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "driver_version": "2"})");

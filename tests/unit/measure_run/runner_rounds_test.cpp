@@ -123,9 +123,26 @@ TEST_F(RunRounds, AResumedRunGoesOnWithItsRounds) {
   options.rounds = 3;
   const RunResult second = run(small_plan());
   EXPECT_EQ(second.run, first.run);
+  EXPECT_EQ(second.measured, 4);
+  EXPECT_EQ(second.there_before, 4);
+  EXPECT_EQ(second.rounds_added, 2 * 4);
   for (const record::Record& record : records(first.run)) {
     EXPECT_THAT(record.rounds_ns, SizeIs(3));
   }
+}
+
+TEST_F(RunRounds, OneThatFailsInAResumedRunIsNoLongerMeasured) {
+  const Plan what =
+      plan({{"technique", {"raycast"}}, {"data", {"cube"}}, {"camera", {"random:7"}}});
+  ASSERT_EQ(run(what).measured, 2);
+  const Variable failing("TRIPTYCH_NULL_SCRIPT",
+                         R"({"base_ns": 3e6, "failures":
+                             [{"kind": "crash", "at": "prepare", "only": "*step=0.5*"}]})");
+  options.resume = true;
+  options.rounds = 2;
+  const RunResult result = run(what);
+  EXPECT_EQ(result.measured, 1);
+  EXPECT_EQ(result.failed, 1);
 }
 
 TEST_F(RunRounds, OneThatFailsLaterWasMeasuredByLuck) {

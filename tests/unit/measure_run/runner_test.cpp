@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 
 TEST_F(RunTest, MeasuresEveryConfigurationOnEveryDeviceAndTellsOfEach) {
   const Variable two("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "devices": [1, 2]})");
-  const RunResult result = run(small_plan(), {"null:scripted", "null:scripted#1"});
+  const RunResult result = run(small_plan(), {"null:scripted", "null:scripted#2"});
   EXPECT_EQ(result.measured, 8);
   EXPECT_EQ(result.skipped + result.failed, 0);
   EXPECT_EQ(told.size(), 8U);
