@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_io.hpp"
+#include "core/json_text.hpp"
 #include "judge/anchor.hpp"
 #include "judge/baselines.hpp"
 #include "judge/glob.hpp"
@@ -43,6 +44,7 @@ class Update {
     after_ = before_;
   }
 
+  [[nodiscard]] bool is_stored() const { return !before_.is_null(); }
   Json& value() { return after_; }
   Json& object() {
     if (!after_.is_object()) after_ = Json::object();
@@ -66,8 +68,8 @@ class Update {
       const auto old = before.find(item.key());
       if (old == before.end()) ++added;
       if (old == before.end() || *old == item.value()) continue;
-      values.push_back(
-          fmt::format("  {}: {} → {}", readable(item.key()), text(*old), text(item.value())));
+      values.push_back(fmt::format("  {}: {} → {}", readable(item.key()), core::json_text(*old),
+                                   core::json_text(item.value())));
     }
     const auto removed = std::ranges::count_if(
         before.items(), [&](const auto& item) { return !after.contains(item.key()); });
@@ -80,9 +82,6 @@ class Update {
   }
 
   static Json flat(const Json& value) { return value.is_null() ? Json::object() : value.flatten(); }
-  static std::string text(const Json& value) {
-    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  }
   // JSON pointer without its escapes.
   static std::string readable(std::string pointer) {
     constexpr std::array<std::pair<std::string_view, char>, 2> escapes{{{"~1", '/'}, {"~0", '~'}}};
@@ -194,9 +193,10 @@ void write_device_files(const Accepted& accepted, const record::Device& device, 
   Json& bits_table = configurations_of(bits, device.key(), accepted);
   Json& statistics_table = configurations_of(statistics, device.statistics_key(), accepted);
   Json& timings_table = configurations_of(timings, device.key(), accepted);
-  // A run that did not look leaves what is known of this driver version.
-  if (!device.statistics_dialect.empty())
-    statistics.object()["dialect"] = device.statistics_dialect;
+  // What a run did not look at leaves what is known of this driver version.
+  for (const auto& [statistic, worth] : device.statistics_dialect) {
+    statistics.object()["dialect"][statistic] = worth;
+  }
   bool tells_statistics = !statistics_table.empty();
   std::size_t kept = 0;  // what an untimed run says nothing of
   for (const record::Record& record : accepted.measured) {
@@ -212,7 +212,7 @@ void write_device_files(const Accepted& accepted, const record::Device& device, 
   }
   bits.write(2, lines);
   if (tells_statistics) statistics.write(3, lines);
-  timings.write(3, lines);
+  if (!timings_table.empty() || timings.is_stored()) timings.write(3, lines);
   if (kept > 0) {
     lines.push_back(fmt::format(
         "{}: times and statistics of {} configurations stay as stored, the run was untimed",
@@ -255,7 +255,11 @@ void write_images(const Accepted& accepted, const AcceptRequest& request, const 
       lines.push_back(
           fmt::format("images/{}: {} ({})", name, exists ? "replaced" : "new", record.scene));
     }
-    table[record.scene] = {{"file", name}, {"hash", hash}};
+    // Other devices' voxel formats have their own hashes of the data; they hold with the truth.
+    Json& entry = table[record.scene];
+    if (!entry.is_object() || entry.value("hash", "") != hash) entry = Json::object();
+    entry["file"] = name;
+    entry["hash"] = hash;
   }
   for (const record::Record& record : accepted.measured) {
     if (is_anchor(record) || record.data_hash.empty()) continue;
@@ -324,6 +328,22 @@ Accepted select(const record::Store& store, const std::string& run, const Accept
   return accepted;
 }
 
+// A shard, a run with --set or one that was cut short would take the rest of the plan with it.
+void refuse_part(const Accepted& accepted, const Baselines& stored, const std::string& run,
+                 const AcceptRequest& request) {
+  if (!accepted.replaces_all || request.drop) return;
+  const std::vector<std::string> known = stored.configurations();
+  std::vector<std::string> missing;
+  std::ranges::set_difference(known, accepted.configurations, std::back_inserter(missing));
+  if (missing.empty()) return;
+  throw core::InputError(fmt::format(
+      "run {} has no record of {} of {} stored configurations ({}{}): finish it with triptych run "
+      "{} --resume, accept what it has with --only GLOB, or drop them with --drop where the plan "
+      "has them no longer",
+      run, missing.size(), known.size(), missing.front(), missing.size() > 1 ? "; …" : "",
+      request.plan));
+}
+
 // Reads every file first: a corrupt one is reported before anything is written.
 void check_stored(const Accepted& accepted, const Baselines& stored) {
   const std::string& any = accepted.measured.front().configuration;
@@ -345,6 +365,7 @@ std::vector<std::string> accept(const record::Store& store, const std::string& r
   const Accepted accepted = select(store, run, request);
   const Baselines stored(root, request.plan);
   check_stored(accepted, stored);
+  refuse_part(accepted, stored, run, request);
   const Layout layout{stored.folder()};
   std::vector<std::string> lines;
   write_images(accepted, request, layout, lines);

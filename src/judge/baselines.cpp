@@ -11,6 +11,7 @@
 #include "core/image_io.hpp"
 #include "judge/json_file.hpp"
 #include "judge/layout.hpp"
+#include "judge/timing_model.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -65,7 +66,11 @@ StoredImage read_stored_image(const JsonNode& node) {
 }
 
 StoredCounters read_counters(const JsonNode& node) {
-  return read_members<record::Counts>(node, read_counts);
+  return read_members<record::Counts>(node, [](const JsonNode& by_device) {
+    record::Counts counts = read_counts(by_device);
+    if (counts.empty()) by_device.fail("expected the value of a device at least");
+    return counts;
+  });
 }
 
 std::map<std::string, StoredError> read_errors(const JsonNode& node) {
@@ -88,6 +93,7 @@ std::vector<StoredTiming> read_timings(const JsonNode& node) {
                           ? std::optional(entry.at("median_wall_ns").positive_number())
                           : std::nullopt});
   }
+  if (result.empty()) node.fail("expected a run at least");
   return result;
 }
 
@@ -139,12 +145,14 @@ auto find_optional(const Table& table, const std::string& name) {
 }  // namespace
 
 std::string_view common_clock(const record::Record& record, std::span<const StoredTiming> stored) {
-  const auto told = [&](const StoredTiming& timing) {
-    return timing.median_by(record.clock()).has_value();
+  const auto runs_by = [&](std::string_view clock) {
+    return std::ranges::count_if(
+        stored, [&](const StoredTiming& timing) { return timing.median_by(clock).has_value(); });
   };
-  return stored.empty() || std::ranges::any_of(stored, told) || record.wall_ns.empty()
-             ? record.clock()
-             : "wall";
+  const auto own = runs_by(record.clock());
+  const bool is_enough = own >= static_cast<std::ptrdiff_t>(TimingModel::least_runs);
+  if (is_enough || record.wall_ns.empty()) return record.clock();
+  return runs_by("wall") > own ? "wall" : record.clock();
 }
 
 // What was read so far, by file.

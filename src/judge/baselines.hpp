@@ -50,8 +50,9 @@ struct StoredTiming {
 };
 
 // Times by different clocks are not compared: the clock that the record counts by, or the wall
-// clock, by which everything is timed, where no stored run of its configuration has a time by that
-// one. A clock that a busy machine made doubtful once is no reason to judge nothing.
+// clock, by which everything is timed, where too few stored runs of its configuration have a time
+// by that one and more by this. A clock that a busy machine made doubtful once is no reason to
+// judge nothing.
 [[nodiscard]] std::string_view common_clock(const record::Record& record,
                                             std::span<const StoredTiming> stored);
 
@@ -139,6 +140,8 @@ struct AcceptRequest {
   std::string reason;  // must not be blank
   std::string only;    // glob over configuration keys; empty: all
   std::string date;    // ISO
+  // Stored configurations that the run has no record of go; else such a run is refused.
+  bool drop = false;
   // Drops the times stored before of what was measured, on these device keys: a machine that has
   // changed, or runs made beside other work.
   bool forget_times = false;
@@ -152,7 +155,8 @@ struct AcceptRequest {
 
 // Writes what a run measured as the new baselines; returns one line per changed file, each followed
 // by its changed values ("  PATH: OLD → NEW", the first 40 of a file). Refuses (InputError) a blank
-// reason, a run with planted faults, a run that measured nothing. Timings are appended (the last 20
+// reason, a run with planted faults, one that measured nothing or holds a part of what is stored
+// (see `drop`; with `only` nothing else changes). Timings are appended (the last 20
 // runs per device key are kept) unless the old are to be forgotten, everything else is replaced.
 // Each file is written aside and renamed, so that a full disk or a kill leaves the old one whole.
 [[nodiscard]] std::vector<std::string> accept(const record::Store& store, const std::string& run,

@@ -6,7 +6,9 @@
 #include <map>
 #include <utility>
 
+#include "core/error.hpp"
 #include "core/image_io.hpp"
+#include "judge/anchor.hpp"
 #include "judge/run_view.hpp"
 
 namespace triptych::judge {
@@ -123,28 +125,74 @@ class Scenes {
   std::vector<AccuracyScene> scenes_;
 };
 
+// Looks at one record after the other: what cannot be looked at is told, and stops no other.
+class AccuracyCheck {
+ public:
+  AccuracyCheck(const RunView& view, AccuracyFindings& out) : view_(view), out_(out) {}
+
+  void look_at(const record::Record& record) {
+    try {
+      measure_error(record);
+    } catch (const core::Error& error) {
+      add(record, Verdict::cannot_judge, fmt::format("its error cannot be told: {}", error.what()));
+    }
+  }
+
+  void finish() {
+    out_.scenes = std::move(scenes_).finish();
+    for (const AccuracyScene& scene : out_.scenes) judge_orders(view_, scene, out_);
+  }
+
+ private:
+  void add(const record::Record& record, Verdict verdict, std::string message) {
+    out_.findings.push_back(finding_about(record, Check::accuracy, verdict, std::move(message)));
+  }
+
+  void measure_error(const record::Record& record) {
+    const LimitPicture* limit = view_.request.limit(record);
+    if (limit == nullptr) {
+      // Of a scene without a limit there is none to be missed.
+      if (view_.baselines.errors(record.configuration).empty()) return;
+      add(record, Verdict::cannot_judge,
+          "an error is stored, but its scene has no limit; accept it anew: " +
+              view_.accept_command());
+      return;
+    }
+    if (record.image.empty()) {
+      add(record, Verdict::cannot_judge, "the record holds no picture; run the plan again");
+      return;
+    }
+    const auto error = picture_error(core::decode_exr(view_.store.image(record.image)),
+                                     view_.request.truth(record).truth, limit->image);
+    if (!error) {
+      add(record, Verdict::regression,
+          "the picture cannot be compared: of another size, or with values that are not finite");
+      return;
+    }
+    scenes_.add(record, *limit, accuracy_case(record, *error));
+    if (view_.baselines.present()) out_.findings.push_back(judge_error(view_, record, *error));
+  }
+
+  const RunView& view_;
+  AccuracyFindings& out_;
+  Scenes scenes_;
+};
+
 }  // namespace
 
 AccuracyFindings check_accuracies(const RunView& view) {
   AccuracyFindings result;
-  if (!view.request.limit || !view.request.truth) return result;
-  Scenes scenes;
-  for (const record::Record* record : view.measured) {
-    const LimitPicture* limit = record->image.empty() ? nullptr : view.request.limit(*record);
-    if (limit == nullptr) continue;
-    const auto error = picture_error(core::decode_exr(view.store.image(record->image)),
-                                     view.request.truth(*record).truth, limit->image);
-    if (!error) {
-      result.findings.push_back(finding_about(
-          *record, Check::accuracy, Verdict::regression,
-          "the picture cannot be compared: of another size, or with values that are not finite"));
-      continue;
+  if (view.request.limit && view.request.truth) {
+    AccuracyCheck check(view, result);
+    for (const record::Record* record : view.measured) {
+      if (!is_anchor(*record)) check.look_at(*record);
     }
-    scenes.add(*record, *limit, accuracy_case(*record, *error));
-    if (view.baselines.present()) result.findings.push_back(judge_error(view, *record, *error));
+    check.finish();
   }
-  result.scenes = std::move(scenes).finish();
-  for (const AccuracyScene& scene : result.scenes) judge_orders(view, scene, result);
+  if (result.findings.empty() && result.scenes.empty()) {
+    result.findings.push_back(finding_about(view, Check::accuracy, Verdict::cannot_judge,
+                                            "no scene here has a limit to tell errors against"));
+  }
   return result;
 }
 

@@ -34,7 +34,7 @@ std::string id_and_driver(const std::string& key) {
 
 bool is_of_another_processor(const CorrelationPair& pair, const RunView& view) {
   const auto processor = [](const std::string& key) {
-    const auto at = key.find("; CPU ");
+    const auto at = std::min(key.find("; CPU "), key.find("; GPU "));
     return at == std::string::npos ? std::string() : key.substr(at, key.find(';', at + 1) - at);
   };
   return processor(pair.other_key) != processor(view.devices.at(pair.device).key());
@@ -76,7 +76,7 @@ std::string slower_text(const Correlation& result) {
 }
 
 // Of one device, what all stored ones say that do not decide, in one line: their own character is
-// in it as well. Where nothing is slower by them it is no news that one is too unlike to judge.
+// in it as well. Where nothing is slower by any of them there is nothing to say.
 class AsideReport {
  public:
   void add(const CorrelationPair& pair, const std::string& other) {
@@ -92,13 +92,10 @@ class AsideReport {
     }
   }
 
-  [[nodiscard]] Verdict verdict() const {
-    return slower_.empty() ? Verdict::pass : Verdict::advisory;
-  }
+  [[nodiscard]] bool has_news() const { return !slower_.empty(); }
 
   [[nodiscard]] std::string message() const {
-    std::vector<std::string> parts;
-    if (!slower_.empty()) parts.push_back(fmt::format("slower {}", fmt::join(slower_, "; ")));
+    std::vector<std::string> parts{fmt::format("slower {}", fmt::join(slower_, "; "))};
     if (!expected_.empty())
       parts.push_back(fmt::format("as {} let expect", fmt::join(expected_, ", ")));
     if (!refused_.empty())
@@ -133,7 +130,8 @@ class PairReport {
     for (const LevelEffect& level : result_.levels) report_level(level);
     report_global();
     if (slower_) return;
-    add(Verdict::pass, fmt::format("as {} lets expect: {}", other_, fit_text()));
+    add(is_few() ? Verdict::advisory : Verdict::pass,
+        fmt::format("as {} lets expect: {}{}", other_, fit_text(), few_text()));
     add_numbers();
   }
 
@@ -143,17 +141,21 @@ class PairReport {
                                       verdict, std::move(message)));
   }
 
-  // What is slower; `what` of the device, with a blank behind it, or nothing. As with a device's
-  // own history, few stored runs advise only: they do not tell how the other device's times scatter
-  // from day to day.
+  // As with a device's own history, few stored runs advise only, whatever they say: they do not
+  // tell how the other device's times scatter from day to day.
+  [[nodiscard]] bool is_few() const { return pair_.stored_runs < TimingModel::least_runs; }
+
+  [[nodiscard]] std::string few_text() const {
+    if (!is_few()) return {};
+    return fmt::format("; advice only: {} of {} stored runs that a verdict needs",
+                       pair_.stored_runs, TimingModel::least_runs);
+  }
+
+  // What is slower; `what` of the device, with a blank behind it, or nothing.
   void add_slower(const std::string& what, bool decides, std::string message) {
     slower_ = slower_ || decides;
-    const bool few = pair_.stored_runs < TimingModel::least_runs;
-    if (decides && few) {
-      message += fmt::format("; advice only: {} of {} stored runs that a verdict needs",
-                             pair_.stored_runs, TimingModel::least_runs);
-    }
-    add(decides && !few ? Verdict::regression : Verdict::advisory, std::move(message));
+    if (decides) message += few_text();
+    add(decides && !is_few() ? Verdict::regression : Verdict::advisory, std::move(message));
     findings_.back().subject = what + "by " + pair_.other_key;
   }
 
@@ -312,15 +314,16 @@ CorrelationFindings check_correlations(const RunView& view, const WrongImages& w
   for (const CorrelationPair& pair : result.pairs) {
     if (pair.within_run) continue;
     held.insert(pair.device);
-    if (!pair.decides && !pair.of_itself && decided.contains(pair.device)) {
+    if (is_beside_what_decides(pair, decided)) {
       aside[pair.device].add(pair, short_name_of_other(pair, view));
     } else {
       PairReport(view, pair, result.findings).run();
     }
   }
   for (const auto& [id, report] : aside) {
+    if (!report.has_news()) continue;
     result.findings.push_back(finding_about(view, view.devices.at(id), Check::correlation,
-                                            report.verdict(), report.message()));
+                                            Verdict::advisory, report.message()));
     result.findings.back().subject = "by others";
   }
   for (const auto& [id, device] : view.devices) {

@@ -101,8 +101,7 @@ class TimingCheck {
   void sort_out(const record::Record& record) {
     const auto wrong = wrong_.find({record.device, record.configuration});
     if (wrong != wrong_.end()) {
-      add(record, Verdict::cannot_judge,
-          "its picture is wrong, so its time means nothing: " + wrong->second);
+      report_wrong_picture(record, wrong->second);
       return;
     }
     const auto stored = view_.baselines.timings(view_.device(record), record.configuration);
@@ -125,12 +124,22 @@ class TimingCheck {
       report_too_few(record, now, same_clock, other_clocks, stored.empty());
     } else if (same_clock.size() < TimingModel::least_runs) {
       add(record, Verdict::cannot_judge,
-          fmt::format("timed by the {} clock, stored by the {} clock; accept anew: {}", clock,
-                      stored.back().clock, view_.accept_command()));
+          fmt::format("timed by the {} clock, as only {} of {} stored runs are, {} are needed; "
+                      "accept anew: {}",
+                      clock, same_clock.size(), same_clock.size() + other_clocks,
+                      TimingModel::least_runs, view_.accept_command()));
     } else {
       keep(record, clock, now, std::move(same_clock),
            stored.back().kernel_hash != record.kernel_hash);
     }
+  }
+
+  // Where the picture is judged as well, or excused, that is the verdict.
+  void report_wrong_picture(const record::Record& record, const std::string& why) {
+    const bool is_told =
+        view_.checks.contains(Check::image) || is_waived(view_, record, Check::image);
+    add(record, is_told ? Verdict::skipped : Verdict::cannot_judge,
+        "its picture is wrong, so its time means nothing: " + why);
   }
 
   // Its time is judged where it was measured.
@@ -262,7 +271,12 @@ class TimingCheck {
       message += "; " + why_text(work, judgement.log_ratio);
     }
     if (judged_[index].other_code) message += "; the device code changed since";
-    if (open) {
+    if (judgement.runs < TimingModel::least_runs) {
+      message += fmt::format(
+          "; the device's own speed is known of {} of the stored runs, {} are needed: store runs "
+          "with anchors measured beside them, {}",
+          judgement.runs, TimingModel::least_runs, view_.accept_command());
+    } else if (open) {
       message +=
           "; too much scatter or too coarse a clock to tell: settle it with triptych compare " +
           view_.request.plan;
@@ -371,6 +385,7 @@ class TimingCheck {
                                             Verdict::advisory, std::move(message))
                             : finding_about(view_, view_.devices.at(drift.device), Check::timing,
                                             Verdict::advisory, std::move(message)));
+    findings_.back().subject = "drift";
     set_number(findings_.back(), "ratio", std::exp(drift.change.effect));
     set_number(findings_.back(), "p", drift.change.p);
     set_number(findings_.back(), "since", static_cast<double>(at + 1));

@@ -24,8 +24,8 @@
 //
 // Where A is B itself, some time ago, the slope is 1 and effects are estimated from y − x: beside a
 // free slope, a slower level of the long times would be taken for a steeper line. They are beside
-// the level apart (below), with errors that are no less than with it: what makes it apart is not one
-// number for all of it. ŝ is then no less than s̃: the residuals are one run's chance.
+// the level apart (below), with errors that are no less than with it: what makes it apart is not
+// one number for all of it. ŝ is then no less than s̃: the residuals are one run's chance.
 //
 // One level apart. The level whose effect is the most standard errors, if that is beyond chance, is
 // given an offset of its own, and the line is fitted beside it: a level of long times tilts the

@@ -240,6 +240,7 @@ void choose_deciding(std::vector<CorrelationPair>& pairs) {
 }  // namespace
 
 std::vector<CorrelationPair> correlation_pairs(const RunView& view, const WrongImages& wrong) {
+  if (view.records.empty()) return {};
   std::vector<CorrelationPair> pairs = Pairs(view, wrong).run();
   choose_deciding(pairs);
   return pairs;
@@ -251,6 +252,10 @@ std::set<std::string> decided_devices(const std::vector<CorrelationPair>& pairs)
     if (pair.decides) devices.insert(pair.device);
   }
   return devices;
+}
+
+bool is_beside_what_decides(const CorrelationPair& pair, const std::set<std::string>& decided) {
+  return !pair.decides && !pair.of_itself && decided.contains(pair.device);
 }
 
 }  // namespace triptych::judge

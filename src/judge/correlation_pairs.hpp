@@ -19,4 +19,9 @@ namespace triptych::judge {
 // Ids of the devices that some stored one can judge.
 [[nodiscard]] std::set<std::string> decided_devices(const std::vector<CorrelationPair>& pairs);
 
+// Whether this pair is told only beside what decides about its device, one of `decided`. A device's
+// own history never is: where it cannot judge, that is news.
+[[nodiscard]] bool is_beside_what_decides(const CorrelationPair& pair,
+                                          const std::set<std::string>& decided);
+
 }  // namespace triptych::judge

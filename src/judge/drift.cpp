@@ -52,8 +52,7 @@ Split largest_split(std::span<const double> ranks) {
 }
 
 // The largest splits of random orders of n ranks, sorted.
-std::vector<double> splits_by_chance(std::size_t n) {
-  constexpr std::size_t orders = 9999;
+std::vector<double> splits_by_chance(std::size_t n, std::size_t orders) {
   std::vector<double> ranks(n);
   std::iota(ranks.begin(), ranks.end(), 1.0);
   core::Random random(n);
@@ -77,19 +76,29 @@ class ChangePoints {
     if (series.size() < Model::least_runs) return std::nullopt;
     const Split split = largest_split(ranks_of(series));
     if (split.z == 0) return ChangePoint{};
-    auto [known, missing] = by_chance_.try_emplace(series.size());
-    if (missing) known->second = splits_by_chance(series.size());
-    const std::vector<double>& chance = known->second;
-    constexpr double rounding = 1e-9;  // of z, so that equal splits are equal
-    const auto as_large = chance.end() - std::ranges::lower_bound(chance, split.z - rounding);
-    return ChangePoint{
-        .at = split.at,
-        .effect = median(series.subspan(split.at)) - median(series.first(split.at)),
-        .p = static_cast<double>(1 + as_large) / static_cast<double>(1 + chance.size())};
+    // Where no order came near, more are drawn: one of many series is told by a small p alone.
+    double p = 1;
+    for (const std::size_t orders : {std::size_t{9'999}, std::size_t{199'999}}) {
+      p = share_as_large(series.size(), split.z, orders);
+      if (p > 1.5 / static_cast<double>(orders + 1)) break;
+    }
+    return ChangePoint{.at = split.at,
+                       .effect = median(series.subspan(split.at)) - median(series.first(split.at)),
+                       .p = p};
   }
 
  private:
-  std::map<std::size_t, std::vector<double>> by_chance_;
+  // Of random orders and the one that was seen.
+  double share_as_large(std::size_t runs, double z, std::size_t orders) {
+    auto [known, missing] = by_chance_.try_emplace({runs, orders});
+    if (missing) known->second = splits_by_chance(runs, orders);
+    const std::vector<double>& chance = known->second;
+    constexpr double rounding = 1e-9;  // of z, so that equal splits are equal
+    const auto as_large = chance.end() - std::ranges::lower_bound(chance, z - rounding);
+    return static_cast<double>(1 + as_large) / static_cast<double>(1 + orders);
+  }
+
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<double>> by_chance_;
 };
 
 std::vector<double> finite(std::span<const double> values) {

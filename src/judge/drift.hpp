@@ -26,8 +26,9 @@ struct ChangePoint {
 };
 
 // The split that Wilcoxon's rank sum finds least likely, and p of the largest standardised rank sum
-// over all splits, from 9999 random orders of as many ranks: free of the distribution, and one wild
-// run cannot make a step. nullopt below DriftModel::least_runs.
+// over all splits, from 9999 random orders of as many ranks (199999 where none of them comes near):
+// free of the distribution, and one wild run cannot make a step. nullopt below
+// DriftModel::least_runs.
 [[nodiscard]] std::optional<ChangePoint> change_point(std::span<const double> series);
 
 // ln t of one configuration by run, oldest first; NaN where a run lacks it.

@@ -11,6 +11,7 @@
 #include "judge/confirmation.hpp"
 #include "judge/glob.hpp"
 #include "judge/run_view.hpp"
+#include "record/bad_input.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -85,7 +86,8 @@ void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
     std::string message = fmt::format("{}: {}", name_of(record.outcome), record.reason);
     if (record.outcome == record::Outcome::skipped) {
       const bool missed = measured_before(view, record);
-      verdict = missed ? Verdict::cannot_judge : Verdict::skipped;
+      const bool wanted = missed || record::has_bad_input(record);
+      verdict = wanted ? Verdict::cannot_judge : Verdict::skipped;
       if (missed) message += "; the same device measured it when its baselines were accepted";
     }
     findings.push_back(finding_about(record, check, verdict, std::move(message)));

@@ -91,6 +91,8 @@ struct GateResult {
   // On which something may be slower that is no regression yet, noise left a time open or kept a
   // stored device from judging; and all with a regression in time. Another launch should settle it.
   std::set<std::string> in_doubt = {};
+  // Of which all findings are advice or reasons for not judging.
+  [[nodiscard]] std::vector<std::string> nothing_decided() const;
   // In doubt, and no other launch has settled it.
   [[nodiscard]] std::vector<std::string> left_in_doubt() const;
   [[nodiscard]] core::ExitCode exit_code() const;

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/json_text.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -78,15 +79,9 @@ bool is_container(const core::Json& value) {
   return value.is_structured() && !value.empty();
 }
 
-std::string one_line(const core::Json& value) {
-  // Driver strings are not always UTF-8; a baseline must be writable all the same.
-  std::string text = value.dump(-1, ' ', false, core::Json::error_handler_t::replace);
-  return text;
-}
-
 void append_lines(std::string& out, const core::Json& value, int depth, int indent) {
   if (depth == 0 || !is_container(value)) {
-    out += one_line(value);
+    out += core::json_text(value);
     return;
   }
   const bool object = value.is_object();
@@ -96,7 +91,7 @@ void append_lines(std::string& out, const core::Json& value, int depth, int inde
     if (!first) out += ",\n";
     first = false;
     out.append(static_cast<std::size_t>(indent) + 1, ' ');
-    if (object) out += one_line(core::Json(item.key())) + ": ";
+    if (object) out += core::json_text(core::Json(item.key())) + ": ";
     append_lines(out, item.value(), depth - 1, indent + 1);
   }
   out += '\n';
@@ -174,9 +169,9 @@ std::uint64_t JsonNode::whole_number() const {
 }
 
 void JsonNode::fail(std::string_view message) const {
-  file_->fail(path_,
-              fmt::format("{}, found {}", message,
-                          value_->is_structured() ? value_->type_name() : one_line(*value_)));
+  file_->fail(
+      path_, fmt::format("{}, found {}", message,
+                         value_->is_structured() ? value_->type_name() : core::json_text(*value_)));
 }
 
 JsonNode JsonNode::child(std::string name, const core::Json& value) const {

@@ -50,6 +50,11 @@ std::string plural(std::size_t n, std::string_view one, std::string_view many) {
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
+// Neither advice nor an excuse for saying nothing.
+bool is_decision(Verdict verdict) {
+  return verdict != Verdict::advisory && verdict != Verdict::skipped;
+}
+
 // " in image, timing on vulkan:lavapipe": where the findings of one verdict lie.
 std::string places(const GateResult& result, Verdict verdict) {
   std::set<std::string_view> checks;
@@ -118,15 +123,22 @@ std::vector<std::string> GateResult::left_in_doubt() const {
   return left;
 }
 
-// A gate that decided nothing has not passed.
+std::vector<std::string> GateResult::nothing_decided() const {
+  std::set<std::string> decided;
+  for (const Finding& finding : findings) {
+    if (is_decision(finding.verdict)) decided.insert(finding.device);
+  }
+  std::vector<std::string> without;
+  std::ranges::set_difference(devices, decided, std::back_inserter(without));
+  return without;
+}
+
+// A gate that decided nothing has not passed, and none that decided nothing of one of its devices.
 core::ExitCode GateResult::exit_code() const {
   if (count(*this, Verdict::regression) > 0) return core::ExitCode::regression;
   if (count(*this, Verdict::cannot_judge) > 0) return core::ExitCode::cannot_judge;
-  const bool decided = std::ranges::any_of(findings, [](const Finding& finding) {
-    return finding.verdict == Verdict::pass || finding.verdict == Verdict::improved ||
-           finding.verdict == Verdict::waived;
-  });
-  return decided ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+  const bool decided = std::ranges::any_of(findings, is_decision, &Finding::verdict);
+  return decided && nothing_decided().empty() ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
 std::string GateResult::headline() const {
@@ -147,7 +159,12 @@ std::string GateResult::headline() const {
     case core::ExitCode::regression:
       return fmt::format("FAIL: {}; {}", fmt::join(parts, "; "), tally(*this));
     default:
-      if (parts.empty()) parts.emplace_back("nothing was decided");
+      if (parts.empty()) {
+        parts.push_back(
+            nothing_decided().empty()
+                ? "nothing was decided"
+                : fmt::format("nothing was decided of {}", fmt::join(nothing_decided(), ", ")));
+      }
       return fmt::format("CANNOT JUDGE: {}; {}", fmt::join(parts, "; "), tally(*this));
   }
 }

@@ -73,6 +73,9 @@ struct AccuracyFindings {
 // A finding per record that has a score, those that failed among them.
 [[nodiscard]] std::vector<Finding> check_stress(const RunView& view);
 
+// Whether waivers.json excuses what this check may find about the record, today.
+[[nodiscard]] bool is_waived(const RunView& view, const record::Record& record, Check check);
+
 // Turns regressions that waivers.json excuses into waived ones; says where a waiver has expired.
 void apply_waivers(const RunView& view, std::vector<Finding>& findings);
 

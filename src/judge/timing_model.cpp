@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "judge/statistics.hpp"
@@ -13,7 +14,8 @@ namespace {
 
 // One case with the shifts taken out.
 struct Levelled {
-  double runs = 0;
+  std::size_t runs = 0;
+  [[nodiscard]] bool is_told() const { return runs >= TimingModel::least_runs; }
   double log_ratio = 0;
   double shift = 0;       // of this run against the stored ones
   KnownVariance scatter;  // of the stored runs
@@ -23,7 +25,8 @@ struct Levelled {
 Levelled level(const TimingCase& timing, const CaseShift& shift) {
   Levelled result;
   const std::vector<double> stored = stored_logarithms(timing, shift);
-  result.runs = static_cast<double>(stored.size());
+  result.runs = stored.size();
+  if (!result.is_told()) return result;
   result.log_ratio = std::log(timing.median_ns) - shift.now - median(stored);
   result.shift = std::log(timing.median_ns) - median(stored_logarithms(timing)) - result.log_ratio;
   result.scatter = scatter_of(stored);
@@ -37,6 +40,7 @@ VariancePrior prior_of(std::span<const TimingCase* const> cases,
   const bool only_anchors = std::ranges::all_of(cases, &TimingCase::anchor);
   std::vector<KnownVariance> scatter;
   for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (!levelled[i].is_told()) continue;
     if (!cases[i]->anchor || only_anchors) scatter.push_back(levelled[i].scatter);
   }
   return fit_variance_prior(scatter);
@@ -56,13 +60,19 @@ double typical_variance_of_rounds(std::span<const TimingCase* const> cases) {
 TimingJudgement judge_case(const TimingCase& timing, const Levelled& values,
                            const VariancePrior& prior, double pooled_degrees, double of_rounds) {
   TimingJudgement result;
+  result.baseline_ns = std::exp(median(stored_logarithms(timing)));
+  result.runs = values.runs;
+  if (!values.is_told()) {
+    result.log_ratio = std::log(timing.median_ns / result.baseline_ns);
+    result.standard_error = result.half_width = std::numeric_limits<double>::infinity();
+    return result;
+  }
   const KnownVariance run = moderated(prior, values.scatter);
   // No more freedom than all the data together have.
   result.degrees = std::min(run.degrees, pooled_degrees);
-  result.standard_error = std::sqrt(run.variance * (1 + variance_of_median_to_mean / values.runs) +
-                                    values.variance_of_shift);
+  const double of_runs = variance_of_median_to_mean / static_cast<double>(values.runs);
+  result.standard_error = std::sqrt(run.variance * (1 + of_runs) + values.variance_of_shift);
   result.busy_variance = std::max(of_rounds - run.variance, 0.0);
-  result.baseline_ns = std::exp(median(stored_logarithms(timing)));
   result.log_ratio = values.log_ratio;
   result.shift = values.shift;
   result.test(timing.tolerance);

@@ -52,6 +52,9 @@
 // between the two parts, the interval spans both, w falls and the anchors decide. Beyond 69 % the
 // body is the slower part: d tells, or, within V, the rest is called faster.
 //
+// A stored run without anchors is levelled by the body alone, and where the program has changed,
+// when the body is no witness, it is left out.
+//
 // Without anchors nothing tells a shift from the program: there is none. With fewer than three
 // configurations the body is no crowd: the shift is the anchors', v = v_a.
 
@@ -113,6 +116,8 @@ struct TimingTest {
 struct TimingJudgement : TimingTest {
   double baseline_ns = 0;   // geometric mean of the stored runs
   double shift = 0;         // of this run against the stored ones, in ln t; 0 without anchors
+  std::size_t runs = 0;     // stored ones of which the shift is known; with fewer than
+                            // TimingModel::least_runs nothing is told
   std::size_t anchors = 0;  // of the device
 };
 

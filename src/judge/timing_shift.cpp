@@ -23,7 +23,11 @@ std::vector<double> stored_logarithms(const TimingCase& timing, const CaseShift&
   std::vector<double> result;
   for (const auto& [run, ns] : timing.stored_ns) {
     const auto own = shift.stored.find(run);
-    result.push_back(std::log(ns) - (own == shift.stored.end() ? 0 : own->second));
+    if (own != shift.stored.end()) {
+      result.push_back(std::log(ns) - own->second);
+    } else if (shift.stored.empty()) {
+      result.push_back(std::log(ns));
+    }
   }
   return result;
 }
@@ -100,7 +104,8 @@ double DeviceShifts::scatter_of_anchors() const {
 double DeviceShifts::scatter_of_body() const {
   std::vector<KnownVariance> scatter;
   for (const auto& [value, timing] : body_.now) {
-    scatter.push_back(scatter_of(stored_logarithms(*timing, medians(body_, timing))));
+    const std::vector<double> levelled = stored_logarithms(*timing, medians(body_, timing));
+    if (levelled.size() >= 2) scatter.push_back(scatter_of(levelled));
   }
   return fit_variance_prior(scatter).variance;
 }
@@ -153,9 +158,10 @@ CaseShift DeviceShifts::of(const TimingCase& timing) const {
     body = weight * body + (1 - weight) * anchors;
   };
   mix(shift.now, by_anchors_.now);
+  // A run without anchors has the body's word alone.
   for (auto& [run, value] : shift.stored) {
     const auto own = by_anchors_.stored.find(run);
-    mix(value, own == by_anchors_.stored.end() ? 0 : own->second);
+    if (own != by_anchors_.stored.end()) mix(value, own->second);
   }
   shift.variance = weight * weight * of_body + (1 - weight) * (1 - weight) * of_anchors;
   return shift;

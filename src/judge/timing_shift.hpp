@@ -17,12 +17,13 @@ namespace triptych::judge {
 
 // What is to be taken out of one case.
 struct CaseShift {
-  std::map<std::string, double> stored;  // by run; a run that is not there was not shifted
+  std::map<std::string, double> stored;  // by run; empty: nothing tells any shift, so there is none
   double now = 0;
   double variance = 0;
 };
 
-// ln t of the stored runs without the shift.
+// ln t of the stored runs without the shift. A run of which others' shifts are known and its own is
+// not is left out: how fast the device was in it, nobody knows.
 [[nodiscard]] std::vector<double> stored_logarithms(const TimingCase& timing,
                                                     const CaseShift& shift = {});
 

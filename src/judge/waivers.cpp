@@ -12,6 +12,10 @@ bool covers(const Waiver& waiver, const std::string& device, const std::string& 
   return glob_matches(waiver.device, device) && glob_matches(waiver.test, test);
 }
 
+bool has_expired(const Waiver& waiver, const RunView& view) {
+  return view.request.today >= waiver.expiry;
+}
+
 // Whether the waiver is about anything this gate looked at; others belong to other plans.
 bool concerns(const Waiver& waiver, const RunView& view) {
   return std::ranges::any_of(view.records, [&](const record::Record& record) {
@@ -23,8 +27,14 @@ bool concerns(const Waiver& waiver, const RunView& view) {
 
 }  // namespace
 
+bool is_waived(const RunView& view, const record::Record& record, Check check) {
+  return std::ranges::any_of(view.baselines.waivers(), [&](const Waiver& waiver) {
+    return !has_expired(waiver, view) &&
+           covers(waiver, record.device, record.test_id(name_of(check)));
+  });
+}
+
 void apply_waivers(const RunView& view, std::vector<Finding>& findings) {
-  const auto expired = [&](const Waiver& waiver) { return view.request.today >= waiver.expiry; };
   for (const Waiver& waiver : view.baselines.waivers()) {
     bool used = false;
     for (Finding& finding : findings) {
@@ -32,7 +42,7 @@ void apply_waivers(const RunView& view, std::vector<Finding>& findings) {
         continue;
       }
       used = true;
-      if (expired(waiver)) {
+      if (has_expired(waiver, view)) {
         finding.message +=
             fmt::format("; a waiver for this expired on {} ({})", waiver.expiry, waiver.reason);
       } else {
@@ -41,7 +51,7 @@ void apply_waivers(const RunView& view, std::vector<Finding>& findings) {
             fmt::format("waived until {} ({}): {}", waiver.expiry, waiver.reason, finding.message);
       }
     }
-    if (!used && expired(waiver) && concerns(waiver, view)) {
+    if (!used && has_expired(waiver, view) && concerns(waiver, view)) {
       findings.push_back(finding_about(
           view, *view.checks.begin(), Verdict::advisory,
           fmt::format("the waiver of {} on {} expired on {} and excuses nothing: take it out ({})",

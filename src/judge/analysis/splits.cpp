@@ -134,8 +134,9 @@ std::string key_without(const Observation& observation,
 }
 
 Chosen fullest_block(const Chosen& from, std::span<const std::string_view> factors) {
+  using Combinations = std::set<std::vector<std::string>>;
   struct Block {
-    std::set<std::vector<std::string>> combinations;
+    Combinations combinations;
     Chosen members;
   };
   std::map<std::string, Block> blocks;
@@ -149,15 +150,17 @@ Chosen fullest_block(const Chosen& from, std::span<const std::string_view> facto
     block.combinations.insert(std::move(combination));
     block.members.push_back(each);
   }
-  std::size_t most = 0;
-  for (const auto& [key, block] : blocks) most = std::max(most, block.combinations.size());
-  Chosen chosen;
+  // Blocks of other combinations would differ in what is left out of the comparison.
+  std::map<Combinations, Chosen> by_combinations;
   for (const auto& [key, block] : blocks) {
-    if (block.combinations.size() == most) {
-      chosen.insert(chosen.end(), block.members.begin(), block.members.end());
-    }
+    Chosen& members = by_combinations[block.combinations];
+    members.insert(members.end(), block.members.begin(), block.members.end());
   }
-  return chosen;
+  const auto fullness = [](const auto& each) {
+    return std::pair(each.first.size(), each.second.size());
+  };
+  const auto fullest = std::ranges::max_element(by_combinations, {}, fullness);
+  return fullest == by_combinations.end() ? Chosen{} : fullest->second;
 }
 
 Chosen all_of(const Dataset& dataset) {

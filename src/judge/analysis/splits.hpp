@@ -53,7 +53,8 @@ struct Split {
                                       std::span<const std::string_view> left_out);
 
 // The observations whose key (all factors but these) occurs with the largest number of
-// combinations of the factors' levels: what is compared then differs in these factors alone.
+// combinations of the factors' levels, the same of each; of several such sets the one with the most
+// observations: what is compared then differs in these factors alone.
 [[nodiscard]] Chosen fullest_block(const Chosen& from, std::span<const std::string_view> factors);
 [[nodiscard]] Chosen all_of(const Dataset& dataset);
 

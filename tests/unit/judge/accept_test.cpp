@@ -75,7 +75,7 @@ TEST_F(AcceptTest, OnlyWhatIsAskedForIsReplaced) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", [](record::Record& record, core::Image&) { record.counters["samples"] = 7; });
-  (void)accept_run("b", "*skip=bricks*");
+  (void)accept_run("b", {.only = "*skip=bricks*"});
   const core::Json counters = read(baseline("counters.json"));
   EXPECT_EQ(counters[bricks_]["samples"]["opencl:pocl"], 7);
   EXPECT_EQ(counters[plain_]["samples"]["opencl:pocl"], 1000000);
@@ -91,10 +91,29 @@ TEST_F(AcceptTest, WhatThePlanNoLongerHoldsIsDropped) {
     if (record.scene == front_) store_.add_record(record);
   }
   for (const auto& entry : store_.devices("a")) store_.add_device("b", entry.device, {});
-  EXPECT_THAT(accept_run("b"), Contains("images/0123.exr: removed"));
+  EXPECT_THROW((void)accept_run("b"), core::InputError);
+  EXPECT_EQ(read(baseline("counters.json")).size(), 4U);
+  EXPECT_THAT(accept_run("b", {.drop = true}), Contains("images/0123.exr: removed"));
   EXPECT_EQ(read(baseline("counters.json")).size(), 2U);
   EXPECT_EQ(read(baseline("images.json")).size(), 1U);
   EXPECT_EQ(std::ranges::distance(std::filesystem::directory_iterator(baseline("images"))), 1);
+}
+
+// One device's run replaces its own voxel format's hash, and leaves the others'.
+TEST_F(AcceptTest, DataOfOtherFormatsKeepsItsHash) {
+  const auto with_formats = [](record::Record& record, core::Image&) {
+    record.factors["voxel"] = record.device == "vulkan:lavapipe" ? "f32" : "u8";
+    record.data_hash = record.factors["voxel"];
+  };
+  add_run("a", with_formats);
+  (void)accept_run("a");
+  const core::Json before = read(baseline("images.json"));
+  add_run("b", [&](record::Record& record, core::Image& image) {
+    with_formats(record, image);
+    if (record.device != "vulkan:lavapipe") record.outcome = record::Outcome::skipped;
+  });
+  (void)accept_run("b");
+  EXPECT_EQ(read(baseline("images.json")), before);
 }
 
 TEST_F(AcceptTest, OtherDevicesKeepWhatTheyHad) {
@@ -127,7 +146,7 @@ TEST_F(AcceptTest, ACounterThatIsNoLongerToldIsDropped) {
 TEST_F(AcceptTest, KeepsTheLastTwentyTimings) {
   for (int i = 0; i < 22; ++i) {
     add_run(std::to_string(i));
-    (void)accept_run(std::to_string(i), plain_);
+    (void)accept_run(std::to_string(i), {.only = plain_});
   }
   const core::Json runs = read(device_file("timings", "gl"))["configurations"][plain_];
   ASSERT_EQ(runs.size(), 20U);
@@ -141,7 +160,7 @@ TEST_F(AcceptTest, ForgetsTimesWhereItIsAskedTo) {
   add_run("b", [](record::Record& record, core::Image&) {
     if (record.device == "gl:llvmpipe-egl") record.outcome = record::Outcome::failed;
   });
-  (void)accept_run("b", {}, true);
+  (void)accept_run("b", {.forget_times = true});
   const auto runs = [&](const char* api) {
     return read(device_file("timings", api))["configurations"][plain_];
   };
@@ -156,13 +175,13 @@ TEST_F(AcceptTest, RefusesWhatIsNoBaseline) {
     if (record.configuration == bricks_) record.planted = "slowdown:20";
   });
   EXPECT_THROW((void)accept_run("planted"), core::InputError);
-  EXPECT_THROW((void)accept_run("planted", plain_), core::InputError);
+  EXPECT_THROW((void)accept_run("planted", {.only = plain_}), core::InputError);
   add_run("empty",
           [](record::Record& record, core::Image&) { record.outcome = record::Outcome::skipped; });
   EXPECT_THROW((void)accept_run("empty"), core::InputError);
   EXPECT_THROW((void)accept_run("unknown"), core::InputError);
   add_run("good");
-  EXPECT_THROW((void)accept_run("good", "no such configuration"), core::InputError);
+  EXPECT_THROW((void)accept_run("good", {.only = "no such configuration"}), core::InputError);
   AcceptRequest blank;
   blank.plan = plan;
   blank.reason = "  ";

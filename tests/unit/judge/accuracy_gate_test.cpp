@@ -199,6 +199,48 @@ TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
   EXPECT_THAT(lost[0].message, HasSubstr("no order in the step can be fitted"));
 }
 
+// Of what cannot be looked at the others' verdicts are none the worse, and none the better.
+TEST_F(AccuracyGateTest, WhatCannotBeLookedAtIsTold) {
+  add_run("a");
+  accept_with_errors("a");
+  const std::size_t all = with(gate("a"), Verdict::pass).size();
+  const auto is_meant = [](const record::Record& record) {
+    return record.device == of_steps && record.configuration == plain_;
+  };
+  const auto copy_with_picture = [&](const std::string& run, const std::string& hash) {
+    store_.add_run({run, plan, "2026-02-02T00:00:00Z", {}});
+    for (const auto& entry : store_.devices("a")) store_.add_device(run, entry.device, {});
+    for (record::Record record : store_.records("a")) {
+      record.run = run;
+      if (is_meant(record)) record.image = hash;
+      store_.add_record(record);
+    }
+  };
+  const auto undecided = [&](const std::string& run) {
+    const GateResult result = gate(run);
+    EXPECT_EQ(with(result, Verdict::pass).size(), all - 1) << text(result);
+    const auto findings = with(result, Verdict::cannot_judge, Check::accuracy);
+    EXPECT_EQ(findings.size(), 1U) << text(result);
+    return findings.empty() ? std::string() : findings[0].message;
+  };
+  copy_with_picture("lost", "0123");
+  EXPECT_THAT(undecided("lost"), HasSubstr("its error cannot be told"));
+  copy_with_picture("without", "");
+  EXPECT_THAT(undecided("without"), HasSubstr("holds no picture"));
+  request_.limit = [&](const record::Record& record) {
+    return is_meant(record) ? nullptr : limit_of(record);
+  };
+  EXPECT_THAT(undecided("a"), HasSubstr("its scene has no limit"));
+}
+
+TEST_F(AccuracyGateTest, APlanWithoutLimitsIsNotPassed) {
+  add_run("a");
+  (void)accept_run("a");
+  request_.limit = nullptr;
+  request_.checks = {Check::image, Check::accuracy};
+  EXPECT_EQ(gate("a").exit_code(), core::ExitCode::cannot_judge) << text(gate("a"));
+}
+
 TEST_F(AccuracyGateTest, OnlyAnAccuracyPlanIsJudgedUnasked) {
   add_run("a");
   accept_with_errors("a");

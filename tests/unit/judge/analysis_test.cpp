@@ -8,6 +8,7 @@
 #include "analysis_synthetic.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "judge/analysis/splits.hpp"
 #include "judge/analysis/tables.hpp"
 
 namespace triptych::judge::analysis {
@@ -282,6 +283,27 @@ TEST(Analysis, TablesAsCsvAndJson) {
   const core::Json json = to_json({analysis});
   EXPECT_EQ(json.at("suites").at(0).at("suite"), "volume");
   EXPECT_TRUE(json.at("suites").at(0).at("tables").contains("left_out"));
+}
+
+// Two techniques, each measured on data of its own: between all four the technique would differ
+// too.
+TEST(Analysis, TheFullestBlockHoldsOneSetOfCombinations) {
+  const auto of = [](const std::string& technique, const std::vector<std::string>& data,
+                     const std::vector<std::string>& steps) {
+    return factorial(
+        {{"device", {"x", "y"}}, {"data", data}, {"step", steps}, {"technique", {technique}}},
+        [](const Factors&) { return 1.0; });
+  };
+  Dataset both = of("raycast", {"a", "b"}, {"1"});
+  const Dataset more = of("raycast_fragment", {"c", "d"}, {"1", "2"});
+  both.observations.insert(both.observations.end(), more.observations.begin(),
+                           more.observations.end());
+  const std::array<std::string_view, 2> factors{"data", "device"};
+  const Chosen chosen = fullest_block(all_of(both), factors);
+  EXPECT_EQ(chosen.size(), more.observations.size());
+  for (const Observation* each : chosen) {
+    EXPECT_EQ(each->factors.at("technique"), "raycast_fragment");
+  }
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace triptych::judge {
 namespace {
 
 using core::ExitCode;
+using testing::AllOf;
 using testing::HasSubstr;
 
 TEST_F(CorrelationGateTest, ASlowerDevicePasses) {
@@ -100,12 +101,33 @@ TEST_F(CorrelationGateTest, FewStoredRunsAdvise) {
   measure("b", "b:new",
           [&](const record::Record& r) { return r.configuration == planted ? 1.25 : 1; });
   const GateResult result = judge("b");
-  EXPECT_NE(result.exit_code(), ExitCode::regression);
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
   const auto advice = with(result, Verdict::advisory);
   ASSERT_EQ(advice.size(), 1U) << text(result);
   EXPECT_EQ(advice[0].configuration, planted);
   EXPECT_THAT(advice[0].message, HasSubstr("advice only: 4 of 5 stored runs"));
   EXPECT_TRUE(with(result, Verdict::pass).empty());
+}
+
+// What could not have failed has not passed.
+TEST_F(CorrelationGateTest, FewStoredRunsPassNothing) {
+  accept_known(TimingModel::least_runs - 1);
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new");
+  const GateResult result = judge("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
+  EXPECT_THAT(with(result, Verdict::advisory).at(0).message,
+              AllOf(HasSubstr("as a:known; driver 1 lets expect"),
+                    HasSubstr("advice only: 4 of 5 stored runs")));
+}
+
+TEST_F(CorrelationGateTest, ADeviceThatIsNotThereIsNoCrash) {
+  accept_known();
+  measure_anchors("anchors", "b:new");
+  measure("b", "b:new");
+  request_.devices = {"no:such"};
+  EXPECT_EQ(judge("b").exit_code(), ExitCode::cannot_judge);
+  EXPECT_EQ(judge("never measured").exit_code(), ExitCode::cannot_judge);
 }
 
 TEST_F(CorrelationGateTest, AWholeLevelIsNamed) {

@@ -177,6 +177,7 @@ TEST(Correlation, WhatFollowsNoLineIsHeldAgainstTheAcceptedOne) {
 TEST(Correlation, SmallestEffectsAreThoseOfTheFormula) {
   const Correlation result = correlate(Bench{.repeats = 8}.draw(2));
   EXPECT_NEAR(result.smallest_effect / result.scale, 4.9, 0.2);  // t for 0.02/384, and 0.84
+  ASSERT_FALSE(result.levels.empty());
   for (const LevelEffect& level : result.levels) {
     EXPECT_GT(level.smallest_effect, 3 * level.standard_error);
     EXPECT_LT(level.smallest_effect, 5 * level.standard_error);

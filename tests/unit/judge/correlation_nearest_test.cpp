@@ -116,8 +116,20 @@ TEST_F(NearestDeviceTest, BesideOneThatJudgesARefusedOneIsNoAdvice) {
                  [&](const record::Record&) { return std::exp(0.4 * std::sin(turn++ % 48)); });
   const GateResult result = judge_new();
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
-  EXPECT_TRUE(with(result, Verdict::advisory).empty()) << text(result);
-  EXPECT_THAT(text(result), HasSubstr("beside what decides: cannot be judged by c:unlike"));
+  EXPECT_EQ(result.findings.size(), 1U) << text(result);
+  EXPECT_EQ(by(result, "c:unlike").result.admitted(), false);
+}
+
+// One more that cannot judge is no reason to pass.
+TEST_F(NearestDeviceTest, BesideOneThatOnlyAdvisesARefusedOneDecidesNothing) {
+  accept_known(TimingModel::least_runs - 1);
+  EXPECT_EQ(judge_new().exit_code(), ExitCode::cannot_judge);
+  int turn = 0;
+  accept_runs_of("c:unlike", TimingModel::least_runs,
+                 [&](const record::Record&) { return std::exp(0.4 * std::sin(turn++ % 48)); });
+  const GateResult result = judge_new();
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
+  EXPECT_THAT(result.headline(), HasSubstr("nothing was decided of b:new"));
 }
 
 // However many there are.

@@ -81,5 +81,20 @@ TEST_F(DialectGateTest, ARunThatDidNotLookKeepsTheStoredDialect) {
       stored.statistics_dialect(device_file("statistics", "vulkan").stem().string()).empty());
 }
 
+// A part of a plan asks for fewer statistics.
+TEST_F(DialectGateTest, ARunThatLookedAtSomeKeepsWhatIsStoredOfTheOthers) {
+  dialects_["gl:llvmpipe-egl"] = {{"compute_invocations", "exact"},
+                                  {"fragment_invocations", "exact"}};
+  add_run("a");
+  (void)accept_run("a");
+  dialects_["gl:llvmpipe-egl"] = {{"compute_invocations", "unsteady"}};
+  add_run("b");
+  (void)accept_run("b");
+  EXPECT_THAT(Baselines(folder_.path() / "baselines", plan)
+                  .statistics_dialect(device_file("statistics", "gl").stem().string()),
+              testing::UnorderedElementsAre(testing::Pair("compute_invocations", "unsteady"),
+                                            testing::Pair("fragment_invocations", "exact")));
+}
+
 }  // namespace
 }  // namespace triptych::judge

@@ -97,6 +97,19 @@ TEST(Drift, OfOneConfigurationIsItsOwn) {
   EXPECT_GT(found[0].change.effect, std::log(DriftModel::least_effect));
 }
 
+TEST(Drift, OneOfAThousandIsFound) {
+  auto series = family(0, 0);
+  core::Random random(5);
+  while (series.size() < 1200) {
+    DriftSeries& added = series.emplace_back(series.front());
+    for (double& value : added.log_times) value = 14 + 0.02 * random.uniform(-1, 1);
+  }
+  for (std::size_t run = 10; run < 20; ++run) series[700].log_times[run] += 0.5;
+  const auto found = find_drift(series);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_EQ(found[0].series, 700U);
+}
+
 TEST(Drift, OfAllIsTheDevices) {
   const auto found = find_drift(family(0.1, 0));
   ASSERT_THAT(found, SizeIs(1));

@@ -235,7 +235,9 @@ TEST(EvaluateComparison, TheSameSeedGivesTheSameCounts) {
 TEST(EvaluateComparison, WhatWasNotMeasuredIsNotTried) {
   std::vector<BlockSeries> series = pool(0.002, 0.005);
   std::erase_if(series, [](const BlockSeries& each) { return each.percent == 0; });
-  for (const auto& [kind, tally] : evaluate_comparison(series, 5, 1)) {
+  const auto tried = evaluate_comparison(series, 5, 1);
+  ASSERT_FALSE(tried.empty());
+  for (const auto& [kind, tally] : tried) {
     EXPECT_EQ(kind.spread, Spread::global);  // alone needs no unplanted launch
   }
   EXPECT_TRUE(evaluate_comparison({}, 5, 1).empty());

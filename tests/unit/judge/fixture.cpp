@@ -109,16 +109,12 @@ void JudgeTest::add_run(const std::string& run, const Tweak& tweak) {
   }
 }
 
-std::vector<std::string> JudgeTest::accept_run(const std::string& run, const std::string& only,
-                                               bool forget_times) {
-  AcceptRequest request;
-  request.plan = plan;
-  request.reason = "a test";
-  request.only = only;
-  request.forget_times = forget_times;
-  request.date = "2026-02-01";
-  request.truth = [](const record::Record& record) { return truth_of(record.scene); };
-  return accept(store_, run, folder_.path() / "baselines", request);
+std::vector<std::string> JudgeTest::accept_run(const std::string& run, AcceptRequest how) {
+  how.plan = plan;
+  how.reason = "a test";
+  how.date = "2026-02-01";
+  how.truth = [](const record::Record& record) { return truth_of(record.scene); };
+  return accept(store_, run, folder_.path() / "baselines", how);
 }
 
 void JudgeTest::confirm(const std::string& run, const std::string& again, const std::string& of) {

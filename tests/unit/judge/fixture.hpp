@@ -14,13 +14,13 @@
 
 #include "core/image.hpp"
 #include "core/random.hpp"
-#include "core/temporary_folder.hpp"
 #include "judge/gate.hpp"
 #include "record/store.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace triptych::judge {
 
-using core::TemporaryFolder;
+using test::TemporaryFolder;
 
 class JudgeTest : public testing::Test {
  public:
@@ -36,8 +36,8 @@ class JudgeTest : public testing::Test {
   // Twelve measured records (fifteen with anchors), times with 0.5 % noise around a level per
   // configuration.
   void add_run(const std::string& run, const Tweak& tweak = {});
-  std::vector<std::string> accept_run(const std::string& run, const std::string& only = {},
-                                      bool forget_times = false);
+  // `how`: all but the plan, the reason, the date and the truth.
+  std::vector<std::string> accept_run(const std::string& run, AcceptRequest how = {});
   // Says that `again`, which is there, was measured to confirm `run`.
   void confirm(const std::string& run, const std::string& again, const std::string& of = plan);
   // Eight records of anchors/frozen on each device, with as much noise, `factor` times as long as

@@ -131,6 +131,18 @@ TEST_F(GateTest, AWaiverExcusesUntilItsExpiry) {
   EXPECT_THAT(with(expired, Verdict::regression).at(0).message, HasSubstr("expired on 2026-03-01"));
 }
 
+// The picture's time means nothing, which the waiver has said enough of.
+TEST_F(GateTest, AWaivedPicturePassesWithAllChecks) {
+  accept_history();
+  add_run("b", wrong_image_on("vulkan:lavapipe"));
+  write_waivers("2027-01-01");
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
+  request_.checks = {Check::timing};
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
+  write_waivers("2026-03-01");
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge) << text(gate("b"));
+}
+
 TEST_F(GateTest, AWaiverOfAnotherDeviceExcusesNothing) {
   add_run("a");
   (void)accept_run("a");
@@ -174,6 +186,22 @@ TEST(GateResultTest, Precedence) {
   EXPECT_EQ(code({skipped, advisory}), ExitCode::cannot_judge);
   EXPECT_EQ(code({}), ExitCode::cannot_judge);
   EXPECT_EQ(code({waived}), ExitCode::pass);
+}
+
+// What is decided of one device says nothing of another.
+TEST(GateResultTest, EveryDeviceNeedsADecision) {
+  GateResult result{.devices = {"gl:a", "vulkan:b"}};
+  Finding passed;
+  passed.verdict = Verdict::pass;
+  passed.device = "gl:a";
+  Finding advice = passed;
+  advice.verdict = Verdict::advisory;
+  advice.device = "vulkan:b";
+  result.findings = {passed, advice};
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
+  EXPECT_THAT(result.headline(), HasSubstr("CANNOT JUDGE: nothing was decided of vulkan:b"));
+  result.findings[1].verdict = Verdict::improved;
+  EXPECT_EQ(result.exit_code(), ExitCode::pass);
 }
 
 TEST(GateResultTest, NamesReadBack) {

@@ -1,5 +1,6 @@
 // What the gate says of runs and baselines that are not whole.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -117,6 +118,30 @@ TEST_F(GateTest, CorruptBaselineIsAnErrorWithItsLine) {
   }
 }
 
+// What a careless merge of two branches leaves.
+TEST_F(GateTest, EmptyListsInBaselinesAreErrorsWithTheirLines) {
+  accept_history();
+  add_run("b");
+  const auto error_with = [&](const std::filesystem::path& file, const std::string& content) {
+    const std::string kept = folder_.read(file);
+    core::write_file(content, file);
+    std::string message;
+    try {
+      (void)gate("b");
+    } catch (const core::InputError& error) {
+      message = fmt::format("line {}: {}", error.place().line, error.what());
+    }
+    core::write_file(kept, file);
+    return message;
+  };
+  EXPECT_THAT(error_with(baseline("counters.json"), "{\n \"x\": {\n  \"samples\": {}}}\n"),
+              AllOf(HasSubstr("line 3"), HasSubstr("/x/samples")));
+  const auto timings = device_file("timings", "gl");
+  core::Json content = core::Json::parse(folder_.read(timings));
+  content["configurations"][plain_] = core::Json::array();
+  EXPECT_THAT(error_with(timings, content.dump(1)), HasSubstr(plain_));
+}
+
 TEST_F(GateTest, ARenamedFileDoesNotSpeakForAnotherDevice) {
   add_run("a");
   (void)accept_run("a");
@@ -159,6 +184,23 @@ TEST_F(GateTest, EveryUnhappyOutcomeIsARegressionOnce) {
     EXPECT_EQ(wrong[0].message, run + ": because");
     EXPECT_EQ(wrong[0].check, Check::image);
   }
+}
+
+// Whoever has measured it before or not: a broken file lets nobody judge.
+TEST_F(GateTest, BadInputCannotBeJudged) {
+  const auto broken = [](record::Record& record, core::Image&) {
+    if (record.configuration != bricks_) return;
+    record.outcome = record::Outcome::skipped;
+    record.reason = "bad input: a.nrrd:3: spacing 0";
+  };
+  add_run("a", broken);
+  (void)accept_run("a");
+  const GateResult result = gate("a");
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
+  const auto unjudged = with(result, Verdict::cannot_judge, Check::image);
+  ASSERT_EQ(unjudged.size(), 3U);
+  EXPECT_THAT(unjudged[0].message, HasSubstr("a.nrrd:3: spacing 0"));
+  EXPECT_TRUE(with(result, Verdict::regression).empty());
 }
 
 TEST_F(GateTest, SkippedIsSkippedUnlessTheSameDeviceDidItBefore) {

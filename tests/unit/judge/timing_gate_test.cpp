@@ -112,7 +112,19 @@ TEST_F(TimingGateTest, AnotherClockCannotBeCompared) {
   const auto undecided = with(result, Verdict::cannot_judge, Check::timing);
   ASSERT_EQ(undecided.size(), 4U) << text(result);
   EXPECT_THAT(undecided[0].message,
-              HasSubstr("timed by the device clock, stored by the wall clock"));
+              HasSubstr("timed by the device clock, as only 0 of 8 stored runs are"));
+}
+
+// Three runs by either clock, all of them by the wall as well.
+TEST_F(TimingGateTest, AHistoryOfTwoClocksIsComparedByTheWall) {
+  for (int run = 1; run <= 6; ++run) {
+    add_run(fmt::format("{}", run), run <= 3 ? times(1) : by_the_device(times(1)));
+    (void)accept_run(fmt::format("{}", run));
+  }
+  add_run("same", by_the_device(times(1)));
+  EXPECT_EQ(with(gate("same"), Verdict::pass, Check::timing).size(), 12U) << text(gate("same"));
+  add_run("slower", by_the_device(times(1.3, bricks_)));
+  EXPECT_EQ(with(gate("slower"), Verdict::regression, Check::timing).size(), 3U);
 }
 
 TEST_F(TimingGateTest, ADeviceWhoseClockIsDoubtedTodayIsJudgedByTheWall) {

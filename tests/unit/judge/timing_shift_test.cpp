@@ -26,20 +26,33 @@ struct Device {
   double slower_by = 1;  // the first `planted`
   std::size_t planted = 0;
   double device_slower_by = 1;  // anchors too
+  int runs = 8;
+  int runs_without_anchors = 0;  // of the stored ones, the first
+  double slower_in_them_by = 1;
 
   [[nodiscard]] std::vector<TimingCase> draw(std::uint64_t seed) const {
     const Bench body{.configurations = configurations,
+                     .runs = runs,
                      .noise = noise,
                      .now_shift = std::log(device_slower_by),
                      .slower_by = slower_by,
                      .planted = planted};
     const Bench anchors{.configurations = 0,
                         .anchors = 10,
+                        .runs = runs,
                         .noise = anchor_noise,
                         .now_shift = std::log(device_slower_by)};
     std::vector<TimingCase> cases = body.draw(seed);
+    for (int run = 0; run < runs_without_anchors; ++run) {
+      for (TimingCase& each : cases) {
+        each.stored_ns.at(fmt::format("run{}", run)) *= slower_in_them_by;
+      }
+    }
     for (TimingCase& anchor : anchors.draw(seed + 1000)) {
       anchor.witness = true;
+      for (int run = 0; run < runs_without_anchors; ++run) {
+        anchor.stored_ns.erase(fmt::format("run{}", run));
+      }
       cases.push_back(std::move(anchor));
     }
     return cases;
@@ -221,6 +234,54 @@ TEST(TimingShift, TwoConfigurationsAreJudgedByTheAnchors) {
   const auto cases = Device{.configurations = 2, .anchor_noise = 0.01}.draw(1);
   EXPECT_TRUE(judge_timings(cases).programs.empty());
   EXPECT_GT(std::abs(judge_timings(cases).cases[0].shift), 0);
+}
+
+// Runs stored before anchors were measured beside them, on a device that was slower or faster then.
+TEST(TimingShift, RunsWithoutAnchorsAreLevelledToo) {
+  const DeviceScore best = score(Device{.slower_by = 1.25, .planted = 1, .runs = 11});
+  for (const double by : {0.8, 1.25}) {
+    SCOPED_TRACE(by);
+    const Device same{.runs = 11, .runs_without_anchors = 6, .slower_in_them_by = by};
+    EXPECT_LE(score(same).false_discoveries, q);
+    Device slow = same;
+    slow.slower_by = 1.25;
+    slow.planted = 1;
+    EXPECT_LE(best.found, up_to_chance(score(slow).found));
+  }
+}
+
+// A changed program is no witness of the device: those runs say nothing then, the others do.
+TEST(TimingShift, RunsWithoutAnchorsSayNothingBesideAChangedProgram) {
+  for (const double by : {0.8, 1.25}) {
+    SCOPED_TRACE(by);
+    const Device device{.noise = 0.02,
+                        .anchor_noise = 0.02,
+                        .slower_by = 1.15,
+                        .planted = 48,
+                        .runs = 12,
+                        .runs_without_anchors = 6,
+                        .slower_in_them_by = by};
+    const DeviceScore s = score(device);
+    EXPECT_GE(s.program_slower, 0.99);
+    EXPECT_GE(s.found, 0.9);
+    EXPECT_EQ(judge_timings(device.draw(1)).cases[0].runs, 6U);
+  }
+}
+
+// A configuration that lacks most of the runs with anchors is not told then, and not passed.
+TEST(TimingShift, TooFewRunsWithAnchorsAreNotTold) {
+  const Device device{.anchor_noise = 0.02,
+                      .slower_by = 1.15,
+                      .planted = 48,
+                      .runs = 12,
+                      .runs_without_anchors = 6};
+  auto cases = device.draw(1);
+  cases[0].stored_ns.erase("run11");
+  cases[0].stored_ns.erase("run10");
+  const TimingJudgement judged = judge_timings(cases).cases[0];
+  EXPECT_EQ(judged.runs, 4U);
+  EXPECT_FALSE(judged.slower || judged.faster);
+  EXPECT_TRUE(judged.too_noisy(cases[0].tolerance));
 }
 
 }  // namespace
