@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <array>
+#include <charconv>
+#include <system_error>
 
 #include "record/factor_list.hpp"
 
@@ -29,28 +31,48 @@ void PlanChoice::add_to(CLI::App& command) {
   command.add_option("--shard", shard, "i/n: only the i-th of n parts of the plan");
 }
 
+namespace {
+
+// "i/n" → {i, n}; throws core::InputError.
+std::array<int, 2> parse_shard(std::string_view text) {
+  std::array<int, 2> shard{};
+  const char* const end = text.data() + text.size();
+  const auto [slash, index_error] = std::from_chars(text.data(), end, shard[0]);
+  if (index_error == std::errc{} && slash != end && *slash == '/') {
+    const auto [rest, count_error] = std::from_chars(slash + 1, end, shard[1]);
+    if (count_error == std::errc{} && rest == end && shard[0] >= 1 && shard[0] <= shard[1]) {
+      return shard;
+    }
+  }
+  throw core::InputError(fmt::format("--shard {}: expected i/n with 1 <= i <= n", text));
+}
+
+}  // namespace
+
 measure::Plan PlanChoice::load(const std::string& plan,
                                const measure::FindSuite& find_suite) const {
   measure::Plan loaded = measure::load_plan(plan, parse_overrides(set), find_suite);
   if (!shard.empty()) {
-    int index = 0;
-    int count = 0;
-    char rest = 0;
-    if (std::sscanf(shard.c_str(), "%d/%d%c", &index, &count, &rest) != 2 || index < 1 ||
-        index > count) {
-      throw core::InputError(fmt::format("--shard {}: expected i/n with 1 <= i <= n", shard));
-    }
+    const auto [index, count] = parse_shard(shard);
     measure::keep_shard(loaded, index, count);
   }
   return loaded;
 }
 
-measure::Overrides parse_overrides(const std::vector<std::string>& set) {
+void add_baselines_option(CLI::App& command, std::string& folder) {
+  command.add_option("--baselines", folder, "Folder of the baselines")
+      ->check([](const std::string& name) {
+        return name.empty() ? "a folder needs a name" : std::string();
+      });
+}
+
+measure::Overrides parse_overrides(const std::vector<std::string>& set, std::string_view option) {
   measure::Overrides overrides;
   for (const std::string& each : set) {
     const auto equals = each.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == each.size()) {
-      throw core::InputError(fmt::format("--set {}: expected factor=value or factor=a,b", each));
+      throw core::InputError(
+          fmt::format("{} {}: expected factor=value or factor=a,b", option, each));
     }
     std::vector<std::string> values;
     for (std::size_t begin = equals + 1; begin <= each.size();) {

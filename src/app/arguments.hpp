@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
@@ -43,9 +44,13 @@ struct PlanArguments {
   }
 };
 
+// The folder of the baselines; one without a name would be the folder the program is started in.
+void add_baselines_option(CLI::App& command, std::string& folder);
+
 // "factor=a,b" → {factor, {a, b}}, each value as record::escaped spells it or plainly; throws
-// core::InputError.
-[[nodiscard]] measure::Overrides parse_overrides(const std::vector<std::string>& set);
+// core::InputError naming the option that they were given by.
+[[nodiscard]] measure::Overrides parse_overrides(const std::vector<std::string>& set,
+                                                 std::string_view option = "--set");
 
 // "FAULT" or "FAULT@GLOB".
 [[nodiscard]] std::vector<measure::Plant> parse_plants(const std::vector<std::string>& plants);

@@ -5,6 +5,7 @@
 
 #include "app/arguments.hpp"
 #include "app/paths.hpp"
+#include "core/json_text.hpp"
 #include "judge/analysis/tables.hpp"
 #include "record/store.hpp"
 #include "report/analysis_page.hpp"
@@ -52,7 +53,7 @@ std::vector<analysis::Source> sources_of(const AnalyzeArguments& arguments) {
 
 analysis::Request request_of(const AnalyzeArguments& arguments) {
   analysis::Request request{.references = {}, .seed = arguments.seed};
-  for (const auto& [factor, levels] : parse_overrides(arguments.references)) {
+  for (const auto& [factor, levels] : parse_overrides(arguments.references, "--reference")) {
     if (levels.size() != 1) {
       throw core::InputError(fmt::format("--reference {}: expected one level", factor));
     }
@@ -64,7 +65,7 @@ analysis::Request request_of(const AnalyzeArguments& arguments) {
 void write_files(const std::filesystem::path& folder,
                  const std::vector<analysis::SuiteAnalysis>& analyses) {
   require_writable(folder);
-  write_text(folder / "analysis.json", analysis::to_json(analyses).dump(1) + '\n');
+  write_text(folder / "analysis.json", core::json_text(analysis::to_json(analyses), 1) + '\n');
   write_text(folder / "analysis.html", report::analysis_page(analyses));
   for (const analysis::SuiteAnalysis& each : analyses) {
     for (const analysis::Table& table : analysis::tables(each)) {
@@ -138,7 +139,7 @@ core::ExitCode analyze(const AnalyzeArguments& arguments) {
     nothing = nothing && analyses.back().empty();
   }
   if (arguments.json) {
-    fmt::print("{}\n", analysis::to_json(analyses).dump(1));
+    fmt::print("{}\n", core::json_text(analysis::to_json(analyses), 1));
   } else {
     for (const analysis::SuiteAnalysis& each : analyses) print_summary(each);
   }

@@ -12,7 +12,9 @@
 #include "app/loading.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
+#include "app/saying.hpp"
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 #include "measure/plant.hpp"
 
 namespace triptych::app {
@@ -80,9 +82,9 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
 void show(const ComparisonProgress& progress) {
   if (progress.loading) return show_loading(*progress.loading);
   static const bool terminal = ::isatty(STDERR_FILENO) == 1;
-  fmt::print(stderr, "{}{}/{} {}: {}, left at most {} s{}", terminal ? "\r\033[K" : "",
-             progress.done, progress.total, progress.stage, progress.configuration,
-             progress.left.count(), terminal ? "" : "\n");
+  say("{}{}/{} {}: {}, left at most {} s{}", terminal ? "\r\033[K" : "", progress.done,
+      progress.total, progress.stage, progress.configuration, progress.left.count(),
+      terminal ? "" : "\n");
 }
 
 ComparisonCommand command_of(const CompareArguments& arguments, const measure::Plan& plan) {
@@ -127,10 +129,10 @@ core::ExitCode run_comparison(const CompareArguments& arguments) {
       throw core::Error("interrupted; a comparison keeps nothing, begin it again");
     }
   }();
-  if (::isatty(STDERR_FILENO) == 1) fmt::print(stderr, "\r\033[K");
+  if (::isatty(STDERR_FILENO) == 1) say("\r\033[K");
   const ComparisonCommand command = command_of(arguments, options.plan);
   if (arguments.json) {
-    fmt::print("{}\n", to_json(result, command).dump(2));
+    fmt::print("{}\n", core::json_text(to_json(result, command), 2));
   } else {
     fmt::print("{}", to_text(result, command));
   }

@@ -7,6 +7,7 @@
 #include "app/listing.hpp"
 #include "app/registry.hpp"
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 
 namespace triptych::app {
 namespace {
@@ -46,7 +47,7 @@ void print_json(const std::vector<Greeting>& greeted, const std::vector<measure:
   for (const measure::Broken& each : broken) {
     json["broken"].push_back({{"what", each.what}, {"reason", each.reason}});
   }
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}\n", core::json_text(json, 2));
 }
 
 core::ExitCode devices(bool json) {

@@ -10,7 +10,9 @@
 #include "app/evaluation_text.hpp"
 #include "app/listing.hpp"
 #include "app/paths.hpp"
+#include "app/saying.hpp"
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 #include "core/temporary_folder.hpp"
 #include "judge/evaluation_runs.hpp"
 #include "measure/plant.hpp"
@@ -45,7 +47,7 @@ struct EvaluateArguments {
 };
 
 void tell(const std::string& step) {
-  fmt::print(stderr, "{}\n", step);
+  say("{}\n", step);
 }
 
 void measure(const EvaluateArguments& arguments) {
@@ -93,7 +95,7 @@ core::ExitCode evaluate(const EvaluateArguments& arguments) {
   if (arguments.measure) measure(arguments);
   judge::Tallies tallies;
   if (arguments.wants("compare")) {
-    tallies = judge::evaluate_comparison(read_blocks(arguments.blocks()), arguments.trials,
+    tallies = judge::evaluate_comparison(read_blocks(arguments.blocks(), tell), arguments.trials,
                                          arguments.seed);
   }
   if (arguments.wants_runs()) tallies.merge(judge_runs(arguments));
@@ -103,7 +105,7 @@ core::ExitCode evaluate(const EvaluateArguments& arguments) {
         arguments.blocks().string(), arguments.runs().string()));
   }
   if (arguments.json) {
-    fmt::print("{}\n", to_json(tallies).dump(2));
+    fmt::print("{}\n", core::json_text(to_json(tallies), 2));
   } else {
     fmt::print("{}", to_text(tallies));
   }

@@ -1,15 +1,20 @@
 #include <fmt/format.h>
 
+#include <exception>
 #include <memory>
+#include <set>
 
 #include "app/arguments.hpp"
 #include "app/judging.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
+#include "app/saying.hpp"
 #include "app/truth.hpp"
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 #include "judge/gate.hpp"
 #include "measure/plan.hpp"
+#include "measure/runner.hpp"
 #include "report/junit.hpp"
 #include "report/markdown.hpp"
 
@@ -17,7 +22,7 @@ namespace triptych::app {
 namespace {
 
 struct GateArguments {
-  std::string plan;
+  std::string plan;  // as it was typed
   std::string store = "triptych.sqlite";
   std::string baselines = default_baselines().string();
   std::vector<std::string> checks;
@@ -30,33 +35,51 @@ struct GateArguments {
 };
 
 struct AcceptArguments {
-  std::string plan;
+  std::string plan;  // as it was typed
   std::string store = "triptych.sqlite";
   std::string baselines = default_baselines().string();
   std::string reason;
   std::string only;
+  bool drop = false;
   bool forget_times = false;
 };
 
+// Whether the suspects have been measured again. Where they cannot be – the driver is gone, or the
+// plan's file – what was found stands, and is told.
+bool confirmed(const judge::GateResult& result, const GateArguments& arguments) {
+  try {
+    return measure_suspects_again(result, arguments.plan, arguments.store);
+  } catch (const measure::Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    say("could not confirm: {}\n", error.what());
+    return false;
+  }
+}
+
 core::ExitCode gate(const GateArguments& arguments) {
+  refuse_overwriting({{"--store", arguments.store}, {"PLAN", arguments.plan}},
+                     {{"--junit", arguments.junit}, {"--markdown", arguments.markdown}});
+  std::set<judge::Check> checks;
+  for (const std::string& name : arguments.checks) checks.insert(judge::check(name));
   const Registry registry = make_registry();
-  require_store(arguments.store);
-  record::Store store(arguments.store, record::Store::Mode::append);
+  record::Store store = open_to_judge(arguments.store);
   Truths truths(registry, store);
-  judge::GateRequest request = request_of(truths, arguments.plan);
+  const std::string plan = measure::plan_name(arguments.plan);
+  judge::GateRequest request = request_of(truths, plan);
   request.devices = arguments.devices;
   request.required_devices = arguments.required;
-  for (const std::string& name : arguments.checks) request.checks.insert(judge::check(name));
-  const judge::Baselines baselines(arguments.baselines, arguments.plan);
+  request.checks = checks;
+  const judge::Baselines baselines(arguments.baselines, plan);
   const std::string run = latest_run_of(store, arguments.plan, arguments.store);
   judge::GateResult result = judge::judge_run(store, run, baselines, request);
-  if (arguments.confirm && measure_suspects_again(result, arguments.store)) {
+  if (arguments.confirm && confirmed(result, arguments)) {
     result = judge::judge_run(store, run, baselines, request);
   }
   if (!arguments.junit.empty()) write_text(arguments.junit, report::junit(result));
   if (!arguments.markdown.empty()) write_text(arguments.markdown, report::markdown(result));
   if (arguments.json) {
-    fmt::print("{}\n", judge::to_json(result).dump(2));
+    fmt::print("{}\n", core::json_text(judge::to_json(result), 2));
   } else {
     print_text(result);
   }
@@ -65,20 +88,21 @@ core::ExitCode gate(const GateArguments& arguments) {
 
 core::ExitCode accept(const AcceptArguments& arguments) {
   const Registry registry = make_registry();
-  require_store(arguments.store);
-  record::Store store(arguments.store, record::Store::Mode::append);
+  record::Store store = open_to_judge(arguments.store);
   Truths truths(registry, store);
+  const std::string plan = measure::plan_name(arguments.plan);
   judge::AcceptRequest request{
-      .plan = arguments.plan,
+      .plan = plan,
       .reason = arguments.reason,
       .only = arguments.only,
       .date = today(),
+      .drop = arguments.drop,
       .forget_times = arguments.forget_times,
       .truth = [&](const record::Record& record) { return truths.of(record).truth; }};
-  const judge::GateRequest judged = request_of(truths, arguments.plan);
+  const judge::GateRequest judged = request_of(truths, plan);
   // Errors against the limit and scores are baselines of the plans made for them.
-  if (arguments.plan.ends_with("/accuracy")) request.limit = judged.limit;
-  if (arguments.plan.ends_with("/stress")) request.stress = {judged.truth, judged.expectations};
+  if (plan.ends_with("/accuracy")) request.limit = judged.limit;
+  if (plan.ends_with("/stress")) request.stress = {judged.truth, judged.expectations};
   const std::vector<std::string> changes = judge::accept(
       store, latest_run_of(store, arguments.plan, arguments.store), arguments.baselines, request);
   for (const std::string& change : changes) fmt::print("{}\n", change);
@@ -89,11 +113,7 @@ core::ExitCode accept(const AcceptArguments& arguments) {
 
 // Whose latest run is meant.
 void add_run_plan(CLI::App& command, std::string& plan) {
-  command
-      .add_option_function<std::string>(
-          "PLAN", [&plan](const std::string& text) { plan = measure::plan_name(text); },
-          "SUITE/PLAN or the YAML file, as it was run")
-      ->required();
+  command.add_option("PLAN", plan, "SUITE/PLAN or the YAML file, as it was run")->required();
 }
 
 }  // namespace
@@ -105,7 +125,7 @@ void add_gate_commands(Commands& commands) {
                    [arguments] { return gate(*arguments); });
   add_run_plan(*command, arguments->plan);
   command->add_option("--store", arguments->store)->capture_default_str();
-  command->add_option("--baselines", arguments->baselines, "Folder of the baselines");
+  add_baselines_option(*command, arguments->baselines);
   command
       ->add_option("--check", arguments->checks,
                    "image,counters,statistics,timing,correlation,accuracy,stress (default: "
@@ -128,10 +148,12 @@ void add_gate_commands(Commands& commands) {
   add_run_plan(*accepting, accepted->plan);
   accepting->add_option("--reason", accepted->reason, "Why; kept in history.json")->required();
   accepting->add_option("--only", accepted->only, "Glob over configurations");
+  accepting->add_flag("--drop", accepted->drop,
+                      "Drop stored configurations that the run has no record of");
   accepting->add_flag("--forget-times", accepted->forget_times,
                       "Drop the times that were accepted before on the devices of this run");
   accepting->add_option("--store", accepted->store)->capture_default_str();
-  accepting->add_option("--baselines", accepted->baselines, "Folder of the baselines");
+  add_baselines_option(*accepting, accepted->baselines);
 }
 
 }  // namespace triptych::app

@@ -1,8 +1,13 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "app/arguments.hpp"
 #include "app/registry.hpp"
+#include "app/saying.hpp"
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 
 namespace triptych::app {
 namespace {
@@ -12,33 +17,121 @@ struct ListArguments {
   bool json = false;
 };
 
-core::ExitCode list(const ListArguments& arguments) {
-  const Registry registry = make_registry();
+// "raycast | speed_of_light", "0.015625 to 4096 | own", or nothing where words alone cannot say.
+std::string levels_text(const measure::Factor& factor) {
+  const std::string words = fmt::format("{}", fmt::join(factor.levels, " | "));
+  if (factor.kind != measure::FactorKind::number) return words;
+  const std::string range = fmt::format("{} to {}", factor.minimum, factor.maximum);
+  return words.empty() ? range : range + " | " + words;
+}
+
+void print_factor(const measure::Factor& factor) {
+  const std::string levels = levels_text(factor);
+  fmt::print("  {}: {}{}{}{}\n      {}\n", factor.name, levels, levels.empty() ? "" : "; ",
+             factor.standard.empty() ? "required" : "default " + factor.standard,
+             factor.of_scene ? "" : "; the picture stays", factor.summary);
+}
+
+core::Json json_of(const measure::Factor& factor) {
+  core::Json json{{"name", factor.name},
+                  {"levels", factor.levels},
+                  {"default", factor.standard},
+                  {"decides_the_picture", factor.of_scene},
+                  {"summary", factor.summary}};
+  if (factor.kind == measure::FactorKind::number) {
+    json["minimum"] = factor.minimum;
+    json["maximum"] = factor.maximum;
+  }
+  return json;
+}
+
+std::vector<measure::Plan> plans_of(const measure::Suite& suite, const Registry& registry) {
+  std::vector<measure::Plan> plans;
+  for (const std::string_view name : suite.plan_names()) {
+    plans.push_back(
+        measure::load_plan(fmt::format("{}/{}", suite.name(), name), {}, registry.find_suite()));
+  }
+  return plans;
+}
+
+void print(const measure::Suite& suite, const std::vector<measure::Plan>& plans) {
+  fmt::print("factors of {}\n", suite.name());
+  for (const measure::Factor& factor : suite.factors()) print_factor(factor);
+  if (!suite.generators().empty()) fmt::print("generated data\n");
+  for (const auto& [name, summary] : suite.generators()) {
+    fmt::print("  generate:{}\n      {}\n", name, summary);
+  }
+  fmt::print("plans\n");
+  for (const measure::Plan& plan : plans) {
+    fmt::print("  {}: {} configurations\n      {}\n", plan.name, plan.configurations.size(),
+               plan.summary);
+  }
+}
+
+core::Json json_of(const measure::Suite& suite, const std::vector<measure::Plan>& plans) {
+  core::Json json{{"suite", suite.name()},
+                  {"factors", core::Json::array()},
+                  {"generators", core::Json::array()},
+                  {"plans", core::Json::array()}};
+  for (const measure::Factor& factor : suite.factors()) json["factors"].push_back(json_of(factor));
+  for (const auto& [name, summary] : suite.generators()) {
+    json["generators"].push_back({{"name", name}, {"summary", summary}});
+  }
+  for (const measure::Plan& plan : plans) {
+    json["plans"].push_back({{"name", plan.name},
+                             {"configurations", plan.configurations.size()},
+                             {"summary", plan.summary}});
+  }
+  return json;
+}
+
+// What a plan of the suite may hold, and the plans that come with it.
+core::ExitCode list_suite(const measure::Suite& suite, const Registry& registry, bool as_json) {
+  const std::vector<measure::Plan> plans = plans_of(suite, registry);
+  if (as_json) {
+    fmt::print("{}\n", core::json_text(json_of(suite, plans), 2));
+  } else {
+    print(suite, plans);
+  }
+  return core::ExitCode::pass;
+}
+
+core::ExitCode list_plan(const ListArguments& arguments, const Registry& registry) {
   const measure::Plan plan = arguments.plan.load(registry.find_suite());
   const measure::Suite& suite = registry.suite(plan.suite);
   if (arguments.json) {
     core::Json configurations = core::Json::array();
     for (const measure::Configuration& each : plan.configurations) configurations.push_back(each);
-    fmt::print("{}\n", core::Json{{"plan", plan.name},
-                                  {"suite", plan.suite},
-                                  {"varied", plan.varied},
-                                  {"configurations", configurations}}
-                           .dump(2));
+    fmt::print("{}\n", core::json_text({{"plan", plan.name},
+                                        {"suite", plan.suite},
+                                        {"varied", plan.varied},
+                                        {"configurations", configurations}},
+                                       2));
     return core::ExitCode::pass;
   }
   for (const measure::Configuration& each : plan.configurations) {
     fmt::print("{}\n", measure::configuration_key(suite, each));
   }
-  fmt::print(stderr, "{}: {} configurations\n", plan.name, plan.configurations.size());
+  say("{}: {} configurations\n", plan.name, plan.configurations.size());
   return core::ExitCode::pass;
+}
+
+core::ExitCode list(const ListArguments& arguments) {
+  const Registry registry = make_registry();
+  const auto suite =
+      std::ranges::find(registry.suites, arguments.plan.plan,
+                        [](const auto& each) -> std::string { return std::string(each->name()); });
+  return suite == registry.suites.end() ? list_plan(arguments, registry)
+                                        : list_suite(**suite, registry, arguments.json);
 }
 
 }  // namespace
 
 void add_list_command(Commands& commands) {
   auto arguments = std::make_shared<ListArguments>();
-  CLI::App* command = commands.add("list", "Print the configurations of a plan",
-                                   [arguments] { return list(*arguments); });
+  CLI::App* command = commands.add(
+      "list", "Print the configurations of a plan; of a suite its factors, generators and plans",
+      [arguments] { return list(*arguments); });
   arguments->plan.add_to(*command);
   command->add_flag("--json", arguments->json, "Print every factor of every configuration as JSON");
 }

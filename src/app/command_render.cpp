@@ -13,6 +13,8 @@
 #include "app/registry.hpp"
 #include "core/image_io.hpp"
 #include "core/json.hpp"
+#include "core/json_text.hpp"
+#include "record/bad_input.hpp"
 
 namespace triptych::app {
 namespace {
@@ -107,14 +109,16 @@ core::ExitCode render(const RenderArguments& arguments) {
       fmt::print("{}\n", describe(answers.front(), *arguments.error));
     }
   }
-  if (record.outcome == record::Outcome::skipped) throw core::NotSupported(record.reason);
+  const bool cannot = record.outcome == record::Outcome::skipped && !record::has_bad_input(record);
+  if (cannot) throw core::NotSupported(record.reason);
   if (record.outcome != record::Outcome::measured) throw core::InputError(record.reason);
   if (record.image.empty()) throw core::InputError(record.technique + " draws no picture");
   const core::Image image = core::decode_exr(store.image(record.image));
   core::write_exr(image, out / "image.exr");
   core::write_png(image, out / "image.png");
-  write_text(out / "frame.json",
-             frame_json(suite, record, store.devices(result.run).at(0).device).dump(2) + "\n");
+  write_text(
+      out / "frame.json",
+      core::json_text(frame_json(suite, record, store.devices(result.run).at(0).device), 2) + "\n");
   fmt::print("{}\n", (out / "image.exr").string());
   return core::ExitCode::pass;
 }
@@ -126,14 +130,14 @@ void add_render_command(Commands& commands) {
   CLI::App* command =
       commands.add("render", "Draw one configuration: image.exr, image.png, frame.json",
                    [arguments] { return render(*arguments); });
-  command->add_option("SUITE", arguments->suite, "volume")->required();
+  command->add_option("SUITE", arguments->suite, "volume or particles")->required();
   command->add_option("--device", arguments->device, "Device id or a glob for one")->required();
   command->add_option("--set", arguments->set,
                       "factor=value (repeatable); a comma in it is spelled %2C");
   command->add_option("--out", arguments->out, "Folder to write into")->required();
   command->add_option("--error", arguments->error,
                       "Root mean square error against the scene's limit: chooses the fastest step, "
-                      "quadrature, ert and skip that keep it");
+                      "quadrature, ert, adapt and skip that keep it");
 }
 
 }  // namespace triptych::app

@@ -20,10 +20,11 @@ struct ReportArguments {
 };
 
 core::ExitCode write_report(const ReportArguments& arguments) {
+  refuse_overwriting({{"--store", arguments.store}},
+                     {{"--out", arguments.out}, {"--benchmark-json", arguments.benchmark_json}});
   const Registry registry = make_registry();
   require_writable(std::filesystem::path(arguments.out).parent_path());
-  require_store(arguments.store);
-  record::Store store(arguments.store, record::Store::Mode::append);
+  record::Store store = open_to_judge(arguments.store);
   Truths truths(registry, store);
   if (store.runs().empty()) {
     throw core::NotSupported(arguments.store + " holds no run: measure first with `triptych run`");
@@ -44,7 +45,7 @@ void add_report_command(Commands& commands) {
                                    [arguments] { return write_report(*arguments); });
   command->add_option("--store", arguments->store)->capture_default_str();
   command->add_option("--out", arguments->out)->capture_default_str();
-  command->add_option("--baselines", arguments->baselines, "Folder of the baselines");
+  add_baselines_option(*command, arguments->baselines);
   command->add_option("--benchmark-json", arguments->benchmark_json,
                       "Also write Google Benchmark's JSON of all its plans' latest runs");
 }

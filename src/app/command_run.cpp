@@ -14,7 +14,9 @@
 #include "app/measuring.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
+#include "app/saying.hpp"
 #include "judge/anchor.hpp"
+#include "measure/plant.hpp"
 #include "measure/process.hpp"
 
 namespace triptych::app {
@@ -57,12 +59,12 @@ void show(const measure::Progress& progress) {
       progress.round > 1 ? fmt::format("round {}: ", progress.round) : std::string{};
   const std::string what = progress.record != nullptr ? outcome_text(*progress.record) : "";
   if (terminal) {
-    fmt::print(stderr, "\r\033[K{}{}/{} {} {} {} left {} s", round, progress.done, progress.total,
-               progress.device, progress.configuration, what, progress.left.count());
-    if (progress.done == progress.total) fmt::print(stderr, "\n");
+    say("\r\033[K{}{}/{} {} {} {} left {} s", round, progress.done, progress.total, progress.device,
+        progress.configuration, what, progress.left.count());
+    if (progress.done == progress.total) say("\n");
   } else if (progress.record != nullptr) {
-    fmt::print(stderr, "{}{}/{} {} {}: {}\n", round, progress.done, progress.total, progress.device,
-               progress.configuration, what);
+    say("{}{}/{} {} {}: {}\n", round, progress.done, progress.total, progress.device,
+        progress.configuration, what);
   }
 }
 
@@ -81,22 +83,28 @@ bool tell_cheapest(const Registry& registry, const measure::Suite& suite, record
 
 void tell(std::FILE* out, const measure::Plan& plan, const measure::RunResult& result,
           const std::string& store) {
-  fmt::print(
-      out, "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
+  std::string text = fmt::format(
+      "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
       plan.name, result.run, store, result.measured, result.skipped, result.failed,
       result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
+  if (result.there_before > 0) {
+    fmt::print(out, "{} of them were there before; timed again: {}\n", result.there_before,
+               result.rounds_added);
+  }
   if (result.taken_over > 0) {
-    fmt::print(out,
-               "{} of them took over another configuration's frames, which their scene cannot tell "
-               "apart; --measure-every measures them too\n",
-               result.taken_over);
+    text += fmt::format(
+        "{} of them took over another configuration's frames, which their scene cannot tell "
+        "apart; --measure-every measures them too\n",
+        result.taken_over);
   }
   if (result.unsettled > 0) {
-    fmt::print(out,
-               "{} not settled: their quietest round was not seen again; --rounds N or --budget "
-               "SECONDS --resume goes on with them\n",
-               result.unsettled);
+    text += fmt::format(
+        "{} not settled: their quietest round was not seen again; --rounds N or --budget "
+        "SECONDS --resume goes on with them\n",
+        result.unsettled);
   }
+  if (out == stderr) return say("{}", text);
+  fmt::print(out, "{}", text);
 }
 
 // A factor belongs to one suite, an error to its scenes.
@@ -112,11 +120,16 @@ std::vector<measure::Plan> load_plans(const RunArguments& arguments, const Regis
   refuse_for_several(arguments);
   std::vector<measure::Plan> plans;
   for (const std::string& name : arguments.plans) {
-    plans.push_back(arguments.choice.load(name, registry.find_suite()));
+    measure::Plan plan = arguments.choice.load(name, registry.find_suite());
+    if (std::ranges::find(plans, plan.name, &measure::Plan::name) != plans.end()) {
+      throw core::InputError(
+          fmt::format("two plans are called {}: a plan's runs are known by its name", plan.name));
+    }
+    plans.push_back(std::move(plan));
     if (!arguments.error) continue;
     plans.back() =
         plan_within_error(plans.back(), registry.suite(plans.back().suite), *arguments.error,
-                          [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
+                          [](const std::string& what) { say("{}\n", what); });
   }
   return plans;
 }
@@ -165,14 +178,28 @@ Told run_and_tell(const RunArguments& arguments) {
   return told;
 }
 
+bool has_measured(const measure::RunResult& result) {
+  return result.measured > 0;
+}
+
 bool has_told(const measure::RunResult& result) {
   return result.measured + result.failed > 0;
 }
 
-core::ExitCode run(const RunArguments& arguments) {
-  const auto [results, error_kept] = run_and_tell(arguments);
-  const bool told = std::ranges::all_of(results, has_told) && error_kept;
-  return told ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+// Where nothing of a plan is measured there is nothing that anybody could judge.
+core::ExitCode run(RunArguments arguments) {
+  // Anchors are beside a run that began after them (judge/anchor_run.hpp).
+  std::ranges::stable_partition(
+      arguments.plans, [](const std::string& plan) { return plan == judge::anchors_plan; });
+  const auto [results, error_kept] = [&] {
+    try {
+      return run_and_tell(arguments);
+    } catch (const measure::Interrupted&) {
+      throw core::Error("interrupted; what was measured is in the store, --resume goes on");
+    }
+  }();
+  const bool measured = std::ranges::all_of(results, has_measured) && error_kept;
+  return measured ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
 bool has_anchors(const std::string& store) {
@@ -250,11 +277,9 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       ->excludes(budget);
   command.add_flag("--measure-every", arguments.measure_every,
                    "Measure configurations too that their scene cannot tell from one before");
-  command.add_option(
-      "--plant", arguments.plants,
-      "Plant a fault to prove that the gate catches it: half_voxel_shift, flipped_axis, "
-      "extra_sample, uncorrected_opacity, coarse_filter, slowdown:PERCENT, crash, hang, "
-      "device_lost; FAULT@GLOB limits it to configurations or devices");
+  command.add_option("--plant", arguments.plants,
+                     "Plant a fault to prove that the gate catches it: " + measure::plant_names() +
+                         "; FAULT@GLOB limits it to configurations or devices");
 }
 
 }  // namespace
@@ -296,7 +321,7 @@ void add_run_commands(Commands& commands) {
   command
       ->add_option("--error", arguments->error,
                    "Root mean square error against the limit of each scene: measures only what "
-                   "keeps it, chooses step, quadrature, ert and skip, and tells the fastest")
+                   "keeps it, chooses step, quadrature, ert, adapt and skip, and tells the fastest")
       ->excludes("--untimed");
 
   auto tested = std::make_shared<RunArguments>();

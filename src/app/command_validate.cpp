@@ -87,7 +87,7 @@ void add_validate_command(Commands& commands) {
       ->required();
   command->add_option("--out", arguments->out, "Folder for the store and the report")
       ->capture_default_str();
-  command->add_option("--baselines", arguments->baselines, "Folder of the baselines");
+  add_baselines_option(*command, arguments->baselines);
 }
 
 }  // namespace triptych::app

@@ -181,7 +181,7 @@ core::ExitCode check_as_test(const CheckArguments& arguments) {
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
   judge::GateResult result = judge_store(arguments, store, truths);
-  if (measure_suspects_again(result, arguments.store)) {
+  if (measure_suspects_again(result, arguments.plan, arguments.store)) {
     result = judge_store(arguments, store, truths);
   }
   const std::optional<std::string> slower = excuse(arguments, registry, store, result);

@@ -11,6 +11,7 @@
 
 #include "app/paths.hpp"
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 #include "judge/anchor.hpp"
 #include "measure/runner.hpp"
 #include "measure/stopwatch.hpp"
@@ -129,7 +130,7 @@ class BlockMeasuring {
       for (const double d : measure::differences(blocks, used)) {
         line["differences"].push_back(std::round(d * 1e7) / 1e7);
       }
-      out << line.dump() << '\n' << std::flush;
+      out << core::json_text(line) << '\n' << std::flush;
     }
   }
 
@@ -143,10 +144,20 @@ class BlockMeasuring {
   bool launched_ = false;
 };
 
-int last_launch(const std::filesystem::path& file) {
+int last_launch(const std::filesystem::path& file, const TellStep& tell) {
   int last = 0;
-  for (const judge::BlockSeries& series : read_blocks(file)) last = std::max(last, series.launch);
+  for (const judge::BlockSeries& series : read_blocks(file, tell)) {
+    last = std::max(last, series.launch);
+  }
   return last;
+}
+
+// What is added to the file begins a line of its own.
+void cut_unfinished_line(const std::filesystem::path& file) {
+  std::uintmax_t ended = 0;
+  std::ifstream in(file, std::ios::binary);
+  for (std::string line; std::getline(in, line) && !in.eof();) ended += line.size() + 1;
+  if (in.is_open()) std::filesystem::resize_file(file, ended);
 }
 
 }  // namespace
@@ -182,7 +193,8 @@ std::vector<measure::Configuration> covering(const measure::Plan& plan, std::siz
 
 void measure_blocks(const EvaluationMaterial& material, const Registry& registry,
                     const std::filesystem::path& file, const TellStep& tell) {
-  const int before = last_launch(file);
+  const int before = last_launch(file, tell);
+  cut_unfinished_line(file);
   std::ofstream out(file, std::ios::app);
   const auto parts = static_cast<double>(material.plans.size() * material.devices.size());
   for (const std::string& device : material.devices) {
@@ -226,11 +238,16 @@ void measure_runs(const EvaluationMaterial& material, const Registry& registry,
   }
 }
 
-std::vector<judge::BlockSeries> read_blocks(const std::filesystem::path& file) {
+std::vector<judge::BlockSeries> read_blocks(const std::filesystem::path& file,
+                                            const TellStep& tell) {
   std::vector<judge::BlockSeries> result;
   std::ifstream in(file);
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
+    if (in.eof()) {
+      tell(fmt::format("{}:{}: left out, its writer did not end it", file.string(), number));
+      break;
+    }
     try {
       const core::Json json = core::Json::parse(line);
       result.push_back({.plan = json.at("plan"),

@@ -53,7 +53,9 @@ void measure_blocks(const EvaluationMaterial& material, const Registry& registry
 void measure_runs(const EvaluationMaterial& material, const Registry& registry,
                   record::Store& store, const TellStep& tell);
 
-// The lines of such a file; none where it is not there. Throws InputError with file and line.
-[[nodiscard]] std::vector<judge::BlockSeries> read_blocks(const std::filesystem::path& file);
+// The lines of such a file; none where it is not there. A last line that its writer, killed, did
+// not end is told and left out. Throws InputError with file and line.
+[[nodiscard]] std::vector<judge::BlockSeries> read_blocks(const std::filesystem::path& file,
+                                                          const TellStep& tell);
 
 }  // namespace triptych::app

@@ -8,25 +8,38 @@
 #include <set>
 
 #include "app/measuring.hpp"
+#include "app/paths.hpp"
 #include "judge/anchor.hpp"
+#include "measure/plan.hpp"
 #include "report/finding_groups.hpp"
 #include "report/page.hpp"
 
 namespace triptych::app {
 
+record::Store open_to_judge(const std::string& file) {
+  require_store(file);
+  try {
+    return {file, record::Store::Mode::append};
+  } catch (const core::IoError&) {
+    return {file, record::Store::Mode::read};
+  }
+}
+
 std::string latest_run_of(const record::Store& store, const std::string& plan,
                           const std::string& file) {
-  const std::optional<record::Run> run = store.latest_run(plan);
+  const std::string name = measure::plan_name(plan);
+  const std::optional<record::Run> run = store.latest_run(name);
   if (run) return run->id;
   throw core::NotSupported(
       fmt::format("{} holds no run of {}: measure first with `triptych run {} --store {}`", file,
-                  plan, plan, file));
+                  name, plan, file));
 }
 
-bool measure_suspects_again(const judge::GateResult& result, const std::string& file) {
+bool measure_suspects_again(const judge::GateResult& result, const std::string& plan,
+                            const std::string& file) {
   const std::vector<std::string> devices = result.left_in_doubt();
   if (devices.empty()) return false;
-  measure_again(result.plan, devices, file);
+  measure_again(plan, devices, file);
   return true;
 }
 

@@ -10,14 +10,20 @@
 
 namespace triptych::app {
 
-// Id of the plan's latest run; throws NotSupported (nothing to judge) when there is none. `file`:
-// what the message calls the store.
+// The store to judge from: to append to, so that truths are kept for the next time, else, where it
+// is read-only, to read. Throws NotSupported when there is none, and as record::Store does.
+[[nodiscard]] record::Store open_to_judge(const std::string& file);
+
+// Id of the plan's latest run; throws NotSupported (nothing to judge) when there is none. `plan`: a
+// name or a YAML file, as it was typed. `file`: what the message calls the store.
 [[nodiscard]] std::string latest_run_of(const record::Store& store, const std::string& plan,
                                         const std::string& file);
 
 // Measures devices in doubt that no run measured again once more, into the same store, which `file`
-// names. False: there was nothing to be measured.
-[[nodiscard]] bool measure_suspects_again(const judge::GateResult& result, const std::string& file);
+// names. `plan` as it was typed: of a YAML file the store knows the stem alone, and that cannot be
+// loaded. False: there was nothing to be measured. Throws as measure_again does.
+[[nodiscard]] bool measure_suspects_again(const judge::GateResult& result, const std::string& plan,
+                                          const std::string& file);
 
 // Every finding but those that pass, a line each, then how many there are of each verdict and the
 // headline.

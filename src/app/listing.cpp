@@ -63,6 +63,21 @@ measure::Listing list_one(const std::string& api) {
   return {.devices = {}, .broken = {{.what = api, .reason = reason_of(reply)}}};
 }
 
+// Says why no device of the listing is one that `glob` asks for.
+[[noreturn]] void refuse_devices(const measure::Listing& listing, std::string_view glob) {
+  if (listing.devices.empty()) {
+    throw core::NotSupported(
+        "no device at all: no OpenCL, Vulkan or OpenGL driver answers; ci/setup installs software "
+        "drivers, `triptych devices` says what each loader found");
+  }
+  std::string known;
+  for (const record::Device& device : listing.devices) known += " " + device.id;
+  for (const measure::Broken& each : listing.broken) {
+    known += fmt::format("; {}: {}", each.what, each.reason);
+  }
+  throw core::NotSupported(fmt::format("no device matches {}; there are:{}", glob, known));
+}
+
 }  // namespace
 
 measure::Listing list_devices(const Registry& registry) {
@@ -77,25 +92,20 @@ measure::Listing list_devices(const Registry& registry) {
 
 std::vector<std::string> choose_devices(const measure::Listing& listing,
                                         const std::vector<std::string>& globs) {
+  const std::vector<std::string> asked = globs.empty() ? std::vector<std::string>{"*"} : globs;
+  const auto matches = [](const std::string& glob, const record::Device& device) {
+    return ::fnmatch(glob.c_str(), device.id.c_str(), 0) == 0;
+  };
+  for (const std::string& glob : asked) {
+    const auto meant = [&](const record::Device& device) { return matches(glob, device); };
+    if (std::ranges::none_of(listing.devices, meant)) refuse_devices(listing, glob);
+  }
   std::vector<std::string> chosen;
-  std::string known;
   for (const record::Device& device : listing.devices) {
-    known += " " + device.id;
-    const auto matches = [&](const std::string& glob) {
-      return ::fnmatch(glob.c_str(), device.id.c_str(), 0) == 0;
-    };
-    if (globs.empty() || std::ranges::any_of(globs, matches)) chosen.push_back(device.id);
+    const auto takes = [&](const std::string& glob) { return matches(glob, device); };
+    if (std::ranges::any_of(asked, takes)) chosen.push_back(device.id);
   }
-  if (!chosen.empty()) return chosen;
-  if (known.empty()) {
-    throw core::NotSupported(
-        "no device at all: no OpenCL, Vulkan or OpenGL driver answers; ci/setup installs software "
-        "drivers, `triptych devices` says what each loader found");
-  }
-  for (const measure::Broken& each : listing.broken) {
-    known += fmt::format("; {}: {}", each.what, each.reason);
-  }
-  throw core::NotSupported(fmt::format("no device matches {}; there are:{}", globs.front(), known));
+  return chosen;
 }
 
 Greeting greet(const record::Device& device, const std::string& suite) {

@@ -13,7 +13,7 @@ namespace triptych::app {
 [[nodiscard]] measure::Listing list_devices(const Registry& registry);
 
 // Ids of the devices that match any of the globs (all for none), in listing order. Throws
-// core::NotSupported naming what is there when nothing matches.
+// core::NotSupported naming what is there when a glob matches nothing.
 [[nodiscard]] std::vector<std::string> choose_devices(const measure::Listing& listing,
                                                       const std::vector<std::string>& globs);
 

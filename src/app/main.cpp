@@ -3,9 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/arguments.hpp"
+#include "app/saying.hpp"
+#include "measure/plan_values.hpp"
 
 namespace {
 
@@ -14,6 +20,28 @@ using triptych::core::ExitCode;
 constexpr const char* footer =
     "Exit codes: 0 pass, 1 regression, 2 could not judge, 3 usage or I/O, 77 skipped (tests).\n"
     "A PLAN is a YAML file or a short name such as volume/quick; `triptych list PLAN` shows it.";
+
+// CLI11 says that a command is required, whatever stands in its place.
+void refuse_unknown_command(const CLI::App& program, std::string_view name) {
+  if (name.starts_with('-')) return;
+  std::vector<std::string> known;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    if (command->get_name() == name) return;
+    if (!command->get_group().empty()) known.push_back(command->get_name());
+  }
+  throw triptych::core::InputError(
+      fmt::format("unknown command '{}'{}", name, triptych::measure::suggestion(name, known)));
+}
+
+// What follows an option's value is the next argument, however often the option may be given:
+// otherwise `run --device GLOB PLAN` would have two devices and no plan.
+void give_options_one_value(CLI::App& program) {
+  for (CLI::App* command : program.get_subcommands({})) {
+    for (CLI::Option* option : command->get_options()) {
+      if (!option->get_positional()) option->allow_extra_args(false);
+    }
+  }
+}
 
 ExitCode run(int argc, char** argv) {
   CLI::App program{
@@ -35,6 +63,8 @@ ExitCode run(int argc, char** argv) {
   triptych::app::add_validate_command(commands);
   triptych::app::add_analyze_command(commands);
   triptych::app::add_test_commands(commands);
+  give_options_one_value(program);
+  if (argc > 1) refuse_unknown_command(program, argv[1]);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -43,16 +73,28 @@ ExitCode run(int argc, char** argv) {
   return commands.chosen();
 }
 
+ExitCode run_and_catch(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const triptych::core::NotSupported& error) {
+    triptych::app::say("triptych: {}\n", error.what());
+    return ExitCode::cannot_judge;
+  } catch (const std::exception& error) {
+    triptych::app::say("triptych: {}\n", error.what());
+    return ExitCode::usage;
+  }
+}
+
+// The end of what was printed still waits in a buffer: an answer that nobody can read is none.
+bool output_is_written() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  std::perror("triptych: standard output cannot be written");
+  return false;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return static_cast<int>(run(argc, argv));
-  } catch (const triptych::core::NotSupported& error) {
-    fmt::print(stderr, "triptych: {}\n", error.what());
-    return static_cast<int>(ExitCode::cannot_judge);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "triptych: {}\n", error.what());
-    return static_cast<int>(ExitCode::usage);
-  }
+  const ExitCode code = run_and_catch(argc, argv);
+  return static_cast<int>(output_is_written() ? code : ExitCode::usage);
 }

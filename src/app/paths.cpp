@@ -24,7 +24,8 @@ std::vector<fs::path> data_folders() {
 }
 
 fs::path default_baselines() {
-  if (fs::is_directory("baselines")) return "baselines";
+  std::error_code ignored;  // a folder that may not be searched has none
+  if (fs::is_directory("baselines", ignored)) return "baselines";
   return fs::path(TRIPTYCH_SOURCE_FOLDER) / "baselines";
 }
 
@@ -50,8 +51,33 @@ void require_writable(const fs::path& folder) {
   }
 }
 
+namespace {
+
+bool are_one_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (!fs::exists(a, error) || !fs::exists(b, error)) {
+    return fs::weakly_canonical(fs::absolute(a), error) ==
+           fs::weakly_canonical(fs::absolute(b), error);
+  }
+  return fs::is_regular_file(a, error) && fs::equivalent(a, b, error);
+}
+
+}  // namespace
+
+void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<NamedFile>& written) {
+  std::vector<NamedFile> taken = read;
+  for (const NamedFile& each : written) {
+    for (const auto& [name, file] : taken) {
+      if (each.file.empty() || file.empty() || !are_one_file(each.file, file)) continue;
+      throw core::InputError(
+          fmt::format("{} {} is the file of {}: choose another", each.name, each.file, name));
+    }
+    taken.push_back(each);
+  }
+}
+
 void require_store(const fs::path& file) {
-  if (fs::exists(file)) return;
+  if (file.empty() || fs::exists(file)) return;  // without a name it is refused when it is opened
   throw core::NotSupported(fmt::format(
       "there is no store {0}: measure first with `triptych run PLAN --store {0}`", file.string()));
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace triptych::app {
@@ -21,6 +22,16 @@ namespace triptych::app {
 // Throws core::IoError when a file could not be created in the folder (made if it is missing), so
 // that nothing is measured that could not be kept.
 void require_writable(const std::filesystem::path& folder);
+
+// A file and the option or argument that named it.
+struct NamedFile {
+  std::string_view name;
+  std::string file;  // empty: none was named
+};
+
+// Throws core::InputError where a file to be written is one of those to be read, or another that is
+// written. What is no regular file, such as /dev/null, may take several.
+void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<NamedFile>& written);
 
 // Throws core::NotSupported saying how to measure when there is no such store.
 void require_store(const std::filesystem::path& file);

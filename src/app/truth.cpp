@@ -38,11 +38,20 @@ judge::TruthPair Truths::find_or_render(const record::Record& record) {
     return {.truth = core::decode_exr(stored->image), .bound = core::decode_exr(stored->bound)};
   }
   measure::Truth truth = suite.truth(record.factors, record.precision);
-  store_.set_truth({.scene = record.scene,
-                    .version = version,
-                    .image = core::encode_exr(truth.image),
-                    .bound = core::encode_exr(truth.bound)});
+  keep({.scene = record.scene,
+        .version = version,
+        .image = core::encode_exr(truth.image),
+        .bound = core::encode_exr(truth.bound)});
   return {.truth = std::move(truth.image), .bound = std::move(truth.bound)};
+}
+
+// One that cannot be kept – the store is read-only, the disk full – is as true.
+void Truths::keep(const record::TruthImage& truth) {
+  try {
+    store_.set_truth(truth);
+  } catch (const core::IoError&) {
+    return;
+  }
 }
 
 const judge::LimitPicture* Truths::limit_of(const record::Record& record) {
@@ -66,10 +75,10 @@ judge::LimitPicture Truths::find_or_render_limit(const record::Record& record,
     return picture;
   }
   measure::Limit limit = suite.limit(record.factors);
-  store_.set_truth({.scene = scene,
-                    .version = key,
-                    .image = core::encode_exr(limit.image),
-                    .bound = core::encode_exr(limit.uncertainty)});
+  keep({.scene = scene,
+        .version = key,
+        .image = core::encode_exr(limit.image),
+        .bound = core::encode_exr(limit.uncertainty)});
   picture.image = std::move(limit.image);
   picture.uncertainty = std::move(limit.uncertainty);
   return picture;

@@ -9,7 +9,8 @@
 
 namespace triptych::app {
 
-// Truths by record, rendered once: kept in memory for this command and in the store for the next.
+// Truths by record, rendered once: kept in memory for this command and, where the store can be
+// added to, there for the next.
 class Truths {
  public:
   Truths(const Registry& registry, record::Store& store) : registry_(registry), store_(store) {}
@@ -28,6 +29,7 @@ class Truths {
 
  private:
   [[nodiscard]] judge::TruthPair find_or_render(const record::Record& record);
+  void keep(const record::TruthImage& truth);
 
   const Registry& registry_;
   record::Store& store_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 
 namespace triptych::report {
 namespace {
@@ -141,7 +142,7 @@ std::string accuracy_chart(std::span<const judge::AccuracyScene> scenes, Cost co
       {"config",
        {{"view", {{"stroke", "#ddd"}}},
         {"legend", {{"labelLimit", 320}, {"orient", "top"}, {"columns", 4}}}}}};
-  return spec.dump();
+  return core::json_text(spec);
 }
 
 }  // namespace triptych::report

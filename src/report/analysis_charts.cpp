@@ -1,5 +1,7 @@
 #include "report/analysis_charts.hpp"
 
+#include "core/json_text.hpp"
+
 namespace triptych::report {
 namespace {
 
@@ -44,7 +46,7 @@ std::string heat_map(const Json& rows, const Json& x, const Json& y, Json value,
   const Json text{{"mark", {{"type", "text"}, {"fontSize", 10}}}, {"encoding", {{"text", number}}}};
   spec["encoding"] = {{"x", x}, {"y", y}};
   spec["layer"] = Json::array({cell, text});
-  return spec.dump();
+  return core::json_text(spec);
 }
 
 }  // namespace
@@ -73,7 +75,7 @@ std::string histogram_chart(const Json& bins, bool logarithmic) {
       {"mark", {{"type", "line"}, {"color", "#222"}, {"interpolate", "monotone"}}},
       {"encoding", {{"x", middle}, {"y", field("expected", "quantitative", "configurations")}}}};
   spec["layer"] = Json::array({bars, curve});
-  return spec.dump();
+  return core::json_text(spec);
 }
 
 std::string correlation_boxes_chart(const Json& cells) {
@@ -92,7 +94,7 @@ std::string correlation_boxes_chart(const Json& cells) {
                    {"encoding", {{"tooltip", tooltip({"factor", "a", "b", "r", "pairs"})}}}};
   spec["encoding"] = {{"x", x}, {"y", field("factor", "nominal", nullptr)}};
   spec["layer"] = Json::array({box, ticks});
-  return spec.dump();
+  return core::json_text(spec);
 }
 
 std::string correlation_matrix_chart(const Json& cells) {
@@ -139,7 +141,7 @@ std::string speed_ups_chart(const Json& rows) {
       {"encoding",
        {{"x", field("low", "quantitative", "speed-up")}, {"x2", {{"field", "high"}}}, {"y", y}}}};
   spec["layer"] = Json::array({bar, error});
-  return spec.dump();
+  return core::json_text(spec);
 }
 
 }  // namespace triptych::report

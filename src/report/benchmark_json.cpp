@@ -1,6 +1,7 @@
 #include "report/benchmark_json.hpp"
 
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 #include "record/benchmark_entries.hpp"
 
 namespace triptych::report {
@@ -24,7 +25,7 @@ std::string benchmark_json(const record::Store& store, std::span<const record::R
       }
     }
   }
-  return core::Json{{"context", context}, {"benchmarks", benchmarks}}.dump(2) + "\n";
+  return core::json_text({{"context", context}, {"benchmarks", benchmarks}}, 2) + "\n";
 }
 
 }  // namespace triptych::report

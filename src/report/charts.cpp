@@ -1,6 +1,7 @@
 #include "report/charts.hpp"
 
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 
 namespace triptych::report {
 namespace {
@@ -54,7 +55,7 @@ std::string time_chart(const PlanData& plan) {
                   {"resolve", {{"axis", {{"x", "independent"}}}}},
                   {"spec", {{"width", 380}, {"layer", Json::array({box, points})}}},
                   {"config", {{"view", {{"stroke", "#ddd"}}}, {"axis", {{"labelLimit", 200}}}}}};
-  return spec.dump();
+  return core::json_text(spec);
 }
 
 }  // namespace triptych::report

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 
 namespace triptych::report {
 namespace {
@@ -167,7 +168,7 @@ std::string correlation_chart(const judge::CorrelationPair& pair) {
                   {"data", {{"values", points(pair)}}},
                   {"hconcat", panels},
                   {"config", {{"view", {{"stroke", "#ddd"}}}, {"legend", {{"labelLimit", 220}}}}}};
-  return spec.dump();
+  return core::json_text(spec);
 }
 
 }  // namespace triptych::report

@@ -7,13 +7,35 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/text.hpp"
+
 namespace triptych::report {
+
+namespace {
+
+// The next character, taken off the front of the text; another one in the place of what is none,
+// in UTF-8 or in XML.
+std::string_view take_character(std::string_view& text) {
+  const std::size_t length = core::utf8_length(text);
+  const std::string_view character = text.substr(0, length);
+  text.remove_prefix(std::max<std::size_t>(length, 1));
+  const bool is_one = length > 0 && character != "\xEF\xBF\xBE" && character != "\xEF\xBF\xBF";
+  return is_one ? character : core::replacement_character;
+}
+
+// Those that have no place in either language.
+bool is_control(char c) {
+  return c >= 0 && c < 0x20 && c != '\n' && c != '\t';
+}
+
+}  // namespace
 
 std::string escape(std::string_view text) {
   std::string result;
   result.reserve(text.size());
-  for (const char c : text) {
-    switch (c) {
+  while (!text.empty()) {
+    const std::string_view character = take_character(text);
+    switch (character.front()) {
       case '&':
         result += "&amp;";
         break;
@@ -27,8 +49,7 @@ std::string escape(std::string_view text) {
         result += "&quot;";
         break;
       default:
-        // Control characters have no place in either language.
-        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') result += c;
+        if (!is_control(character.front())) result += character;
     }
   }
   return result;

@@ -9,7 +9,8 @@
 
 namespace triptych::report {
 
-// Text for HTML and XML, element content and attributes alike.
+// Text for HTML and XML, element content and attributes alike. Control characters are left out, and
+// what is malformed becomes U+FFFD.
 [[nodiscard]] std::string escape(std::string_view text);
 
 // The same, which may be broken after what separates parts of a test's id or a configuration.

@@ -152,7 +152,7 @@ std::string correlation_section(const PlanData& plan) {
   std::size_t index = 0;
   const std::set<std::string> decided = judge::decided_devices(plan.verdict->correlations);
   for (const CorrelationPair& pair : plan.verdict->correlations) {
-    const bool aside = !pair.decides && decided.contains(pair.device);
+    const bool aside = judge::is_beside_what_decides(pair, decided);
     (pair.within_run ? consistency : aside ? farther : stored) += pair_part(plan, pair, index++);
   }
   if (index == 0) return {};

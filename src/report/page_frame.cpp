@@ -28,10 +28,15 @@ std::string page_end() {
 }
 
 std::string chart(std::string_view id, std::string_view specification) {
-  // Within a script only "</" could end it early; in JSON "<\/" is the same text.
-  std::string safe(specification);
-  for (std::size_t at = safe.find("</"); at != std::string::npos; at = safe.find("</", at + 3)) {
-    safe.insert(at + 1, "\\");
+  // Within a script "</script" ends it, and "<!--" with "<script" hides its end. JSON has "<" in
+  // strings alone, where its number is the same text.
+  std::string safe;
+  for (const char c : specification) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
   }
   return fmt::format(
       "<div class=\"chart\" id=\"{0}\"></div>"

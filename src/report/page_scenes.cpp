@@ -9,7 +9,10 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string>
+#include <variant>
 
+#include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "judge/image_metrics.hpp"
 #include "report/html.hpp"
@@ -99,14 +102,40 @@ std::string made_by(const SameBits& group, const std::vector<const record::Recor
   return text;
 }
 
+using TruthOf = std::function<judge::TruthPair(const record::Record&)>;
+
+// Or why there is none: the data's file is not here, say, and the store has not kept it.
+std::variant<judge::TruthPair, std::string> truth_or_reason(const TruthOf& truth,
+                                                            const record::Record& record) {
+  try {
+    return truth(record);
+  } catch (const core::Error& error) {
+    return fmt::format("no truth: {}", error.what());
+  }
+}
+
+std::string truth_panel(const TruthOf& truth, const record::Record& record) {
+  const auto found = truth_or_reason(truth, record);
+  if (const auto* reason = std::get_if<std::string>(&found)) {
+    return fmt::format("<figure><figcaption>{}</figcaption></figure>", escape(*reason));
+  }
+  return fmt::format("<figure>{}<figcaption>the truth<br>double precision</figcaption></figure>",
+                     picture(std::get<judge::TruthPair>(found).truth, "the truth"));
+}
+
 std::string device_panel(const record::Store& store, const SameBits& group,
-                         const std::vector<const record::Record*>& of_scene,
-                         const judge::TruthPair& pair) {
+                         const std::vector<const record::Record*>& of_scene, const TruthOf& truth) {
   const record::Record& record = *group.front();
   const Image image = core::decode_exr(store.image(record.image));
-  const judge::ImageComparison result = judge::compare(image, pair.truth, pair.bound);
   const std::string title = fmt::format("{}<br>{}{}", escape(record.device),
                                         escape(technique_names(group)), made_by(group, of_scene));
+  const auto found = truth_or_reason(truth, record);
+  if (const auto* reason = std::get_if<std::string>(&found)) {
+    return fmt::format("<figure>{}<figcaption>{}<br>{}</figcaption></figure>",
+                       picture(image, record.device), title, escape(*reason));
+  }
+  const auto& pair = std::get<judge::TruthPair>(found);
+  const judge::ImageComparison result = judge::compare(image, pair.truth, pair.bound);
   if (result.size_mismatch) {
     return fmt::format("<figure>{}<figcaption>{}<br>wrong size</figcaption></figure>",
                        picture(image, record.device), title);
@@ -127,8 +156,7 @@ std::string device_panel(const record::Store& store, const SameBits& group,
 
 }  // namespace
 
-std::string scenes_section(const record::Store& store, const PlanData& plan,
-                           const std::function<judge::TruthPair(const record::Record&)>& truth) {
+std::string scenes_section(const record::Store& store, const PlanData& plan, const TruthOf& truth) {
   std::vector<std::string> order;
   std::map<std::string, std::vector<const record::Record*>> scenes;
   for (const record::Record& record : plan.records) {
@@ -145,13 +173,11 @@ std::string scenes_section(const record::Store& store, const PlanData& plan,
   for (const std::string& scene : order) {
     auto records = scenes[scene];
     std::ranges::stable_sort(records, {}, [](const record::Record* r) { return r->technique; });
-    const judge::TruthPair first = truth(*records.front());
-    text += fmt::format(
-        "<h4>{}</h4><div class=\"panels\"><figure>{}<figcaption>the truth<br>double "
-        "precision</figcaption></figure>",
-        escape(picture_title(plan, *records.front())), picture(first.truth, "the truth"));
+    text += fmt::format("<h4>{}</h4><div class=\"panels\">{}",
+                        escape(picture_title(plan, *records.front())),
+                        truth_panel(truth, *records.front()));
     for (const SameBits& group : grouped_by_bits(records)) {
-      text += device_panel(store, group, records, truth(*group.front()));
+      text += device_panel(store, group, records, truth);
     }
     text += "</div>\n";
   }

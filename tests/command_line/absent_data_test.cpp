@@ -44,6 +44,34 @@ TEST_F(AbsentData, IsASkipForCTestAndNotToBeJudgedForTheGate) {
   EXPECT_EQ(program.run("gate plan --baselines baselines --store s.sqlite").code, 2);
 }
 
+// A page tells what it can: the times, the picture, and what keeps it from being judged.
+TEST_F(AbsentData, LeavesAPageWithoutATruth) {
+  ASSERT_EQ(program.run("run plan --device 'null:*' --store s.sqlite").code, 0);
+  std::filesystem::remove(program.folder() / "field.nrrd");
+  const Result reported = program.run("report --store s.sqlite --baselines b --out page.html");
+  EXPECT_EQ(reported.code, 0) << reported.output;
+  const std::string page = program.read("page.html");
+  EXPECT_NE(page.find("no truth: field.nrrd: not found"), std::string::npos);
+  EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
+}
+
+TEST_F(AbsentData, LeavesNoLimitToJudgeBy) {
+  ASSERT_EQ(
+      program
+          .run("run volume/accuracy --device 'null:*' --untimed --set data=field.nrrd --set "
+               "technique=raycast --set step=1 --set viewport=16 --set transfer_function=haze "
+               "--store s.sqlite")
+          .code,
+      0);
+  std::filesystem::remove(program.folder() / "field.nrrd");
+  const Result judged = program.run("gate volume/accuracy --store s.sqlite --baselines b");
+  EXPECT_EQ(judged.code, 2) << judged.output;
+  EXPECT_NE(judged.output.find("its error cannot be told: field.nrrd: not found"),
+            std::string::npos)
+      << judged.output;
+  EXPECT_EQ(program.run("report --store s.sqlite --baselines b --out page.html").code, 0);
+}
+
 // A device that fails is never excused by what is not there elsewhere.
 TEST_F(AbsentData, ExcusesNothingElse) {
   program.write("plan",

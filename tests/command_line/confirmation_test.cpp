@@ -110,6 +110,39 @@ TEST_F(Confirmation, TheGateKeepsWhatBothLaunchesShow) {
       << confirmed.output;
 }
 
+// The store knows a file's plan by its stem, which is nothing that could be measured again.
+TEST_F(Confirmation, TheGateMeasuresThePlanOfAFileAgain) {
+  std::filesystem::create_directory(program.folder() / "plans");
+  std::filesystem::rename(program.folder() / "plan", program.folder() / "plans/plan.yaml");
+  ASSERT_EQ(
+      program.run("run plans/plan.yaml --device 'null:*' --store g.sqlite", script(1, 50, 1.25))
+          .code,
+      0);
+  const Result confirmed = program.run(
+      "gate plans/plan.yaml --baselines baselines --store g.sqlite --confirm", script(1, 51));
+  EXPECT_EQ(confirmed.code, 0) << confirmed.output;
+  EXPECT_EQ(runs("g.sqlite"), 2U);
+}
+
+// A regression is none the less one for a driver or a plan that is there no more.
+TEST_F(Confirmation, WhatCannotBeConfirmedStands) {
+  ASSERT_EQ(program.run("run plan --device 'null:*' --store g.sqlite", script(1.25, 50)).code, 0);
+  const std::string gate =
+      "gate plan --baselines baselines --store g.sqlite --confirm --junit j.xml --markdown m.md ";
+  const Result without_device = program.run(gate, R"({"devices": []})");
+  EXPECT_EQ(without_device.code, 1) << without_device.output;
+  EXPECT_NE(without_device.output.find("could not confirm: no device matches null:scripted"),
+            std::string::npos)
+      << without_device.output;
+  EXPECT_NE(program.read("j.xml").find("<failure"), std::string::npos);
+  EXPECT_NE(program.read("m.md").find("FAIL"), std::string::npos);
+  std::filesystem::remove(program.folder() / "plan");
+  const Result without_plan = program.run(gate, script(1.25, 51));
+  EXPECT_EQ(without_plan.code, 1) << without_plan.output;
+  EXPECT_NE(without_plan.output.find("could not confirm: plan: cannot be read"), std::string::npos)
+      << without_plan.output;
+}
+
 TEST_F(Confirmation, SlowInBothLaunchesIsARegression) {
   const Result result = check(1.25, 1.25);
   EXPECT_EQ(result.code, 1) << result.output;

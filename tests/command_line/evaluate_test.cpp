@@ -84,6 +84,18 @@ TEST_F(Evaluate, ABrokenLineIsNamed) {
       << result.output;
 }
 
+TEST_F(Evaluate, ALineThatWasNotEndedIsNotThere) {
+  const std::string few = "--configurations 1 --launches 1 --blocks 12";
+  ASSERT_EQ(measure("compare", few).code, 0);
+  const std::string whole = program.read("evaluation/blocks.jsonl");
+  program.write("evaluation/blocks.jsonl", whole + whole.substr(0, whole.size() / 3));
+  const Result judged = program.run("evaluate --what compare --trials 3");
+  EXPECT_NE(judged.code, 3) << judged.output;
+  EXPECT_NE(judged.output.find("did not end it"), std::string::npos) << judged.output;
+  EXPECT_NE(measure("compare", few).code, 3);  // adds to what is whole
+  EXPECT_NE(program.run("evaluate --what compare --trials 3").code, 3);
+}
+
 TEST_F(Evaluate, NothingMeasuredIsNothingJudged) {
   const Result result = program.run("evaluate");
   EXPECT_EQ(result.code, 2) << result.output;

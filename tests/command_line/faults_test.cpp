@@ -42,8 +42,26 @@ TEST(Faults, AKilledRunIsResumed) {
   EXPECT_NE(killed.code, 0);
   const Result resumed = program.run(three + " --resume");
   EXPECT_EQ(resumed.code, 0) << resumed.output;
-  EXPECT_NE(resumed.output.find("2 measured, 0 skipped, 0 failed"), std::string::npos)
+  EXPECT_NE(resumed.output.find("3 measured, 0 skipped, 0 failed"), std::string::npos)
       << resumed.output;
+  EXPECT_NE(resumed.output.find("1 of them were there before"), std::string::npos)
+      << resumed.output;
+}
+
+// What a resumed run holds counts, not what it had to measure anew.
+TEST(Faults, AResumedRunTellsWhatItHolds) {
+  const Program program;
+  const std::string run = std::string("run volume/quick --set step=0.5,1 --set skip=none --set ") +
+                          "camera=orbit_y:1/8 --store s.sqlite " + tiny;
+  ASSERT_EQ(program.run(run + " --rounds 1").code, 0);
+  const Result finished = program.run(run + " --rounds 1 --resume");
+  EXPECT_EQ(finished.code, 0) << finished.output;
+  const Result timed = program.run(run + " --budget 60 --resume");
+  EXPECT_EQ(timed.code, 0) << timed.output;
+  EXPECT_NE(timed.output.find(": 2 measured, 0 skipped, 0 failed"), std::string::npos)
+      << timed.output;
+  EXPECT_NE(timed.output.find("2 of them were there before; timed again: "), std::string::npos)
+      << timed.output;
 }
 
 TEST(Faults, NothingMeasuredIsNoPass) {
@@ -52,6 +70,14 @@ TEST(Faults, NothingMeasuredIsNoPass) {
       program.run("run volume/quick --device 'null:*' --set data=gone.nrrd --store s.sqlite");
   EXPECT_EQ(result.code, 2) << result.output;
   EXPECT_EQ(program.run("gate volume/quick --store s.sqlite --baselines b").code, 2);
+}
+
+TEST(Faults, ARunThatMeasuredNothingIsNoSuccess) {
+  const Program program;
+  const std::string run = std::string("run volume/quick --store s.sqlite ") + tiny;
+  const Result crashed = program.run(run + " --plant crash");
+  EXPECT_EQ(crashed.code, 2) << crashed.output;
+  EXPECT_NE(crashed.output.find(" 0 measured, "), std::string::npos) << crashed.output;
 }
 
 }  // namespace

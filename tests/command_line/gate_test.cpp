@@ -54,6 +54,23 @@ TEST(Gate, CannotJudgeWithoutBaselines) {
   EXPECT_NE(judged.output.find("triptych accept volume/quick"), std::string::npos) << judged.output;
 }
 
+// The truth that the store keeps is that of what the file held then.
+TEST(Gate, AnEditedTransferFunctionIsNotJudgedByWhatItWas) {
+  const Program program;
+  program.write("plan",
+                "suite: volume\ntechnique: [raycast]\ndata: [generate:gaussian_blob:16]\n"
+                "transfer_function: [a.rgba]\nviewport: [16]\n");
+  for (const char opacity : {'\x10', '\x20'}) {
+    program.write("a.rgba", std::string(1024, opacity));
+    const std::filesystem::path picture = right_picture(program, "a.rgba");
+    const Result measured =
+        program.run("run plan --device null:scripted --store s.sqlite", script(picture, 1, 1));
+    ASSERT_EQ(measured.code, 0) << measured.output;
+    const Result judged = program.run("gate plan --check image --store s.sqlite --baselines none");
+    EXPECT_EQ(judged.code, 2) << judged.output;  // no baselines
+  }
+}
+
 TEST(Gate, AWrongPictureIsARegression) {
   const Program program;
   accept_runs(program, right_picture(program), 1);
@@ -104,6 +121,28 @@ TEST(Gate, ARequiredDeviceThatIsAbsentIsNoPass) {
   const Result judged = program.run(judge_from("s.sqlite") + " --require 'vulkan:*'");
   EXPECT_EQ(judged.code, 2) << judged.output;
   EXPECT_NE(judged.output.find("vulkan:*"), std::string::npos);
+}
+
+// Before anything is judged, and nothing is written.
+TEST(Gate, NoOutputReplacesAnother) {
+  const Program program;
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(right_picture(program), 1, 1)).code, 0);
+  const std::string store = program.read("s.sqlite");
+  for (const auto& [outputs, says] :
+       {std::pair("--junit s.sqlite", "--junit s.sqlite is the file of --store: choose another"),
+        {"--markdown ./s.sqlite", "--markdown ./s.sqlite is the file of --store"},
+        {"--junit new --markdown ./new", "--markdown ./new is the file of --junit"}}) {
+    const Result judged = program.run(judge_from("s.sqlite") + " " + outputs);
+    EXPECT_EQ(judged.code, 3) << judged.output;
+    EXPECT_NE(judged.output.find(says), std::string::npos) << judged.output;
+  }
+  program.write("plan.yaml", "suite: volume\n");
+  EXPECT_EQ(program.run("gate plan.yaml --store s.sqlite --junit plan.yaml").code, 3);
+  EXPECT_EQ(program.read("plan.yaml"), "suite: volume\n");
+  EXPECT_EQ(program.read("s.sqlite"), store);
+  EXPECT_FALSE(std::filesystem::exists(program.folder() / "new"));
+  EXPECT_EQ(program.run(judge_from("s.sqlite") + " --junit /dev/null --markdown /dev/null").code,
+            2);
 }
 
 TEST(Gate, ACorruptBaselineIsNamedWithItsLine) {

@@ -66,6 +66,18 @@ TEST_F(ReportTest, BeginsWithEveryPlansVerdictTheAnchorsLast) {
   EXPECT_LT(anchors, page.find("<section id=\"plan0\"><h2>volume/quick</h2>"));
 }
 
+TEST_F(ReportTest, ReplacesNeitherTheStoreNorItself) {
+  measure(std::string("volume/quick --untimed") + small);
+  const std::string store = program_.read("s.sqlite");
+  const Result over_store = program_.run("report --store s.sqlite --out ./s.sqlite");
+  EXPECT_EQ(over_store.code, 3);
+  EXPECT_THAT(over_store.output, HasSubstr("--out ./s.sqlite is the file of --store"));
+  EXPECT_EQ(program_.read("s.sqlite"), store);
+  const Result over_page = program_.run("report --store s.sqlite --out x --benchmark-json x");
+  EXPECT_EQ(over_page.code, 3);
+  EXPECT_THAT(over_page.output, HasSubstr("--benchmark-json x is the file of --out"));
+}
+
 // Of one plan alone it would leave out what a store that CI keeps is there for.
 TEST_F(ReportTest, BenchmarkJsonHoldsEveryPlan) {
   measure("anchors/frozen");

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 
 #include "core/image_io.hpp"
 #include "measure/plan.hpp"
@@ -8,14 +9,16 @@
 
 namespace triptych::command_line {
 
-// The truth of the tiny plan's scene as a file, for a device to replay.
-inline std::filesystem::path right_picture(const Program& program) {
-  const auto suite = volume_suite::make_suite({});
+// The truth of the tiny plan's scene as a file, for a device to replay. `transfer_function`: a
+// preset, or a file in the program's folder.
+inline std::filesystem::path right_picture(const Program& program,
+                                           const std::string& transfer_function = "haze") {
+  const auto suite = volume_suite::make_suite({program.folder()});
   const measure::Plan plan =
       measure::load_plan("volume/quick",
                          {{"technique", {"raycast"}},
                           {"data", {"generate:gaussian_blob:16"}},
-                          {"transfer_function", {"haze"}},
+                          {"transfer_function", {transfer_function}},
                           {"viewport", {"16"}}},
                          [&](std::string_view) -> measure::Suite& { return *suite; });
   const auto file = program.folder() / "right.exr";

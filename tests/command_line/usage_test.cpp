@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "program.hpp"
 
@@ -24,7 +25,24 @@ TEST(Usage, HelpIsNotAnError) {
 TEST(Usage, NoCommandAndAnUnknownOne) {
   const Program program;
   EXPECT_EQ(program.run("").code, 3);
-  EXPECT_EQ(program.run("fly").code, 3);
+  expect_refused(program.run("fly"), 3, "unknown command 'fly'; there are: devices, list, run,");
+}
+
+TEST(Usage, ASuiteIsListedWithAllThatAPlanMayHold) {
+  const Program program;
+  const Result listed = program.run("list volume");
+  EXPECT_EQ(listed.code, 0) << listed.output;
+  for (const char* text : {"  step: 0.015625 to 4096 | own; default 1\n", "distance of samples",
+                           "  skip: none | bricks | distance; default bricks; the picture stays\n",
+                           "  generate:mandelbulb\n", "  volume/quick: "}) {
+    EXPECT_NE(listed.output.find(text), std::string::npos) << text << '\n' << listed.output;
+  }
+  EXPECT_EQ(program.run("list anchors").code, 0);
+  const auto json = nlohmann::json::parse(program.run("list particles --json").output);
+  for (const char* part : {"factors", "generators", "plans"}) {
+    ASSERT_FALSE(json.at(part).empty()) << part;
+    for (const auto& each : json.at(part)) EXPECT_NE(each.at("summary"), "") << each;
+  }
 }
 
 TEST(Usage, APlanThatIsNotThere) {
@@ -51,12 +69,59 @@ TEST(Usage, AnOverrideThatIsWrong) {
   expect_refused(program.run("list volume/quick --set step"), 3, "expected factor=value");
   expect_refused(program.run("run volume/quick particles/quick --set step=1"), 3, "one plan");
   expect_refused(program.run("list volume/quick --set viewport=0"), 3, "viewport '0'");
-  expect_refused(program.run("list volume/quick --shard 3/2"), 3, "expected i/n");
+  for (const char* shard : {"3/2", "0/1", "1/", "1/2/3", "4294967297/1", "1/4294967297"}) {
+    expect_refused(program.run(std::string("list volume/quick --shard ") + shard), 3,
+                   "expected i/n");
+  }
+  EXPECT_EQ(program.run("list volume/quick --shard 2/2").code, 0);
+  ASSERT_EQ(program.run(std::string("run volume/quick --untimed --store s.sqlite ") + tiny).code,
+            0);
+  expect_refused(program.run("analyze --store s.sqlite --reference step"), 3,
+                 "--reference step: expected factor=value");
+}
+
+TEST(Usage, AGeneratorThatCannotMakeIt) {
+  const Program program;
+  program.write("small.yaml",
+                "suite: volume\ndata: [generate:mandelbulb:16, generate:mandelbulb:-5]\n");
+  expect_refused(program.run("list small.yaml"), 3,
+                 "small.yaml:2:32: 'data': generate:mandelbulb: size -5 is outside 1..4096");
+  expect_refused(program.run("run volume/quick --set data=generate:mandelbulb:999999"), 3,
+                 "size 999999 is outside 1..4096");
+  expect_refused(program.run("list volume/quick --set data=generate:mandelbulb"), 3,
+                 "expected generate:NAME:SIZE");
+  expect_refused(program.run("list volume/quick --set data=generate:mandelbrot:16"), 3,
+                 "unknown volume generator 'mandelbrot'");
+  expect_refused(program.run("list particles/quick --set data=generate:uniform:0"), 3,
+                 "expected a count from 1 to 20000000");
+  expect_refused(program.run("list particles/quick --set data=generate:uniform:-1"), 3,
+                 "expected generate:NAME:COUNT");
 }
 
 TEST(Usage, ADeviceThatIsNotThere) {
   const Program program;
   expect_refused(program.run("run volume/quick --device 'none:*'"), 2, "no device matches none:*");
+}
+
+TEST(Usage, ADeviceOfNoApiSaysHowItsWorkerEnded) {
+  const Program program;
+  expect_refused(program.run("compare volume/quick --a bogus:x --b null:scripted"), 2,
+                 "its worker died: exited with code 3; it last said: triptych: unknown API");
+}
+
+// Each command offers what it has.
+TEST(Usage, AnInterruptOffersAResumeToRunAlone) {
+  const Program program;
+  const std::string hang = std::string("--set data=generate:gaussian_blob:16 --set viewport=16 ") +
+                           "--device null:scripted";
+  const std::string script = R"({"failures": [{"kind": "hang", "at": "open"}]})";
+  const std::string interrupted = "timeout --foreground -s INT 2";
+  expect_refused(program.run("render volume " + hang + " --out picture", script, interrupted), 124,
+                 "triptych: interrupted\n");
+  const Result run = program.run("run volume/quick " + hang, script, interrupted);
+  EXPECT_NE(run.output.find("interrupted; what was measured is in the store, --resume goes on"),
+            std::string::npos)
+      << run.output;
 }
 
 TEST(Usage, ValidatingNothing) {
@@ -77,6 +142,27 @@ TEST(Usage, AStoreThatIsNoStore) {
   program.write("text.sqlite", "this is no database, however long one looks at it");
   expect_refused(program.run("gate volume/quick --store text.sqlite"), 3, "text.sqlite");
   expect_refused(program.run("gate volume/quick --store none.sqlite"), 2, "there is no store");
+  expect_refused(program.run("gate volume/quick --store none.sqlite --check colour"), 3,
+                 "unknown check 'colour'");
+}
+
+TEST(Usage, HowToMeasureNamesThePlanAsItWasTyped) {
+  const Program program;
+  ASSERT_EQ(program.run(std::string("run volume/quick --untimed --store s.sqlite ") + tiny).code,
+            0);
+  expect_refused(program.run("gate my/plan.yaml --store s.sqlite"), 2,
+                 "no run of plan: measure first with `triptych run my/plan.yaml --store s.sqlite`");
+}
+
+// The streams are told apart here; the comment ends what would join them again.
+TEST(Usage, OutputThatCannotBeWrittenIsNoSuccess) {
+  const Program program;
+  for (const char* command :
+       {"list volume/quick", "list volume/quick --json", "--help", "--version"}) {
+    const Result result = program.run(std::string(command) + " 2>&1 > /dev/full #");
+    EXPECT_EQ(result.code, 3) << command;
+    EXPECT_NE(result.output.find("No space left on device"), std::string::npos) << result.output;
+  }
 }
 
 TEST(Usage, AVolumeThatIsBroken) {

@@ -8,6 +8,7 @@
 #include "core/json.hpp"
 #include "report/correlation_chart.hpp"
 #include "report/page_frame.hpp"
+#include "report/page_sections.hpp"
 #include "support/draw_charts.hpp"
 #include "support/temporary_folder.hpp"
 #include "tests/unit/judge/correlation_bench.hpp"
@@ -42,6 +43,16 @@ TEST(CorrelationChart, Draws) {
 TEST(CorrelationChart, DrawsWhereNothingIsNamed) {
   const test::DrawnCharts charts = drawn(some_pair(0));
   EXPECT_TRUE(charts.all) << charts.text;
+}
+
+// "<!--" and "<script" together hide the end of the script that they are in.
+TEST(Chart, NamesCannotEndOrHideItsScript) {
+  judge::CorrelationPair pair = some_pair(0.5);
+  pair.cases[0].configuration = "data=<!--<script>.nrrd";
+  const test::DrawnCharts charts = drawn(pair);
+  EXPECT_TRUE(charts.all) << charts.text;
+  const std::string text = chart("c", R"({"title": "<!--<script></script>"})");
+  EXPECT_THAT(text, HasSubstr(R"("\u003c!--\u003cscript>\u003c/script>")"));
 }
 
 TEST(CorrelationChart, DrawsARefusedPair) {
@@ -80,6 +91,27 @@ TEST(DrawCharts, TellsWhatDrawsNothing) {
   EXPECT_FALSE(of(one + R"("pint"})").all) << "no such mark";
   EXPECT_FALSE(of(one + R"("point", "encoding": {"xx": {"field": "a"}}})").all)
       << "no such channel";
+}
+
+// What decides stands in sight, and a device's own history that cannot judge with it; the others
+// are folded away.
+TEST(CorrelationSection, FoldsWhatDoesNotDecide) {
+  judge::CorrelationPair by_nearest = some_pair(0);
+  by_nearest.decides = true;
+  judge::CorrelationPair by_farther = some_pair(0);
+  by_farther.other = "gl:farther";
+  judge::CorrelationPair by_itself = some_pair(0);
+  by_itself.other = by_itself.device;
+  by_itself.of_itself = true;
+  by_itself.cases.resize(3);
+  by_itself.result = judge::correlate(by_itself.cases);
+  const judge::GateResult verdict{.correlations = {by_nearest, by_farther, by_itself}};
+  const std::string text = correlation_section({.anchor = "plan", .verdict = &verdict});
+  const auto folded = text.find("<details>");
+  ASSERT_NE(folded, std::string::npos) << text;
+  EXPECT_LT(text.find("gl:x against gl:y"), folded);
+  EXPECT_LT(text.find("gl:x against its own history"), folded);
+  EXPECT_GT(text.find("gl:x against gl:farther"), folded);
 }
 
 }  // namespace

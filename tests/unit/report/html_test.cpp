@@ -11,6 +11,16 @@ TEST(Html, EscapesWhatHasMeaning) {
   EXPECT_EQ(escape("a<b & \"c\">\x01"), "a&lt;b &amp; &quot;c&quot;&gt;");
 }
 
+TEST(Html, MalformedTextIsReplaced) {
+  EXPECT_EQ(escape("µ–\U0001F600"), "µ–\U0001F600");
+  EXPECT_EQ(escape("a\xff<"), "a\uFFFD&lt;");
+  EXPECT_EQ(escape("\xC2"), "\uFFFD");                      // cut off
+  EXPECT_EQ(escape("\xC0\xBC"), "\uFFFD\uFFFD");            // '<' in two bytes
+  EXPECT_EQ(escape("\xED\xA0\x80"), "\uFFFD\uFFFD\uFFFD");  // half of a pair
+  EXPECT_EQ(escape("\xEF\xBF\xBF"), "\uFFFD");              // no character of XML
+  EXPECT_EQ(escape("\xF5\x80\x80\x80"), "\uFFFD\uFFFD\uFFFD\uFFFD");
+}
+
 TEST(Html, BreaksBetweenParts) {
   EXPECT_EQ(breakable("gl:x,a=<1"), "gl:<wbr>x,<wbr>a=<wbr>&lt;1<wbr>");
   EXPECT_EQ(breakable(""), "");

@@ -39,6 +39,12 @@ TEST(Junit, CountsFailuresAndEscapes) {
   EXPECT_NE(xml.find("<property name=\"max_error\" value=\"0.5\"/>"), std::string::npos);
 }
 
+TEST(Junit, IsUtf8WhateverADriverSays) {
+  judge::GateResult result = some_result();
+  result.findings.front().message = "GL_RENDERER \xff";
+  EXPECT_EQ(junit(result).find('\xff'), std::string::npos);
+}
+
 TEST(Markdown, ShowsTheWorstAndFoldsTheRest) {
   const std::string text = markdown(some_result());
   EXPECT_TRUE(text.starts_with("## volume/quick: FAIL"));

@@ -1,0 +1,110 @@
+// What the words of a command line belong to, and what its help says of them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* plan =
+    "suite: volume\ntechnique: [raycast]\ndata: [generate:gaussian_blob:16]\n"
+    "transfer_function: [haze]\nviewport: [16]\nstep: [1]\n";
+
+class Arguments : public testing::Test {
+ protected:
+  Arguments() { program.write("p.yaml", plan); }
+  Program program;
+};
+
+TEST_F(Arguments, APlanMayFollowAnOption) {
+  for (const std::string option : {"--device 'null:*'", "--set step=0.5", "--plant slowdown:5"}) {
+    const Result result =
+        program.run("run --rounds 1 --store s.sqlite --device 'null:*' " + option + " p.yaml");
+    EXPECT_EQ(result.code, 0) << result.output;
+  }
+  EXPECT_EQ(program.run("list --set step=0.5 p.yaml").code, 0);
+  EXPECT_THAT(program.run("gate --check counters p.yaml --store s.sqlite --baselines b").output,
+              HasSubstr("there are no baselines"));
+}
+
+TEST_F(Arguments, AWordAfterAnOptionsValueIsAPlan) {
+  const Result result =
+      program.run("run p.yaml --device 'null:*' extra.yaml --rounds 1 --store s.sqlite");
+  EXPECT_EQ(result.code, 3) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("extra.yaml: cannot be read"));
+}
+
+TEST_F(Arguments, EveryGlobMatchesADevice) {
+  for (const std::string command :
+       {"run p.yaml --store s.sqlite", "validate", "evaluate --measure --plan p.yaml"}) {
+    const Result result = program.run(command + " --device 'null:*' --device 'vulcan:*'");
+    EXPECT_EQ(result.code, 2) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("no device matches vulcan:*"));
+  }
+}
+
+TEST_F(Arguments, APlanWithoutAName) {
+  const Result result = program.run("run ''");
+  EXPECT_EQ(result.code, 3);
+  EXPECT_THAT(result.output, HasSubstr("a plan needs a name"));
+}
+
+TEST_F(Arguments, BaselinesWithoutAName) {
+  ASSERT_EQ(program.run("run p.yaml --device 'null:*' --rounds 1 --store s.sqlite").code, 0);
+  for (const std::string command : {"accept p --reason new", "gate p", "report"}) {
+    const Result result = program.run(command + " --store s.sqlite --baselines ''");
+    EXPECT_EQ(result.code, 3) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("a folder needs a name"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(program.folder() / "p"));
+}
+
+TEST_F(Arguments, HelpNamesEveryFaultAndChoice) {
+  const std::string help = program.run("run --help").output;
+  for (const char* const fault : {"coarse_filter", "small_sprite", "missing_barrier", "hang"}) {
+    EXPECT_THAT(help, HasSubstr(fault));
+  }
+  EXPECT_THAT(help, HasSubstr("adapt"));
+  EXPECT_THAT(program.run("render --help").output, HasSubstr("particles"));
+}
+
+TEST_F(Arguments, AFolderThatMayNotBeSearchedIsNoError) {
+  namespace fs = std::filesystem;
+  fs::permissions(program.folder(), fs::perms::owner_read);
+  const Result version =
+      program.run("--version", "{}", "setpriv --reuid 65534 --regid 65534 --clear-groups");
+  fs::permissions(program.folder(), fs::perms::owner_all);
+  if (version.output.find("setpriv") != std::string::npos) GTEST_SKIP() << version.output;
+  EXPECT_EQ(version.code, 0) << version.output;
+}
+
+// Progress and errors go to stderr; that it takes nothing is no reason to stop.
+TEST_F(Arguments, AStderrThatTakesNothingEndsNothing) {
+  const std::string full = R"(sh -c 'exec "$0" "$@" 2> /dev/full')";
+  const Result measured =
+      program.run("run p.yaml --device 'null:*' --rounds 1 --store s.sqlite", "{}", full);
+  EXPECT_EQ(measured.code, 0);
+  EXPECT_THAT(measured.output, HasSubstr("1 measured"));
+  EXPECT_EQ(program.run("list nowhere.yaml", "{}", full).code, 3);
+}
+
+TEST_F(Arguments, WhatIsNoTextIsRefusedWhereItStands) {
+  program.write("bytes.yaml", "suite: volume\ndata: [a\xff.nrrd]\n");
+  const Result listed = program.run("list bytes.yaml --json");
+  EXPECT_EQ(listed.code, 3);
+  EXPECT_THAT(listed.output, HasSubstr("bytes.yaml:2:8: 'data'"));
+  // A plan's name is its file's, which may be anything.
+  program.write("p\xff.yaml", plan);
+  const Result named = program.run("list 'p\xff.yaml' --json");
+  EXPECT_EQ(named.code, 0) << named.output;
+  EXPECT_FALSE(nlohmann::json::parse(named.output).empty());
+}
+
+}  // namespace
+}  // namespace triptych::command_line

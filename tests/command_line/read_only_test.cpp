@@ -1,0 +1,75 @@
+// A store that cannot be written is judged all the same: an artifact of CI, somebody else's run.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "program.hpp"
+#include "right_picture.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using std::filesystem::perms;
+
+constexpr perms readable = perms::owner_read | perms::group_read | perms::others_read;
+constexpr perms searchable = readable | perms::owner_exec | perms::group_exec | perms::others_exec;
+
+class ReadOnly : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directory(program.folder() / "kept");
+    std::filesystem::create_directory(program.folder() / "own");
+    std::filesystem::permissions(program.folder(), perms::all);
+    std::filesystem::permissions(program.folder() / "own", perms::all);
+    const std::string script = R"({"images": {"*": ")" + right_picture(program).string() + R"("}})";
+    ASSERT_EQ(
+        program.run(std::string("run volume/quick --store kept/s.sqlite ") + tiny, script).code, 0);
+    std::filesystem::permissions(program.folder() / "kept/s.sqlite", readable);
+    std::filesystem::permissions(program.folder() / "kept", searchable);
+  }
+  void TearDown() override { std::filesystem::permissions(program.folder() / "kept", perms::all); }
+
+  // As somebody whom rights bind.
+  [[nodiscard]] Result run(const std::string& arguments) const {
+    return program.run(
+        arguments, "{}",
+        ::geteuid() == 0 ? "setpriv --reuid 65534 --regid 65534 --clear-groups" : "");
+  }
+
+  Program program;
+};
+
+TEST_F(ReadOnly, IsAccepted) {
+  const Result accepted =
+      run("accept volume/quick --reason new --store kept/s.sqlite --baselines own/b");
+  EXPECT_EQ(accepted.code, 0) << accepted.output;
+  const Result judged =
+      run("gate volume/quick --store kept/s.sqlite --baselines own/b --junit own/j.xml");
+  EXPECT_EQ(judged.code, 0) << judged.output;
+}
+
+TEST_F(ReadOnly, IsReported) {
+  const Result reported = run("report --store kept/s.sqlite --out own/page.html --baselines own/b");
+  EXPECT_EQ(reported.code, 0) << reported.output;
+  EXPECT_NE(program.read("own/page.html").find("the truth"), std::string::npos);
+}
+
+// A writable file in a folder that is not: it opens, and takes nothing.
+TEST_F(ReadOnly, InAFolderAloneIsJudgedToo) {
+  std::filesystem::permissions(program.folder() / "kept/s.sqlite",
+                               readable | perms::owner_write | perms::others_write);
+  const Result judged = run("gate volume/quick --store kept/s.sqlite --baselines own/b");
+  EXPECT_EQ(judged.code, 2) << judged.output;
+  EXPECT_NE(judged.output.find("there are no baselines"), std::string::npos) << judged.output;
+  EXPECT_EQ(judged.output.find("no truth"), std::string::npos) << judged.output;
+}
+
+TEST_F(ReadOnly, TakesNoNewRun) {
+  const Result measured = run(std::string("run volume/quick --store kept/s.sqlite ") + tiny);
+  EXPECT_EQ(measured.code, 3) << measured.output;
+}
+
+}  // namespace
+}  // namespace triptych::command_line

@@ -1,0 +1,59 @@
+// Going on with a run: with the same plan, whatever else has its name.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* plan =
+    "suite: volume\ntechnique: [raycast]\ndata: [generate:gaussian_blob:16]\n"
+    "transfer_function: [haze]\nviewport: [16]\ncamera: [orbit_y:1/8]\n";
+
+class Resume : public testing::Test {
+ protected:
+  Resume() {
+    for (const char* folder : {"one", "other"}) {
+      std::filesystem::create_directory(program.folder() / folder);
+    }
+    program.write("one/p.yaml", std::string(plan) + "step: [0.5]\n");
+    program.write("other/p.yaml", std::string(plan) + "step: [0.7]\n");
+  }
+  [[nodiscard]] Result run(const std::string& arguments) const {
+    return program.run("run " + arguments + " --device 'null:*' --rounds 1 --store s.sqlite");
+  }
+  Program program;
+};
+
+TEST_F(Resume, AnotherPlanOfTheSameNameIsRefused) {
+  ASSERT_EQ(run("one/p.yaml").code, 0);
+  const Result other = run("other/p.yaml --resume");
+  EXPECT_EQ(other.code, 3) << other.output;
+  EXPECT_THAT(other.output, HasSubstr("step=0.5"));
+  EXPECT_THAT(other.output, HasSubstr("another of that name"));
+  program.write("one/p.yaml", std::string(plan) + "step: [0.5, 0.7]\n");
+  EXPECT_THAT(run("one/p.yaml --resume").output, HasSubstr("2 measured, 0 skipped, 0 failed"));
+  EXPECT_EQ(run("one/p.yaml --resume --set step=0.9").code, 3) << "of a plan that has changed";
+}
+
+TEST_F(Resume, APartOfThePlanThatTheCommandLineSetsIsItsOwn) {
+  ASSERT_EQ(run("one/p.yaml --set step=0.9").code, 0);
+  EXPECT_EQ(run("one/p.yaml --resume --set step=0.8").code, 0);
+  EXPECT_EQ(run("one/p.yaml --resume").code, 0);
+}
+
+TEST_F(Resume, APlanIsGivenOnce) {
+  for (const std::string plans :
+       {"one/p.yaml one/p.yaml", "one/p.yaml other/p.yaml --resume", "volume/quick volume/quick"}) {
+    const Result result = run(plans);
+    EXPECT_EQ(result.code, 3) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("two plans are called"));
+  }
+}
+
+}  // namespace
+}  // namespace triptych::command_line
