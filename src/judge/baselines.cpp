@@ -125,12 +125,25 @@ std::vector<Waiver> read_waivers(const std::filesystem::path& path) {
   return result;
 }
 
-std::set<std::string> read_accepted_devices(const std::filesystem::path& path) {
-  std::set<std::string> result;
+// What history.json tells of all that was ever accepted.
+struct History {
+  std::set<std::string> devices;  // keys
+  std::set<std::string> files;    // within the plan's folder
+};
+
+History read_history(const std::filesystem::path& path) {
+  History result;
   const auto file = JsonFile::read(path);
   if (!file) return result;
   for (const JsonNode& entry : file->root().elements()) {
-    for (const JsonNode& device : entry.at("devices").elements()) result.insert(device.text());
+    for (const JsonNode& device : entry.at("devices").elements()) {
+      result.devices.insert(device.text());
+    }
+    // "FILE: 3 changed, 0 added, 0 removed"
+    for (const JsonNode& change : entry.at("changes").elements()) {
+      const std::string line = change.text();
+      result.files.insert(line.substr(0, line.find(": ")));
+    }
   }
   return result;
 }
@@ -167,11 +180,15 @@ struct Baselines::Cache {
   std::map<std::filesystem::path, ByName<std::string>> dialects;
   std::map<std::filesystem::path, ByName<std::vector<StoredTiming>>> timings;
   std::optional<std::vector<Waiver>> waivers;
-  std::optional<std::set<std::string>> accepted;
+  std::optional<History> history;
 
   const ByName<StoredCounters>& all_counters() {
     if (!counters) counters = read_table<StoredCounters>(layout.counters(), read_counters);
     return *counters;
+  }
+  const History& all_history() {
+    if (!history) history = read_history(layout.history());
+    return *history;
   }
   // The dialect lies in the same file; one that was accepted without has none.
   const ByName<std::string>& dialect_of(const std::filesystem::path& path) {
@@ -316,8 +333,13 @@ std::vector<StoredDevice> Baselines::timings_of_all_devices() const {
 }
 
 bool Baselines::accepted_before(const record::Device& device) const {
-  if (!cache_->accepted) cache_->accepted = read_accepted_devices(cache_->layout.history());
-  return cache_->accepted->contains(device.key());
+  return cache_->all_history().devices.contains(device.key());
+}
+
+bool Baselines::lost_timings(const record::Device& device) const {
+  const std::filesystem::path file = cache_->layout.timings(device);
+  const std::string name = file.lexically_relative(folder_).generic_string();
+  return cache_->all_history().files.contains(name) && !std::filesystem::exists(file);
 }
 
 std::vector<std::string> Baselines::configurations() const {

@@ -122,8 +122,11 @@ class Baselines {
   [[nodiscard]] std::vector<StoredDevice> timings_of_all_devices() const;
   // The baselines of another plan beside these.
   [[nodiscard]] Baselines of_plan(std::string_view plan) const { return {root_, plan}; }
-  // Whether a device with this key was ever accepted: its bits and timings must then be there.
+  // Whether a device with this key was ever accepted: its bits must then be there.
   [[nodiscard]] bool accepted_before(const record::Device& device) const;
+  // Whether the file of its timings is gone, of which the history tells. A device that was only
+  // ever accepted by untimed runs has none.
+  [[nodiscard]] bool lost_timings(const record::Device& device) const;
   // Configurations that have counters stored: what a complete run must hold.
   [[nodiscard]] std::vector<std::string> configurations() const;
   [[nodiscard]] const std::vector<Waiver>& waivers() const;

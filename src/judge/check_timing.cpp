@@ -121,7 +121,7 @@ class TimingCheck {
       if (time && timing.run != record.run) same_clock[timing.run] = *time;
     }
     if (same_clock.size() + other_clocks < TimingModel::least_runs) {
-      report_too_few(record, now, same_clock, other_clocks, stored.empty());
+      report_too_few(record, now, same_clock, other_clocks);
     } else if (same_clock.size() < TimingModel::least_runs) {
       add(record, Verdict::cannot_judge,
           fmt::format("timed by the {} clock, as only {} of {} stored runs are, {} are needed; "
@@ -151,11 +151,10 @@ class TimingCheck {
   }
 
   void report_too_few(const record::Record& record, double now,
-                      const std::map<std::string, double>& stored, std::size_t other_clocks,
-                      bool nothing_stored) {
-    if (nothing_stored && view_.baselines.accepted_before(view_.device(record))) {
+                      const std::map<std::string, double>& stored, std::size_t other_clocks) {
+    if (view_.baselines.lost_timings(view_.device(record))) {
       add(record, Verdict::cannot_judge,
-          "no stored timings, though this device was accepted before; restore them or accept: " +
+          "no stored timings, though the history tells of them; restore them or accept: " +
               view_.accept_command());
       return;
     }

@@ -69,5 +69,19 @@ TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
 }
 
+// Times that were never stored are not lost ones: of the whole device, or of all but one
+// configuration.
+TEST_F(UntimedGateTest, AfterThemTimesAreNewAndOnlyAdvise) {
+  add_run("a", untimed);
+  (void)accept_run("a");
+  add_run("b");
+  EXPECT_EQ(with(gate("b"), Verdict::advisory, Check::timing).size(), 12U) << text(gate("b"));
+  EXPECT_TRUE(with(gate("b"), Verdict::cannot_judge, Check::timing).empty()) << text(gate("b"));
+  (void)accept_run("b", {.only = bricks_});
+  add_run("c");
+  EXPECT_EQ(with(gate("c"), Verdict::advisory, Check::timing).size(), 12U) << text(gate("c"));
+  EXPECT_TRUE(with(gate("c"), Verdict::cannot_judge, Check::timing).empty()) << text(gate("c"));
+}
+
 }  // namespace
 }  // namespace triptych::judge
