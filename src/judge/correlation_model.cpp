@@ -57,10 +57,16 @@ void refuse_counts(Correlation& result) {
   too_few(result.anchors, Model::least_anchors, "anchors");
 }
 
+// Whether times go together at all; where they do not, that is no matter of how much is slower. Of
+// a device by itself it is known, and how much of its times a line explains is the plan's doing.
+bool go_together(double rho, bool of_itself) {
+  return of_itself || rho >= Model::least_rho;
+}
+
 // Why a line cannot judge. Written so that a number that is none is refused.
-std::vector<std::string> refusals_of(const RobustLine& fit, double rho) {
+std::vector<std::string> refusals_of(const RobustLine& fit, double rho, bool of_itself) {
   std::vector<std::string> refusals;
-  if (!(rho >= Model::least_rho)) {
+  if (!go_together(rho, of_itself)) {
     refusals.push_back(
         fmt::format("the correlation of ln t is {:.3f}, {} is needed", rho, Model::least_rho));
   }
@@ -91,7 +97,7 @@ std::optional<RobustLine> line_of_acceptance(std::span<const CorrelationCase> ca
     now.b.push_back(each.log_time_b);
   }
   RobustLine fit = robust_line(known.a, known.b);
-  if (!refusals_of(fit, pearson_r(known.a, known.b)).empty()) return std::nullopt;
+  if (!refusals_of(fit, pearson_r(known.a, known.b), false).empty()) return std::nullopt;
   fit.line.intercept += change_since_acceptance(cases, true).value_or(0);
   for (std::size_t i = 0; i < now.b.size(); ++i) {
     fit.residuals[i] = now.b[i] - fit.line.at(known.a[i]);
@@ -220,7 +226,7 @@ void take_another_line(std::span<const CorrelationCase> cases, bool refused, boo
   }
   auto beside = line_beside_a_level(cases, line.fit);
   if (beside && of_itself) leave_scatter_of_runs(cases, beside->fit);
-  if (!beside || !refusals_of(beside->fit, result.rho).empty()) return;
+  if (!beside || !refusals_of(beside->fit, result.rho, of_itself).empty()) return;
   const double most = refused ? Model::share_beside_level : 1;
   if (!is_level_told(beside->offset, beside->p) || !(beside->fit.scale <= most * line.fit.scale))
     return;
@@ -250,9 +256,8 @@ Correlation correlate(std::span<const CorrelationCase> cases, const KnownVarianc
   if (of_itself) leave_scatter_of_runs(cases, line.fit);
   result.r = raw_r(times);
   result.rho = pearson_r(times.a, times.b);
-  const auto refusals = refusals_of(line.fit, result.rho);
-  // Times that no longer go together at all are not a matter of how much is slower.
-  if (result.admitted() && result.rho >= Model::least_rho) {
+  const auto refusals = refusals_of(line.fit, result.rho, of_itself);
+  if (result.admitted() && go_together(result.rho, of_itself)) {
     take_another_line(cases, !refusals.empty(), of_itself, line, result);
   }
   if (!result.line_of_acceptance && result.line_beside.empty()) {

@@ -167,6 +167,43 @@ TEST(Correlation, OneLevelMayStandBesideTheLine) {
   }
 }
 
+// Times of a narrow range: what the line explains of them falls below what may judge as soon as
+// half of them are slower. Of itself it need not; by another device that may be what they are
+// unlike in.
+TEST(Correlation, OfItselfTimesOfANarrowRangeDoNotHideASlowerHalf) {
+  auto cases = Bench{.slope = 1, .noise = 0.02}.draw(6);
+  for (CorrelationCase& each : cases) {
+    if (each.anchor) continue;
+    const double narrower = (each.log_time_a - 14) * 2 / 3;
+    each.log_time_a -= narrower;
+    each.log_time_b -= narrower - (each.factors.at("skip") == "bricks" ? std::log(1.4) : 0);
+  }
+  EXPECT_FALSE(correlate(cases).admitted());
+  const Correlation result = correlate(cases, {0, 0}, true);
+  EXPECT_LT(result.rho, CorrelationModel::least_rho);
+  ASSERT_TRUE(result.admitted()) << fmt::format("{}", fmt::join(result.refusals, "; "));
+  EXPECT_EQ(result.line_beside, "skip=bricks");
+  EXPECT_TRUE(result.levels.front().slower);
+  EXPECT_EQ(result.levels.front().level, "bricks");
+  EXPECT_EQ(std::ranges::count_if(result.levels, &LevelEffect::slower), 1);
+}
+
+// A device whose times hardly differ is as much itself as any other.
+TEST(Correlation, OfItselfTimesNeedNotDiffer) {
+  auto cases = Bench{.slope = 1, .noise = 0.02}.draw(6);
+  for (CorrelationCase& each : cases) {
+    if (each.anchor) continue;
+    const double narrower = (each.log_time_a - 14) * 0.97;
+    each.log_time_a -= narrower;
+    each.log_time_b -= narrower;
+  }
+  const Correlation by_another = correlate(cases);
+  ASSERT_LT(by_another.rho, CorrelationModel::least_rho);
+  EXPECT_FALSE(by_another.admitted());
+  const Correlation of_itself = correlate(cases, {0, 0}, true);
+  EXPECT_TRUE(of_itself.admitted()) << fmt::format("{}", fmt::join(of_itself.refusals, "; "));
+}
+
 // Where more than half is slower the line is theirs: the level is named, none of them for itself.
 TEST(Correlation, TheLineBesideALevelIsOfTheMore) {
   auto cases = Bench{.noise = 0.02}.draw(6);
