@@ -88,8 +88,8 @@ void tell(std::FILE* out, const measure::Plan& plan, const measure::RunResult& r
       plan.name, result.run, store, result.measured, result.skipped, result.failed,
       result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
   if (result.there_before > 0) {
-    fmt::print(out, "{} of them were there before; timed again: {}\n", result.there_before,
-               result.rounds_added);
+    text += fmt::format("{} of them were there before; timed again: {}\n", result.there_before,
+                        result.rounds_added);
   }
   if (result.taken_over > 0) {
     text += fmt::format(
