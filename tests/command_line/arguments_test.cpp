@@ -12,9 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* plan =
-    "suite: volume\ntechnique: [raycast]\ndata: [generate:gaussian_blob:16]\n"
-    "transfer_function: [haze]\nviewport: [16]\nstep: [1]\n";
+const std::string plan = std::string(tiny_plan) + "step: [1]\n";
 
 class Arguments : public testing::Test {
  protected:

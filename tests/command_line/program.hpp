@@ -36,4 +36,9 @@ inline constexpr const char* tiny =
     "--device 'null:*' --set technique=raycast --set data=generate:gaussian_blob:16 "
     "--set transfer_function=haze --set viewport=16";
 
+// A file's plan of such a scene; more factors may follow.
+inline constexpr const char* tiny_plan =
+    "suite: volume\ntechnique: [raycast]\ndata: [generate:gaussian_blob:16]\n"
+    "transfer_function: [haze]\nviewport: [16]\n";
+
 }  // namespace triptych::command_line

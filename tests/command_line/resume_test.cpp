@@ -10,18 +10,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* plan =
-    "suite: volume\ntechnique: [raycast]\ndata: [generate:gaussian_blob:16]\n"
-    "transfer_function: [haze]\nviewport: [16]\ncamera: [orbit_y:1/8]\n";
-
 class Resume : public testing::Test {
  protected:
   Resume() {
     for (const char* folder : {"one", "other"}) {
       std::filesystem::create_directory(program.folder() / folder);
     }
-    program.write("one/p.yaml", std::string(plan) + "step: [0.5]\n");
-    program.write("other/p.yaml", std::string(plan) + "step: [0.7]\n");
+    program.write("one/p.yaml", std::string(tiny_plan) + "step: [0.5]\n");
+    program.write("other/p.yaml", std::string(tiny_plan) + "step: [0.7]\n");
   }
   [[nodiscard]] Result run(const std::string& arguments) const {
     return program.run("run " + arguments + " --device 'null:*' --rounds 1 --store s.sqlite");
@@ -35,8 +31,11 @@ TEST_F(Resume, AnotherPlanOfTheSameNameIsRefused) {
   EXPECT_EQ(other.code, 3) << other.output;
   EXPECT_THAT(other.output, HasSubstr("step=0.5"));
   EXPECT_THAT(other.output, HasSubstr("another of that name"));
-  program.write("one/p.yaml", std::string(plan) + "step: [0.5, 0.7]\n");
-  EXPECT_THAT(run("one/p.yaml --resume").output, HasSubstr("2 measured, 0 skipped, 0 failed"));
+  program.write("one/p.yaml", std::string(tiny_plan) + "step: [0.5, 0.7]\n");
+  const Result longer = run("one/p.yaml --resume");
+  EXPECT_THAT(longer.output, HasSubstr("2 measured, 0 skipped, 0 failed"));
+  EXPECT_GT(longer.output.find("1 of them were there before"), longer.output.find("2 measured"));
+  EXPECT_THAT(longer.output, HasSubstr("1 of them were there before; timed again: 0\n"));
   EXPECT_EQ(run("one/p.yaml --resume --set step=0.9").code, 3) << "of a plan that has changed";
 }
 

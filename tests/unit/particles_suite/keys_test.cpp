@@ -6,6 +6,7 @@
 
 #include "measure/plan.hpp"
 #include "suites/particles/suite.hpp"
+#include "support/table_keys.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace triptych::particles_suite {
@@ -25,13 +26,7 @@ TEST(Keys, ChangeWithTheTransferFunctionsFile) {
   const std::string preset = suite->truth_key(configuration, {});
   EXPECT_EQ(preset.find("table"), std::string::npos);  // truths in stores stay of use
   configuration["transfer_function"] = "a.rgba";
-  folder.write("a.rgba", std::string(1024, '\x10'));
-  const std::string truth = suite->truth_key(configuration, {});
-  const std::string limit = suite->limit_key(configuration);
-  EXPECT_EQ(suite->truth_key(configuration, {}), truth);
-  folder.write("a.rgba", std::string(1024, '\x20'));
-  EXPECT_NE(suite->truth_key(configuration, {}), truth);
-  EXPECT_NE(suite->limit_key(configuration), limit);
+  test::expect_keys_to_follow_the_table(*suite, configuration, folder);
 }
 
 // A case's own camera is not among the factors.

@@ -6,6 +6,7 @@
 
 #include "measure/plan.hpp"
 #include "suites/volume/suite.hpp"
+#include "support/table_keys.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace triptych::volume_suite {
@@ -23,13 +24,7 @@ TEST(Keys, ChangeWithTheTransferFunctionsFile) {
   const test::TemporaryFolder folder;
   const auto suite = make_suite({folder.path()});
   const measure::Configuration configuration = configuration_of(*suite, "a.rgba");
-  folder.write("a.rgba", std::string(1024, '\x10'));
-  const std::string truth = suite->truth_key(configuration, {});
-  const std::string limit = suite->limit_key(configuration);
-  EXPECT_EQ(suite->truth_key(configuration, {}), truth);
-  folder.write("a.rgba", std::string(1024, '\x20'));
-  EXPECT_NE(suite->truth_key(configuration, {}), truth);
-  EXPECT_NE(suite->limit_key(configuration), limit);
+  test::expect_keys_to_follow_the_table(*suite, configuration, folder);
 }
 
 // So that truths in stores stay of use.
