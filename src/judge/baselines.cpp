@@ -190,6 +190,11 @@ struct Baselines::Cache {
     if (!history) history = read_history(layout.history());
     return *history;
   }
+  // The history tells of the file, and it is gone.
+  bool lost(const std::filesystem::path& file) {
+    const std::string name = file.lexically_relative(layout.folder).generic_string();
+    return all_history().files.contains(name) && !std::filesystem::exists(file);
+  }
   // The dialect lies in the same file; one that was accepted without has none.
   const ByName<std::string>& dialect_of(const std::filesystem::path& path) {
     const auto known = dialects.find(path);
@@ -336,10 +341,12 @@ bool Baselines::accepted_before(const record::Device& device) const {
   return cache_->all_history().devices.contains(device.key());
 }
 
+bool Baselines::lost_bits(const record::Device& device) const {
+  return cache_->lost(cache_->layout.bits(device));
+}
+
 bool Baselines::lost_timings(const record::Device& device) const {
-  const std::filesystem::path file = cache_->layout.timings(device);
-  const std::string name = file.lexically_relative(folder_).generic_string();
-  return cache_->all_history().files.contains(name) && !std::filesystem::exists(file);
+  return cache_->lost(cache_->layout.timings(device));
 }
 
 std::vector<std::string> Baselines::configurations() const {

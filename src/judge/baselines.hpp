@@ -1,19 +1,17 @@
 #pragma once
 // baselines/<suite>/<plan>/ : what was accepted. Text, sorted, one line per value, so that a change
 // can be reviewed. `accept` is the only writer.
-//   images/<scene hash>.exr        the truth of each scene as it was accepted, device-independent
-//   images.json                    {scene: {file, content hash, content hash of its data}}
-//   counters.json                  {configuration: {counter: {device id: value}}}; one line per
-//   counter bits/<device key>.json         {device, configurations: {configuration: {image hash,
-//   kernel hash}}} statistics/<driver>.json       {device, dialect: {statistic: verdict} where it
-//   is known, configurations: {configuration: {statistic: value}}} timings/<device key>.json
-//   {device, configurations: {configuration:
-//   [{run, median, clock, kernel
-//                                  hash}, …]}}, one entry per accepted run, oldest first
-//   history.json                   every accept: date, reason, run, device keys, what changed
-//   accuracy.json                  {configuration: {device id: {rmse, arithmetic}}}, of plans
-//   SUITE/accuracy
-//   score.json                     {configuration: {device id: 0…3}}, of plans SUITE/stress
+//   images/<scene hash>.exr   the truth of each scene as it was accepted, device-independent
+//   images.json               {scene: {file, content hash, content hash of its data}}
+//   counters.json             {configuration: {counter: {device id: value}}}
+//   bits/<device key>.json    {device, configurations: {configuration: {image hash, kernel hash}}}
+//   statistics/<driver>.json  {device, dialect: {statistic: verdict} where it is known,
+//                             configurations: {configuration: {statistic: value}}}
+//   timings/<device key>.json {device, configurations: {configuration: [{run, median, clock,
+//                             kernel hash}, …]}}, one entry per accepted run, oldest first
+//   history.json              every accept: date, reason, run, device keys, what changed
+//   accuracy.json             {configuration: {device id: {rmse, arithmetic}}}, of SUITE/accuracy
+//   score.json                {configuration: {device id: 0…3}}, of SUITE/stress
 // and baselines/waivers.json: [{device, test, reason, expiry}, …].
 
 #include <cstdint>
@@ -122,10 +120,11 @@ class Baselines {
   [[nodiscard]] std::vector<StoredDevice> timings_of_all_devices() const;
   // The baselines of another plan beside these.
   [[nodiscard]] Baselines of_plan(std::string_view plan) const { return {root_, plan}; }
-  // Whether a device with this key was ever accepted: its bits must then be there.
+  // Whether a device with this key was ever accepted.
   [[nodiscard]] bool accepted_before(const record::Device& device) const;
-  // Whether the file of its timings is gone, of which the history tells. A device that was only
-  // ever accepted by untimed runs has none.
+  // Whether the file of its bits, or of its timings, is gone, of which the history tells. A device
+  // that was only ever accepted by untimed runs never had timings.
+  [[nodiscard]] bool lost_bits(const record::Device& device) const;
   [[nodiscard]] bool lost_timings(const record::Device& device) const;
   // Configurations that have counters stored: what a complete run must hold.
   [[nodiscard]] std::vector<std::string> configurations() const;

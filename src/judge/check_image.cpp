@@ -28,8 +28,7 @@ std::string describe(const ImageComparison& comparison) {
   const ImageComparison::Place& worst = comparison.worst;
   return fmt::format(
       "worst at pixel ({}, {}): error {:.3g}, bound {:.3g}, ratio {:.3g}; largest error {:.3g}, "
-      "RMSE "
-      "{:.3g}",
+      "RMSE {:.3g}",
       worst.x, worst.y, worst.error, worst.bound, worst.ratio, comparison.largest.error,
       comparison.rmse);
 }
@@ -57,8 +56,7 @@ std::string describe_surfaces(const ImageComparison& comparison, std::string_vie
   const ImageComparison::Surface& first = comparison.first_wrong;
   return fmt::format(
       "{} of {} pixels show another particle than {}, {} more the right one at another depth; "
-      "first "
-      "at pixel ({}, {}): {} at depth {:.6g}, expected {} at {:.6g} ± {:.3g}",
+      "first at pixel ({}, {}): {} at depth {:.6g}, expected {} at {:.6g} ± {:.3g}",
       comparison.wrong_ids, comparison.pixels, name, comparison.wrong_depths, first.x, first.y,
       particle_name(first.id), first.depth, particle_name(first.expected_id), first.expected_depth,
       first.bound);
@@ -248,16 +246,19 @@ void check_bits_of(const RunView& view, const record::Record& record, Unheld& un
   }
 }
 
+std::string why_unknown(const Baselines& baselines, const record::Device& device) {
+  if (baselines.lost_bits(device)) return "though the history tells of them: restore the file";
+  if (baselines.accepted_before(device)) return "beside others of this device";
+  return "for this device key: " + device.key();
+}
+
 void report_unheld(const RunView& view, const record::Device& device, const Unheld& unheld,
                    std::vector<Finding>& findings) {
   if (unheld.unknown > 0) {
-    const bool lost = view.baselines.accepted_before(device);
     findings.push_back(finding_about(
         view, device, Check::image, Verdict::advisory,
-        fmt::format("{} configurations have no stored bits for {}{}; judged by their bounds alone",
-                    unheld.unknown,
-                    lost ? "this device though it was accepted before" : "this device key: ",
-                    lost ? "" : device.key())));
+        fmt::format("{} configurations have no stored bits {}; judged by their bounds alone",
+                    unheld.unknown, why_unknown(view.baselines, device))));
   }
   if (unheld.other_code > 0) {
     findings.push_back(finding_about(

@@ -11,7 +11,9 @@ namespace {
 
 using core::ExitCode;
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST_F(GateTest, WrongPixelIsARegressionThatVoidsItsTime) {
   accept_history();
@@ -91,6 +93,21 @@ TEST_F(GateTest, OtherBitsFromTheSameCodeAreARegression) {
   const GateResult result = gate("c");
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
   EXPECT_THAT(text(result), HasSubstr("in 1 of them the bits differ"));
+}
+
+TEST_F(GateTest, BitsThatAreNotStoredAreToldFromThoseThatAreGone) {
+  add_run("a");
+  EXPECT_THAT(text(gate("a")), Not(HasSubstr("stored bits")));  // nothing is accepted
+  (void)accept_run("a");
+  EXPECT_THAT(text(gate("a")), Not(HasSubstr("stored bits")));
+  const auto bits = device_file("bits", "gl");
+  core::Json content = core::Json::parse(folder_.read(bits));
+  content["configurations"].erase(plain_);
+  core::write_file(content.dump(1), bits);
+  EXPECT_THAT(text(gate("a")), HasSubstr("1 configurations have no stored bits beside others"));
+  std::filesystem::remove(bits);
+  EXPECT_THAT(text(gate("a")),
+              ContainsRegex("[2-9] configurations have no stored bits though the history tells"));
 }
 
 TEST_F(GateTest, DevicesMustAgreeAndTheFartherOneIsNamed) {
