@@ -179,8 +179,7 @@ std::string accuracy_section(const PlanData& plan) {
   std::string text =
       "<h3>Run time against error</h3><p>The error is the root mean square over all channels, in "
       "linear float, against the picture that the scene tends to as its sampling is refined. A "
-      "line "
-      "joins configurations that differ by their step alone; black: the front, which nothing "
+      "line joins configurations that differ by their step alone; black: the front, which nothing "
       "beats on both axes; dashed: 1/255, 1/1024 and 1e-4. A time to an error is read off between "
       "two neighbours of a line. The hypervolume is the area between the front and one second by "
       "the error of an empty picture, in natural logarithms; beside it how many times as long the "

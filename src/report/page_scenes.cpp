@@ -168,8 +168,7 @@ std::string scenes_section(const record::Store& store, const PlanData& plan, con
   if (order.empty()) return {};
   std::string text =
       "<h3>Scenes</h3><p>The truth first; below each device's picture, its error as a share of the "
-      "bound "
-      "derived for that pixel: black 0, white the bound itself, magenta beyond it.</p>";
+      "bound derived for that pixel: black 0, white the bound itself, magenta beyond it.</p>";
   for (const std::string& scene : order) {
     auto records = scenes[scene];
     std::ranges::stable_sort(records, {}, [](const record::Record* r) { return r->technique; });

@@ -180,10 +180,8 @@ std::string speed_of_light_section(const PlanData& plan) {
   }
   if (rows.size() == 1) return {};
   return "<h3>Speed of light</h3><p>The same fetches and transfer-function look-ups alone, with "
-         "the same "
-         "skipping but without early termination: a picture can be faster than that where rays end "
-         "early, "
-         "and is hardly faster where they do not.</p>" +
+         "the same skipping but without early termination: a picture can be faster than that where "
+         "rays end early, and is hardly faster where they do not.</p>" +
          folded("The ratios", table(rows));
 }
 

@@ -31,8 +31,7 @@ const std::vector<Factor>& volume_factors() {
              "who interpolates between voxels; auto: as for voxel"),
       text("transfer_function", "haze",
            "haze, surfaces, a file of 256 RGBA entries, or own: an analytic problem's or stress "
-           "case's "
-           "own, surfaces for all other data"),
+           "case's own, surfaces for all other data"),
       number("step", 1.0 / 64, 4096, "1", Decides::the_picture,
              "distance of samples in smallest voxel spacings; own, here and below: a stress case's "
              "own, the default for all other data",

@@ -72,8 +72,7 @@ std::vector<StressCase> cases_of_size() {
        "spacing",
        "voxels of 1:1:8 and 1:1:1000",
        "within a bound that counts lengths in the smallest spacing, in which a direction's "
-       "rounding "
-       "moves a sample",
+       "rounding moves a sample",
        {"8", "1000"},
        stress_spacing},
       {10,
@@ -117,8 +116,7 @@ std::vector<StressCase> cases_of_voxels() {
        "nan",
        "voxels that are NaN: one, a block, every second, one under shading",
        "the bits of a field that holds 0 there, where the function is transparent: NaN is taken "
-       "out "
-       "when voxels are prepared and reaches no device",
+       "out when voxels are prepared and reaches no device",
        {"zero_one", "nan_one", "zero_block", "nan_block", "zero_mesh", "nan_mesh", "zero_shaded",
         "nan_shaded"},
        stress_nan},
@@ -132,16 +130,15 @@ std::vector<StressCase> cases_of_voxels() {
        "denormal",
        "denormal voxels, opacities, colours, transmittances",
        "0 before they reach a device; those that a ray makes are kept or taken for 0, which "
-       "changes "
-       "nothing by more than 2⁻¹²⁶; in at most 1.2 of the time (tests/contract/stress_test.cpp)",
+       "changes nothing by more than 2⁻¹²⁶; in at most 1.2 of the time "
+       "(tests/contract/stress_test.cpp)",
        {"voxels", "opacity", "colour", "transmittance"},
        stress_denormal},
       {19,
        "flat",
        "the range is empty, of floats and of bytes; the field is constant, shaded too",
        "an empty range maps all to 0; where the gradient is 0, so is its cosine, by the floor "
-       "under "
-       "the division",
+       "under the division",
        {"range_f32", "range_u8", "plain", "shaded"},
        stress_flat},
   };
@@ -238,8 +235,7 @@ std::vector<StressCase> cases_of_frame() {
        "shape",
        "1×1, 1×13, 17×1 and 17×13 pixels",
        "parts of the largest within both bounds: pixels of incomplete work-groups are drawn, "
-       "others "
-       "are not",
+       "others are not",
        {"17x13", "1x1", "1x13", "17x1"},
        stress_shape},
       {52,
