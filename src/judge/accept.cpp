@@ -341,7 +341,7 @@ void refuse_part(const Accepted& accepted, const Baselines& stored, const std::s
       "{} --resume, accept what it has with --only GLOB, or drop them with --drop where the plan "
       "has them no longer",
       run, missing.size(), known.size(), missing.front(), missing.size() > 1 ? "; …" : "",
-      request.plan));
+      record::plan_argument(request.plan)));
 }
 
 // Reads every file first: a corrupt one is reported before anything is written.

@@ -197,12 +197,12 @@ class PairReport {
                                view_.accept_command());
     }
     if (pair_.of_itself) {
-      return fmt::format("compare builds here with triptych compare {}", view_.request.plan);
+      return "compare builds here with " + view_.compare_command();
     }
     return fmt::format(
         "the devices are too unlike; accept this device's own baseline with {}, or "
-        "compare builds here with triptych compare {}",
-        view_.accept_command(), view_.request.plan);
+        "compare builds here with {}",
+        view_.accept_command(), view_.compare_command());
   }
 
   void report_configuration(std::size_t index) {
@@ -245,9 +245,9 @@ class PairReport {
     if (level.standing) {
       message += "; as when this device was accepted";
     } else if (!decides) {
-      message += fmt::format(
-          "; less than {:.0f} % may be the devices' character: settle it with triptych compare {}",
-          100 * (Model::least_effect - 1), view_.request.plan);
+      message +=
+          fmt::format("; less than {:.0f} % may be the devices' character: settle it with {}",
+                      100 * (Model::least_effect - 1), view_.compare_command());
     }
     add_slower(fmt::format("{}={} ", level.factor, level.level), decides, std::move(message));
     set_number(findings_.back(), "ratio", std::exp(level.effect));

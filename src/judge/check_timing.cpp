@@ -276,9 +276,8 @@ class TimingCheck {
           "with anchors measured beside them, {}",
           judgement.runs, TimingModel::least_runs, view_.accept_command());
     } else if (open) {
-      message +=
-          "; too much scatter or too coarse a clock to tell: settle it with triptych compare " +
-          view_.request.plan;
+      message += "; too much scatter or too coarse a clock to tell: settle it with " +
+                 view_.compare_command();
     }
     if (judgement.faster) message += "; keep it with " + view_.accept_command();
     if (verdict != told && !excused) message += "; the device, not the program";
@@ -319,8 +318,8 @@ class TimingCheck {
         100 * std::expm1(program.device_shift), program.configurations,
         100 * std::expm1(program.tolerance), program.faster ? program.p_faster : program.p_slower);
     if (verdict == Verdict::cannot_judge) {
-      message += "; the anchors scatter too much to tell: settle it with triptych compare " +
-                 view_.request.plan;
+      message +=
+          "; the anchors scatter too much to tell: settle it with " + view_.compare_command();
     }
     if (program.faster) message += "; keep it with " + view_.accept_command();
     findings_.push_back(finding_about(view_, view_.devices.at(program.device), Check::timing,

@@ -133,7 +133,7 @@ void report_missing_rows(const RunView& view, std::vector<Finding>& findings) {
             "missing rows: {} of {} accepted configurations have no record ({}{}); finish the "
             "run with triptych run {} --resume",
             missing.size(), accepted.size(), fmt::join(examples, "; "),
-            missing.size() > named ? "; …" : "", view.request.plan)));
+            missing.size() > named ? "; …" : "", record::plan_argument(view.request.plan))));
     set_number(findings.back(), "missing", static_cast<double>(missing.size()));
   }
 }

@@ -205,6 +205,10 @@ std::string RunView::accept_command() const {
   return fmt::format("triptych accept {} --reason TEXT", request.plan);
 }
 
+std::string RunView::compare_command() const {
+  return "triptych compare " + record::plan_argument(request.plan);
+}
+
 Finding finding_about(const record::Record& record, Check check, Verdict verdict,
                       std::string message) {
   Finding finding{check,

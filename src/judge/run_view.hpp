@@ -30,6 +30,8 @@ struct RunView {
   [[nodiscard]] std::string plan_test(Check check) const;
   // The command that would make or renew the baselines.
   [[nodiscard]] std::string accept_command() const;
+  // The command that settles what stored runs leave open.
+  [[nodiscard]] std::string compare_command() const;
 };
 
 [[nodiscard]] Finding finding_about(const record::Record& record, Check check, Verdict verdict,

@@ -154,6 +154,10 @@ std::string Record::test_id(std::string_view check) const {
                      test_id_part(device));
 }
 
+std::string plan_argument(const std::string& plan) {
+  return plan.find('/') == std::string::npos ? fmt::format("FOLDER/{}.yaml", plan) : plan;
+}
+
 std::optional<Summary> summarise(const std::vector<double>& samples) {
   const std::vector<double> sorted = sorted_numbers(samples);
   if (sorted.empty()) return std::nullopt;

@@ -144,6 +144,10 @@ struct Run {
   std::string confirms = {};
 };
 
+// What `triptych run` and `triptych compare` take as PLAN for a run's plan: SUITE/PLAN as it is. A
+// plan from a file goes by the file's name without its folder, which nobody recorded.
+[[nodiscard]] std::string plan_argument(const std::string& plan);
+
 // Minimum, quartiles, median, maximum of samples (linear interpolation between order statistics);
 // absent for none. A sample that is not a number is no sample.
 struct Summary {

@@ -79,6 +79,11 @@ TEST(RecordTest, TestIdKeepsToItsAlphabet) {
   EXPECT_THAT(record.test_id("a\"b\n"), MatchesRegex("[a-z0-9_.:-]+"));
 }
 
+TEST(RunTest, APlanFromAFileIsMeasuredFromAFileAgain) {
+  EXPECT_EQ(plan_argument("volume/quick"), "volume/quick");
+  EXPECT_EQ(plan_argument("mine"), "FOLDER/mine.yaml");
+}
+
 TEST(OutcomeTest, NamesAreRead) {
   for (const Outcome each : {Outcome::measured, Outcome::skipped, Outcome::failed, Outcome::crashed,
                              Outcome::hung, Outcome::lost}) {
