@@ -40,22 +40,17 @@ DeviceRun::DeviceRun(const RunContext& context, std::string device)
 
 Done DeviceRun::perform(const Configuration& configuration, const std::string& key,
                         const OnLoading& on_loading) {
-  Job job{.name = device_ + "/" + key,
-          .configuration = configuration,
-          .protocol = protocol(),
-          .plants = faults_for(context_.options.plants, key, device_)};
+  const Job job = this->job(configuration, key);
   Done done = ensure_worker() ? ask(job, on_loading)
                               : Done{ended(record::Outcome::failed, seat_.why_closed())};
-  record::Record& record = done.record;
-  record.run = context_.run;
-  record.suite = context_.plan.suite;
-  record.plan = context_.plan.name;
-  record.configuration = key;
-  record.scene = scene_key(context_.suite, configuration);
-  record.technique = configuration.at("technique");
-  record.device = device_;
-  record.planted = fmt::format("{}", fmt::join(job.plants, "+"));
-  if (record.factors.empty()) record.factors = configuration;
+  sign(job, key, done.record);
+  return done;
+}
+
+Done DeviceRun::pass_by(const Configuration& configuration, const std::string& key,
+                        const Ended& why) const {
+  Done done{ended(why.outcome, why.reason)};
+  sign(job(configuration, key), key, done.record);
   return done;
 }
 
@@ -111,6 +106,26 @@ Protocol DeviceRun::protocol() const {
   // A plan for pictures alone asks for each of them: that two are alike is what it tests.
   protocol.measure_every = protocol.measure_every || !context_.plan.timed;
   return protocol;
+}
+
+Job DeviceRun::job(const Configuration& configuration, const std::string& key) const {
+  return {.name = device_ + "/" + key,
+          .configuration = configuration,
+          .protocol = protocol(),
+          .plants = faults_for(context_.options.plants, key, device_)};
+}
+
+// What a record is of.
+void DeviceRun::sign(const Job& job, const std::string& key, record::Record& record) const {
+  record.run = context_.run;
+  record.suite = context_.plan.suite;
+  record.plan = context_.plan.name;
+  record.configuration = key;
+  record.scene = scene_key(context_.suite, job.configuration);
+  record.technique = job.configuration.at("technique");
+  record.device = device_;
+  record.planted = fmt::format("{}", fmt::join(job.plants, "+"));
+  if (record.factors.empty()) record.factors = job.configuration;
 }
 
 bool DeviceRun::ensure_worker() {

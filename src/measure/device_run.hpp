@@ -54,6 +54,10 @@ class DeviceRun {
   [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key,
                              const OnLoading& on_loading);
 
+  // How it is said to have ended, without asking the device for it.
+  [[nodiscard]] Done pass_by(const Configuration& configuration, const std::string& key,
+                             const Ended& why) const;
+
   // Only the timed frames of what `record` tells of, after as many to warm up as its first round
   // took, pass after pass until one sees its time again or they have lasted
   // Protocol::most_round_ns: whatever disturbs comes and goes within tens of milliseconds.
@@ -77,6 +81,8 @@ class DeviceRun {
   // As WorkerSeat::open.
   bool ensure_worker();
   void greet(const Hello& hello);
+  [[nodiscard]] Job job(const Configuration& configuration, const std::string& key) const;
+  void sign(const Job& job, const std::string& key, record::Record& record) const;
   [[nodiscard]] Done ask(const Job& job, const OnLoading& on_loading);
   [[nodiscard]] Turn turn(const Message& message, const OnLoading& on_loading);
   // `as` reads the answer: as_answer, as_turn. Where there is none the worker is gone.

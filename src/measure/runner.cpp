@@ -270,8 +270,7 @@ class Measuring {
   void measure(const std::string& device, const Configuration& configuration, Report& report) {
     stop_if_asked();
     const std::string key = configuration_key(context_.suite, configuration);
-    Done done = on(device).perform(
-        configuration, key, [&](const Loading& loading) { report.loading(device, key, loading); });
+    Done done = attempt(device, configuration, key, report);
     if (done.record.outcome == record::Outcome::measured) share_frames(done.record);
     // The image first: a record must never name one that is not there.
     if (!done.exr.empty()) context_.store.add_image(done.record.image, done.exr);
@@ -279,6 +278,28 @@ class Measuring {
     work_ns_ += done.work_ns;
     count(done.record, result_);
     report.done(done.record);
+  }
+
+  // A driver may take the machine with it, and would again with each --resume.
+  Done attempt(const std::string& device, const Configuration& configuration,
+               const std::string& key, Report& report) {
+    constexpr int most_attempts = 2;
+    if (context_.store.begin_record(context_.run, key, device) > most_attempts) {
+      return on(device).pass_by(
+          configuration, key,
+          {record::Outcome::crashed,
+           fmt::format("{} times all ended while this was under way, triptych or the machine; a "
+                       "run without --resume tries again",
+                       most_attempts)});
+    }
+    try {
+      return on(device).perform(configuration, key, [&](const Loading& loading) {
+        report.loading(device, key, loading);
+      });
+    } catch (...) {  // an end that is known, and no fault of the configuration
+      context_.store.unbegin_record(context_.run, key, device);
+      throw;
+    }
   }
 
   // A record of other frames tells what they told; one of its own may have to tell others.

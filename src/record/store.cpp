@@ -73,6 +73,20 @@ std::map<std::string, std::string> read_dialect(const SQLite::Database& database
   return dialect;
 }
 
+// What is committed meanwhile, and all before it, outlives a loss of power.
+class WaitsForDisk {
+ public:
+  explicit WaitsForDisk(SQLite::Database& database) : database_(database) {
+    database_.exec("PRAGMA synchronous = FULL");
+  }
+  ~WaitsForDisk() { static_cast<void>(database_.tryExec("PRAGMA synchronous = NORMAL")); }
+  WaitsForDisk(const WaitsForDisk&) = delete;
+  WaitsForDisk& operator=(const WaitsForDisk&) = delete;
+
+ private:
+  SQLite::Database& database_;
+};
+
 }  // namespace
 
 struct Store::State {
@@ -156,7 +170,37 @@ void Store::add_record(const Record& r) {
     state_->require_run(r.run);
     execute(database, "DELETE FROM record WHERE run = ? AND configuration = ? AND device = ?",
             r.run, r.configuration, r.device);
+    execute(database, "DELETE FROM begun WHERE run = ? AND configuration = ? AND device = ?", r.run,
+            r.configuration, r.device);
     insert_record(database, r);
+  });
+}
+
+int Store::begin_record(const std::string& run, const std::string& configuration,
+                        const std::string& device) {
+  return on_store(state_->file, [&] {
+    const WaitsForDisk waits(state_->database);
+    int times = 0;
+    state_->write([&] {
+      state_->require_run(run);
+      SQLite::Statement row =
+          prepared(state_->database,
+                   "INSERT INTO begun VALUES (?, ?, ?, 1) ON CONFLICT (run, configuration, device) "
+                   "DO UPDATE SET times = times + 1 RETURNING times",
+                   run, configuration, device);
+      row.executeStep();
+      times = row.getColumn(0).getInt();
+    });
+    return times;
+  });
+}
+
+void Store::unbegin_record(const std::string& run, const std::string& configuration,
+                           const std::string& device) {
+  state_->write([&] {
+    execute(state_->database,
+            "UPDATE begun SET times = times - 1 WHERE run = ? AND configuration = ? AND device = ?",
+            run, configuration, device);
   });
 }
 

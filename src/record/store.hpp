@@ -54,6 +54,14 @@ class Store {
                  std::span<const std::byte> exr);  // known hashes are left alone
   void add_record(
       const Record& record);  // replaces the one of the same run, configuration and device
+  // A record of `run` is about to be made. Kept on the disk, with all that was stored before, when
+  // this returns: what is begun may take the machine down. Returns how often it was begun since a
+  // record of it was last added, this time included. unbegin_record() takes one time back, as of a
+  // run that somebody interrupted.
+  int begin_record(const std::string& run, const std::string& configuration,
+                   const std::string& device);
+  void unbegin_record(const std::string& run, const std::string& configuration,
+                      const std::string& device);
   // The times and rounds of a record that is there, after a further round; all else of it is left.
   // Throws InputError when there is none of the same run, configuration and device.
   void update_times(const Record& record);

@@ -136,7 +136,8 @@ CREATE TABLE truth (
 
 // Came after version 1 had been in use. It only adds to it: a store without it is one whose devices
 // have no dialect known, whose records no rounds and were all measured themselves, and whose runs
-// confirm no other, and a program that does not know it reads the rest as before.
+// confirm no other and have nothing under way, and a program that does not know it reads the rest
+// as before.
 constexpr const char* later_schema = R"sql(
 CREATE TABLE IF NOT EXISTS dialect (
   device INTEGER NOT NULL REFERENCES device (seq) ON DELETE CASCADE,
@@ -158,6 +159,13 @@ CREATE TABLE IF NOT EXISTS confirmation (
   run TEXT PRIMARY KEY REFERENCES run (id) ON DELETE CASCADE,
   confirms TEXT NOT NULL REFERENCES run (id) ON DELETE CASCADE
 ) STRICT;
+CREATE TABLE IF NOT EXISTS begun (
+  run TEXT NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+  configuration TEXT NOT NULL,
+  device TEXT NOT NULL,
+  times INTEGER NOT NULL,
+  PRIMARY KEY (run, configuration, device)
+) STRICT, WITHOUT ROWID;
 )sql";
 
 int pragma(const SQLite::Database& database, const std::string& name) {

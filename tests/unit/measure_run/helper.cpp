@@ -1,5 +1,6 @@
 // measure_run_helper worker DEVICE       serves the null backend's device with the fake suite
-// measure_run_helper supervise STORE     runs the fake suite's quick plan on null:scripted
+// measure_run_helper supervise STORE     runs the fake suite's quick plan on null:scripted, or goes
+//                                        on with its latest run there
 //
 // TRIPTYCH_TEST_STARTS names a file to which each worker appends its process id;
 // TRIPTYCH_TEST_FAILING_STARTS says how many of the first workers leave at once with code 7.
@@ -54,6 +55,7 @@ int supervise(const std::string& program, const std::string& file) {
   const measure::Plan plan = measure::load_plan("fake/quick", {}, find);
   measure::RunOptions options;
   options.worker_command = {program, "worker"};
+  options.resume = true;
   try {
     static_cast<void>(measure::run_plan(plan, {"null:scripted"}, suite, store, options, {}));
   } catch (const measure::Interrupted& interrupt) {

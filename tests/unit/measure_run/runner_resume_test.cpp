@@ -41,6 +41,18 @@ class RunResume : public RunTest {
     FAIL() << "the supervisor stores nothing";
   }
 
+  // Runs, or goes on, until a worker is asked for the first configuration.
+  void end_at_the_first(int signal) const {
+    const std::size_t before = started_workers().size();
+    Process supervisor = supervise();
+    for (int i = 0; i < 500 && started_workers().size() == before; ++i) {
+      std::this_thread::sleep_for(milliseconds(10));
+    }
+    ::kill(supervisor.pid(), signal);
+    ASSERT_TRUE(supervisor.wait(seconds(5)));
+    ASSERT_TRUE(open_store().records(open_store().latest_run("fake/quick")->id).empty());
+  }
+
   void expect_workers_gone() const {
     for (const pid_t pid : started_workers()) {
       for (int i = 0; i < 300 && ::kill(pid, 0) == 0; ++i) {
@@ -73,6 +85,29 @@ TEST_F(RunResume, AKilledSupervisorLosesAtMostTheConfigurationInFlight) {
   const record::Store store = open_store();
   EXPECT_EQ(store.runs().size(), 1U);
   EXPECT_EQ(store.records(result.run).size(), whole.configurations.size());
+}
+
+// As a driver does that takes the machine with it: nobody is left to say so.
+TEST_F(RunResume, WhatTwiceEndedAllIsPassedBy) {
+  end_at_the_first(SIGKILL);
+  end_at_the_first(SIGKILL);
+  options.resume = true;
+  const Plan whole = load_plan("fake/quick", {}, find());
+  const RunResult result = run(whole);
+  EXPECT_EQ(result.failed, 1);
+  EXPECT_EQ(static_cast<std::size_t>(result.measured), whole.configurations.size() - 1);
+  const record::Record first = records(result.run).front();
+  EXPECT_EQ(first.configuration, configuration_key(suite, whole.configurations.front()));
+  EXPECT_EQ(first.outcome, record::Outcome::crashed);
+  EXPECT_THAT(first.reason, testing::HasSubstr("2 times all ended while this was under way"));
+}
+
+TEST_F(RunResume, OnceMayBeAnybodysDoingAndAnInterruptIsNobodysFault) {
+  end_at_the_first(SIGKILL);
+  end_at_the_first(SIGTERM);
+  end_at_the_first(SIGTERM);
+  options.resume = true;
+  EXPECT_EQ(run(load_plan("fake/quick", {}, find())).failed, 0);
 }
 
 TEST_F(RunResume, ATerminatedSupervisorTakesItsWorkerAlongAndLeavesAStoreToGoOnWith) {

@@ -82,6 +82,22 @@ TEST_F(StoreTest, TimesOfALaterRoundLeaveAllElse) {
   EXPECT_THROW(store.update_times(sample_record("third")), core::InputError);
 }
 
+TEST_F(StoreTest, WhatIsUnderWayIsCountedUntilItHasARecord) {
+  Store store(file_, Mode::append);
+  EXPECT_THROW((void)store.begin_record("run-1", "a", "gl:a"), core::InputError);
+  store.add_run(sample_run());
+  const Record made = sample_record();
+  const auto begin = [&] { return store.begin_record("run-1", made.configuration, made.device); };
+  EXPECT_EQ(begin(), 1);
+  EXPECT_EQ(store.begin_record("run-1", made.configuration, "gl:another"), 1);
+  EXPECT_EQ(begin(), 2);
+  store.unbegin_record("run-1", made.configuration, made.device);
+  EXPECT_EQ(begin(), 2);
+  EXPECT_FALSE(store.has_record("run-1", made.configuration, made.device));
+  store.add_record(made);
+  EXPECT_EQ(begin(), 1);
+}
+
 TEST_F(StoreTest, NumbersThatAreNone) {
   Store store(file_, Mode::append);
   store.add_run(sample_run());
