@@ -178,6 +178,15 @@ Told run_and_tell(const RunArguments& arguments) {
   return told;
 }
 
+// For commands that have a --resume.
+Told run_resumably(const RunArguments& arguments) {
+  try {
+    return run_and_tell(arguments);
+  } catch (const measure::Interrupted&) {
+    throw core::Error("interrupted; what was measured is in the store, --resume goes on");
+  }
+}
+
 bool has_measured(const measure::RunResult& result) {
   return result.measured > 0;
 }
@@ -191,13 +200,7 @@ core::ExitCode run(RunArguments arguments) {
   // Anchors are beside a run that began after them (judge/anchor_run.hpp).
   std::ranges::stable_partition(
       arguments.plans, [](const std::string& plan) { return plan == judge::anchors_plan; });
-  const auto [results, error_kept] = [&] {
-    try {
-      return run_and_tell(arguments);
-    } catch (const measure::Interrupted&) {
-      throw core::Error("interrupted; what was measured is in the store, --resume goes on");
-    }
-  }();
+  const auto [results, error_kept] = run_resumably(arguments);
   const bool measured = std::ranges::all_of(results, has_measured) && error_kept;
   return measured ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
@@ -286,14 +289,15 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
 
 std::vector<int> measure_plans_once(const std::vector<std::string>& plans,
                                     const std::vector<std::string>& devices,
-                                    const std::string& store) {
+                                    const std::string& store, bool resume) {
   RunArguments arguments;
   arguments.plans = plans;
   arguments.devices = devices;
   arguments.store = store;
+  arguments.resume = resume;
   arguments.rounds = 1;
   std::vector<int> told;
-  for (const measure::RunResult& result : run_and_tell(arguments).results) {
+  for (const measure::RunResult& result : run_resumably(arguments).results) {
     told.push_back(result.measured + result.failed);
   }
   return told;

@@ -23,6 +23,7 @@ struct ValidateArguments {
   std::vector<std::string> devices;
   std::string out = "validation";
   std::string baselines = default_baselines().string();
+  bool resume = false;
 };
 
 // Times, bits and statistics are a device's own; what is asked of any device is the right picture
@@ -49,7 +50,7 @@ core::ExitCode validate(const ValidateArguments& arguments) {
   require_writable(arguments.out);
   const std::string file = (std::filesystem::path(arguments.out) / "validation.sqlite").string();
   const std::vector<int> told =
-      measure_plans_once({plans.begin(), plans.end()}, arguments.devices, file);
+      measure_plans_once({plans.begin(), plans.end()}, arguments.devices, file, arguments.resume);
   for (std::size_t i = 0; i < plans.size(); ++i) {
     if (told[i] > 0) continue;
     throw core::NotSupported(fmt::format("{}: the devices asked for can do none of it", plans[i]));
@@ -87,6 +88,9 @@ void add_validate_command(Commands& commands) {
       ->required();
   command->add_option("--out", arguments->out, "Folder for the store and the report")
       ->capture_default_str();
+  command->add_flag(
+      "--resume", arguments->resume,
+      "Go on with what is in the folder's store, after a kill or a crash of the machine");
   add_baselines_option(*command, arguments->baselines);
 }
 

@@ -45,6 +45,25 @@ TEST_F(Resume, APartOfThePlanThatTheCommandLineSetsIsItsOwn) {
   EXPECT_EQ(run("one/p.yaml --resume").code, 0);
 }
 
+// A driver under test may take its machine with it.
+TEST_F(Resume, AValidationGoesOn) {
+  program.write("until_one_is_told.sh", R"("$@" >out 2>&1 &
+for i in $(seq 600); do grep -q 'null:scripted .*: ' out && break; sleep 0.1; done
+kill $!; wait $!; cat out
+)");
+  const auto first_told = [&](const std::string& options) {
+    const Result ended =
+        program.run("validate --device null:scripted " + options,
+                    R"({"base_ns": 20000000, "sleep": true})", "sh until_one_is_told.sh");
+    EXPECT_THAT(ended.output, HasSubstr("what was measured is in the store, --resume goes on"));
+    const std::string from = ended.output.substr(ended.output.find("camera="));
+    return from.substr(0, from.find(": "));
+  };
+  const std::string first = first_told("");
+  EXPECT_NE(first_told("--resume"), first);
+  EXPECT_EQ(first_told(""), first);
+}
+
 TEST_F(Resume, APlanIsGivenOnce) {
   for (const std::string plans :
        {"one/p.yaml one/p.yaml", "one/p.yaml other/p.yaml --resume", "volume/quick volume/quick"}) {

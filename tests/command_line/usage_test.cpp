@@ -110,7 +110,7 @@ TEST(Usage, ADeviceOfNoApiSaysHowItsWorkerEnded) {
 }
 
 // Each command offers what it has.
-TEST(Usage, AnInterruptOffersAResumeToRunAlone) {
+TEST(Usage, AnInterruptOffersAResumeWhereThereIsOne) {
   const Program program;
   const std::string hang = std::string("--set data=generate:gaussian_blob:16 --set viewport=16 ") +
                            "--device null:scripted";
