@@ -23,8 +23,7 @@
 //     "outlier_share": 0,         share of frames that take outlier_factor as long
 //     "outlier_factor": 3,
 //     "device_over_wall": 0.98,   what the device's clock tells, over the wall time: a clock that
-//     lies
-//                                 says 0, 0.1 or 3; null: it tells no time
+//                                 lies says 0, 0.1 or 3; null: it tells no time
 //     "counts": true,             false: neither counters nor statistics are told
 //     "sleep": false,             true: a frame really lasts what it says
 //     "filter_weight_error": 0,   of the hardware sampler
@@ -35,8 +34,7 @@
 // device_lost, api_error, not_supported (thrown; at "supports": the reason given), wrong_image (the
 // picture is off by 0.25), nan_image. Places ("at"): open, supports, prepare, frame, image. "frame"
 // counts a Prepared's frames from 0, at "prepare" the prepares of one work, and is any when left
-// out. GLOBs, as fnmatch(3) has them, match
-// describe(work); at "open" they match the device id.
+// out. GLOBs, as fnmatch(3) has them, match describe(work); at "open" they match the device id.
 
 #include <cstdint>
 #include <functional>

@@ -39,18 +39,17 @@
 // against the program as a whole, that one against the device.
 //
 // The judged configuration is left out of its own b: of few it would hide a part of itself there.
-// v_b is the larger of two: π/2 · s₀²(1 + π/2H)/n, of
-// a median of n normal deviations with the stored runs' typical scatter s₀; and this run's own,
-// from the distribution-free interval of the median between the c-th smallest and c-th largest
-// deviation,
+// v_b is the larger of two: π/2 · s₀²(1 + π/2H)/n, of a median of n normal deviations with the
+// stored runs' typical scatter s₀; and this run's own, from the distribution-free interval of the
+// median between the c-th smallest and c-th largest deviation,
 //
-//     c = (n + 1)/2 − 2.576·√n/2,  (width/2z)²,  z normal with the interval's exact binomial
-//     coverage
+//     c = (n + 1)/2 − 2.576·√n/2,  (width/2z)²,
 //
-// (McKean and Schrader 1984; coverage as Price and Bonett 2001). That is the guard against a level:
-// where from 31 to 69 % of the configurations are slower together (n = 48) the median lies anywhere
-// between the two parts, the interval spans both, w falls and the anchors decide. Beyond 69 % the
-// body is the slower part: d tells, or, within V, the rest is called faster.
+// z normal with the interval's exact binomial coverage (McKean and Schrader 1984; coverage as Price
+// and Bonett 2001). That is the guard against a level: where from 31 to 69 % of the configurations
+// are slower together (n = 48) the median lies anywhere between the two parts, the interval spans
+// both, w falls and the anchors decide. Beyond 69 % the body is the slower part: d tells, or,
+// within V, the rest is called faster.
 //
 // A stored run without anchors is levelled by the body alone, and where the program has changed,
 // when the body is no witness, it is left out.
