@@ -84,6 +84,22 @@ std::vector<std::string> refusals_of(const RobustLine& fit, double rho, bool of_
   return refusals;
 }
 
+double typical_scatter(std::span<const CorrelationCase> cases) {
+  std::vector<double> variances;
+  for (const CorrelationCase& each : cases) {
+    if (!each.anchor) variances.push_back(each.variance_a + each.variance_b);
+  }
+  return median(variances);
+}
+
+// Of itself a device's residuals are one run's chance: those of a calm run beside stored ones of
+// which each had slow minutes of its own scatter less than the next run will. Those of the day when
+// a device was accepted know nothing of today's.
+void leave_scatter_of_runs(std::span<const CorrelationCase> cases, RobustLine& fit) {
+  if (!(fit.scale > 0)) return;  // an exact line is one
+  fit.scale = std::max(fit.scale, std::sqrt(typical_scatter(cases)));
+}
+
 // The line that B's times had when it was accepted, with today's residuals from it; nullopt where a
 // case was not accepted or that line cannot judge either.
 std::optional<RobustLine> line_of_acceptance(std::span<const CorrelationCase> cases) {
@@ -97,6 +113,7 @@ std::optional<RobustLine> line_of_acceptance(std::span<const CorrelationCase> ca
     now.b.push_back(each.log_time_b);
   }
   RobustLine fit = robust_line(known.a, known.b);
+  leave_scatter_of_runs(cases, fit);
   if (!refusals_of(fit, pearson_r(known.a, known.b), false).empty()) return std::nullopt;
   fit.line.intercept += change_since_acceptance(cases, true).value_or(0);
   for (std::size_t i = 0; i < now.b.size(); ++i) {
@@ -113,14 +130,6 @@ double square(double value) {
 KnownVariance own_scatter(const CorrelationCase& each) {
   return KnownVariance{each.variance_a, each.degrees_a} +
          KnownVariance{each.variance_b, each.degrees_b};
-}
-
-double typical_scatter(std::span<const CorrelationCase> cases) {
-  std::vector<double> variances;
-  for (const CorrelationCase& each : cases) {
-    if (!each.anchor) variances.push_back(each.variance_a + each.variance_b);
-  }
-  return median(variances);
 }
 
 // z and p; what is left is what they mean together.
@@ -206,13 +215,6 @@ struct JudgingLine {
   RobustLine fit;
   std::vector<double> offsets;  // of a line beside a level
 };
-
-// Of itself a device's residuals are one run's chance: those of a calm run beside stored ones of
-// which each had slow minutes of its own scatter less than the next run will.
-void leave_scatter_of_runs(std::span<const CorrelationCase> cases, RobustLine& fit) {
-  if (!(fit.scale > 0)) return;  // an exact line is one
-  fit.scale = std::max(fit.scale, std::sqrt(typical_scatter(cases)));
-}
 
 // In place of the line through all, which may be none.
 void take_another_line(std::span<const CorrelationCase> cases, bool refused, bool of_itself,

@@ -174,6 +174,23 @@ TEST(Correlation, WhatFollowsNoLineIsHeldAgainstTheAcceptedOne) {
   EXPECT_EQ(beside.line_beside, "skip=none");
 }
 
+// Every second time is longer by half: the program's doing, unless times are known to scatter so.
+TEST(Correlation, AnAcceptedLineIsNoneForARunThatScattersMore) {
+  core::Random random(7);
+  auto cases = Bench{.noise = 0.02}.draw(4);
+  for (CorrelationCase& each : cases) {
+    each.known_log_time_b = each.log_time_b;
+    if (!each.anchor && random.uniform() < 0.5) each.log_time_b += std::log(1.5);
+  }
+  const Correlation calm = correlate(cases);
+  EXPECT_TRUE(calm.line_of_acceptance);
+  EXPECT_TRUE(any_configuration(calm));
+  for (CorrelationCase& each : cases) each.variance_b = 0.2 * 0.2;
+  const Correlation noisy = correlate(cases);
+  EXPECT_FALSE(noisy.line_of_acceptance);
+  EXPECT_TRUE(noisy.refused_for_scatter());
+}
+
 TEST(Correlation, SmallestEffectsAreThoseOfTheFormula) {
   const Correlation result = correlate(Bench{.repeats = 8}.draw(2));
   EXPECT_NEAR(result.smallest_effect / result.scale, 4.9, 0.2);  // t for 0.02/384, and 0.84
