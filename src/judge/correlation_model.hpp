@@ -34,7 +34,8 @@
 //
 // Too many changes. Where so much is slower that no line is left, though ρ is still what it must
 // be, and B's times when it was accepted had one, that line is taken, moved by the median of what
-// the anchors changed since; residuals and effects are those from it. Else the line beside a level
+// the anchors changed since; residuals and effects are those from it, and ŝ is no less than s̃: that
+// day knows nothing of today's scatter. Else the line beside a level
 // may judge, if it scatters half as much as that of all: then the level is all that was in the way.
 //
 // All configurations at once. The line follows them, so that no residual tells.

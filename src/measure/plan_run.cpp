@@ -179,8 +179,10 @@ std::vector<const Configuration*> PlanRun::pending(const std::string& device,
                                                    RoundReport& report) const {
   std::vector<const Configuration*> result;
   for (const Configuration& configuration : context_.plan.configurations) {
-    const std::string key = configuration_key(context_.suite, configuration);
-    if (context_.options.resume && context_.store.has_record(context_.run, key, device)) {
+    const bool done = context_.options.resume &&
+                      context_.store.has_record(
+                          context_.run, configuration_key(context_.suite, configuration), device);
+    if (done) {
       report.already_done();
     } else {
       result.push_back(&configuration);

@@ -274,7 +274,8 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
   require_our_schema(database, file);
   database.exec("PRAGMA journal_mode = WAL");
   // In WAL mode NORMAL survives the death of any process; only a loss of power may cost the last
-  // transactions, and even then the file stays whole.
+  // transactions, and even then the file stays whole. What has to outlive that waits for the disk
+  // (Store::begin_record).
   database.exec("PRAGMA synchronous = NORMAL");
   database.exec("PRAGMA foreign_keys = ON");
   database.exec(later_schema);

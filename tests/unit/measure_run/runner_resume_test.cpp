@@ -41,8 +41,10 @@ class RunResume : public RunTest {
     FAIL() << "the supervisor stores nothing";
   }
 
-  // Runs, or goes on, until a worker is asked for the first configuration.
+  // Runs, or goes on, until a worker is started for the first configuration; it never answers.
   void end_at_the_first(int signal) const {
+    const Variable stuck("TRIPTYCH_NULL_SCRIPT",
+                         R"({"failures": [{"kind": "hang", "at": "open"}]})");
     const std::size_t before = started_workers().size();
     Process supervisor = supervise();
     for (int i = 0; i < 500 && started_workers().size() == before; ++i) {
