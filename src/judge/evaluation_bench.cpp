@@ -67,15 +67,28 @@ void drop_incomplete(std::vector<PooledRun>& runs) {
   std::erase_if(runs, [most](const PooledRun& run) { return run.records.size() < most; });
 }
 
+// `places`, ascending: the index of the nearest to `place`.
+std::size_t nearest(const std::vector<std::size_t>& places, std::size_t place) {
+  const auto distance = [place](std::size_t other) {
+    return other < place ? place - other : other - place;
+  };
+  const auto found = std::ranges::min_element(places, {}, distance);  // the first of equals
+  return static_cast<std::size_t>(std::distance(places.begin(), found));
+}
+
 void sort_out(const std::string& plan, std::vector<PooledRun> runs, std::vector<RunPool>& pools) {
   drop_incomplete(runs);
   RunPool pool{plan, {}, {}};
-  for (PooledRun& run : runs) {
-    if (run.percent == 0) {
-      pool.unplanted.push_back(std::move(run));
+  std::vector<std::size_t> unplanted;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].percent == 0) unplanted.push_back(i);
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].percent == 0) {
+      pool.unplanted.push_back(std::move(runs[i]));
     } else {
-      run.before = pool.unplanted.empty() ? 0 : pool.unplanted.size() - 1;
-      pool.planted.push_back(std::move(run));
+      runs[i].beside = nearest(unplanted, i);
+      pool.planted.push_back(std::move(runs[i]));
     }
   }
   pools.push_back(std::move(pool));

@@ -22,7 +22,8 @@ struct PooledRun {
   std::vector<record::Record> records;
   std::vector<record::Record> anchors;
   std::vector<record::Store::DeviceEntry> devices;
-  std::size_t before = 0;  // of a planted one: the unplanted run that was measured just before it
+  // Of a planted one: the unplanted run with the fewest runs measured between; of two the earlier.
+  std::size_t beside = 0;
 };
 
 struct RunPool {

@@ -132,15 +132,16 @@ class Trials {
     return run + 1 < pool_.unplanted.size() ? run + 1 : run - 1;
   }
 
-  // Likewise among planted runs of one size; nullptr where there is but one.
+  // Likewise among planted runs of one size that are beside another unplanted run: two launches
+  // made of one share its slow minutes. nullptr where there is none.
   [[nodiscard]] const PooledRun* neighbour(const PooledRun& run) const {
     const PooledRun* before = nullptr;
     bool passed = false;
     for (const PooledRun& other : pool_.planted) {
-      if (other.percent != run.percent) continue;
+      passed = passed || &other == &run;
+      if (other.percent != run.percent || other.beside == run.beside) continue;
       if (passed) return &other;
-      passed = &other == &run;
-      if (!passed) before = &other;
+      before = &other;
     }
     return before;
   }
@@ -184,24 +185,24 @@ class Trials {
     return result;
   }
 
-  // The trials with `planted` of each run's records in the unplanted run that was measured before
-  // it; the second run is made of another planted one in the same way.
+  // The trials with `planted` of each run's records in the unplanted run that was measured next
+  // to it; the second run is made of another planted one in the same way.
   void try_planted(const PooledRun& run, Trial trial, const Planted& planted,
                    const std::vector<std::string>& devices) {
-    const Attempt first{run.before, planted(run)};
+    const Attempt first{run.beside, planted(run)};
     trial.percent = run.percent;
     trial.planted = names_of(chosen(first.changed, [](const Record&) { return true; }));
     if (trial.planted.empty()) return;
     std::optional<Attempt> second;
     if (const PooledRun* other = neighbour(run)) {
-      second = {other->before, planted(*other)};
+      second = {other->beside, planted(*other)};
       trial.cost_again = cost_in(*other, second->changed);
     }
     judge_.judge(trial, first, second, devices);
   }
 
   [[nodiscard]] double cost_in(const PooledRun& run, const std::vector<Record>& planted) const {
-    return cost_of(planted, pool_.unplanted[run.before].records);
+    return cost_of(planted, pool_.unplanted[run.beside].records);
   }
 
   // With its own anchors: it is a whole run.
@@ -254,7 +255,7 @@ class Trials {
                              std::vector<Record> changed = own(each);
                              const double factor = more_work ? std::exp(cost_in(each, changed)) : 1;
                              for (Record& record : changed) {
-                               set_work(record, pool_.unplanted[each.before].records, factor);
+                               set_work(record, pool_.unplanted[each.beside].records, factor);
                              }
                              return changed;
                            },

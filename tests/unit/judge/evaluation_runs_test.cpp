@@ -140,7 +140,15 @@ TEST_F(EvaluateRuns, PoolsHoldWholeRunsWithTheirAnchors) {
   EXPECT_EQ(pools[0].unplanted[1].anchors.at(0).run, "run3-anchors");
   ASSERT_EQ(pools[0].planted.size(), 1U);
   EXPECT_EQ(pools[0].planted[0].percent, 25);
-  EXPECT_EQ(pools[0].planted[0].before, 0U);
+}
+
+TEST_F(EvaluateRuns, APlantedRunIsBesideTheNearestUnplantedOne) {
+  for (const double percent : {0, 25, 10, 5, 0, 25, 0}) measure(percent);
+  const auto pools = pool_runs(store_);
+  ASSERT_EQ(pools.size(), 1U);
+  std::vector<std::size_t> beside;
+  for (const PooledRun& run : pools[0].planted) beside.push_back(run.beside);
+  EXPECT_EQ(beside, (std::vector<std::size_t>{0, 0, 1, 1}));
 }
 
 TEST_F(EvaluateRuns, FindsWhatIsPlantedAndNamesIt) {
@@ -248,6 +256,14 @@ TEST_F(EvaluateRuns, OnePlantedRunHasNoSecond) {
   EXPECT_GT(sum(tallies, "history", Spread::level, 25).detected.trials, 0U);
   EXPECT_EQ(sum(tallies, "history", Spread::level, 25, true).detected.trials, 0U);
   EXPECT_GT(sum(tallies, "history", Spread::none, 0, true).false_alarms.trials, 0U);
+}
+
+// What they share, they would confirm.
+TEST_F(EvaluateRuns, TwoPlantedRunsBesideOneUnplantedAreNoTwoLaunches) {
+  for (const double percent : {0, 0, 0, 0, 0, 0, 0, 25, 25}) measure(percent);
+  const Tallies tallies = evaluate();
+  EXPECT_GT(sum(tallies, "history", Spread::level, 25).detected.trials, 0U);
+  EXPECT_EQ(sum(tallies, "history", Spread::level, 25, true).detected.trials, 0U);
 }
 
 // Five are left to judge the first by, four to judge the second.
