@@ -67,19 +67,26 @@ void drop_incomplete(std::vector<PooledRun>& runs) {
   std::erase_if(runs, [most](const PooledRun& run) { return run.records.size() < most; });
 }
 
-// `places`, ascending: the index of the nearest to `place`.
-std::size_t nearest(const std::vector<std::size_t>& places, std::size_t place) {
-  const auto distance = [place](std::size_t other) {
-    return other < place ? place - other : other - place;
+// Of `places`, ascending, the index of the nearest to `place` that is not taken; of all, where all
+// are.
+std::size_t nearest(const std::vector<std::size_t>& places, std::size_t place,
+                    const std::set<std::size_t>& taken) {
+  const auto distance = [&](std::size_t i) {
+    const std::size_t away = places[i] < place ? place - places[i] : places[i] - place;
+    return std::pair(taken.size() < places.size() && taken.contains(i), away);
   };
-  const auto found = std::ranges::min_element(places, {}, distance);  // the first of equals
-  return static_cast<std::size_t>(std::distance(places.begin(), found));
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    if (distance(i) < distance(best)) best = i;
+  }
+  return best;
 }
 
 void sort_out(const std::string& plan, std::vector<PooledRun> runs, std::vector<RunPool>& pools) {
   drop_incomplete(runs);
   RunPool pool{plan, {}, {}};
   std::vector<std::size_t> unplanted;
+  std::map<double, std::set<std::size_t>> taken;  // by size
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (runs[i].percent == 0) unplanted.push_back(i);
   }
@@ -87,7 +94,9 @@ void sort_out(const std::string& plan, std::vector<PooledRun> runs, std::vector<
     if (runs[i].percent == 0) {
       pool.unplanted.push_back(std::move(runs[i]));
     } else {
-      runs[i].beside = nearest(unplanted, i);
+      std::set<std::size_t>& of_size = taken[runs[i].percent];
+      runs[i].beside = nearest(unplanted, i, of_size);
+      of_size.insert(runs[i].beside);
       pool.planted.push_back(std::move(runs[i]));
     }
   }

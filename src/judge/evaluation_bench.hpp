@@ -22,7 +22,9 @@ struct PooledRun {
   std::vector<record::Record> records;
   std::vector<record::Record> anchors;
   std::vector<record::Store::DeviceEntry> devices;
-  // Of a planted one: the unplanted run with the fewest runs measured between; of two the earlier.
+  // Of a planted one: the unplanted run with the fewest runs measured between, of two the earlier,
+  // among those that no other of its size has: two launches made of one run share its slow minutes.
+  // Where there are more planted runs than unplanted ones, some do.
   std::size_t beside = 0;
 };
 

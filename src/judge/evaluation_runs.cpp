@@ -132,16 +132,15 @@ class Trials {
     return run + 1 < pool_.unplanted.size() ? run + 1 : run - 1;
   }
 
-  // Likewise among planted runs of one size that are beside another unplanted run: two launches
-  // made of one share its slow minutes. nullptr where there is none.
+  // Likewise among planted runs of one size; nullptr where there is but one.
   [[nodiscard]] const PooledRun* neighbour(const PooledRun& run) const {
     const PooledRun* before = nullptr;
     bool passed = false;
     for (const PooledRun& other : pool_.planted) {
-      passed = passed || &other == &run;
-      if (other.percent != run.percent || other.beside == run.beside) continue;
+      if (other.percent != run.percent) continue;
       if (passed) return &other;
-      before = &other;
+      passed = &other == &run;
+      if (!passed) before = &other;
     }
     return before;
   }

@@ -27,12 +27,12 @@ struct RunTrials {
 //   same work.
 // - one API, everything: all records, and the anchors measured with them.
 // Devices in doubt are then judged by a second launch as well, as under CTest: the unplanted run
-// measured next, or the same made of the next planted run of that size that was measured next to
-// another unplanted one; of the last, of the one before it. Neither is among the runs that they are
-// judged by. Where a size has no such second run nothing of it is counted as confirmed; nor where
-// fewer than TimingModel::least_runs would be left. No trial is made twice. `folder` must be empty;
-// it is for files. Deterministic in the pool and the seed. A pool of fewer than two unplanted runs
-// gives nothing.
+// measured next, or the same made of the next planted run of that size; of the last, of the one
+// before it. Neither is among the runs that they are judged by. A store with one planted run of a
+// size has no second one: nothing of it is counted as confirmed; nor where fewer than
+// TimingModel::least_runs would be left. No trial is made twice. `folder` must be empty; it is for
+// files. Deterministic in the pool and the seed. A pool of fewer than two unplanted runs gives
+// nothing.
 [[nodiscard]] Tallies evaluate_runs(const RunPool& pool, const RunTrials& trials,
                                     const std::filesystem::path& folder);
 

@@ -151,6 +151,16 @@ TEST_F(EvaluateRuns, APlantedRunIsBesideTheNearestUnplantedOne) {
   EXPECT_EQ(beside, (std::vector<std::size_t>{0, 0, 1, 1}));
 }
 
+// What two launches share, they would confirm.
+TEST_F(EvaluateRuns, NoTwoPlantedRunsOfASizeAreBesideOneUnplantedRun) {
+  for (const double percent : {0, 0, 25, 25, 10, 25}) measure(percent);
+  const auto pools = pool_runs(store_);
+  ASSERT_EQ(pools.size(), 1U);
+  std::vector<std::size_t> beside;
+  for (const PooledRun& run : pools[0].planted) beside.push_back(run.beside);
+  EXPECT_EQ(beside, (std::vector<std::size_t>{1, 0, 1, 1}));  // the last found both taken
+}
+
 TEST_F(EvaluateRuns, FindsWhatIsPlantedAndNamesIt) {
   for (int round = 0; round < 6; ++round) {
     measure(0);
@@ -256,14 +266,6 @@ TEST_F(EvaluateRuns, OnePlantedRunHasNoSecond) {
   EXPECT_GT(sum(tallies, "history", Spread::level, 25).detected.trials, 0U);
   EXPECT_EQ(sum(tallies, "history", Spread::level, 25, true).detected.trials, 0U);
   EXPECT_GT(sum(tallies, "history", Spread::none, 0, true).false_alarms.trials, 0U);
-}
-
-// What they share, they would confirm.
-TEST_F(EvaluateRuns, TwoPlantedRunsBesideOneUnplantedAreNoTwoLaunches) {
-  for (const double percent : {0, 0, 0, 0, 0, 0, 0, 25, 25}) measure(percent);
-  const Tallies tallies = evaluate();
-  EXPECT_GT(sum(tallies, "history", Spread::level, 25).detected.trials, 0U);
-  EXPECT_EQ(sum(tallies, "history", Spread::level, 25, true).detected.trials, 0U);
 }
 
 // Five are left to judge the first by, four to judge the second.
