@@ -14,7 +14,7 @@
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "core/temporary_folder.hpp"
-#include "judge/evaluation_runs.hpp"
+#include "judge/evaluation/runs.hpp"
 #include "measure/plant.hpp"
 
 namespace triptych::app {

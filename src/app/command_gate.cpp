@@ -12,7 +12,7 @@
 #include "app/truth.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
-#include "judge/gate.hpp"
+#include "judge/gate/gate.hpp"
 #include "measure/plan.hpp"
 #include "measure/runner.hpp"
 #include "report/junit.hpp"

@@ -15,7 +15,7 @@
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/saying.hpp"
-#include "judge/anchor.hpp"
+#include "judge/timing/anchor.hpp"
 #include "measure/plant.hpp"
 #include "measure/process.hpp"
 
@@ -197,7 +197,7 @@ bool has_told(const measure::RunResult& result) {
 
 // Where nothing of a plan is measured there is nothing that anybody could judge.
 core::ExitCode run(RunArguments arguments) {
-  // Anchors are beside a run that began after them (judge/anchor_run.hpp).
+  // Anchors are beside a run that began after them (judge/gate/anchor_run.hpp).
   std::ranges::stable_partition(
       arguments.plans, [](const std::string& plan) { return plan == judge::anchors_plan; });
   const auto [results, error_kept] = run_resumably(arguments);

@@ -13,8 +13,8 @@
 #include "app/listing.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
-#include "judge/anchor.hpp"
-#include "judge/gate.hpp"
+#include "judge/gate/gate.hpp"
+#include "judge/timing/anchor.hpp"
 #include "technique/catalogue.hpp"
 
 namespace triptych::app {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/truth.hpp"
-#include "judge/differences.hpp"
-#include "judge/pairwise.hpp"
+#include "judge/compare/differences.hpp"
+#include "judge/compare/pairwise.hpp"
 #include "measure/plan.hpp"
 #include "measure/runner.hpp"
 #include "measure/turns.hpp"

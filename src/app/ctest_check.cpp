@@ -14,8 +14,8 @@
 #include "app/registry.hpp"
 #include "app/truth.hpp"
 #include "core/image_io.hpp"
-#include "judge/gate.hpp"
-#include "judge/image_metrics.hpp"
+#include "judge/gate/gate.hpp"
+#include "judge/images/image_metrics.hpp"
 
 namespace triptych::app {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
-#include "judge/accuracy_cases.hpp"
-#include "judge/accuracy_choice.hpp"
-#include "judge/image_metrics.hpp"
+#include "judge/accuracy/cases.hpp"
+#include "judge/accuracy/choice.hpp"
+#include "judge/images/image_metrics.hpp"
 #include "measure/factor.hpp"
 
 namespace triptych::app {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/truth.hpp"
-#include "judge/accuracy.hpp"
+#include "judge/accuracy/accuracy.hpp"
 #include "measure/plan.hpp"
 
 namespace triptych::app {

@@ -12,7 +12,7 @@
 #include "app/paths.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
-#include "judge/anchor.hpp"
+#include "judge/timing/anchor.hpp"
 #include "measure/runner.hpp"
 #include "measure/stopwatch.hpp"
 #include "measure/turns.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/registry.hpp"
-#include "judge/evaluation_compare.hpp"
+#include "judge/evaluation/compare.hpp"
 #include "measure/plan.hpp"
 #include "record/store.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/json.hpp"
-#include "judge/statistics.hpp"
+#include "judge/statistics/statistics.hpp"
 
 namespace triptych::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "judge/evaluation.hpp"
+#include "judge/evaluation/evaluation.hpp"
 
 namespace triptych::app {
 

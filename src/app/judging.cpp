@@ -9,7 +9,7 @@
 
 #include "app/measuring.hpp"
 #include "app/paths.hpp"
-#include "judge/anchor.hpp"
+#include "judge/timing/anchor.hpp"
 #include "measure/plan.hpp"
 #include "report/finding_groups.hpp"
 #include "report/page.hpp"

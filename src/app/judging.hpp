@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/truth.hpp"
-#include "judge/gate.hpp"
+#include "judge/gate/gate.hpp"
 #include "record/store.hpp"
 
 namespace triptych::app {

@@ -4,7 +4,7 @@
 
 #include "app/registry.hpp"
 #include "core/image_io.hpp"
-#include "judge/gate.hpp"
+#include "judge/gate/gate.hpp"
 #include "record/store.hpp"
 
 namespace triptych::app {

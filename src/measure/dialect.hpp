@@ -2,7 +2,7 @@
 // What a driver's pipeline statistics are worth. Vulkan and GL leave most of these numbers to the
 // implementation, and drivers use the freedom; so scenes of which every number is known are drawn
 // once when a device is opened, and each statistic gets a verdict. Only what both drivers count
-// exactly is ever compared between them (judge/check_statistics.cpp).
+// exactly is ever compared between them (judge/gate/check_statistics.cpp).
 
 #include <cstdint>
 #include <map>

@@ -2,7 +2,7 @@
 #include <span>
 #include <string>
 
-#include "judge/accuracy_cases.hpp"
+#include "judge/accuracy/cases.hpp"
 
 namespace triptych::report {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "judge/gate.hpp"
+#include "judge/gate/gate.hpp"
 
 namespace triptych::report {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "judge/gate.hpp"
+#include "judge/gate/gate.hpp"
 
 namespace triptych::report {
 

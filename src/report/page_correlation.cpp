@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "judge/correlation_pairs.hpp"
+#include "judge/gate/correlation_pairs.hpp"
 #include "report/correlation_chart.hpp"
 #include "report/html.hpp"
 #include "report/page_frame.hpp"

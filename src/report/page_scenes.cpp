@@ -14,7 +14,7 @@
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
-#include "judge/image_metrics.hpp"
+#include "judge/images/image_metrics.hpp"
 #include "report/html.hpp"
 #include "report/page_sections.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "judge/gate.hpp"
+#include "judge/gate/gate.hpp"
 #include "record/store.hpp"
 
 namespace triptych::report {

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "source_tree.hpp"
 
@@ -56,6 +58,49 @@ TEST(Includes, RoomsLookOnlyDownwards) {
   for (const auto& entry : std::filesystem::directory_iterator(source_folder / "src")) {
     const std::string room = entry.path().filename().string();
     expect_downwards("src/" + room, room);
+  }
+}
+
+// Folder of a room → the others of that room that its files include. What lies in none is left out.
+std::map<std::string, std::set<std::string>> folders_of(const std::string& room) {
+  std::map<std::string, std::set<std::string>> found;
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder / "src" / room)) {
+    if (!entry.is_directory()) continue;
+    const std::string folder = entry.path().filename().string();
+    found[folder];
+    for (const auto& file : files_below("src/" + room + "/" + folder, code_endings)) {
+      for (const std::string& include : includes_of(file)) {
+        const std::filesystem::path path = include;
+        if (!include.starts_with(room + "/") || path.parent_path() == room) continue;
+        const std::string other = (++path.begin())->string();
+        if (other != folder) found[folder].insert(other);
+      }
+    }
+  }
+  return found;
+}
+
+// Takes away, again and again, what needs nothing that is left: a circle is what stays.
+std::string circle_in(std::map<std::string, std::set<std::string>> needed) {
+  while (true) {
+    const auto free = std::ranges::find_if(needed, [&](const auto& folder) {
+      return std::ranges::none_of(folder.second, [&](const auto& n) { return needed.contains(n); });
+    });
+    if (free == needed.end()) break;
+    needed.erase(free);
+  }
+  std::string left;
+  for (const auto& [folder, others] : needed) left += folder + " ";
+  return left;
+}
+
+TEST(Includes, FoldersOfARoomFormNoCircle) {
+  EXPECT_EQ(circle_in({{"a", {"b"}}, {"b", {"a", "c"}}, {"c", {}}}), "a b ");
+  EXPECT_GE(folders_of("judge").size(), 10U);
+  EXPECT_TRUE(folders_of("judge").at("gate").contains("statistics"));
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder / "src")) {
+    const std::string room = entry.path().filename().string();
+    EXPECT_EQ(circle_in(folders_of(room)), "") << "in src/" << room;
   }
 }
 

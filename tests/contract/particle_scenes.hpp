@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "judge/image_metrics.hpp"
+#include "judge/images/image_metrics.hpp"
 #include "reference/spheres.hpp"
 #include "scene/particle_generators.hpp"
 #include "suites/particles/tolerance.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "judge/regression.hpp"
-#include "judge/statistics.hpp"
+#include "judge/statistics/regression.hpp"
+#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge::analysis {
 namespace {

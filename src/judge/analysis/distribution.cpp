@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "judge/analysis/kolmogorov.hpp"
-#include "judge/statistics.hpp"
+#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge::analysis {
 namespace {

@@ -3,7 +3,7 @@
 #include <opencv2/ml.hpp>
 
 #include "core/error.hpp"
-#include "judge/statistics.hpp"
+#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge::analysis {
 namespace {

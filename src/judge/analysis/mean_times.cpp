@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "judge/statistics.hpp"
+#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge::analysis {
 namespace {

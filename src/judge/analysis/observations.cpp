@@ -11,8 +11,8 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "judge/anchor.hpp"
-#include "judge/statistics.hpp"
+#include "judge/statistics/statistics.hpp"
+#include "judge/timing/anchor.hpp"
 
 namespace triptych::judge::analysis {
 namespace {

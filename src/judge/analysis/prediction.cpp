@@ -8,7 +8,7 @@
 
 #include "core/random.hpp"
 #include "judge/analysis/learners.hpp"
-#include "judge/statistics.hpp"
+#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge::analysis {
 namespace {

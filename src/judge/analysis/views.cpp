@@ -4,7 +4,7 @@
 #include <map>
 
 #include "core/random.hpp"
-#include "judge/statistics.hpp"
+#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge::analysis {
 namespace {

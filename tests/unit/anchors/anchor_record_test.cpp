@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "judge/anchor.hpp"
+#include "judge/timing/anchor.hpp"
 #include "technique/catalogue.hpp"
 
 namespace triptych {

@@ -8,7 +8,7 @@
 #include "core/file.hpp"
 #include "core/json.hpp"
 #include "fixture.hpp"
-#include "judge/json_file.hpp"
+#include "judge/baselines/json_file.hpp"
 
 namespace triptych::judge {
 namespace {

@@ -1,10 +1,10 @@
 // The longest step and the fastest case within a requested error.
 
-#include "judge/accuracy_choice.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "judge/accuracy/choice.hpp"
 
 namespace triptych::judge {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/image_io.hpp"
 #include "core/json.hpp"
 #include "fixture.hpp"
-#include "judge/accuracy_cases.hpp"
+#include "judge/accuracy/cases.hpp"
 
 namespace triptych::judge {
 namespace {

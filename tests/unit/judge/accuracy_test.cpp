@@ -1,6 +1,6 @@
 // Orders, fronts and times to an error on numbers whose answers are known.
 
-#include "judge/accuracy.hpp"
+#include "judge/accuracy/accuracy.hpp"
 
 #include <gtest/gtest.h>
 

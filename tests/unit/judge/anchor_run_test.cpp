@@ -1,4 +1,4 @@
-#include "judge/anchor_run.hpp"
+#include "judge/gate/anchor_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "judge/correlation_model.hpp"
+#include "judge/correlation/model.hpp"
 #include "tests/support/normal.hpp"
 
 namespace triptych::judge {

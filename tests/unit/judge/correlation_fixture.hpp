@@ -11,7 +11,7 @@
 #include "core/image_io.hpp"
 #include "core/random.hpp"
 #include "fixture.hpp"
-#include "judge/timing_model.hpp"
+#include "judge/timing/model.hpp"
 
 namespace triptych::judge {
 

@@ -7,7 +7,7 @@
 
 #include "core/json.hpp"
 #include "correlation_fixture.hpp"
-#include "judge/timing_model.hpp"
+#include "judge/timing/model.hpp"
 
 namespace triptych::judge {
 namespace {

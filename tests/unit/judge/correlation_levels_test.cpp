@@ -12,7 +12,7 @@
 #include <string>
 
 #include "core/random.hpp"
-#include "judge/correlation_model.hpp"
+#include "judge/correlation/model.hpp"
 #include "tests/support/normal.hpp"
 #include "tests/unit/judge/correlation_bench.hpp"
 

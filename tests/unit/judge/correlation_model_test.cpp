@@ -1,7 +1,5 @@
 // What the correlation finds of planted slowdowns, and how often it cries wolf.
 
-#include "judge/correlation_model.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -9,7 +7,8 @@
 
 #include <cmath>
 
-#include "judge/statistics.hpp"
+#include "judge/correlation/model.hpp"
+#include "judge/statistics/statistics.hpp"
 #include "tests/unit/judge/correlation_bench.hpp"
 
 namespace triptych::judge {

@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "judge/baselines.hpp"
-#include "judge/correlation_model.hpp"
-#include "judge/regression.hpp"
-#include "judge/statistics.hpp"
+#include "judge/baselines/baselines.hpp"
+#include "judge/correlation/model.hpp"
+#include "judge/statistics/regression.hpp"
+#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge {
 namespace {

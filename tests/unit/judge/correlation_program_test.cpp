@@ -1,5 +1,3 @@
-#include "judge/correlation_program.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +5,8 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "judge/statistics.hpp"
+#include "judge/correlation/program.hpp"
+#include "judge/statistics/statistics.hpp"
 #include "tests/support/normal.hpp"
 #include "tests/unit/judge/correlation_bench.hpp"
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "fixture.hpp"
-#include "judge/baselines.hpp"
+#include "judge/baselines/baselines.hpp"
 
 namespace triptych::judge {
 namespace {

@@ -1,4 +1,4 @@
-#include "judge/differences.hpp"
+#include "judge/compare/differences.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "judge/drift.hpp"
+#include "judge/statistics/drift.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,5 @@
 // Trials put together from runs of two synthetic devices whose true times are known.
 
-#include "judge/evaluation_runs.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 
 #include "core/random.hpp"
 #include "fixture.hpp"
+#include "judge/evaluation/runs.hpp"
 
 namespace triptych::judge {
 namespace {

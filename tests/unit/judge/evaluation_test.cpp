@@ -1,6 +1,6 @@
 // Rates and what is asked of them.
 
-#include "judge/evaluation.hpp"
+#include "judge/evaluation/evaluation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/random.hpp"
-#include "judge/evaluation_compare.hpp"
+#include "judge/evaluation/compare.hpp"
 
 namespace triptych::judge {
 namespace {

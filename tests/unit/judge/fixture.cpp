@@ -9,7 +9,7 @@
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
 #include "core/json.hpp"
-#include "judge/anchor.hpp"
+#include "judge/timing/anchor.hpp"
 
 namespace triptych::judge {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "core/image.hpp"
 #include "core/random.hpp"
-#include "judge/gate.hpp"
+#include "judge/gate/gate.hpp"
 #include "record/store.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,6 +1,6 @@
 // The area of a front, on points whose logarithms to the base of ten are whole numbers.
 
-#include "judge/hypervolume.hpp"
+#include "judge/accuracy/hypervolume.hpp"
 
 #include <gtest/gtest.h>
 

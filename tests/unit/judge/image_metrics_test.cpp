@@ -1,4 +1,4 @@
-#include "judge/image_metrics.hpp"
+#include "judge/images/image_metrics.hpp"
 
 #include <gtest/gtest.h>
 

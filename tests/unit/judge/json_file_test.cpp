@@ -1,4 +1,4 @@
-#include "judge/json_file.hpp"
+#include "judge/baselines/json_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "judge/pairwise.hpp"
+#include "judge/compare/pairwise.hpp"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "judge/statistics.hpp"
+#include "judge/statistics/statistics.hpp"
 #include "tests/support/normal.hpp"
 
 namespace triptych::judge {

@@ -1,6 +1,6 @@
 // Lines against data sets with published fits.
 
-#include "judge/regression.hpp"
+#include "judge/statistics/regression.hpp"
 
 #include <gtest/gtest.h>
 

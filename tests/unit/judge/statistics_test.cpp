@@ -1,4 +1,4 @@
-#include "judge/statistics.hpp"
+#include "judge/statistics/statistics.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

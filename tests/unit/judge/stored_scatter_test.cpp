@@ -1,4 +1,4 @@
-#include "judge/stored_scatter.hpp"
+#include "judge/gate/stored_scatter.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

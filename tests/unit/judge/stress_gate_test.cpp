@@ -8,8 +8,8 @@
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
 #include "fixture.hpp"
-#include "judge/expectation.hpp"
-#include "judge/stress.hpp"
+#include "judge/stress/expectation.hpp"
+#include "judge/stress/stress.hpp"
 
 namespace triptych::judge {
 namespace {

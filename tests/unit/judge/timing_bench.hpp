@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "judge/timing_model.hpp"
+#include "judge/timing/model.hpp"
 #include "tests/support/normal.hpp"
 
 namespace triptych::judge {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/file.hpp"
-#include "judge/anchor.hpp"
+#include "judge/timing/anchor.hpp"
 #include "timing_fixture.hpp"
 
 namespace triptych::judge {

@@ -1,5 +1,3 @@
-#include "judge/timing_model.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
-#include "judge/statistics.hpp"
+#include "judge/statistics/statistics.hpp"
+#include "judge/timing/model.hpp"
 #include "timing_bench.hpp"
 
 namespace triptych::judge {

@@ -1,7 +1,5 @@
 // The shift by anchors and by the body.
 
-#include "judge/timing_shift.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include <cstddef>
 
 #include "core/random.hpp"
+#include "judge/timing/shift.hpp"
 #include "tests/support/normal.hpp"
 #include "timing_bench.hpp"
 

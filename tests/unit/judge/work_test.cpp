@@ -1,4 +1,4 @@
-#include "judge/work.hpp"
+#include "judge/baselines/work.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,0 +1,57 @@
+#include "judge/baselines/work.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace triptych::judge {
+namespace {
+
+double percent(double log_ratio) {
+  return 100 * std::expm1(log_ratio);
+}
+
+}  // namespace
+
+std::optional<WorkChange> work_change(
+    const record::Counts& now,
+    const std::function<std::optional<double>(const std::string&)>& then) {
+  for (const std::string_view unit : work_units) {
+    const auto count = now.find(std::string(unit));
+    if (count == now.end() || count->second == 0) continue;
+    const auto before = then(count->first);
+    if (!before || !(*before > 0)) continue;
+    return WorkChange{.log_ratio = std::log(static_cast<double>(count->second) / *before),
+                      .unit = count->first};
+  }
+  return std::nullopt;
+}
+
+std::optional<WorkChange> work_change(const record::Counts& now, const record::Counts& then) {
+  return work_change(now, [&](const std::string& unit) -> std::optional<double> {
+    const auto count = then.find(unit);
+    if (count == then.end()) return std::nullopt;
+    return static_cast<double>(count->second);
+  });
+}
+
+std::optional<WorkChange> work_change(const record::Counts& now, const Baselines& baselines,
+                                      const std::string& configuration, const std::string& device) {
+  const auto counters = baselines.counters(configuration);
+  return work_change(now, [&](const std::string& unit) -> std::optional<double> {
+    if (!counters) return std::nullopt;
+    const auto counter = counters->find(unit);
+    if (counter == counters->end()) return std::nullopt;
+    const auto value = counter->second.find(device);
+    if (value == counter->second.end()) return std::nullopt;
+    return static_cast<double>(value->second);
+  });
+}
+
+std::string why_text(const std::optional<WorkChange>& work, double log_time_ratio) {
+  if (!work) return "no counter tells whether it is more work";
+  return fmt::format("work ({}) {:+.1f} %, time per unit of work {:+.1f} %", work->unit,
+                     percent(work->log_ratio), percent(log_time_ratio - work->log_ratio));
+}
+
+}  // namespace triptych::judge

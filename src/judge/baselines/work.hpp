@@ -1,0 +1,38 @@
+#pragma once
+// Δ ln t = Δ ln(work) + Δ ln(time per unit of work).
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "judge/baselines/baselines.hpp"
+
+namespace triptych::judge {
+
+// Counters to which the time of a technique is proportional; the first that both sides have tells
+// how much work a configuration is.
+inline constexpr std::array<std::string_view, 2> work_units{"samples", "fragments"};
+
+struct WorkChange {
+  double log_ratio = 0;  // ln(work now/work then)
+  std::string unit;      // one of work_units
+};
+
+// Empty where no unit is known of both, or is nothing on one of them. `then`: the count of a unit.
+[[nodiscard]] std::optional<WorkChange> work_change(
+    const record::Counts& now,
+    const std::function<std::optional<double>(const std::string&)>& then);
+[[nodiscard]] std::optional<WorkChange> work_change(const record::Counts& now,
+                                                    const record::Counts& then);
+// Against what is stored of the configuration on a device.
+[[nodiscard]] std::optional<WorkChange> work_change(const record::Counts& now,
+                                                    const Baselines& baselines,
+                                                    const std::string& configuration,
+                                                    const std::string& device);
+
+// "work (samples) +20.0 %, time per unit of work +2.1 %" of a change of the time.
+[[nodiscard]] std::string why_text(const std::optional<WorkChange>& work, double log_time_ratio);
+
+}  // namespace triptych::judge

@@ -1,0 +1,199 @@
+// Errors against the limit: told of every scene and device, and held to what was accepted.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "judge/gate/run_view.hpp"
+#include "judge/timing/anchor.hpp"
+
+namespace triptych::judge {
+namespace {
+
+// Writing a picture to float rounds each channel once.
+constexpr double float_rounding = 0x1.0p-24;
+
+// What rounding, storage and early termination had of the accepted error may be as much again: two
+// right pictures differ by no more than both their distances from the truth on their lattice, the
+// root mean square being a distance.
+double allowed(const StoredError& stored) {
+  return stored.rmse + 2 * stored.arithmetic + float_rounding;
+}
+
+// The device's own, else the largest of all.
+std::optional<double> allowed_on(const std::map<std::string, StoredError>& stored,
+                                 const std::string& device) {
+  const auto own = stored.find(device);
+  if (own != stored.end()) return allowed(own->second);
+  std::optional<double> largest;
+  for (const auto& [other, error] : stored) {
+    largest = std::max(largest.value_or(0), allowed(error));
+  }
+  return largest;
+}
+
+Finding judge_error(const RunView& view, const record::Record& record, const PictureError& error) {
+  const auto limit = allowed_on(view.baselines.errors(record.configuration), record.device);
+  const auto about = [&](Verdict verdict, std::string message) {
+    Finding finding = finding_about(record, Check::accuracy, verdict, std::move(message));
+    set_number(finding, "rmse", error.rmse);
+    set_number(finding, "max_error", error.largest);
+    set_number(finding, "error_99", error.error_99);
+    set_number(finding, "lattice", error.lattice);
+    set_number(finding, "arithmetic", error.arithmetic);
+    if (limit) set_number(finding, "bound", *limit);
+    return finding;
+  };
+  if (!limit) {
+    return about(Verdict::cannot_judge,
+                 "no stored error for this configuration; accept it: " + view.accept_command());
+  }
+  const std::string what =
+      fmt::format("RMSE {:.3g} against the limit, allowed {:.3g}", error.rmse, *limit);
+  return about(error.rmse <= *limit ? Verdict::pass : Verdict::regression, what);
+}
+
+// The order that the accepted errors of a family give: nothing but errors is stored.
+std::optional<Order> stored_order(const RunView& view, const AccuracyScene& scene,
+                                  const AccuracyFamily& family) {
+  std::vector<StepError> points;
+  for (const std::size_t i : family.members) {
+    const AccuracyCase& each = scene.cases[i];
+    const auto errors = view.baselines.errors(each.configuration);
+    const auto own = errors.find(scene.device);
+    const auto step = step_of(each);
+    if (own == errors.end() || !step) continue;
+    points.push_back({*step, own->second.rmse, own->second.arithmetic});
+  }
+  return fit_order(points);
+}
+
+// An order has fallen when it lies below the accepted one by more than both intervals. Where the
+// same steps give none any more, errors of another kind than the step's have grown.
+Finding judge_order(const RunView& view, const record::Device& device,
+                    const std::optional<Order>& now, const Order& stored) {
+  const std::string accepted =
+      fmt::format("accepted {:.2f} ± {:.2f}", stored.order, stored.half_width);
+  if (!now) {
+    return finding_about(
+        view, device, Check::accuracy, Verdict::cannot_judge,
+        "no order in the step can be fitted: too few errors are the step's own; " + accepted);
+  }
+  const bool fallen = now->order < stored.order - stored.half_width - now->half_width;
+  Finding finding = finding_about(
+      view, device, Check::accuracy, fallen ? Verdict::regression : Verdict::pass,
+      fmt::format("order {:.2f} ± {:.2f} in the step, {}", now->order, now->half_width, accepted));
+  set_number(finding, "order", now->order);
+  set_number(finding, "stored_order", stored.order);
+  return finding;
+}
+
+void judge_orders(const RunView& view, const AccuracyScene& scene, AccuracyFindings& result) {
+  const record::Device& device = view.devices.at(scene.device);
+  for (const AccuracyFamily& family : scene.families) {
+    const auto stored = stored_order(view, scene, family);
+    if (!stored) continue;
+    Finding finding = judge_order(view, device, family.order, *stored);
+    finding.configuration = scene.cases[family.members.back()].configuration;
+    result.findings.push_back(std::move(finding));
+  }
+}
+
+// Scenes by device and limit, in the order in which they come.
+class Scenes {
+ public:
+  // A level that was named and is what `auto` means on the device makes no second case.
+  void add(const record::Record& record, const LimitPicture& limit, AccuracyCase each) {
+    const auto [known, is_new] = index_.try_emplace({record.device, limit.key}, scenes_.size());
+    if (is_new) scenes_.push_back(accuracy_scene(record, limit));
+    narrow(scenes_[known->second], record);
+    std::vector<AccuracyCase>& cases = scenes_[known->second].cases;
+    if (std::ranges::find(cases, each.factors, &AccuracyCase::factors) != cases.end()) return;
+    cases.push_back(std::move(each));
+  }
+  std::vector<AccuracyScene> finish() && {
+    for (AccuracyScene& scene : scenes_) evaluate(scene);
+    return std::move(scenes_);
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, std::size_t> index_;
+  std::vector<AccuracyScene> scenes_;
+};
+
+// Looks at one record after the other: what cannot be looked at is told, and stops no other.
+class AccuracyCheck {
+ public:
+  AccuracyCheck(const RunView& view, AccuracyFindings& out) : view_(view), out_(out) {}
+
+  void look_at(const record::Record& record) {
+    try {
+      measure_error(record);
+    } catch (const core::Error& error) {
+      add(record, Verdict::cannot_judge, fmt::format("its error cannot be told: {}", error.what()));
+    }
+  }
+
+  void finish() {
+    out_.scenes = std::move(scenes_).finish();
+    for (const AccuracyScene& scene : out_.scenes) judge_orders(view_, scene, out_);
+  }
+
+ private:
+  void add(const record::Record& record, Verdict verdict, std::string message) {
+    out_.findings.push_back(finding_about(record, Check::accuracy, verdict, std::move(message)));
+  }
+
+  void measure_error(const record::Record& record) {
+    const LimitPicture* limit = view_.request.limit(record);
+    if (limit == nullptr) {
+      // Of a scene without a limit there is none to be missed.
+      if (view_.baselines.errors(record.configuration).empty()) return;
+      add(record, Verdict::cannot_judge,
+          "an error is stored, but its scene has no limit; accept it anew: " +
+              view_.accept_command());
+      return;
+    }
+    if (record.image.empty()) {
+      add(record, Verdict::cannot_judge, "the record holds no picture; run the plan again");
+      return;
+    }
+    const auto error = picture_error(core::decode_exr(view_.store.image(record.image)),
+                                     view_.request.truth(record).truth, limit->image);
+    if (!error) {
+      add(record, Verdict::regression,
+          "the picture cannot be compared: of another size, or with values that are not finite");
+      return;
+    }
+    scenes_.add(record, *limit, accuracy_case(record, *error));
+    if (view_.baselines.present()) out_.findings.push_back(judge_error(view_, record, *error));
+  }
+
+  const RunView& view_;
+  AccuracyFindings& out_;
+  Scenes scenes_;
+};
+
+}  // namespace
+
+AccuracyFindings check_accuracies(const RunView& view) {
+  AccuracyFindings result;
+  if (view.request.limit && view.request.truth) {
+    AccuracyCheck check(view, result);
+    for (const record::Record* record : view.measured) {
+      if (!is_anchor(*record)) check.look_at(*record);
+    }
+    check.finish();
+  }
+  if (result.findings.empty() && result.scenes.empty()) {
+    result.findings.push_back(finding_about(view, Check::accuracy, Verdict::cannot_judge,
+                                            "no scene here has a limit to tell errors against"));
+  }
+  return result;
+}
+
+}  // namespace triptych::judge

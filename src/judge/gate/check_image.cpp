@@ -1,0 +1,309 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <tuple>
+
+#include "core/image_io.hpp"
+#include "judge/gate/run_view.hpp"
+#include "judge/images/agreement.hpp"
+#include "judge/images/image_metrics.hpp"
+#include "judge/timing/anchor.hpp"
+#include "record/factor_list.hpp"
+
+namespace triptych::judge {
+namespace {
+
+// Two renderings of one truth differ only by rounding to float.
+constexpr double truth_tolerance = 1e-5;
+
+// A device's picture that can be held against another device's.
+struct Picture {
+  const record::Record* record;
+  core::Image image;
+  double rmse;  // from the truth
+};
+
+std::string describe(const ImageComparison& comparison) {
+  const ImageComparison::Place& worst = comparison.worst;
+  return fmt::format(
+      "worst at pixel ({}, {}): error {:.3g}, bound {:.3g}, ratio {:.3g}; largest error {:.3g}, "
+      "RMSE {:.3g}",
+      worst.x, worst.y, worst.error, worst.bound, worst.ratio, comparison.largest.error,
+      comparison.rmse);
+}
+
+void add_numbers(Finding& finding, const ImageComparison& comparison) {
+  set_number(finding, "max_error", comparison.largest.error);
+  set_number(finding, "error", comparison.worst.error);
+  set_number(finding, "bound", comparison.worst.bound);
+  set_number(finding, "ratio", comparison.worst.ratio);
+  set_number(finding, "x", comparison.worst.x);
+  set_number(finding, "y", comparison.worst.y);
+  set_number(finding, "rmse", comparison.rmse);
+  set_number(finding, "error_99", comparison.error_99);
+  set_number(finding, "pixels_over", static_cast<double>(comparison.over_bound));
+  set_number(finding, "pixels_not_finite", static_cast<double>(comparison.non_finite));
+  set_number(finding, "pixels_of_another_particle", static_cast<double>(comparison.wrong_ids));
+  set_number(finding, "pixels_at_another_depth", static_cast<double>(comparison.wrong_depths));
+}
+
+std::string particle_name(std::uint32_t id) {
+  return id == core::Image::no_particle ? "none" : fmt::format("particle {}", id);
+}
+
+std::string describe_surfaces(const ImageComparison& comparison, std::string_view name) {
+  const ImageComparison::Surface& first = comparison.first_wrong;
+  return fmt::format(
+      "{} of {} pixels show another particle than {}, {} more the right one at another depth; "
+      "first at pixel ({}, {}): {} at depth {:.6g}, expected {} at {:.6g} ± {:.3g}",
+      comparison.wrong_ids, comparison.pixels, name, comparison.wrong_depths, first.x, first.y,
+      particle_name(first.id), first.depth, particle_name(first.expected_id), first.expected_depth,
+      first.bound);
+}
+
+// What is wrong with a picture held against `name`; empty when nothing is.
+std::string fault(const ImageComparison& comparison, const core::Image& image,
+                  const core::Image& expected, std::string_view name) {
+  if (comparison.size_mismatch) {
+    return fmt::format("{}x{} pixels where {} has {}x{}", image.width, image.height, name,
+                       expected.width, expected.height);
+  }
+  if (comparison.non_finite > 0) {
+    return fmt::format("{} of {} pixels are not finite against {}", comparison.non_finite,
+                       comparison.pixels, name);
+  }
+  if (comparison.over_bound > 0) {
+    return fmt::format("{} of {} pixels are over the bound against {}; {}", comparison.over_bound,
+                       comparison.pixels, name, describe(comparison));
+  }
+  if (comparison.wrong_ids + comparison.wrong_depths > 0) {
+    return describe_surfaces(comparison, name);
+  }
+  return comparison.pixels == 0 ? std::string("the picture is empty") : std::string();
+}
+
+// Nothing but the scene and the technique is set: every device takes the path it prefers.
+bool on_default_path(const record::Record& record) {
+  const auto scene = record::parse_factor_list(record.scene);
+  const auto named = record::parse_factor_list(record.configuration);
+  return std::ranges::all_of(named, [&](const auto& level) {
+    return level.first == "technique" || scene.contains(level.first);
+  });
+}
+
+class SceneJudge {
+ public:
+  SceneJudge(const RunView& view, ImageFindings& out, std::string scene)
+      : view_(view), out_(out), scene_(std::move(scene)) {
+    if (view.baselines.present()) stored_ = view.baselines.image(scene_);
+  }
+
+  void judge(const record::Record& record) {
+    if (record.image.empty()) {
+      out_.findings.push_back(finding_about(record, Check::image, Verdict::cannot_judge,
+                                            "the record holds no picture; run the plan again"));
+      return;
+    }
+    TruthPair pair;
+    try {
+      pair = view_.request.truth(record);
+    } catch (const core::Error& error) {
+      out_.findings.push_back(finding_about(record, Check::image, Verdict::cannot_judge,
+                                            fmt::format("no truth to judge by: {}", error.what())));
+      return;
+    }
+    check_truth(pair);
+    core::Image image;
+    try {
+      image = core::decode_exr(view_.store.image(record.image));
+    } catch (const core::Error& error) {
+      out_.findings.push_back(
+          finding_about(record, Check::image, Verdict::cannot_judge,
+                        fmt::format("the store's picture cannot be read: {}", error.what())));
+      return;
+    }
+    judge_image(record, std::move(image), pair);
+  }
+
+  // Between devices, once every record of the scene was judged.
+  void judge_agreement() {
+    const Picture* left = nullptr;
+    const Picture* right = nullptr;
+    double largest = -1;
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+      for (std::size_t j = i + 1; j < pictures_.size(); ++j) {
+        if (pictures_[i].record->device == pictures_[j].record->device) continue;
+        const double rms = root_mean_square(pictures_[i].image, pictures_[j].image, bound_);
+        if (!(rms > largest)) continue;
+        std::tie(left, right, largest) = std::tuple(&pictures_[i], &pictures_[j], rms);
+      }
+    }
+    if (left == nullptr) return;
+    if (left->rmse > right->rmse) std::swap(left, right);
+    report_agreement(*left, *right, largest);
+  }
+
+ private:
+  void judge_image(const record::Record& record, core::Image image, const TruthPair& pair) {
+    const ImageComparison comparison = compare(image, pair.truth, pair.bound);
+    std::string wrong = fault(comparison, image, pair.truth, "the truth");
+    if (wrong.empty() && stored_) {
+      const auto against_stored = compare(image, *stored_, pair.bound, truth_tolerance);
+      wrong = fault(against_stored, image, *stored_, "the stored picture");
+    }
+    const bool right = wrong.empty();
+    Finding finding =
+        finding_about(record, Check::image, right ? Verdict::pass : Verdict::regression,
+                      right ? "within the bound of the truth; " + describe(comparison) : wrong);
+    add_numbers(finding, comparison);
+    out_.findings.push_back(std::move(finding));
+    if (!right) out_.wrong[{record.device, record.configuration}] = wrong;
+    if (right && on_default_path(record)) {
+      const double rmse = root_mean_square(image, pair.truth, pair.bound);
+      pictures_.push_back({&record, std::move(image), rmse});
+      if (!pair.bound.ids.empty()) bound_ = pair.bound;
+    }
+  }
+
+  // Once per scene: is the truth the one that was accepted?
+  void check_truth(const TruthPair& pair) {
+    if (truth_checked_ || !view_.baselines.present()) return;
+    truth_checked_ = true;
+    Finding finding = finding_about(view_, Check::image, Verdict::pass, {});
+    finding.configuration = scene_;
+    if (!stored_) {
+      finding.verdict = Verdict::cannot_judge;
+      finding.message =
+          fmt::format("no stored picture of this scene; accept one: {}", view_.accept_command());
+    } else {
+      const ImageComparison comparison = compare(pair.truth, *stored_, truth_tolerance);
+      add_numbers(finding, comparison);
+      std::string wrong = fault(comparison, pair.truth, *stored_, "the stored one");
+      if (wrong.empty()) {  // ids and depths, where they are certain
+        wrong = fault(compare(pair.truth, *stored_, pair.bound), pair.truth, *stored_,
+                      "the stored one");
+      }
+      finding.verdict = wrong.empty() ? Verdict::pass : Verdict::regression;
+      finding.message = wrong.empty()
+                            ? fmt::format("the truth is the stored one; largest difference {:.3g}",
+                                          comparison.largest.error)
+                            : "the scene or the truth changed: " + wrong;
+    }
+    out_.findings.push_back(std::move(finding));
+  }
+
+  void report_agreement(const Picture& nearer, const Picture& farther, double rms) {
+    const bool agree = rms < device_agreement;
+    std::string message =
+        fmt::format("{} and {} differ most on their default paths: RMS {:.3g}, allowed {:.3g}",
+                    nearer.record->device, farther.record->device, rms, device_agreement);
+    if (!agree) {
+      message += fmt::format(
+          "; {} is farther from the truth (RMSE {:.3g}, {} {:.3g}), both within their bounds",
+          farther.record->device, farther.rmse, nearer.record->device, nearer.rmse);
+    }
+    Finding finding =
+        finding_about(*farther.record, Check::image, agree ? Verdict::pass : Verdict::regression,
+                      std::move(message));
+    finding.configuration = scene_;
+    set_number(finding, "rms", rms);
+    set_number(finding, "allowed", device_agreement);
+    set_number(finding, "rmse", farther.rmse);
+    set_number(finding, "rmse_of_other", nearer.rmse);
+    out_.findings.push_back(std::move(finding));
+  }
+
+  const RunView& view_;
+  ImageFindings& out_;
+  std::string scene_;
+  std::optional<core::Image> stored_;
+  bool truth_checked_ = false;
+  std::vector<Picture> pictures_;
+  core::Image bound_;  // of a particle scene: says where ids are certain
+};
+
+// Records whose bits nothing stored can be held against, per device.
+struct Unheld {
+  std::size_t unknown = 0;
+  std::size_t other_code = 0;
+  std::size_t other_code_and_image = 0;
+};
+
+void check_bits_of(const RunView& view, const record::Record& record, Unheld& unheld,
+                   std::vector<Finding>& findings) {
+  const auto stored = view.baselines.bits(view.device(record), record.configuration);
+  if (!stored) {
+    ++unheld.unknown;
+  } else if (stored->kernel_hash != record.kernel_hash) {
+    ++unheld.other_code;
+    if (stored->image != record.image) ++unheld.other_code_and_image;
+  } else if (stored->image != record.image) {
+    findings.push_back(finding_about(
+        record, Check::image, Verdict::regression,
+        fmt::format("other bits from the same device and the same device code: image {}, stored {}",
+                    record.image, stored->image)));
+  }
+}
+
+std::string why_unknown(const Baselines& baselines, const record::Device& device) {
+  if (baselines.lost_bits(device)) return "though the history tells of them: restore the file";
+  if (baselines.accepted_before(device)) return "beside others of this device";
+  return "for this device key: " + device.key();
+}
+
+void report_unheld(const RunView& view, const record::Device& device, const Unheld& unheld,
+                   std::vector<Finding>& findings) {
+  if (unheld.unknown > 0) {
+    findings.push_back(finding_about(
+        view, device, Check::image, Verdict::advisory,
+        fmt::format("{} configurations have no stored bits {}; judged by their bounds alone",
+                    unheld.unknown, why_unknown(view.baselines, device))));
+  }
+  if (unheld.other_code > 0) {
+    findings.push_back(finding_about(
+        view, device, Check::image, Verdict::advisory,
+        fmt::format("the device code of {} configurations is not the stored one; in {} of them the "
+                    "bits differ, judged by their bounds alone",
+                    unheld.other_code, unheld.other_code_and_image)));
+  }
+}
+
+void check_bits(const RunView& view, std::vector<Finding>& findings) {
+  std::map<std::string, Unheld> unheld;
+  for (const record::Record* record : view.measured) {
+    if (!record->image.empty()) check_bits_of(view, *record, unheld[record->device], findings);
+  }
+  for (const auto& [id, counts] : unheld) {
+    report_unheld(view, view.devices.at(id), counts, findings);
+  }
+}
+
+}  // namespace
+
+std::string image_fault(const ImageComparison& comparison, const core::Image& image,
+                        const core::Image& expected, std::string_view name) {
+  return fault(comparison, image, expected, name);
+}
+
+ImageFindings check_images(const RunView& view) {
+  ImageFindings out;
+  if (!view.request.truth) {
+    out.findings.push_back(finding_about(view, Check::image, Verdict::cannot_judge,
+                                         "there is no truth to judge pictures by"));
+    return out;
+  }
+  std::map<std::string, std::vector<const record::Record*>> scenes;
+  for (const record::Record* record : view.measured) {
+    if (!is_anchor(*record)) scenes[record->scene].push_back(record);
+  }
+  for (const auto& [scene, records] : scenes) {
+    SceneJudge judge(view, out, scene);
+    for (const record::Record* record : records) judge.judge(*record);
+    judge.judge_agreement();
+  }
+  if (view.baselines.present()) check_bits(view, out.findings);
+  return out;
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "judge/gate/run_view.hpp"
+#include "judge/stress/stress.hpp"
+
+namespace triptych::judge {
+namespace {
+
+// A device that was never accepted is held to the worst of those that were.
+std::optional<int> allowed_on(const std::map<std::string, std::uint64_t>& stored,
+                              const std::string& device) {
+  const auto own = stored.find(device);
+  if (own != stored.end()) return static_cast<int>(own->second);
+  const auto least =
+      std::ranges::min_element(stored, {}, [](const auto& each) { return each.second; });
+  return least == stored.end() ? std::nullopt : std::optional(static_cast<int>(least->second));
+}
+
+Verdict verdict_of(int points, std::optional<int> accepted) {
+  if (!accepted) return Verdict::cannot_judge;
+  if (points < *accepted) return Verdict::regression;
+  if (points > *accepted) return Verdict::improved;
+  // What is accepted with less than all points stays in sight.
+  return points == best_stress_score ? Verdict::pass : Verdict::advisory;
+}
+
+Finding judge(const RunView& view, const StressScored& scored) {
+  const record::Record& record = *scored.record;
+  const int points = scored.score.points();
+  const auto accepted = allowed_on(view.baselines.scores(record.configuration), record.device);
+  std::string message = fmt::format("scores {} of {}", points, best_stress_score);
+  if (accepted) message += fmt::format(", accepted {}", *accepted);
+  if (!scored.score.lost.empty()) message += ": " + scored.score.lost;
+  if (!accepted) message += "; no stored score, accept it: " + view.accept_command();
+  Finding finding = finding_about(record, Check::stress, verdict_of(points, accepted), message);
+  set_number(finding, "score", points);
+  if (accepted) set_number(finding, "accepted", *accepted);
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Finding> check_stress(const RunView& view) {
+  std::vector<Finding> findings;
+  if (view.records.empty()) return findings;
+  if (!view.request.truth) {
+    findings.push_back(finding_about(view, Check::stress, Verdict::cannot_judge,
+                                     "there is no truth to judge pictures by"));
+    return findings;
+  }
+  // Devices that are not asked for say what those that are should show.
+  std::vector<record::Record> all = view.store.records(view.records.front().run);
+  std::erase_if(all,
+                [&](const record::Record& record) { return record.plan != view.request.plan; });
+  const StressTruths truths{view.request.truth, view.request.expectations};
+  for (const StressScored& scored : score_stress(view.store, all, truths)) {
+    if (view.devices.contains(scored.record->device)) findings.push_back(judge(view, scored));
+  }
+  return findings;
+}
+
+}  // namespace triptych::judge

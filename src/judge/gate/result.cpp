@@ -1,0 +1,242 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "core/json.hpp"
+#include "judge/gate/run_view.hpp"
+
+namespace triptych::judge {
+namespace {
+
+constexpr std::array<std::pair<Check, std::string_view>, 7> check_names{{
+    {Check::image, "image"},
+    {Check::counters, "counters"},
+    {Check::statistics, "statistics"},
+    {Check::timing, "timing"},
+    {Check::correlation, "correlation"},
+    {Check::accuracy, "accuracy"},
+    {Check::stress, "stress"},
+}};
+
+constexpr std::array<std::pair<Verdict, std::string_view>, 7> verdict_names{{
+    {Verdict::pass, "pass"},
+    {Verdict::improved, "improved"},
+    {Verdict::advisory, "advisory"},
+    {Verdict::skipped, "skipped"},
+    {Verdict::waived, "waived"},
+    {Verdict::cannot_judge, "cannot_judge"},
+    {Verdict::regression, "regression"},
+}};
+
+template <typename Table, typename Value>
+std::string_view name_in(const Table& table, Value value) {
+  for (const auto& [known, name] : table) {
+    if (known == value) return name;
+  }
+  return "unknown";
+}
+
+std::size_t count(const GateResult& result, Verdict verdict) {
+  return static_cast<std::size_t>(std::ranges::count(result.findings, verdict, &Finding::verdict));
+}
+
+std::string plural(std::size_t n, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+// Neither advice nor an excuse for saying nothing.
+bool is_decision(Verdict verdict) {
+  return verdict != Verdict::advisory && verdict != Verdict::skipped;
+}
+
+// " in image, timing on vulkan:lavapipe": where the findings of one verdict lie.
+std::string places(const GateResult& result, Verdict verdict) {
+  std::set<std::string_view> checks;
+  std::set<std::string_view> devices;
+  for (const Finding& finding : result.findings) {
+    if (finding.verdict != verdict) continue;
+    checks.insert(name_of(finding.check));
+    if (!finding.device.empty()) devices.insert(finding.device);
+  }
+  const std::string where = fmt::format(" in {}", fmt::join(checks, ", "));
+  return devices.empty() ? where : where + fmt::format(" on {}", fmt::join(devices, ", "));
+}
+
+// What one launch was not enough for.
+std::string launches(const GateResult& result) {
+  const std::vector<std::string> doubtful = result.left_in_doubt();
+  std::string text;
+  if (!result.measured_again.empty()) {
+    text += fmt::format("; by two launches: {}", fmt::join(result.measured_again, ", "));
+  }
+  if (!doubtful.empty()) {
+    text += fmt::format("; in doubt until --confirm: {}", fmt::join(doubtful, ", "));
+  }
+  return text;
+}
+
+// "; 96 checks, 4 devices; 2 improved, 3 waived, 12 advisory"
+std::string tally(const GateResult& result) {
+  std::set<std::string_view> devices;
+  for (const Finding& finding : result.findings) {
+    if (!finding.device.empty()) devices.insert(finding.device);
+  }
+  std::string text = fmt::format("{}, {}", plural(result.findings.size(), "check", "checks"),
+                                 plural(devices.size(), "device", "devices"));
+  std::string rest;
+  for (const Verdict verdict :
+       {Verdict::improved, Verdict::waived, Verdict::advisory, Verdict::skipped}) {
+    const std::size_t n = count(result, verdict);
+    if (n > 0) rest += fmt::format("{}{} {}", rest.empty() ? "; " : ", ", n, name_of(verdict));
+  }
+  return text + rest + launches(result);
+}
+
+}  // namespace
+
+std::string_view name_of(Check check) {
+  return name_in(check_names, check);
+}
+std::string_view name_of(Verdict verdict) {
+  return name_in(verdict_names, verdict);
+}
+
+Check check(std::string_view name) {
+  for (const auto& [known, text] : check_names) {
+    if (text == name) return known;
+  }
+  throw core::InputError(fmt::format(
+      "unknown check '{}'; expected image, counters, statistics, timing, correlation, accuracy or "
+      "stress",
+      name));
+}
+
+std::vector<std::string> GateResult::left_in_doubt() const {
+  std::vector<std::string> left;
+  std::ranges::set_difference(in_doubt, measured_again, std::back_inserter(left));
+  return left;
+}
+
+std::vector<std::string> GateResult::nothing_decided() const {
+  std::set<std::string> decided;
+  for (const Finding& finding : findings) {
+    if (is_decision(finding.verdict)) decided.insert(finding.device);
+  }
+  std::vector<std::string> without;
+  std::ranges::set_difference(devices, decided, std::back_inserter(without));
+  return without;
+}
+
+// A gate that decided nothing has not passed, and none that decided nothing of one of its devices.
+core::ExitCode GateResult::exit_code() const {
+  if (count(*this, Verdict::regression) > 0) return core::ExitCode::regression;
+  if (count(*this, Verdict::cannot_judge) > 0) return core::ExitCode::cannot_judge;
+  const bool decided = std::ranges::any_of(findings, is_decision, &Finding::verdict);
+  return decided && nothing_decided().empty() ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+}
+
+std::string GateResult::headline() const {
+  const std::size_t regressions = count(*this, Verdict::regression);
+  const std::size_t undecided = count(*this, Verdict::cannot_judge);
+  std::vector<std::string> parts;
+  if (regressions > 0) {
+    parts.push_back(plural(regressions, "regression", "regressions") +
+                    places(*this, Verdict::regression));
+  }
+  if (undecided > 0) {
+    parts.push_back(plural(undecided, "check", "checks") + " undecided" +
+                    places(*this, Verdict::cannot_judge));
+  }
+  switch (exit_code()) {
+    case core::ExitCode::pass:
+      return "PASS: " + tally(*this);
+    case core::ExitCode::regression:
+      return fmt::format("FAIL: {}; {}", fmt::join(parts, "; "), tally(*this));
+    default:
+      if (parts.empty()) {
+        parts.push_back(
+            nothing_decided().empty()
+                ? "nothing was decided"
+                : fmt::format("nothing was decided of {}", fmt::join(nothing_decided(), ", ")));
+      }
+      return fmt::format("CANNOT JUDGE: {}; {}", fmt::join(parts, "; "), tally(*this));
+  }
+}
+
+core::Json to_json(const GateResult& result) {
+  core::Json findings = core::Json::array();
+  for (const Finding& finding : result.findings) {
+    findings.push_back({{"check", name_of(finding.check)},
+                        {"verdict", name_of(finding.verdict)},
+                        {"test", finding.test},
+                        {"device", finding.device},
+                        {"configuration", finding.configuration},
+                        {"message", finding.message},
+                        {"numbers", core::Json(finding.numbers)}});
+  }
+  core::Json correlations = core::Json::array();
+  for (const CorrelationPair& pair : result.correlations) correlations.push_back(to_json(pair));
+  core::Json accuracies = core::Json::array();
+  for (const AccuracyScene& scene : result.accuracies) accuracies.push_back(to_json(scene));
+  return {{"plan", result.plan},
+          {"run", result.run},
+          {"exit_code", static_cast<int>(result.exit_code())},
+          {"headline", result.headline()},
+          {"findings", std::move(findings)},
+          {"in_doubt", result.in_doubt},
+          {"measured_again", result.measured_again},
+          {"correlations", std::move(correlations)},
+          {"accuracies", std::move(accuracies)}};
+}
+
+std::string RunView::plan_test(Check check) const {
+  std::string test = request.plan;
+  std::ranges::replace(test, '/', '.');
+  return fmt::format("{}.{}", test, name_of(check));
+}
+
+std::string RunView::accept_command() const {
+  return fmt::format("triptych accept {} --reason TEXT", request.plan);
+}
+
+std::string RunView::compare_command() const {
+  return "triptych compare " + record::plan_argument(request.plan);
+}
+
+Finding finding_about(const record::Record& record, Check check, Verdict verdict,
+                      std::string message) {
+  Finding finding{check,
+                  verdict,
+                  record.test_id(name_of(check)),
+                  record.device,
+                  record.configuration,
+                  std::move(message)};
+  if (!record.planted.empty()) finding.message += fmt::format(" [planted: {}]", record.planted);
+  return finding;
+}
+
+Finding finding_about(const RunView& view, const record::Device& device, Check check,
+                      Verdict verdict, std::string message) {
+  Finding finding{check, verdict, {}, device.id, {}, std::move(message)};
+  for (const record::Record& record : view.records) {
+    if (record.device == device.id) finding.test = record.test_id(name_of(check));
+  }
+  if (finding.test.empty()) finding.test = view.plan_test(check) + "." + device.id;
+  return finding;
+}
+
+Finding finding_about(const RunView& view, Check check, Verdict verdict, std::string message) {
+  return {check, verdict, view.plan_test(check), {}, {}, std::move(message)};
+}
+
+void set_number(Finding& finding, const std::string& name, double value) {
+  if (std::isfinite(value)) finding.numbers[name] = value;
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,84 @@
+#pragma once
+// What every check sees of a run, and how each check is called.
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "judge/gate/gate.hpp"
+
+namespace triptych::judge {
+
+struct RunView {
+  const record::Store& store;
+  const Baselines& baselines;
+  const GateRequest& request;
+  std::set<Check> checks;
+  std::vector<Launch> again;            // launches whose times are joined to the run's; each with
+                                        // the devices that it measured wholly
+  std::vector<record::Record> records;  // of the devices asked for
+  std::map<std::string, record::Device> devices;     // by id
+  std::vector<const record::Record*> measured;       // into `records`
+  std::vector<const record::Record*> of_other_data;  // measured, but not what was accepted
+
+  [[nodiscard]] const record::Device& device(const record::Record& record) const {
+    return devices.at(record.device);
+  }
+  // For findings that belong to no device: the test id without one.
+  [[nodiscard]] std::string plan_test(Check check) const;
+  // The command that would make or renew the baselines.
+  [[nodiscard]] std::string accept_command() const;
+  // The command that settles what stored runs leave open.
+  [[nodiscard]] std::string compare_command() const;
+};
+
+[[nodiscard]] Finding finding_about(const record::Record& record, Check check, Verdict verdict,
+                                    std::string message);
+// Of a device as a whole: no configuration.
+[[nodiscard]] Finding finding_about(const RunView& view, const record::Device& device, Check check,
+                                    Verdict verdict, std::string message);
+[[nodiscard]] Finding finding_about(const RunView& view, Check check, Verdict verdict,
+                                    std::string message);
+// Worst first, then by device and configuration.
+void sort_findings(std::vector<Finding>& findings);
+// Infinities and NaN are left out: JSON has none, and missing is not zero.
+void set_number(Finding& finding, const std::string& name, double value);
+
+// (device, configuration) → why its picture is wrong: its time means nothing.
+using WrongImages = std::map<std::pair<std::string, std::string>, std::string>;
+
+struct ImageFindings {
+  std::vector<Finding> findings;
+  WrongImages wrong;
+};
+
+[[nodiscard]] ImageFindings check_images(const RunView& view);
+[[nodiscard]] std::vector<Finding> check_counters(const RunView& view);
+[[nodiscard]] std::vector<Finding> check_statistics(const RunView& view);
+[[nodiscard]] std::vector<Finding> check_timings(const RunView& view, const WrongImages& wrong);
+
+struct CorrelationFindings {
+  std::vector<Finding> findings;
+  std::vector<CorrelationPair> pairs;
+};
+[[nodiscard]] CorrelationFindings check_correlations(const RunView& view, const WrongImages& wrong);
+
+struct AccuracyFindings {
+  std::vector<Finding> findings;
+  std::vector<AccuracyScene> scenes;
+};
+// Without baselines there are no findings, yet scenes.
+[[nodiscard]] AccuracyFindings check_accuracies(const RunView& view);
+
+// A finding per record that has a score, those that failed among them.
+[[nodiscard]] std::vector<Finding> check_stress(const RunView& view);
+
+// Whether waivers.json excuses what this check may find about the record, today.
+[[nodiscard]] bool is_waived(const RunView& view, const record::Record& record, Check check);
+
+// Turns regressions that waivers.json excuses into waived ones; says where a waiver has expired.
+void apply_waivers(const RunView& view, std::vector<Finding>& findings);
+
+}  // namespace triptych::judge

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/glob.hpp"
+#include "judge/gate/run_view.hpp"
+
+namespace triptych::judge {
+namespace {
+
+bool covers(const Waiver& waiver, const std::string& device, const std::string& test) {
+  return core::glob_matches(waiver.device, device) && core::glob_matches(waiver.test, test);
+}
+
+bool has_expired(const Waiver& waiver, const RunView& view) {
+  return view.request.today >= waiver.expiry;
+}
+
+// Whether the waiver is about anything this gate looked at; others belong to other plans.
+bool concerns(const Waiver& waiver, const RunView& view) {
+  return std::ranges::any_of(view.records, [&](const record::Record& record) {
+    return std::ranges::any_of(view.checks, [&](Check check) {
+      return covers(waiver, record.device, record.test_id(name_of(check)));
+    });
+  });
+}
+
+}  // namespace
+
+bool is_waived(const RunView& view, const record::Record& record, Check check) {
+  return std::ranges::any_of(view.baselines.waivers(), [&](const Waiver& waiver) {
+    return !has_expired(waiver, view) &&
+           covers(waiver, record.device, record.test_id(name_of(check)));
+  });
+}
+
+void apply_waivers(const RunView& view, std::vector<Finding>& findings) {
+  for (const Waiver& waiver : view.baselines.waivers()) {
+    bool used = false;
+    for (Finding& finding : findings) {
+      if (finding.verdict != Verdict::regression || !covers(waiver, finding.device, finding.test)) {
+        continue;
+      }
+      used = true;
+      if (has_expired(waiver, view)) {
+        finding.message +=
+            fmt::format("; a waiver for this expired on {} ({})", waiver.expiry, waiver.reason);
+      } else {
+        finding.verdict = Verdict::waived;
+        finding.message =
+            fmt::format("waived until {} ({}): {}", waiver.expiry, waiver.reason, finding.message);
+      }
+    }
+    if (!used && has_expired(waiver, view) && concerns(waiver, view)) {
+      findings.push_back(finding_about(
+          view, *view.checks.begin(), Verdict::advisory,
+          fmt::format("the waiver of {} on {} expired on {} and excuses nothing: take it out ({})",
+                      waiver.test, waiver.device, waiver.expiry, waiver.reason)));
+    }
+  }
+}
+
+}  // namespace triptych::judge

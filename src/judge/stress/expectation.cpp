@@ -1,0 +1,206 @@
+#include "judge/stress/expectation.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "record/factor_list.hpp"
+
+namespace triptych::judge {
+namespace {
+
+// Where a pixel of this picture lies in the other one.
+struct Place {
+  int x;
+  int y;
+};
+
+std::size_t index_of(const core::Image& image, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+         static_cast<std::size_t>(x);
+}
+
+bool same_bits(float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+
+// A picture, and the bound on it where bits are not asked for.
+struct Judged {
+  const core::Image& image;
+  core::Image bound = {};
+};
+
+// Compares pixel by pixel; the pictures have the sizes and channels that the rule asks for.
+class SameJudge {
+ public:
+  SameJudge(const record::SamePicture& rule, const Judged& one, const Judged& other)
+      : rule_(rule), one_(one), other_(other) {}
+
+  [[nodiscard]] std::string fault() const {
+    std::size_t wrong = 0;
+    Place first{-1, -1};
+    for (int y = 0; y < one_.image.height; ++y) {
+      for (int x = 0; x < one_.image.width; ++x) {
+        if (same(x, y)) continue;
+        if (wrong++ == 0) first = {x, y};
+      }
+    }
+    if (wrong == 0) return {};
+    const auto mine = one_.image.pixel(first.x, first.y);
+    const Place there = place(first.x, first.y);
+    const auto others = other_.image.pixel(there.x, there.y);
+    return fmt::format(
+        "{} of {} pixels differ {}, first ({}, {}): {:.9g} {:.9g} {:.9g} {:.9g} against {:.9g} "
+        "{:.9g} {:.9g} {:.9g}",
+        wrong, one_.image.pixel_count(),
+        rule_.to_the_bit ? "in their bits" : "by more than both bounds", first.x, first.y, mine[0],
+        mine[1], mine[2], mine[3], others[0], others[1], others[2], others[3]);
+  }
+
+ private:
+  [[nodiscard]] Place place(int x, int y) const {
+    return {rule_.at[0] + (rule_.mirrored_x ? one_.image.width - 1 - x : x),
+            rule_.at[1] + (rule_.mirrored_y ? one_.image.height - 1 - y : y)};
+  }
+
+  [[nodiscard]] bool same(int x, int y) const {
+    const Place there = place(x, y);
+    const std::size_t a = index_of(one_.image, x, y);
+    const std::size_t b = index_of(other_.image, there.x, there.y);
+    for (std::size_t channel = 0; channel < 4; ++channel) {
+      if (!alike(one_.image.rgba, one_.bound.rgba, 4 * a + channel, other_.image.rgba,
+                 other_.bound.rgba, 4 * b + channel)) {
+        return false;
+      }
+    }
+    // An id is certain where the bound's is 0; what is uncertain may be another surface.
+    const bool certain = rule_.to_the_bit || one_.bound.ids.empty() ||
+                         (one_.bound.ids[a] == 0 && other_.bound.ids[b] == 0);
+    if (one_.image.ids.empty() || !certain) return true;
+    if (rule_.same_ids && one_.image.ids[a] != other_.image.ids[b]) return false;
+    return alike(one_.image.depth, one_.bound.depth, a, other_.image.depth, other_.bound.depth, b,
+                 rule_.depth_scale);
+  }
+
+  [[nodiscard]] bool alike(const std::vector<float>& mine, const std::vector<float>& my_bound,
+                           std::size_t a, const std::vector<float>& theirs,
+                           const std::vector<float>& their_bound, std::size_t b,
+                           float scale = 1) const {
+    const float expected = scale * theirs[b];
+    if (rule_.to_the_bit || same_bits(mine[a], expected)) return same_bits(mine[a], expected);
+    return std::abs(static_cast<double>(mine[a]) - static_cast<double>(expected)) <=
+           static_cast<double>(my_bound[a]) + static_cast<double>(scale * their_bound[b]);
+  }
+
+  const record::SamePicture& rule_;
+  const Judged& one_;
+  const Judged& other_;
+};
+
+bool fits(const record::SamePicture& rule, const core::Image& image, const core::Image& other) {
+  return rule.at[0] >= 0 && rule.at[1] >= 0 && rule.at[0] + image.width <= other.width &&
+         rule.at[1] + image.height <= other.height && image.ids.empty() == other.ids.empty();
+}
+
+std::string unmet_rule(const record::SamePicture& rule, const record::Record& record,
+                       StressRun& run, const FindTruth& truth) {
+  const record::Record* other = run.other(record, rule.changed);
+  const core::Image* theirs = other == nullptr ? nullptr : run.picture(*other);
+  if (theirs == nullptr)
+    return fmt::format("there is no picture with {}", record::factor_list(rule.changed));
+  const core::Image& mine = *run.picture(record);
+  if (!fits(rule, mine, *theirs)) {
+    return fmt::format("{}x{} pixels at ({}, {}) do not lie in the other's {}x{}", mine.width,
+                       mine.height, rule.at[0], rule.at[1], theirs->width, theirs->height);
+  }
+  Judged one{mine};
+  Judged two{*theirs};
+  if (!rule.to_the_bit) {
+    one.bound = truth(record).bound;
+    two.bound = truth(*other).bound;
+  }
+  const std::string fault = SameJudge(rule, one, two).fault();
+  return fault.empty() ? fault : fmt::format("{} of {}", fault, record::factor_list(rule.changed));
+}
+
+std::string unmet_rule(const record::OneColour& rule, const record::Record& record, StressRun& run,
+                       const FindTruth& /*truth*/) {
+  const core::Image& image = *run.picture(record);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+    if (same_bits(image.rgba[i], rule.rgba[i % 4])) continue;
+    const std::size_t pixel = i / 4;
+    const auto width = static_cast<std::size_t>(image.width);
+    return fmt::format("pixel ({}, {}) channel {} is {:.9g}, not {:.9g}", pixel % width,
+                       pixel / width, i % 4, image.rgba[i], rule.rgba[i % 4]);
+  }
+  return {};
+}
+
+std::string unmet_rule(const record::CountAtMost& rule, const record::Record& record,
+                       StressRun& run, const FindTruth& /*truth*/) {
+  const auto count = record.counters.find(rule.counter);
+  if (count == record.counters.end()) return fmt::format("{} was not counted", rule.counter);
+  double most = rule.factor;
+  std::string limit = fmt::format("{:g}", rule.factor);
+  if (!rule.of.empty()) {
+    const record::Record* other = rule.changed.empty() ? &record : run.other(record, rule.changed);
+    const auto unit =
+        other == nullptr ? record::Counts::const_iterator{} : other->counters.find(rule.of);
+    if (other == nullptr || unit == other->counters.end()) {
+      return fmt::format("{} was not counted with {}", rule.of, record::factor_list(rule.changed));
+    }
+    most *= static_cast<double>(unit->second);
+    limit += fmt::format(" × {} {}", unit->second, rule.of);
+    if (!rule.changed.empty()) limit += " with " + record::factor_list(rule.changed);
+  }
+  if (static_cast<double>(count->second) <= most) return {};
+  return fmt::format("{} {}, at most {} allowed", count->second, rule.counter, limit);
+}
+
+std::string unmet_rule(const record::MayBeRefused& /*rule*/, const record::Record& /*record*/,
+                       StressRun& /*run*/, const FindTruth& /*truth*/) {
+  return {};
+}
+
+}  // namespace
+
+StressRun::StressRun(const record::Store& store, const std::vector<record::Record>& records)
+    : store_(store) {
+  for (const record::Record& record : records) {
+    index_.emplace(std::pair(record.device, record::parse_factor_list(record.configuration)),
+                   &record);
+  }
+}
+
+const record::Record* StressRun::other(const record::Record& record,
+                                       const record::Changed& changed) const {
+  Factors factors = record::parse_factor_list(record.configuration);
+  for (const auto& [factor, value] : changed) factors[factor] = value;
+  const auto found = index_.find({record.device, factors});
+  return found == index_.end() ? nullptr : found->second;
+}
+
+const core::Image* StressRun::picture(const record::Record& record) {
+  if (record.image.empty()) return nullptr;
+  const auto known = pictures_.find(record.image);
+  if (known != pictures_.end()) return &known->second;
+  try {
+    return &pictures_.emplace(record.image, core::decode_exr(store_.image(record.image)))
+                .first->second;
+  } catch (const core::Error&) {
+    return nullptr;
+  }
+}
+
+std::string unmet(const record::Expectation& expectation, const record::Record& record,
+                  StressRun& run, const FindTruth& truth) {
+  const std::string why = std::visit(
+      [&](const auto& rule) { return unmet_rule(rule, record, run, truth); }, expectation.rule);
+  return why.empty() ? why : fmt::format("expected: {}; {}", expectation.what, why);
+}
+
+}  // namespace triptych::judge
