@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "record/check.hpp"
+
 namespace triptych::record {
 
 enum class Outcome : std::uint8_t {
@@ -107,6 +109,13 @@ struct Record {
   double overhead_ns = 0;  // wall clock of this configuration outside device work and warm-up
   std::uint64_t peak_memory_bytes = 0;  // of the worker so far
 
+  // Instructions that the worker executed during one frame of the timed build, by whose memory they
+  // lay in: "device_code", "driver", "libc", "program"; and "allocations", calls for memory. Empty
+  // unless they were counted. `prepare_cost`: the same of preparing.
+  Counts cost;
+  Counts prepare_cost;
+  std::string counted_by;   // by what: emulator, its version, the processor it shows
+  Counts memory;            // bytes allocated on the device for this configuration, by kind
   Counts counters;          // ours; empty unless a counting frame was made
   Counts statistics;        // the driver's
   std::string image;        // content hash, key of Store::image(); empty when there is none
@@ -139,7 +148,10 @@ struct Run {
   std::string plan;
   std::string started_at;  // ISO 8601, UTC
   std::map<std::string, std::string>
-      system;  // processor, cores, memory, OS, kernel, compiler, version of Triptych
+      system;          // processor, cores, memory, OS, kernel, compiler, version of Triptych
+  Checks checks = {};  // those that its plan is for
+  std::string plan_hash = {};        // of the plan's text, and of what was set on the command line
+  std::uint64_t configurations = 0;  // of the plan
   // Id of the run of the same plan whose suspects this one measured again; empty: of none.
   std::string confirms = {};
 };

@@ -172,6 +172,10 @@ void visit_fields(auto& record, Visit&& visit) requires
   visit("prepare_ns", record.prepare_ns);
   visit("overhead_ns", record.overhead_ns);
   visit("peak_memory_bytes", record.peak_memory_bytes);
+  visit("cost", record.cost);
+  visit("prepare_cost", record.prepare_cost);
+  visit("counted_by", record.counted_by);
+  visit("memory", record.memory);
   visit("counters", record.counters);
   visit("statistics", record.statistics);
   visit("image", record.image);
@@ -188,6 +192,8 @@ void visit_fields(auto& run,
   visit("plan", run.plan);
   visit("started_at", run.started_at);
   visit("system", run.system);
+  visit("plan_hash", run.plan_hash);
+  visit("configurations", run.configurations);
   visit("confirms", run.confirms);
 }
 
@@ -218,9 +224,13 @@ void from_json(const Json& json, ClockTrust& trust) {
 }
 void to_json(Json& json, const Run& run) {
   write_fields(json, run);
+  json["checks"] = text_of(run.checks);
 }
 void from_json(const Json& json, Run& run) {
   read_fields(json, run);
+  std::string checks;
+  read(json, "checks", checks);
+  run.checks = checks_of(checks);
 }
 
 void to_json(Json& json, const Record& record) {

@@ -27,18 +27,20 @@ std::map<std::string, std::string> map_of(const std::string& text) {
 Run read_run(SQLite::Statement& row) {
   Run run;
   std::string system;
-  Reader(row) >> run.id >> run.plan >> run.started_at >> system >> run.confirms;
+  std::string checks;
+  Reader(row) >> run.id >> run.plan >> run.started_at >> system >> checks >> run.plan_hash >>
+      run.configurations >> run.confirms;
   run.system = map_of(system);
+  run.checks = checks_of(checks);
   return run;
 }
 
-// Runs in the order of read_run. The table of confirmations is missing from a store that was read
-// but never written since there is one.
-std::string select_runs(const SQLite::Database& database, std::string_view rest) {
-  const bool known = database.tableExists("confirmation");
+// Runs in the order of read_run.
+std::string select_runs(std::string_view rest) {
   return fmt::format(
-      "SELECT id, plan, started_at, system, {} AS confirms FROM run {}",
-      known ? "coalesce((SELECT c.confirms FROM confirmation c WHERE c.run = run.id), '')" : "''",
+      "SELECT id, plan, started_at, system, checks, plan_hash, configurations, "
+      "coalesce((SELECT c.confirms FROM confirmation c WHERE c.run = run.id), '') AS confirms "
+      "FROM run {}",
       rest);
 }
 
@@ -57,11 +59,9 @@ std::vector<ClockTrust> read_clocks(const SQLite::Database& database, std::uint6
   return clocks;
 }
 
-// A store that no newer program has added to has no such table.
 std::map<std::string, std::string> read_dialect(const SQLite::Database& database,
                                                 std::uint64_t device) {
   std::map<std::string, std::string> dialect;
-  if (!database.tableExists("dialect")) return dialect;
   SQLite::Statement rows =
       prepared(database, "SELECT statistic, verdict FROM dialect WHERE device = ?", device);
   while (rows.executeStep()) {
@@ -122,10 +122,14 @@ void Store::add_run(const Run& run) {
   const std::string system = text_of(run.system, "system", run);
   state_->write([&] {
     execute(state_->database,
-            "INSERT INTO run (id, plan, started_at, system) VALUES (?, ?, ?, ?) "
+            "INSERT INTO run (id, plan, started_at, system, checks, plan_hash, configurations) "
+            "VALUES (?, ?, ?, ?, ?, ?, ?) "
             "ON CONFLICT (id) DO UPDATE SET plan = excluded.plan, "
-            "started_at = excluded.started_at, system = excluded.system",
-            run.id, run.plan, run.started_at, system);
+            "started_at = excluded.started_at, system = excluded.system, "
+            "checks = excluded.checks, plan_hash = excluded.plan_hash, "
+            "configurations = excluded.configurations",
+            run.id, run.plan, run.started_at, system, text_of(run.checks), run.plan_hash,
+            run.configurations);
     if (run.confirms.empty()) return;
     execute(state_->database, "INSERT OR REPLACE INTO confirmation (run, confirms) VALUES (?, ?)",
             run.id, run.confirms);
@@ -218,7 +222,7 @@ void Store::set_truth(const TruthImage& truth) {
 std::vector<Run> Store::runs() const {
   return on_store(state_->file, [&] {
     std::vector<Run> runs;
-    SQLite::Statement rows(state_->database, select_runs(state_->database, "ORDER BY seq"));
+    SQLite::Statement rows(state_->database, select_runs("ORDER BY seq"));
     while (rows.executeStep()) runs.push_back(read_run(rows));
     return runs;
   });
@@ -226,10 +230,9 @@ std::vector<Run> Store::runs() const {
 
 std::optional<Run> Store::latest_run(std::string_view plan) const {
   return on_store(state_->file, [&]() -> std::optional<Run> {
-    SQLite::Statement row = prepared(
-        state_->database,
-        select_runs(state_->database, "WHERE plan = ? AND confirms = '' ORDER BY seq DESC LIMIT 1"),
-        plan);
+    SQLite::Statement row =
+        prepared(state_->database,
+                 select_runs("WHERE plan = ? AND confirms = '' ORDER BY seq DESC LIMIT 1"), plan);
     if (!row.executeStep()) return std::nullopt;
     return read_run(row);
   });

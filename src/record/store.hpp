@@ -27,7 +27,7 @@ struct TruthImage {
 
 class Store {
  public:
-  static constexpr int schema_version = 1;
+  static constexpr int schema_version = 2;
   enum class Mode { read, append };  // append creates the file when it is missing
 
   // Throws IoError (cannot open, read-only, disk full) and InputError (not a store, or of another

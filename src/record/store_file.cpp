@@ -22,7 +22,10 @@ CREATE TABLE run (
   id TEXT NOT NULL UNIQUE,
   plan TEXT NOT NULL,
   started_at TEXT NOT NULL,
-  system TEXT NOT NULL
+  system TEXT NOT NULL,
+  checks TEXT NOT NULL,
+  plan_hash TEXT NOT NULL,
+  configurations INTEGER NOT NULL
 ) STRICT;
 CREATE INDEX run_of_plan ON run (plan, seq);
 
@@ -85,6 +88,7 @@ CREATE TABLE record (
   image TEXT NOT NULL,
   data_hash TEXT NOT NULL,
   kernel_hash TEXT NOT NULL,
+  counted_by TEXT NOT NULL,
   benchmark_json TEXT NOT NULL,
   UNIQUE (run, configuration, device)
 ) STRICT;
@@ -103,6 +107,24 @@ CREATE TABLE factor (
   PRIMARY KEY (record, name)
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE counter (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  value INTEGER NOT NULL,
+  PRIMARY KEY (record, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE cost (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  value INTEGER NOT NULL,
+  PRIMARY KEY (record, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE prepare_cost (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  value INTEGER NOT NULL,
+  PRIMARY KEY (record, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE memory (
   record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
   name TEXT NOT NULL,
   value INTEGER NOT NULL,
@@ -132,34 +154,28 @@ CREATE TABLE truth (
   bound BLOB NOT NULL,
   PRIMARY KEY (scene, version)
 ) STRICT;
-)sql";
 
-// Came after version 1 had been in use. It only adds to it: a store without it is one whose devices
-// have no dialect known, whose records no rounds and were all measured themselves, and whose runs
-// confirm no other and have nothing under way, and a program that does not know it reads the rest
-// as before.
-constexpr const char* later_schema = R"sql(
-CREATE TABLE IF NOT EXISTS dialect (
+CREATE TABLE dialect (
   device INTEGER NOT NULL REFERENCES device (seq) ON DELETE CASCADE,
   statistic TEXT NOT NULL,
   verdict TEXT NOT NULL,
   PRIMARY KEY (device, statistic)
 ) STRICT, WITHOUT ROWID;
-CREATE TABLE IF NOT EXISTS round (
+CREATE TABLE round (
   record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
   round INTEGER NOT NULL,
   ns REAL,
   PRIMARY KEY (record, round)
 ) STRICT, WITHOUT ROWID;
-CREATE TABLE IF NOT EXISTS same_as (
+CREATE TABLE same_as (
   record INTEGER PRIMARY KEY REFERENCES record (seq) ON DELETE CASCADE,
   configuration TEXT NOT NULL
 ) STRICT;
-CREATE TABLE IF NOT EXISTS confirmation (
+CREATE TABLE confirmation (
   run TEXT PRIMARY KEY REFERENCES run (id) ON DELETE CASCADE,
   confirms TEXT NOT NULL REFERENCES run (id) ON DELETE CASCADE
 ) STRICT;
-CREATE TABLE IF NOT EXISTS begun (
+CREATE TABLE begun (
   run TEXT NOT NULL REFERENCES run (id) ON DELETE CASCADE,
   configuration TEXT NOT NULL,
   device TEXT NOT NULL,
@@ -196,7 +212,7 @@ void require_our_schema(const SQLite::Database& database, const std::filesystem:
                   "another file with --store",
                   found, Store::schema_version,
                   found > Store::schema_version ? "use the newer Triptych that wrote it"
-                                                : "use the older Triptych that wrote it"));
+                                                : "measure again, or use the older Triptych"));
 }
 
 // The log of a writer that did not close: without it the newest records would be missing unnoticed.
@@ -278,7 +294,6 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
   // (Store::begin_record).
   database.exec("PRAGMA synchronous = NORMAL");
   database.exec("PRAGMA foreign_keys = ON");
-  database.exec(later_schema);
   return database;
 }
 

@@ -20,7 +20,8 @@ namespace {
 constexpr std::string_view record_columns =
     "run, suite, plan, configuration, scene, technique, device, outcome, reason, planted, "
     "device_clock_trusted, warm_up_frames, frames_per_100ms, loop_wall_ns, loop_frames, "
-    "prepare_ns, overhead_ns, peak_memory_bytes, image, data_hash, kernel_hash, benchmark_json";
+    "prepare_ns, overhead_ns, peak_memory_bytes, image, data_hash, kernel_hash, counted_by, "
+    "benchmark_json";
 constexpr std::string_view derived_columns =
     "clock, frames, median_ns, median_wall_ns, median_device_ns";
 
@@ -41,7 +42,8 @@ std::int64_t insert_row(const SQLite::Database& database, const Record& r) {
           r.run, r.suite, r.plan, r.configuration, r.scene, r.technique, r.device,
           name_of(r.outcome), r.reason, r.planted, r.device_clock_trusted, r.warm_up_frames,
           r.frames_per_100ms, r.loop_wall_ns, r.loop_frames, r.prepare_ns, r.overhead_ns,
-          r.peak_memory_bytes, r.image, r.data_hash, r.kernel_hash, r.benchmark_json,  //
+          r.peak_memory_bytes, r.image, r.data_hash, r.kernel_hash, r.counted_by,
+          r.benchmark_json,  //
           r.clock(), r.time_ns().size(), median(r.time_ns()), median(r.wall_ns),
           median(r.device_ns));
   return database.getLastInsertRowid();
@@ -55,7 +57,7 @@ void read_row(SQLite::Statement& row, std::int64_t& seq, Record& r) {
       r.device >> outcome_name >> r.reason >> r.planted >> r.device_clock_trusted >>
       r.warm_up_frames >> r.frames_per_100ms >> r.loop_wall_ns >> r.loop_frames >> r.prepare_ns >>
       r.overhead_ns >> r.peak_memory_bytes >> r.image >> r.data_hash >> r.kernel_hash >>
-      r.benchmark_json;
+      r.counted_by >> r.benchmark_json;
   seq = static_cast<std::int64_t>(number);
   r.outcome = outcome(outcome_name);
 }
@@ -95,13 +97,11 @@ std::int64_t seq_of(const SQLite::Database& database, const Record& r) {
 using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
 
 // Calls `read(record, row)` for every row of a table under the run's records; `columns` are those
-// behind the first, which names the record. A table that came after version 1 of the schema is
-// missing from a store that was read but never written since: its records have no such rows.
+// behind the first, which names the record.
 template <typename Read>
 void read_rows(const SQLite::Database& database, std::string_view table, std::string_view columns,
                std::string_view order, std::string_view run, const RecordsBySeq& records,
                const Read& read) {
-  if (!database.tableExists(std::string(table))) return;
   SQLite::Statement rows = prepared(
       database,
       fmt::format("SELECT t.record, {} FROM record r JOIN {} t ON t.record = r.seq WHERE r.run = ? "
@@ -147,6 +147,9 @@ void insert_record(const SQLite::Database& database, const Record& r) {
   insert_times(database, seq, r);
   insert_map(database, "factor", seq, r.factors);
   insert_map(database, "counter", seq, r.counters);
+  insert_map(database, "cost", seq, r.cost);
+  insert_map(database, "prepare_cost", seq, r.prepare_cost);
+  insert_map(database, "memory", seq, r.memory);
   insert_map(database, "statistic", seq, r.statistics);
   insert_map(database, "precision", seq, r.precision);
   if (!r.same_as.empty()) execute(database, "INSERT INTO same_as VALUES (?, ?)", seq, r.same_as);
@@ -176,6 +179,9 @@ std::vector<Record> read_records(const SQLite::Database& database, std::string_v
   read_times(database, run, by_seq);
   read_map(database, "factor", run, by_seq, &Record::factors);
   read_map(database, "counter", run, by_seq, &Record::counters);
+  read_map(database, "cost", run, by_seq, &Record::cost);
+  read_map(database, "prepare_cost", run, by_seq, &Record::prepare_cost);
+  read_map(database, "memory", run, by_seq, &Record::memory);
   read_map(database, "statistic", run, by_seq, &Record::statistics);
   read_map(database, "precision", run, by_seq, &Record::precision);
   read_rows(database, "same_as", "t.configuration", "t.record", run, by_seq,

@@ -23,19 +23,11 @@
 
 namespace triptych::judge {
 
-enum class Check : std::uint8_t {
-  image,
-  counters,
-  statistics,
-  timing,
-  correlation,
-  accuracy,
-  stress
-};
-[[nodiscard]] std::string_view name_of(Check check);
+using record::Check;
+using record::check;
+using record::name_of;
 // What one launch on a busy machine cannot decide.
 [[nodiscard]] bool is_of_times(Check check);
-[[nodiscard]] Check check(std::string_view name);  // throws InputError
 
 enum class Verdict : std::uint8_t {
   pass,

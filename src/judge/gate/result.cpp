@@ -14,16 +14,6 @@
 namespace triptych::judge {
 namespace {
 
-constexpr std::array<std::pair<Check, std::string_view>, 7> check_names{{
-    {Check::image, "image"},
-    {Check::counters, "counters"},
-    {Check::statistics, "statistics"},
-    {Check::timing, "timing"},
-    {Check::correlation, "correlation"},
-    {Check::accuracy, "accuracy"},
-    {Check::stress, "stress"},
-}};
-
 constexpr std::array<std::pair<Verdict, std::string_view>, 7> verdict_names{{
     {Verdict::pass, "pass"},
     {Verdict::improved, "improved"},
@@ -100,21 +90,8 @@ std::string tally(const GateResult& result) {
 
 }  // namespace
 
-std::string_view name_of(Check check) {
-  return name_in(check_names, check);
-}
 std::string_view name_of(Verdict verdict) {
   return name_in(verdict_names, verdict);
-}
-
-Check check(std::string_view name) {
-  for (const auto& [known, text] : check_names) {
-    if (text == name) return known;
-  }
-  throw core::InputError(fmt::format(
-      "unknown check '{}'; expected image, counters, statistics, timing, correlation, accuracy or "
-      "stress",
-      name));
 }
 
 std::vector<std::string> GateResult::left_in_doubt() const {

@@ -1,0 +1,30 @@
+#pragma once
+// What may be judged of a run. A plan says which of them it is for; the judge answers each.
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace triptych::record {
+
+enum class Check : std::uint8_t {
+  image,        // against the reference, within a derived bound
+  counters,     // ours, exact
+  statistics,   // the driver's pipeline statistics, exact by driver version
+  cost,         // instructions per frame, by driver version
+  memory,       // bytes allocated on the device, exact
+  timing,       // shown; decides only on request
+  correlation,  // cost of one device along the line of another's
+  accuracy,     // orders of convergence and error against run time
+  stress        // scores of hostile scenes
+};
+[[nodiscard]] std::string_view name_of(Check check);
+[[nodiscard]] Check check(std::string_view name);  // throws InputError
+
+using Checks = std::set<Check>;
+// "image,counters"; empty text for none. Throws InputError for a name that is no check.
+[[nodiscard]] std::string text_of(const Checks& checks);
+[[nodiscard]] Checks checks_of(std::string_view text);
+
+}  // namespace triptych::record
