@@ -13,6 +13,18 @@ function(triptych_floor room out)
   message(FATAL_ERROR "room '${room}' has no floor; add it to TRIPTYCH_FLOORS in cmake/room.cmake")
 endfunction()
 
+# What nearly every file includes, parsed once per target: half of the time of a build.
+set(TRIPTYCH_COMMON_HEADERS
+  <algorithm> <array> <chrono> <cmath> <filesystem> <functional> <map> <memory> <optional> <ranges> <set> <span>
+  <string> <string_view> <variant> <vector> <fmt/format.h> <nlohmann/json.hpp>)
+
+# Rooms that compute pictures are optimised as far as the compiler can. The others wait for them; a quarter of a
+# build's time is saved by -O1 there.
+set(TRIPTYCH_COMPUTING_ROOMS core scene technique reference)
+function(triptych_optimise_less target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # triptych_room(NAME SOURCES file... [ROOMS room...] [PUBLIC lib...] [PRIVATE lib...])
 # A static library triptych_NAME that sees the headers of the rooms it names and no others above it.
 function(triptych_room name)
@@ -20,7 +32,11 @@ function(triptych_room name)
   triptych_floor(${name} own)
   add_library(triptych_${name} STATIC ${arg_SOURCES})
   target_include_directories(triptych_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
-  target_link_libraries(triptych_${name} PRIVATE triptych_options)
+  target_link_libraries(triptych_${name} PRIVATE triptych_options fmt::fmt nlohmann_json::nlohmann_json)
+  target_precompile_headers(triptych_${name} PRIVATE ${TRIPTYCH_COMMON_HEADERS})
+  if(NOT name IN_LIST TRIPTYCH_COMPUTING_ROOMS AND NOT name MATCHES "^backend_")
+    triptych_optimise_less(triptych_${name})
+  endif()
   foreach(room IN LISTS arg_ROOMS)
     triptych_floor(${room} other)
     if(NOT other LESS own)
@@ -40,6 +56,8 @@ function(triptych_test name)
   foreach(room IN LISTS arg_ROOMS)
     target_link_libraries(${name} PRIVATE triptych_${room})
   endforeach()
+  triptych_optimise_less(${name})
+  target_precompile_headers(${name} PRIVATE ${TRIPTYCH_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
   endif()
