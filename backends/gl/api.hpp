@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/code_place.hpp"
+#include "measure/memory_ledger.hpp"
 
 namespace triptych::gl_backend {
 
@@ -25,6 +26,8 @@ struct Api : GladGLContext {
   // Throws core::DeviceLost or core::ApiError when any call since the last check failed; `call`
   // names the last of them, or the one that matters.
   void check(std::string_view call, core::CodePlace place = core::CodePlace::current()) const;
+
+  measure::MemoryLedger held;  // by textures, renderbuffers and buffers of this context
 
   [[nodiscard]] std::string text(GLenum name) const;  // glGetString; empty for null
   [[nodiscard]] std::int64_t limit(GLenum name) const;

@@ -107,6 +107,8 @@ class GlDevice final : public measure::Device {
     return filter_error_.at(static_cast<std::size_t>(path.voxel));
   }
 
+  [[nodiscard]] record::Counts memory() const override { return context_->gl().held.counts(); }
+
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override {
     if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
     const Current current(*context_);

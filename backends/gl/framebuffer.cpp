@@ -6,11 +6,27 @@
 
 namespace triptych::gl_backend {
 
+namespace {
+
+// Of a pixel in the formats that are drawn to.
+std::uint64_t bytes_of(GLenum format) {
+  switch (format) {
+    case GL_RGBA32F:
+      return 16;
+    default:
+      return 4;  // one channel, depth
+  }
+}
+
+}  // namespace
+
 Renderbuffer pixels(const Api& gl, GLenum format, int width, int height) {
   Renderbuffer buffer(gl);
   gl.BindRenderbuffer(GL_RENDERBUFFER, buffer.get());
   gl.RenderbufferStorage(GL_RENDERBUFFER, format, width, height);
   gl.check("glRenderbufferStorage");
+  buffer.holds(gl.held.image(bytes_of(format) * static_cast<std::uint64_t>(width) *
+                             static_cast<std::uint64_t>(height)));
   return buffer;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "backends/gl/api.hpp"
+#include "measure/memory_ledger.hpp"
 
 namespace triptych::gl_backend {
 
@@ -13,11 +14,13 @@ class Object {
  public:
   Object() = default;
   explicit Object(const Api& gl) : gl_(&gl) { (gl.*Generate)(1, &name_); }
-  Object(Object&& other) noexcept : gl_(other.gl_), name_(other.release()) {}
+  Object(Object&& other) noexcept
+      : gl_(other.gl_), name_(other.release()), held_(std::move(other.held_)) {}
   Object& operator=(Object&& other) noexcept {
     Object moved(std::move(other));
     std::swap(gl_, moved.gl_);
     std::swap(name_, moved.name_);
+    std::swap(held_, moved.held_);
     return *this;
   }
   Object(const Object&) = delete;
@@ -28,9 +31,13 @@ class Object {
   [[nodiscard]] GLuint get() const noexcept { return name_; }
   [[nodiscard]] GLuint release() noexcept { return std::exchange(name_, 0U); }
 
+  // The memory that was given to it.
+  void holds(measure::MemoryLedger::Entry memory) { held_ = std::move(memory); }
+
  private:
   const Api* gl_ = nullptr;
   GLuint name_ = 0;
+  measure::MemoryLedger::Entry held_;
 };
 
 using Buffer = Object<&GladGLContext::GenBuffers, &GladGLContext::DeleteBuffers>;

@@ -31,8 +31,9 @@ Buffer filled_buffer(const Api& gl, std::size_t size, const Fill& fill) {
   constexpr std::size_t most_at_once = std::size_t{4} << 20U;
   Buffer buffer(gl);
   gl.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.get());
-  gl.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(std::max<std::size_t>(size, 16)),
-                nullptr, GL_STATIC_DRAW);
+  const std::size_t whole = std::max<std::size_t>(size, 16);
+  gl.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(whole), nullptr, GL_STATIC_DRAW);
+  buffer.holds(gl.held.buffer(whole));
   std::vector<std::byte> memory(std::min(size, most_at_once));
   for (std::size_t begin = 0; begin < size; begin += memory.size()) {
     const std::span piece = std::span(memory).first(std::min(memory.size(), size - begin));

@@ -33,6 +33,7 @@ Texture transfer_texture(const Api& gl, const scene::TransferFunction& function)
   gl.TexImage1D(GL_TEXTURE_1D, 0, GL_RGBA32F, static_cast<GLsizei>(function.entries.size()), 0,
                 GL_RGBA, GL_FLOAT, function.entries.data());
   gl.check("glTexImage1D");
+  texture.holds(gl.held.image(std::as_bytes(std::span(function.entries)).size()));
   return texture;
 }
 
@@ -75,6 +76,7 @@ Texture volume_texture(const Api& gl, const scene::VoxelGrid& grid, bool linear)
   gl.TexImage3D(GL_TEXTURE_3D, 0, static_cast<GLint>(format.internal), grid.size[0], grid.size[1],
                 grid.size[2], 0, GL_RED, format.type, grid.data.data());
   gl.check("glTexImage3D");
+  texture.holds(gl.held.image(grid.data.size()));
   return texture;
 }
 
@@ -84,6 +86,7 @@ Buffer constant_buffer(const Api& gl, std::span<const std::byte> bytes) {
   gl.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes.size()), bytes.data(),
                 GL_STATIC_DRAW);
   gl.check("glBufferData");
+  buffer.holds(gl.held.buffer(bytes.size()));
   return buffer;
 }
 
@@ -92,6 +95,7 @@ Buffer device_buffer(const Api& gl, std::size_t size) {
   gl.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.get());
   gl.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(size), nullptr, GL_DYNAMIC_COPY);
   gl.check("glBufferData");
+  buffer.holds(gl.held.buffer(size));
   return buffer;
 }
 

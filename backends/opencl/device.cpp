@@ -65,6 +65,7 @@ class Device final : public measure::Device {
   [[nodiscard]] std::optional<std::string> unsupported(const measure::Work& work) const override;
   [[nodiscard]] measure::VolumePath default_path(scene::VoxelFormat native) const override;
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override;
+  [[nodiscard]] record::Counts memory() const override { return session_.held.counts(); }
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
 
  private:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -91,6 +92,33 @@ bool means_lost(cl_int code) {
 std::string code_name(cl_int code) {
   const auto* found = std::ranges::find(codes, code, &Code::value);
   return found == codes.end() ? fmt::format("error {}", code) : std::string(found->name);
+}
+
+namespace {
+
+// For as long as the driver keeps the object: others may hold references to it.
+void enter(cl::Memory& object, measure::MemoryLedger::Entry entry) {
+  auto held = std::make_unique<measure::MemoryLedger::Entry>(std::move(entry));
+  object.setDestructorCallback(
+      [](cl_mem, void* data) { delete static_cast<measure::MemoryLedger::Entry*>(data); },
+      held.get());
+  static_cast<void>(held.release());
+}
+
+}  // namespace
+
+cl::Buffer make_buffer(const Session& session, cl_mem_flags flags, std::size_t bytes) {
+  cl::Buffer buffer(session.context, flags, bytes);
+  enter(buffer, session.held.buffer(bytes));
+  return buffer;
+}
+
+cl::Image3D make_image(const Session& session, const cl::ImageFormat& format,
+                       const std::array<std::size_t, 3>& size) {
+  cl::Image3D image(session.context, CL_MEM_READ_ONLY, format, size[0], size[1], size[2]);
+  enter(image, session.held.image(image.getImageInfo<CL_IMAGE_ELEMENT_SIZE>() * size[0] * size[1] *
+                                  size[2]));
+  return image;
 }
 
 void throw_api_error(const cl::Error& error, core::CodePlace place) {

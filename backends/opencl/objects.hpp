@@ -6,10 +6,12 @@
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
 #define CL_HPP_TARGET_OPENCL_VERSION 120
 #include <CL/opencl.hpp>
+#include <array>
 #include <string>
 #include <utility>
 
 #include "core/code_place.hpp"
+#include "measure/memory_ledger.hpp"
 
 namespace triptych::opencl_backend {
 
@@ -36,6 +38,12 @@ struct Session {
   cl::CommandQueue queue;  // in order, with profiling
   // Samples per batch of the kernels (volume.cl).
   int batch = 1;
+  measure::MemoryLedger held = {};  // by what make_buffer and make_image made
 };
+
+// Both enter what they make into the session's ledger. Throw cl::Error.
+[[nodiscard]] cl::Buffer make_buffer(const Session& session, cl_mem_flags flags, std::size_t bytes);
+[[nodiscard]] cl::Image3D make_image(const Session& session, const cl::ImageFormat& format,
+                                     const std::array<std::size_t, 3>& size);
 
 }  // namespace triptych::opencl_backend

@@ -17,7 +17,7 @@ cl::Buffer upload_property(const Session& session, const technique::Arrangement&
   constexpr std::size_t smallest = 16;                         // a buffer of no bytes is an error
   constexpr std::size_t most_at_once = std::size_t{4} << 20U;  // whole elements of any property
   const std::size_t size = arrangement.bytes(property);
-  const cl::Buffer buffer(session.context, CL_MEM_READ_ONLY, std::max(size, smallest));
+  const cl::Buffer buffer = make_buffer(session, CL_MEM_READ_ONLY, std::max(size, smallest));
   std::vector<std::byte> memory(std::min(size, most_at_once));
   for (std::size_t begin = 0; begin < size; begin += memory.size()) {
     const std::span piece = std::span(memory).first(std::min(memory.size(), size - begin));

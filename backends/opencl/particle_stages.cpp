@@ -58,8 +58,8 @@ ParticleStages::ParticleStages(const Session& session, ParticleData data,
 cl::Buffer ParticleStages::make_buffer(std::size_t words) const {
   constexpr std::size_t fewest = 4;  // a buffer of no bytes is an error
   return checked([&] {
-    return cl::Buffer(session_.context, CL_MEM_READ_WRITE,
-                      std::max(words, fewest) * sizeof(cl_uint));
+    return opencl_backend::make_buffer(session_, CL_MEM_READ_WRITE,
+                                       std::max(words, fewest) * sizeof(cl_uint));
   });
 }
 

@@ -49,7 +49,7 @@ void copy_bordered_slice(const scene::VoxelGrid& grid, int k, std::vector<std::b
 cl::Buffer upload_buffer(const Session& session, const scene::VoxelGrid& grid) {
   const std::size_t bytes = bordered_voxels(grid.size) * scene::bytes_of(grid.format);
   const std::size_t slices = to_size(grid.size[2]) + 2;
-  const cl::Buffer buffer(session.context, CL_MEM_READ_ONLY, bytes);
+  const cl::Buffer buffer = make_buffer(session, CL_MEM_READ_ONLY, bytes);
   std::vector<std::byte> slice(bytes / slices);
   for (std::size_t k = 0; k < slices; ++k) {
     copy_bordered_slice(grid, static_cast<int>(k), slice);
@@ -72,7 +72,7 @@ cl::Image3D upload_image(const Session& session, const scene::VoxelGrid& grid) {
   if (!format) throw core::NotSupported("no 3D image format for these voxels");
   const std::array<std::size_t, 3> size{to_size(grid.size[0]), to_size(grid.size[1]),
                                         to_size(grid.size[2])};
-  const cl::Image3D image(session.context, CL_MEM_READ_ONLY, *format, size[0], size[1], size[2]);
+  const cl::Image3D image = make_image(session, *format, size);
   const std::size_t slice = size[0] * size[1] * scene::bytes_of(grid.format);
   for (std::size_t k = 0; k < size[2]; ++k) {
     const std::span voxels(grid.data.data() + k * slice, slice);

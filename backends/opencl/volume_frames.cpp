@@ -72,11 +72,10 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
     bricks_ = upload_bytes(session, std::as_bytes(std::span(map)));
     const int stride = work.options.extra_work_stride;
     image_ =
-        cl::Buffer(session.context, CL_MEM_WRITE_ONLY,
-                   4 * sizeof(float) *
-                       static_cast<std::size_t>(technique::drawn_pixels(width_, height_, stride)));
-    counters_ =
-        cl::Buffer(session.context, CL_MEM_WRITE_ONLY, counts_.size() * sizeof(std::uint32_t));
+        make_buffer(session, CL_MEM_WRITE_ONLY,
+                    4 * sizeof(float) *
+                        static_cast<std::size_t>(technique::drawn_pixels(width_, height_, stride)));
+    counters_ = make_buffer(session, CL_MEM_WRITE_ONLY, counts_.size() * sizeof(std::uint32_t));
     parameters_ = upload_bytes(session, parameters);
     timed_.push_back(launch(timed, technique::drawn_columns(width_, stride)));
     counting_.push_back(launch(counting, width_));

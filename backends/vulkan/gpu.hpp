@@ -6,6 +6,7 @@
 
 #include "backends/vulkan/pipelines.hpp"
 #include "backends/vulkan/vulkan.hpp"
+#include "measure/memory_ledger.hpp"
 
 namespace triptych::vulkan_backend {
 
@@ -22,6 +23,7 @@ struct Gpu {
   vk::raii::Queue queue;
   vk::raii::CommandPool commands;
   std::unique_ptr<Pipelines> pipelines;
+  measure::MemoryLedger held = {};  // by buffers and images
 
   [[nodiscard]] bool is_cpu() const {
     return properties.deviceType == vk::PhysicalDeviceType::eCpu;

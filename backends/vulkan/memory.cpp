@@ -64,7 +64,9 @@ Buffer::Buffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, 
     : size_(size),
       memory_(nullptr),
       buffer_(gpu.device, vk::BufferCreateInfo{.size = size, .usage = usage}) {
-  memory_ = allocate(gpu, buffer_.getMemoryRequirements(), place);
+  const vk::MemoryRequirements needed = buffer_.getMemoryRequirements();
+  memory_ = allocate(gpu, needed, place);
+  held_ = gpu.held.buffer(needed.size);
   buffer_.bindMemory(*memory_, 0);
   if (place == Place::device) return;
   mapped_ = {static_cast<std::byte*>(memory_.mapMemory(0, size)), static_cast<std::size_t>(size)};
@@ -82,7 +84,9 @@ Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D
                                              .arrayLayers = 1,
                                              .usage = usage}),
       view_(nullptr) {
-  memory_ = allocate(gpu, image_.getMemoryRequirements(), Place::device);
+  const vk::MemoryRequirements needed = image_.getMemoryRequirements();
+  memory_ = allocate(gpu, needed, Place::device);
+  held_ = gpu.held.image(needed.size);
   image_.bindMemory(*memory_, 0);
   // The three image types and their plain view types have the same numbers.
   view_ = {gpu.device, vk::ImageViewCreateInfo{.image = *image_,

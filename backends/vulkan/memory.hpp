@@ -31,6 +31,7 @@ class Buffer {
   vk::raii::DeviceMemory memory_;
   vk::raii::Buffer buffer_;
   std::span<std::byte> mapped_;
+  measure::MemoryLedger::Entry held_;
 };
 
 // A VkImage of one level and layer in device memory, with its VkImageView.
@@ -56,6 +57,7 @@ class Image {
   vk::raii::DeviceMemory memory_;
   vk::raii::Image image_;
   vk::raii::ImageView view_;
+  measure::MemoryLedger::Entry held_;
 };
 
 // Writes the bytes of a buffer that begin at `begin`.

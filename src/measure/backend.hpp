@@ -114,6 +114,10 @@ class Device {
   // Sampler::manual.
   [[nodiscard]] virtual double filter_weight_error(const VolumePath& path) const = 0;
 
+  // Bytes that the backend holds on the device now, as "buffers" and "images". What a driver takes
+  // for itself is not among them. Empty where nobody counts them.
+  [[nodiscard]] virtual record::Counts memory() const { return {}; }
+
   // Throws NotSupported, ApiError, DeviceLost.
   [[nodiscard]] virtual std::unique_ptr<Prepared> prepare(const Work& work) = 0;
 };

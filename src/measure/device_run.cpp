@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "measure/counting/emulator.hpp"
 #include "measure/rounds.hpp"
 #include "measure/stopwatch.hpp"
 
@@ -24,27 +25,76 @@ Turn ended_turn(record::Outcome outcome, std::string reason) {
   return {.outcome = outcome, .reason = std::move(reason), .wall_ns = {}, .device_ns = {}};
 }
 
+// A worker under the emulator has caches of its own: its code is made for another processor.
+std::string cache_name(const Plan& plan, const std::string& device) {
+  return plan.counted() ? device + "-counted" : device;
+}
+
+// Compiling for the first time takes the emulator minutes where it takes a processor seconds.
+constexpr std::chrono::seconds counted_limit{600};
+
+WorkerSetup setup_for(const RunContext& context, const std::string& device,
+                      const CacheFolder& cache) {
+  WorkerSetup setup{.device = device,
+                    .command = context.options.worker_command,
+                    .environment = {},
+                    .limit = context.options.start_limit};
+  std::vector<std::string> overrides;
+  if (context.plan.counted()) {
+    setup.limit = counted_limit;
+    for (const std::string_view each : counting_environment()) overrides.emplace_back(each);
+    if (const auto* emulator = std::get_if<Emulator>(&find_emulator())) {
+      setup.command = emulated(*emulator, std::move(setup.command), cache.path().string());
+    }
+  }
+  setup.environment = worker_environment(device, cache, overrides);
+  return setup;
+}
+
 }  // namespace
 
 DeviceRun::DeviceRun(const RunContext& context, std::string device)
     : context_(context),
       device_(std::move(device)),
-      cache_(device_),
-      seat_({.device = device_,
-             .command = context.options.worker_command,
-             .environment = worker_environment(device_, cache_),
-             .limit = context.options.start_limit},
-            context.interrupts) {
+      cache_(cache_name(context.plan, device_)),
+      seat_(setup_for(context, device_, cache_), context.interrupts) {
   remember();
 }
 
 Done DeviceRun::perform(const Configuration& configuration, const std::string& key,
                         const OnLoading& on_loading) {
   const Job job = this->job(configuration, key);
-  Done done = ensure_worker() ? ask(job, on_loading)
-                              : Done{ended(record::Outcome::failed, seat_.why_closed())};
+  Done done;
+  if (const auto reason = no_emulator()) {
+    done = {ended(record::Outcome::skipped, *reason)};
+  } else if (!ensure_worker()) {
+    done = {ended(record::Outcome::failed, seat_.why_closed())};
+  } else if (job.protocol.counted && known_->cpu_features.empty()) {
+    done = {ended(record::Outcome::skipped,
+                  "its instructions cannot be counted: it does not compute on the processor")};
+  } else {
+    done = ask(job, on_loading);
+  }
+  if (job.protocol.counted) only_counted(done.record);
   sign(job, key, done.record);
   return done;
+}
+
+// What fails under the emulator says nothing of the device: other plans draw the same natively.
+void DeviceRun::only_counted(record::Record& record) const {
+  if (record.outcome == record::Outcome::measured) {
+    record.counted_by = std::get<Emulator>(find_emulator()).name;
+  } else if (record.outcome != record::Outcome::skipped) {
+    record.reason =
+        fmt::format("{} under the emulator: {}", name_of(record.outcome), record.reason);
+    record.outcome = record::Outcome::skipped;
+  }
+}
+
+std::optional<std::string> DeviceRun::no_emulator() const {
+  if (!context_.plan.counted()) return std::nullopt;
+  if (const auto* reason = std::get_if<std::string>(&find_emulator())) return *reason;
+  return std::nullopt;
 }
 
 Done DeviceRun::pass_by(const Configuration& configuration, const std::string& key,
@@ -102,9 +152,12 @@ void DeviceRun::remember() {
 
 Protocol DeviceRun::protocol() const {
   Protocol protocol = context_.options.protocol;
-  protocol.timed = protocol.timed && context_.plan.timed;
+  protocol.timed = protocol.timed && context_.plan.timed();
+  protocol.counted = context_.plan.counted();
+  protocol.statistics =
+      protocol.statistics && context_.plan.checks.contains(record::Check::statistics);
   // A plan for pictures alone asks for each of them: that two are alike is what it tests.
-  protocol.measure_every = protocol.measure_every || !context_.plan.timed;
+  protocol.measure_every = protocol.measure_every || !context_.plan.timed();
   return protocol;
 }
 
@@ -175,7 +228,10 @@ Turn DeviceRun::turn(const Message& message, const OnLoading& on_loading) {
 template <typename As>
 auto DeviceRun::exchange(const Message& message, As as, const OnLoading& on_loading)
     -> std::variant<typename std::invoke_result_t<As, Message>::value_type, Ended> {
-  WorkerLink::Reply reply = seat_.worker().ask(message, context_.options.limit, on_loading);
+  const std::chrono::seconds limit = context_.plan.counted()
+                                         ? std::max(counted_limit, context_.options.limit)
+                                         : context_.options.limit;
+  WorkerLink::Reply reply = seat_.worker().ask(message, limit, on_loading);
   std::optional<Ended> ended;
   if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
     ended = {record::Outcome::crashed, std::move(died->reason)};

@@ -90,6 +90,10 @@ class DeviceRun {
   [[nodiscard]] auto exchange(const Message& message, As as, const OnLoading& on_loading)
       -> std::variant<typename std::invoke_result_t<As, Message>::value_type, Ended>;
 
+  void only_counted(record::Record& record) const;
+  // Of a plan that counts, why nothing can be counted here; else nothing.
+  [[nodiscard]] std::optional<std::string> no_emulator() const;
+
   const RunContext& context_;
   std::string device_;
   CacheFolder cache_;

@@ -62,6 +62,14 @@ FileDescriptor try_lock(const std::filesystem::path& folder) {
   return lock;
 }
 
+std::string with_cache(std::string entry, const CacheFolder& cache) {
+  constexpr std::string_view place = "{cache}";
+  if (const std::size_t at = entry.find(place); at != std::string::npos) {
+    entry.replace(at, place.size(), cache.path().string());
+  }
+  return entry;
+}
+
 std::string_view name_in(std::string_view entry) {
   return entry.substr(0, entry.find('='));
 }
@@ -89,7 +97,8 @@ CacheFolder::CacheFolder(std::string_view device_id) {
 
 std::vector<std::string> worker_environment(std::string_view device_id, const CacheFolder& cache,
                                             std::span<const std::string> overrides) {
-  std::vector<std::string> result(overrides.begin(), overrides.end());
+  std::vector<std::string> result;
+  for (const std::string& entry : overrides) result.push_back(with_cache(entry, cache));
   const auto overridden = [&](std::string_view name) {
     return std::ranges::any_of(overrides,
                                [&](const std::string& entry) { return name_in(entry) == name; });
@@ -103,9 +112,7 @@ std::vector<std::string> worker_environment(std::string_view device_id, const Ca
     const bool set = std::ranges::any_of(
         result, [&](const std::string& entry) { return name_in(entry) == each.name; });
     if (set || !device_id.starts_with(each.api)) continue;
-    result.push_back(
-        fmt::format("{}={}", each.name,
-                    each.value == "{cache}" ? cache.path().string() : std::string(each.value)));
+    result.push_back(with_cache(fmt::format("{}={}", each.name, each.value), cache));
   }
   return result;
 }

@@ -39,7 +39,7 @@ class CacheFolder {
 
 // The whole environment of a worker for this device, "NAME=VALUE" each: the caller's own without
 // what would change how benchmarks are run (BENCHMARK_*), with the defaults it lacks. `overrides`,
-// "NAME=VALUE" each, win over both.
+// "NAME=VALUE" each, win over both; "{cache}" in one stands for the folder.
 [[nodiscard]] std::vector<std::string> worker_environment(
     std::string_view device_id, const CacheFolder& cache,
     std::span<const std::string> overrides = {});

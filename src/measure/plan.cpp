@@ -116,6 +116,15 @@ const Suite& suite_of(const PlanSource& source, const PlanText& text, const Find
   }
 }
 
+std::string hash_of(const std::string& yaml, const Overrides& overrides) {
+  std::string text = yaml;
+  for (const auto& [factor, values] : overrides) {
+    text += '\0' + factor;
+    for (const std::string& value : values) text += '\0' + value;
+  }
+  return core::content_hash(text);
+}
+
 // Of one set of values or more, each with all its combinations; none is there twice.
 Plan make_plan(const std::string& name, const Suite& suite,
                const std::vector<ValuesByFactor>& blocks) {
@@ -124,7 +133,7 @@ Plan make_plan(const std::string& name, const Suite& suite,
             .summary = {},
             .configurations = {},
             .varied = {},
-            .timed = true,
+            .checks = Plan::standard_checks(),
             .rounds = 1,
             .hash = {}};
   for (const ValuesByFactor& values : blocks) {
@@ -146,6 +155,11 @@ Plan make_plan(const std::string& name, const Suite& suite,
 
 }  // namespace
 
+record::Checks Plan::standard_checks() {
+  using record::Check;
+  return {Check::image, Check::counters, Check::statistics, Check::memory, Check::timing};
+}
+
 std::string plan_name(std::string_view name_or_file) {
   return is_short_name(name_or_file) ? std::string(name_or_file)
                                      : std::filesystem::path(name_or_file).stem().string();
@@ -164,9 +178,9 @@ Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
   }
   Plan plan = make_plan(source.name, suite, blocks);
   plan.summary = text.summary;
-  plan.timed = text.timed;
+  if (!text.checks.empty()) plan.checks = text.checks;
   plan.rounds = text.rounds;
-  plan.hash = core::content_hash(source.yaml);
+  plan.hash = hash_of(source.yaml, overrides);
   return plan;
 }
 

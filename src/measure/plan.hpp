@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "measure/suite.hpp"
+#include "record/check.hpp"
 
 namespace triptych::measure {
 
@@ -18,12 +19,17 @@ struct Plan {
   std::vector<Configuration>
       configurations;               // in order: data varies slowest, then pipelines, then views
   std::vector<std::string> varied;  // factors with more than one value
-  // Of `timed: false` only pictures and counters are wanted: one frame each, no clocks.
-  bool timed = true;
+  // What its runs are judged by. Only what they need is measured: no clock is read where timing is
+  // not among them, and where cost is, workers run under the emulator and draw for nothing else.
+  record::Checks checks = standard_checks();
   // Passes over the plan, most of all; what is settled earlier is left out (measure/rounds.hpp).
   int rounds = 1;
-  // Of its text: another plan of the same name has another. Empty where it has no text.
+  // Of its text and of what was set over it: another plan of the same name has another.
   std::string hash;
+
+  [[nodiscard]] static record::Checks standard_checks();
+  [[nodiscard]] bool timed() const { return checks.contains(record::Check::timing); }
+  [[nodiscard]] bool counted() const { return checks.contains(record::Check::cost); }
 };
 
 // Overrides from the command line: "--set factor=a,b".

@@ -84,6 +84,7 @@ void take_over(record::Record& record, const record::Record& measured) {
   record.rounds_ns = measured.rounds_ns;
   record.loop_wall_ns = measured.loop_wall_ns;
   record.loop_frames = measured.loop_frames;
+  record.memory = measured.memory;
   record.counters = measured.counters;
   record.statistics = measured.statistics;
   record.image = measured.image;
@@ -138,7 +139,7 @@ void PlanRun::further_round(std::size_t round, const Stopwatch& run) {
 
 std::size_t PlanRun::most_rounds() const {
   constexpr std::size_t most_within_budget = 32;
-  if (!context_.plan.timed || !context_.options.protocol.timed) return 1;
+  if (!context_.plan.timed() || !context_.options.protocol.timed) return 1;
   if (context_.options.rounds) return static_cast<std::size_t>(*context_.options.rounds);
   return context_.options.budget ? most_within_budget
                                  : static_cast<std::size_t>(context_.plan.rounds);

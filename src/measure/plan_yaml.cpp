@@ -58,11 +58,23 @@ std::vector<PlacedText> values_of(const YAML::Node& node, const std::string& fil
   return values;
 }
 
-bool truth_value(const PlacedText& value) {
-  if (value.text == "true") return true;
-  if (value.text == "false") return false;
-  throw core::InputError(value.place,
-                         fmt::format("'timed': expected true or false, found '{}'", value.text));
+record::Checks checks_of(const std::vector<PlacedText>& names) {
+  record::Checks checks;
+  for (const PlacedText& name : names) {
+    try {
+      if (!checks.insert(record::check(name.text)).second) {
+        throw core::InputError(fmt::format("'{}' is given twice", name.text));
+      }
+    } catch (const core::InputError& error) {
+      throw core::InputError(name.place, fmt::format("'checks': {}", error.what()));
+    }
+  }
+  if (checks.contains(record::Check::cost) && checks.contains(record::Check::timing)) {
+    throw core::InputError(names.front().place,
+                           "'checks': cost and timing exclude each other, as instructions are "
+                           "counted in an emulator; make two plans");
+  }
+  return checks;
 }
 
 int number_of_rounds(const PlacedText& value) {
@@ -123,8 +135,8 @@ PlanText parse_plan(std::string_view yaml, const std::string& file) {
       plan.suite = scalar(pair.second, file, key.text);
     } else if (key.text == "summary") {
       plan.summary = scalar(pair.second, file, key.text).text;
-    } else if (key.text == "timed") {
-      plan.timed = truth_value(scalar(pair.second, file, key.text));
+    } else if (key.text == "checks") {
+      plan.checks = checks_of(values_of(pair.second, file, key.text));
     } else if (key.text == "rounds") {
       plan.rounds = number_of_rounds(scalar(pair.second, file, key.text));
     } else if (key.text == "also") {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "record/check.hpp"
 
 namespace triptych::measure {
 
@@ -23,7 +24,7 @@ struct PlanEntry {
 struct PlanText {
   PlacedText suite;
   std::string summary;
-  bool timed = true;
+  record::Checks checks;  // empty where it says none
   int rounds = 1;
   std::vector<PlanEntry> entries;  // in the order of the file, no factor twice
   // What stands under `also`: further combinations, by entries in the place of those above.

@@ -102,7 +102,7 @@ std::string image_hash(const core::Image& image) {
 
 namespace {
 
-Measurement picture_alone(Prepared& prepared, const Protocol& protocol) {
+Measurement untimed(Prepared& prepared, const Protocol& protocol) {
   const Stopwatch whole;
   Measurement result;
   record::Record& record = result.record;
@@ -110,6 +110,11 @@ Measurement picture_alone(Prepared& prepared, const Protocol& protocol) {
   static_cast<void>(prepared.frame(Purpose::timing));
   double work_ns = drawing.ns();
   result.image = prepared.image();
+  if (protocol.statistics) {
+    const Stopwatch querying;
+    record.statistics = prepared.frame(Purpose::statistics).counts;
+    work_ns += querying.ns();
+  }
   if (protocol.counters) {
     const Stopwatch counting;
     record.counters = prepared.frame(Purpose::counters).counts;
@@ -124,9 +129,19 @@ Measurement picture_alone(Prepared& prepared, const Protocol& protocol) {
 
 }  // namespace
 
+record::Record count_instructions(Prepared& prepared, const InstructionCounter& counter) {
+  constexpr int frames_before = 2;
+  for (int i = 0; i < frames_before; ++i) static_cast<void>(prepared.frame(Purpose::timing));
+  record::Record record;
+  static_cast<void>(counter.counting(record.cost, [&] { return prepared.frame(Purpose::timing); }));
+  record.kernel_hash = prepared.kernel_hash();
+  record.outcome = record::Outcome::measured;
+  return record;
+}
+
 Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Work work_kind,
                     const std::vector<record::ClockTrust>& clocks, const std::string& name) {
-  if (!protocol.timed) return picture_alone(prepared, protocol);
+  if (!protocol.timed) return untimed(prepared, protocol);
   const Stopwatch whole;
   initialize_benchmarks();
   Measurement result;

@@ -9,6 +9,7 @@
 
 #include "core/image.hpp"
 #include "measure/backend.hpp"
+#include "measure/counting/instruction_counter.hpp"
 #include "record/record.hpp"
 
 namespace triptych::measure {
@@ -27,6 +28,8 @@ struct Protocol {
   // Else one frame for its picture and one for our counters: nothing is warmed up, and no time,
   // statistic or benchmark is told.
   bool timed = true;
+  // Nothing but the instructions of the third frame (counting/emulator.hpp).
+  bool counted = false;
   // Else a configuration that does the very work of one before (measure/twins.hpp) takes over what
   // that one told.
   bool measure_every = false;
@@ -43,6 +46,11 @@ struct Measurement {
                                   technique::Work work_kind,
                                   const std::vector<record::ClockTrust>& clocks,
                                   const std::string& name);
+
+// Nothing but the instructions of one frame, the third: drivers compile late and set up once within
+// the first two. The n-th frame is only ever compared with the n-th.
+[[nodiscard]] record::Record count_instructions(Prepared& prepared,
+                                                const InstructionCounter& counter);
 
 // Device time of a calibration work against its wall time, frame by frame. Trusted when the ratio
 // of every frame lies within ClockLimits (measure/clock.hpp), one late wake-up among five or more

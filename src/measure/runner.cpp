@@ -25,29 +25,27 @@ std::string utc_now(const char* format) {
   return fmt::format(fmt::runtime(fmt::format("{{:{}}}", format)), fmt::gmtime(now));
 }
 
-constexpr const char* hash_fact = "plan hash";  // in record::Run::system
-
 record::Run new_run(const Plan& plan) {
   std::random_device entropy;
-  auto facts = system_facts();
-  if (!plan.hash.empty()) facts[hash_fact] = plan.hash;
   return {.id = fmt::format("{}-{:08x}", utc_now("%Y%m%dT%H%M%SZ"), entropy()),
           .plan = plan.name,
           .started_at = utc_now("%Y-%m-%dT%H:%M:%SZ"),
-          .system = std::move(facts)};
+          .system = system_facts(),
+          .checks = plan.checks,
+          .plan_hash = plan.hash,
+          .configurations = plan.configurations.size()};
 }
 
 // The kinds of work whose clocks are needed.
 std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
-  return plan.timed && protocol.timed ? work_kinds(plan) : std::vector<std::string>{};
+  return plan.timed() && protocol.timed ? work_kinds(plan) : std::vector<std::string>{};
 }
 
 // A file's runs are known by its name alone. Where its text is not the one that a run began with,
 // the run must hold nothing that the plan would not measure now.
 void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& suite,
                          const record::Store& store) {
-  const auto hash = run.system.find(hash_fact);
-  if (hash == run.system.end() || hash->second == plan.hash) return;
+  if (run.plan_hash == plan.hash) return;
   std::set<std::string> keys;
   for (const Configuration& each : plan.configurations) {
     keys.insert(configuration_key(suite, each));

@@ -107,6 +107,7 @@ Json to_json(const Protocol& protocol) {
           {"statistics", protocol.statistics},
           {"counters", protocol.counters},
           {"timed", protocol.timed},
+          {"counted", protocol.counted},
           {"measure_every", protocol.measure_every}};
 }
 
@@ -118,6 +119,7 @@ Protocol protocol_from(const Json& json) {
           .statistics = json.at("statistics"),
           .counters = json.at("counters"),
           .timed = json.at("timed"),
+          .counted = json.at("counted"),
           .measure_every = json.at("measure_every")};
 }
 

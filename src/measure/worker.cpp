@@ -199,6 +199,7 @@ class Worker {
       answer.record.factors = std::move(configuration);
       return;
     }
+    if (job.protocol.counted) return count(job, work, std::move(configuration), answer);
     const auto prepared = device_->prepare(work);
     const double prepare_ns = whole.ns();
     answer.record.prepare_ns = prepare_ns;
@@ -208,6 +209,7 @@ class Worker {
                                    technique::technique(work.technique).work, clocks_, job.name);
     measuring_ns_ = measuring.ns();
     answer.record = std::move(measured.record);
+    answer.record.memory = device_->memory();
     answer.record.prepare_ns = prepare_ns;
     answer.record.factors = std::move(configuration);
     describe_work(work, *device_, answer.record);
@@ -221,10 +223,24 @@ class Worker {
     }
   }
 
+  // Under the emulator: instructions, and nothing that would need a clock.
+  void count(const Job&, const Work& work, Configuration configuration, Answer& answer) {
+    if (!counter_) counter_ = InstructionCounter::of_this_process();
+    if (!counter_) throw core::NotSupported("this worker's instructions are not counted");
+    record::Counts prepare_cost;
+    const auto prepared = counter_->counting(prepare_cost, [&] { return device_->prepare(work); });
+    answer.record = count_instructions(*prepared, *counter_);
+    answer.record.memory = device_->memory();
+    answer.record.prepare_cost = std::move(prepare_cost);
+    answer.record.factors = std::move(configuration);
+    describe_work(work, *device_, answer.record);
+  }
+
   std::unique_ptr<Device> device_;
   Suite& suite_;
   record::Device info_;
   std::vector<record::ClockTrust> clocks_;
+  std::optional<InstructionCounter> counter_;
   std::unique_ptr<Prepared> held_;
   Twins twins_;
   std::string data_;         // of the configuration that is being worked on

@@ -151,7 +151,7 @@ struct Run {
       system;          // processor, cores, memory, OS, kernel, compiler, version of Triptych
   Checks checks = {};  // those that its plan is for
   std::string plan_hash = {};        // of the plan's text, and of what was set on the command line
-  std::uint64_t configurations = 0;  // of the plan
+  std::uint64_t configurations = 0;  // that it was to measure on each device
   // Id of the run of the same plan whose suspects this one measured again; empty: of none.
   std::string confirms = {};
 };

@@ -1,0 +1,66 @@
+#pragma once
+// What a backend holds on its device, kept by the backend's own objects.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "record/record.hpp"
+
+namespace triptych::measure {
+
+class MemoryLedger {
+  struct Sums {
+    std::atomic<std::uint64_t> buffers{0};
+    std::atomic<std::uint64_t> images{0};
+  };
+  using Sum = std::atomic<std::uint64_t> Sums::*;
+
+ public:
+  // Bytes of one object, until it is destroyed. It may outlive the ledger and end on any thread, as
+  // a driver's callback does.
+  class Entry {
+   public:
+    Entry() = default;
+    Entry(Entry&& other) noexcept { swap(other); }
+    Entry& operator=(Entry&& other) noexcept {
+      Entry moved(std::move(other));
+      swap(moved);
+      return *this;
+    }
+    Entry(const Entry&) = delete;
+    Entry& operator=(const Entry&) = delete;
+    ~Entry() {
+      if (sums_) *sums_.*sum_ -= bytes_;
+    }
+
+   private:
+    friend class MemoryLedger;
+    Entry(std::shared_ptr<Sums> sums, Sum sum, std::uint64_t bytes)
+        : sums_(std::move(sums)), sum_(sum), bytes_(bytes) {
+      *sums_.*sum_ += bytes_;
+    }
+    void swap(Entry& other) noexcept {
+      std::swap(sums_, other.sums_);
+      std::swap(sum_, other.sum_);
+      std::swap(bytes_, other.bytes_);
+    }
+    std::shared_ptr<Sums> sums_;
+    Sum sum_ = &Sums::buffers;
+    std::uint64_t bytes_ = 0;
+  };
+
+  [[nodiscard]] Entry buffer(std::uint64_t bytes) const { return {sums_, &Sums::buffers, bytes}; }
+  [[nodiscard]] Entry image(std::uint64_t bytes) const { return {sums_, &Sums::images, bytes}; }
+
+  // Device::memory().
+  [[nodiscard]] record::Counts counts() const {
+    return {{"buffers", sums_->buffers}, {"images", sums_->images}};
+  }
+
+ private:
+  std::shared_ptr<Sums> sums_ = std::make_shared<Sums>();
+};
+
+}  // namespace triptych::measure
