@@ -125,7 +125,6 @@ Plan make_plan(const std::string& name, const Suite& suite,
             .configurations = {},
             .varied = {},
             .timed = true,
-            .rounds = 1,
             .hash = {}};
   for (const ValuesByFactor& values : blocks) {
     std::vector<Configuration> all = all_combinations(suite, values, name);
@@ -165,7 +164,6 @@ Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
   Plan plan = make_plan(source.name, suite, blocks);
   plan.summary = text.summary;
   plan.timed = text.timed;
-  plan.rounds = text.rounds;
   plan.hash = core::content_hash(source.yaml);
   return plan;
 }

@@ -20,8 +20,6 @@ struct Plan {
   std::vector<std::string> varied;  // factors with more than one value
   // Of `timed: false` only pictures and counters are wanted: one frame each, no clocks.
   bool timed = true;
-  // Passes over the plan, most of all; what is settled earlier is left out (measure/rounds.hpp).
-  int rounds = 1;
   // Of its text: another plan of the same name has another. Empty where it has no text.
   std::string hash;
 };
