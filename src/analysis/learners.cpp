@@ -1,11 +1,13 @@
-#include "judge/analysis/learners.hpp"
+#include "analysis/learners.hpp"
 
 #include <opencv2/ml.hpp>
 
 #include "core/error.hpp"
 #include "judge/statistics/statistics.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
+
+using judge::mean;
 namespace {
 
 int as_int(std::size_t value) {
@@ -127,4 +129,4 @@ std::optional<double> r_squared(std::span<const double> values, std::span<const 
   return 1 - rest / total;
 }
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "judge/analysis/splits.hpp"
+#include "analysis/splits.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 
 // ln t ~ N(mu, sigma²), by maximum likelihood: mean and standard deviation (÷ n) of ln t.
 struct LogNormal {
@@ -51,4 +51,4 @@ inline constexpr std::size_t least_for_distribution = 8;
 // those of at least `least_for_distribution` different times.
 [[nodiscard]] std::vector<Distribution> distributions(const Dataset& dataset, std::uint64_t seed);
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -1,4 +1,4 @@
-#include "judge/analysis/kolmogorov.hpp"
+#include "analysis/kolmogorov.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "core/random.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 namespace {
 
 // Beyond these Durbin's matrix is larger than its extra digits are worth.
@@ -230,4 +230,4 @@ double lilliefors_p(double d, std::size_t n, std::size_t replicates, std::uint64
   return static_cast<double>(1 + as_large) / static_cast<double>(1 + replicates);
 }
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -1,12 +1,14 @@
-#include "judge/analysis/distribution.hpp"
+#include "analysis/distribution.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "judge/analysis/kolmogorov.hpp"
+#include "analysis/kolmogorov.hpp"
 #include "judge/statistics/statistics.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
+
+using judge::mean;
 namespace {
 
 constexpr int percents[] = {0, 5, 10, 25, 50, 75, 90, 95, 99, 100};
@@ -109,4 +111,4 @@ std::vector<Distribution> distributions(const Dataset& dataset, std::uint64_t se
   return result;
 }
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

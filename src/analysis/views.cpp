@@ -1,4 +1,4 @@
-#include "judge/analysis/views.hpp"
+#include "analysis/views.hpp"
 
 #include <algorithm>
 #include <map>
@@ -6,7 +6,10 @@
 #include "core/random.hpp"
 #include "judge/statistics/statistics.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
+
+using judge::mean;
+using judge::median;
 namespace {
 
 // The first `count` of a Fisher–Yates shuffle of 0 … size − 1.
@@ -100,4 +103,4 @@ std::vector<PathTest> path_tests(const Dataset& dataset, std::uint64_t seed) {
   return result;
 }
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "judge/analysis/observations.hpp"
+#include "analysis/observations.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 namespace {
 
 using testing::Contains;
@@ -110,4 +110,4 @@ TEST(Observations, NaturalOrder) {
 }
 
 }  // namespace
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "judge/analysis/kolmogorov.hpp"
-#include "judge/analysis/splits.hpp"
+#include "analysis/kolmogorov.hpp"
+#include "analysis/splits.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 
 // Random subsets of the same size, each tested against all. Subsets are part of all, hence closer
 // to it than independent samples: their p-values lie above uniform.
@@ -34,4 +34,4 @@ inline constexpr double rejection_level = 0.05;
 // only.
 [[nodiscard]] std::vector<PathTest> path_tests(const Dataset& dataset, std::uint64_t seed);
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "judge/analysis/observations.hpp"
+#include "analysis/observations.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 
 using Factors = std::map<std::string, std::string>;
 
@@ -35,4 +35,4 @@ inline Dataset factorial(const std::vector<std::pair<std::string, std::vector<st
   return dataset;
 }
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/analysis.hpp"
 #include "core/json.hpp"
-#include "judge/analysis/analysis.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 
 // Every row is an object with a value for each column; null for what is not known. `held` names the
 // factors with one value in all samples of the row, `samples` counts observations, `pairs`
@@ -34,4 +34,4 @@ struct Table {
 // {"schema": 1, "suites": [{"suite", "clock", "observations", "notes", "tables": {NAME: [row…]}}]}
 [[nodiscard]] core::Json to_json(const std::vector<SuiteAnalysis>& analyses);
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

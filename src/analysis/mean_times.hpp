@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "judge/analysis/splits.hpp"
+#include "analysis/splits.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 
 struct MeanCell {
   std::string row, column;
@@ -25,4 +25,4 @@ struct MeanTimes {
 [[nodiscard]] MeanTimes mean_times(const Dataset& dataset, std::string_view rows,
                                    std::string_view columns);
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

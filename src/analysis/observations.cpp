@@ -1,4 +1,4 @@
-#include "judge/analysis/observations.hpp"
+#include "analysis/observations.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,12 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "judge/images/has_picture.hpp"
 #include "judge/statistics/statistics.hpp"
-#include "judge/timing/anchor.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
+
+using judge::median;
 namespace {
 
 std::string identity(const Source& source) {
@@ -56,7 +58,7 @@ std::string unfit(const record::Record& record) {
     return fmt::format("{} on {}", record::name_of(record.outcome), record.device);
   }
   if (!record.planted.empty()) return "with a planted fault";
-  if (is_anchor(record)) return "of an anchor, which makes no picture";
+  if (!judge::has_picture(record)) return "of a technique that makes no picture";
   // A logarithm is taken of it.
   if (!(median(record.wall_ns) > 0)) return fmt::format("without a time on {}", record.device);
   return {};
@@ -236,4 +238,4 @@ View view_of(std::string_view camera) {
   return {std::string(camera.substr(0, colon)), std::string(camera.substr(colon + 1))};
 }
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

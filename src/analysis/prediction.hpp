@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "judge/analysis/splits.hpp"
+#include "analysis/splits.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 
 struct Score {
   std::string data;               // a level of `data`, or "all"
@@ -45,4 +45,4 @@ struct PredictionOutcome {
 };
 [[nodiscard]] PredictionOutcome predict(const Dataset& dataset, std::uint64_t seed);
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

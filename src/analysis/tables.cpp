@@ -1,10 +1,10 @@
-#include "judge/analysis/tables.hpp"
+#include "analysis/tables.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 namespace {
 
 using core::Json;
@@ -292,4 +292,4 @@ Json to_json(const std::vector<SuiteAnalysis>& analyses) {
   return {{"schema", 1}, {"suites", std::move(suites)}};
 }
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

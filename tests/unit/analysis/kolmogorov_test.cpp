@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "judge/analysis/kolmogorov.hpp"
+#include "analysis/kolmogorov.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 namespace {
 
 // Marsaglia, Tsang, Wang 2003, "Evaluating Kolmogorov's distribution", section 2 and 4.
@@ -114,4 +114,4 @@ TEST(Kolmogorov, LillieforsCriticalValue) {
 }
 
 }  // namespace
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -5,9 +5,9 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
-#include "judge/analysis/learners.hpp"
+#include "analysis/learners.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 namespace {
 
 struct Sample {
@@ -102,4 +102,4 @@ TEST(Learners, NoRowsAreRefused) {
 }
 
 }  // namespace
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -1,4 +1,4 @@
-#include "judge/analysis/correlation.hpp"
+#include "analysis/correlation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,12 @@
 #include "judge/statistics/regression.hpp"
 #include "judge/statistics/statistics.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
+
+using judge::least_squares;
+using judge::LeastSquares;
+using judge::mean;
+using judge::pearson_r;
 namespace {
 
 struct Pairs {
@@ -117,4 +122,4 @@ std::vector<Stack> stacks(const Dataset& dataset) {
   return result;
 }
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -1,4 +1,4 @@
-#include "judge/analysis/prediction.hpp"
+#include "analysis/prediction.hpp"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,13 @@
 #include <array>
 #include <map>
 
+#include "analysis/learners.hpp"
 #include "core/random.hpp"
-#include "judge/analysis/learners.hpp"
 #include "judge/statistics/statistics.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
+
+using judge::mean;
 namespace {
 
 // What decides the structure of what is drawn, in both suites.
@@ -262,4 +264,4 @@ PredictionOutcome predict(const Dataset& dataset, std::uint64_t seed) {
   return {std::move(prediction), {}};
 }
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -1,4 +1,4 @@
-#include "judge/analysis/analysis.hpp"
+#include "analysis/analysis.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 namespace {
 
 // The pairs of factors whose mean times are shown: devices, and what the paper's Figures 8 and 14
@@ -103,4 +103,4 @@ SuiteAnalysis analyze(Dataset dataset, const Request& request) {
   return analysis;
 }
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

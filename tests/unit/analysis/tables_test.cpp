@@ -1,17 +1,17 @@
-#include "judge/analysis/analysis.hpp"
+#include "analysis/analysis.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
-#include "analysis_synthetic.hpp"
+#include "synthetic.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
-#include "judge/analysis/splits.hpp"
-#include "judge/analysis/tables.hpp"
+#include "analysis/splits.hpp"
+#include "analysis/tables.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 namespace {
 
 const LevelPair& cell(const Matrix& matrix, const std::string& a, const std::string& b) {
@@ -307,4 +307,4 @@ TEST(Analysis, TheFullestBlockHoldsOneSetOfCombinations) {
 }
 
 }  // namespace
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -5,7 +5,7 @@
 #include <functional>
 #include <span>
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 
 struct KsTest {
   double d = 0;  // largest distance of the distribution functions
@@ -36,4 +36,4 @@ struct KsTest {
 
 [[nodiscard]] double normal_below(double z);
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

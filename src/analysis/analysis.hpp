@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "judge/analysis/correlation.hpp"
-#include "judge/analysis/distribution.hpp"
-#include "judge/analysis/mean_times.hpp"
-#include "judge/analysis/observations.hpp"
-#include "judge/analysis/prediction.hpp"
-#include "judge/analysis/views.hpp"
+#include "analysis/correlation.hpp"
+#include "analysis/distribution.hpp"
+#include "analysis/mean_times.hpp"
+#include "analysis/observations.hpp"
+#include "analysis/prediction.hpp"
+#include "analysis/views.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 
 struct LeftOut {
   std::string analysis, reason;
@@ -44,4 +44,4 @@ struct SuiteAnalysis {
 // Throws core::InputError for a reference whose level the factor does not have.
 [[nodiscard]] SuiteAnalysis analyze(Dataset dataset, const Request& request);
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "judge/analysis/splits.hpp"
+#include "analysis/splits.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 
 // Fewer pairs say nothing: two points always lie on a line, and three nearly do by chance.
 inline constexpr std::size_t least_pairs = 4;
@@ -60,4 +60,4 @@ struct Stack {
 };
 [[nodiscard]] std::vector<Stack> stacks(const Dataset& dataset);
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -1,4 +1,4 @@
-#include "judge/analysis/mean_times.hpp"
+#include "analysis/mean_times.hpp"
 
 #include <array>
 #include <map>
@@ -7,7 +7,9 @@
 
 #include "judge/statistics/statistics.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
+
+using judge::mean;
 namespace {
 
 struct Natural {
@@ -42,4 +44,4 @@ MeanTimes mean_times(const Dataset& dataset, std::string_view rows, std::string_
   return result;
 }
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

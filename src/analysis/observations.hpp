@@ -12,7 +12,7 @@
 
 #include "record/record.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 
 // A record and where it comes from.
 struct Source {
@@ -48,7 +48,7 @@ enum class ClockChoice : std::uint8_t { automatic, device, wall };
 [[nodiscard]] ClockChoice clock_choice(std::string_view name);  // throws core::InputError
 
 // One data set per suite, by name. Left aside, with a note: what was not measured, planted faults,
-// anchors (they make no picture), and on ClockChoice::device records without a trusted device time.
+// techniques without a picture, and on ClockChoice::device records without a trusted device time.
 // A device that appears with another driver or processor under the same id becomes a level of its
 // own, ID@HASH. Factors are those of the records; one that only the device chose (an `auto` that
 // no configuration names) is none.
@@ -66,4 +66,4 @@ struct View {
 };
 [[nodiscard]] View view_of(std::string_view camera);
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -1,9 +1,9 @@
-#include "judge/analysis/splits.hpp"
+#include "analysis/splits.hpp"
 
 #include <algorithm>
 #include <set>
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 namespace {
 
 bool is_part_of_camera(std::string_view factor) {
@@ -169,4 +169,4 @@ Chosen all_of(const Dataset& dataset) {
   return chosen;
 }
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "judge/analysis/observations.hpp"
+#include "analysis/observations.hpp"
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 
 using Chosen = std::vector<const Observation*>;
 
@@ -58,4 +58,4 @@ struct Split {
 [[nodiscard]] Chosen fullest_block(const Chosen& from, std::span<const std::string_view> factors);
 [[nodiscard]] Chosen all_of(const Dataset& dataset);
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis

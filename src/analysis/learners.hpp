@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace triptych::judge::analysis {
+namespace triptych::analysis {
 
 // Rows of equal length.
 using Features = std::vector<std::vector<double>>;
@@ -53,4 +53,4 @@ class Forest {
 [[nodiscard]] std::optional<double> r_squared(std::span<const double> values,
                                               std::span<const double> predicted);
 
-}  // namespace triptych::judge::analysis
+}  // namespace triptych::analysis
