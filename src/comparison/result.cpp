@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "app/comparison.hpp"
+#include "comparison/comparison.hpp"
 
-namespace triptych::app {
+namespace triptych::comparison {
 namespace {
 
 using judge::PairVerdict;
@@ -41,4 +41,4 @@ core::ExitCode ComparisonResult::exit_code() const {
                                                   : core::ExitCode::cannot_judge;
 }
 
-}  // namespace triptych::app
+}  // namespace triptych::comparison

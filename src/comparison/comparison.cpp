@@ -1,4 +1,4 @@
-#include "app/comparison.hpp"
+#include "comparison/comparison.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "measure/plant.hpp"
 #include "measure/stopwatch.hpp"
 
-namespace triptych::app {
+namespace triptych::comparison {
 namespace {
 
 using judge::PairVerdict;
@@ -35,11 +35,11 @@ struct Entry {
 
 class Comparer {
  public:
-  Comparer(const ComparisonOptions& options, const measure::Suite& suite, Truths& truths,
+  Comparer(const ComparisonOptions& options, const measure::Suite& suite, const KeptTruth& truth,
            const std::function<void(const ComparisonProgress&)>& tell)
       : options_(options),
         suite_(suite),
-        truths_(truths),
+        truth_(truth),
         tell_(tell),
         same_setup_(options.a.environment == options.b.environment &&
                     options.a.command == options.b.command),
@@ -155,7 +155,7 @@ class Comparer {
   void find_truth(judge::ComparedSide& side) {
     if (side.record.image.empty()) return;
     try {
-      side.truth = &truths_.of(side.record);
+      side.truth = &truth_(side.record);
     } catch (const core::Error& error) {
       side.no_truth = error.what();
     }
@@ -368,7 +368,7 @@ class Comparer {
 
   const ComparisonOptions& options_;
   const measure::Suite& suite_;
-  Truths& truths_;
+  const KeptTruth& truth_;
   const std::function<void(const ComparisonProgress&)>& tell_;
   bool same_setup_;
   measure::Stopwatch since_start_;
@@ -381,9 +381,9 @@ class Comparer {
 }  // namespace
 
 ComparisonResult compare(const ComparisonOptions& options, const measure::Suite& suite,
-                         Truths& truths,
+                         const KeptTruth& truth,
                          const std::function<void(const ComparisonProgress&)>& tell) {
-  return Comparer(options, suite, truths, tell).run();
+  return Comparer(options, suite, truth, tell).run();
 }
 
-}  // namespace triptych::app
+}  // namespace triptych::comparison

@@ -4,9 +4,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "app/comparison.hpp"
+#include "comparison/comparison.hpp"
 
-namespace triptych::app {
+namespace triptych::comparison {
 
 // The command that was given, as far as it says what was compared: for naming one to go on with.
 struct ComparisonCommand {
@@ -28,4 +28,4 @@ struct ComparisonCommand {
 [[nodiscard]] nlohmann::json to_json(const ComparisonResult& result,
                                      const ComparisonCommand& command);
 
-}  // namespace triptych::app
+}  // namespace triptych::comparison

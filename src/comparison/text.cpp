@@ -1,4 +1,4 @@
-#include "app/comparison_text.hpp"
+#include "comparison/text.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "core/json.hpp"
 #include "record/factor_list.hpp"
 
-namespace triptych::app {
+namespace triptych::comparison {
 namespace {
 
 using judge::Difference;
@@ -200,4 +200,4 @@ core::Json to_json(const ComparisonResult& result, const ComparisonCommand& comm
   return json;
 }
 
-}  // namespace triptych::app
+}  // namespace triptych::comparison

@@ -7,14 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "app/truth.hpp"
 #include "judge/compare/differences.hpp"
 #include "judge/compare/pairwise.hpp"
 #include "measure/plan.hpp"
 #include "measure/runner.hpp"
 #include "measure/turns.hpp"
 
-namespace triptych::app {
+namespace triptych::comparison {
 
 struct ComparisonOptions {
   measure::Plan plan;
@@ -72,9 +71,13 @@ struct ComparisonProgress {
   std::optional<measure::Loading> loading;
 };
 
+// The truth of a record with its bound, for as long as the comparison takes; throws core::Error
+// where there is none.
+using KeptTruth = std::function<const judge::TruthPair&(const record::Record&)>;
+
 // Throws as measure::Turns does.
 [[nodiscard]] ComparisonResult compare(const ComparisonOptions& options,
-                                       const measure::Suite& suite, Truths& truths,
+                                       const measure::Suite& suite, const KeptTruth& truth,
                                        const std::function<void(const ComparisonProgress&)>& tell);
 
-}  // namespace triptych::app
+}  // namespace triptych::comparison
