@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "judge/baselines/work.hpp"
 #include "judge/compare/differences.hpp"
 #include "judge/compare/pairwise.hpp"
 #include "measure/plan.hpp"
