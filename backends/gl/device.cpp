@@ -23,11 +23,11 @@ constexpr double exact_filter = 1e-5;
 
 struct Entry {
   std::string_view id;
-  std::variant<VolumeTechnique, ParticleTechnique, AnchorTechnique> technique;
+  std::variant<VolumeTechnique, ParticleTechnique> technique;
 };
 
 const Entry* find(std::string_view id) {
-  static const std::array<Entry, 16> entries{{{"raycast", raycast()},
+  static const std::array<Entry, 11> entries{{{"raycast", raycast()},
                                               {"raycast_fragment", raycast_fragment()},
                                               {"speed_of_light", speed_of_light()},
                                               {"quad_screen", quad_screen()},
@@ -37,12 +37,7 @@ const Entry* find(std::string_view id) {
                                               {"polygon_tess", polygon_tess()},
                                               {"polygon_adaptive", polygon_adaptive()},
                                               {"point", point()},
-                                              {"tiles", tiles()},
-                                              {"anchor_arithmetic", anchor_arithmetic()},
-                                              {"anchor_fetch", anchor_fetch()},
-                                              {"anchor_memory", anchor_memory()},
-                                              {"anchor_raster", anchor_raster()},
-                                              {"anchor_launch", anchor_launch()}}};
+                                              {"tiles", tiles()}}};
   for (const Entry& entry : entries) {
     if (entry.id == id) return &entry;
   }
@@ -74,11 +69,6 @@ class GlDevice final : public measure::Device {
     const Api& gl = context_->gl();
     const auto* volume = std::get_if<measure::VolumeWork>(&work.scene);
     const auto* particles = std::get_if<measure::ParticleWork>(&work.scene);
-    if (const auto* anchor = std::get_if<AnchorTechnique>(&entry->technique)) {
-      const auto* anchored = std::get_if<measure::AnchorWork>(&work.scene);
-      if (anchored == nullptr) return fmt::format("{} is an anchor, without scene", work.technique);
-      return anchor->unsupported(gl, *anchored);
-    }
     if (const auto* raycaster = std::get_if<VolumeTechnique>(&entry->technique)) {
       if (volume == nullptr) return fmt::format("{} draws volumes, nothing else", work.technique);
       auto reason = technique::raycast_reason(work.technique, volume->scene, volume->options);
@@ -115,10 +105,6 @@ class GlDevice final : public measure::Device {
     const Entry& entry = *find(work.technique);
     if (const auto* raycaster = std::get_if<VolumeTechnique>(&entry.technique)) {
       return raycaster->prepare(*context_, stamps_, std::get<measure::VolumeWork>(work.scene));
-    }
-    if (const auto* anchor = std::get_if<AnchorTechnique>(&entry.technique)) {
-      return make_prepared(*context_, stamps_,
-                           anchor->make(context_->gl(), std::get<measure::AnchorWork>(work.scene)));
     }
     return make_prepared(*context_, stamps_,
                          std::get<ParticleTechnique>(entry.technique)

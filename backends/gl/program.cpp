@@ -91,13 +91,6 @@ std::string plain_source(const Api& gl, std::string_view main_file) {
   return version_lines(gl).append(embedded(main_file));
 }
 
-std::string anchor_source(const Api& gl, std::string_view file) {
-  return version_lines(gl)
-      .append("#define TRI_VERTEX gl_VertexID\n")
-      .append(embedded("prelude.glsl"))
-      .append(technique::source(file));
-}
-
 std::string shared_source(const Api& gl, std::string_view constant_lines,
                           std::span<const std::string_view> files) {
   std::string source = version_lines(gl).append(constant_lines).append(embedded("prelude.glsl"));

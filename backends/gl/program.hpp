@@ -42,10 +42,6 @@ struct Stage {
 // The named file alone behind the #version line, for stages that share nothing.
 [[nodiscard]] std::string plain_source(const Api& gl, std::string_view main_file);
 
-// The named file of technique/anchors/ behind nothing but what makes it GL's: it is frozen, and the
-// preludes of the other techniques are not.
-[[nodiscard]] std::string anchor_source(const Api& gl, std::string_view file);
-
 // Compiles and links; throws core::ApiError with the driver's log.
 [[nodiscard]] Program link(const Api& gl, std::span<const Stage> stages);
 

@@ -38,15 +38,4 @@ struct ParticleTechnique {
 [[nodiscard]] ParticleTechnique point();
 [[nodiscard]] ParticleTechnique tiles();
 
-struct AnchorTechnique {
-  std::optional<std::string> (*unsupported)(const Api& gl, const measure::AnchorWork& work);
-  std::unique_ptr<Drawing> (*make)(const Api& gl, const measure::AnchorWork& work);
-};
-
-[[nodiscard]] AnchorTechnique anchor_arithmetic();
-[[nodiscard]] AnchorTechnique anchor_fetch();
-[[nodiscard]] AnchorTechnique anchor_memory();
-[[nodiscard]] AnchorTechnique anchor_raster();
-[[nodiscard]] AnchorTechnique anchor_launch();
-
 }  // namespace triptych::gl_backend

@@ -7,12 +7,10 @@
 
 #include "core/hash.hpp"
 #include "core/random.hpp"
-#include "technique/anchors/anchor_work.hpp"
 
 namespace triptych::null_backend {
 namespace {
 
-using measure::AnchorWork;
 using measure::ParticleWork;
 using measure::VolumeWork;
 
@@ -33,11 +31,6 @@ double samples_of(const VolumeWork& work) {
 
 double samples_of(const ParticleWork& work) {
   return pixels_of(work.scene) + static_cast<double>(particles_of(work));
-}
-
-double samples_of(const AnchorWork& work) {
-  constexpr double samples_of_size_1 = 1 << 19;
-  return samples_of_size_1 * work.size;
 }
 
 record::Counts counters_of(const VolumeWork& work) {
@@ -69,11 +62,6 @@ record::Counts counters_of(const ParticleWork& work) {
           {"visible_ids", std::min(particles, pixels)}};
 }
 
-record::Counts counters_of(const AnchorWork& work) {
-  return {
-      {std::string(technique::anchor_counter), 1000003 * static_cast<std::uint64_t>(work.size)}};
-}
-
 // Invocations of one compute pass, or of the fragment stage.
 std::uint64_t invocations_of(const VolumeWork& work) {
   return static_cast<std::uint64_t>(pixels_of(work.scene));
@@ -83,20 +71,12 @@ std::uint64_t invocations_of(const ParticleWork& work) {
   return static_cast<std::uint64_t>(pixels_of(work.scene));
 }
 
-std::uint64_t invocations_of(const AnchorWork& work) {
-  return static_cast<std::uint64_t>(samples_of(work));
-}
-
 int stride_of(const VolumeWork& work) {
   return work.options.extra_work_stride;
 }
 
 int stride_of(const ParticleWork& work) {
   return work.options.extra_work_stride;
-}
-
-int stride_of(const AnchorWork&) {
-  return 0;  // takes no fault
 }
 
 // Everything that decides a picture, and nothing about how it is computed.
@@ -162,10 +142,6 @@ std::string code_options(const ParticleWork& work) {
                      options.extra_work_stride);
 }
 
-std::string code_options(const AnchorWork&) {
-  return "frozen";
-}
-
 core::Image pattern(const VolumeWork& work) {
   return slopes(work.scene.width, work.scene.height, picture_key(work),
                 static_cast<double>(work.options.fault));
@@ -176,10 +152,6 @@ core::Image pattern(const ParticleWork& work) {
                              static_cast<double>(work.options.fault));
   add_particles(image, static_cast<std::uint32_t>(work.options.fault));
   return image;
-}
-
-core::Image pattern(const AnchorWork&) {
-  return {};
 }
 
 }  // namespace

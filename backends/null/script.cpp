@@ -199,10 +199,6 @@ std::string describe(const std::string& technique, const measure::ParticleWork& 
       static_cast<int>(options.fault), options.extra_work_stride);
 }
 
-std::string describe(const std::string& technique, const measure::AnchorWork& work) {
-  return fmt::format("technique={},size={}", technique, work.size);
-}
-
 }  // namespace
 
 std::string describe(const measure::Work& work) {

@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 
-#include "backends/opencl/anchor_frames.hpp"
 #include "backends/opencl/filter_probe.hpp"
 #include "backends/opencl/particle_limits.hpp"
 #include "backends/opencl/programs.hpp"
@@ -32,12 +31,6 @@ const std::map<std::string_view, decltype(&prepare_tiles)> particle_techniques{
     {"polygon_tess", prepare_polygon_tess},
     {"polygon_adaptive", prepare_polygon_adaptive},
     {"tiles", prepare_tiles}};
-
-const std::map<std::string_view, decltype(&prepare_anchor_launch)> anchor_techniques{
-    {"anchor_arithmetic", prepare_anchor_arithmetic},
-    {"anchor_fetch", prepare_anchor_fetch},
-    {"anchor_memory", prepare_anchor_memory},
-    {"anchor_launch", prepare_anchor_launch}};
 
 Session open_session(const Found& found) {
   return checked([&] {
@@ -141,11 +134,6 @@ std::optional<std::string> Device::size_defect(const measure::VolumeWork& work) 
 }
 
 std::optional<std::string> Device::unsupported(const measure::Work& work) const {
-  if (anchor_techniques.contains(work.technique)) {
-    const auto* anchor = std::get_if<measure::AnchorWork>(&work.scene);
-    if (anchor == nullptr) return fmt::format("'{}' is an anchor, without scene", work.technique);
-    return anchor_defect(session_, work.technique, *anchor);
-  }
   if (!volume_techniques.contains(work.technique) &&
       !particle_techniques.contains(work.technique)) {
     return fmt::format("OpenCL has no technique '{}'", work.technique);
@@ -193,9 +181,6 @@ double Device::filter_weight_error(const measure::VolumePath& path) const {
 
 std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
-  if (const auto* anchor = std::get_if<measure::AnchorWork>(&work.scene)) {
-    return anchor_techniques.at(work.technique)(session_, programs_, *anchor);
-  }
   if (const auto* particles = std::get_if<measure::ParticleWork>(&work.scene)) {
     return particle_techniques.at(work.technique)(session_, programs_, *particles);
   }

@@ -35,13 +35,4 @@ namespace triptych::opencl_backend {
 [[nodiscard]] std::unique_ptr<measure::Prepared> prepare_polygon_adaptive(
     const Session& session, Programs& programs, const measure::ParticleWork& work);
 
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_anchor_arithmetic(
-    const Session& session, Programs& programs, const measure::AnchorWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_anchor_fetch(
-    const Session& session, Programs& programs, const measure::AnchorWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_anchor_memory(
-    const Session& session, Programs& programs, const measure::AnchorWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_anchor_launch(
-    const Session& session, Programs& programs, const measure::AnchorWork& work);
-
 }  // namespace triptych::opencl_backend

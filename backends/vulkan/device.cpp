@@ -7,7 +7,6 @@
 #include <utility>
 #include <variant>
 
-#include "backends/vulkan/anchor_frames.hpp"
 #include "backends/vulkan/errors.hpp"
 #include "backends/vulkan/filter_probe.hpp"
 #include "backends/vulkan/support.hpp"
@@ -24,12 +23,11 @@ using Prepare = std::unique_ptr<measure::Prepared> (*)(const Gpu&, const Instanc
 
 struct Entry {
   std::string_view technique;
-  std::variant<Prepare<measure::VolumeWork>, Prepare<measure::ParticleWork>,
-               Prepare<measure::AnchorWork>>
+  std::variant<Prepare<measure::VolumeWork>, Prepare<measure::ParticleWork>>
       prepare;  // in the order of measure::Work
   Needs needs;
 };
-constexpr std::array<Entry, 16> entries{{
+constexpr std::array<Entry, 11> entries{{
     {"raycast", &prepare_raycast, Needs::nothing},
     {"raycast_fragment", &prepare_raycast_fragment, Needs::drawing},
     {"speed_of_light", &prepare_speed_of_light, Needs::nothing},
@@ -41,11 +39,6 @@ constexpr std::array<Entry, 16> entries{{
     {"polygon_adaptive", &prepare_polygon_adaptive, Needs::tessellation},
     {"point", &prepare_point, Needs::drawing},
     {"tiles", &prepare_tiles, Needs::nothing},
-    {"anchor_arithmetic", &prepare_anchor_arithmetic, Needs::nothing},
-    {"anchor_fetch", &prepare_anchor_fetch, Needs::nothing},
-    {"anchor_memory", &prepare_anchor_memory, Needs::nothing},
-    {"anchor_raster", &prepare_anchor_raster, Needs::drawing},
-    {"anchor_launch", &prepare_anchor_launch, Needs::nothing},
 }};
 
 const Entry* find_entry(std::string_view technique) {
@@ -78,9 +71,6 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
     if (auto reason = feature_reason(gpu_, entry->needs)) return reason;
     if (const auto* volume = std::get_if<measure::VolumeWork>(&work.scene)) {
       return volume_reason(gpu_, *volume, work.technique, entry->needs);
-    }
-    if (const auto* anchor = std::get_if<measure::AnchorWork>(&work.scene)) {
-      return anchor_reason(gpu_, *anchor, work.technique);
     }
     return particle_reason(gpu_, std::get<measure::ParticleWork>(work.scene), work.technique,
                            entry->needs);

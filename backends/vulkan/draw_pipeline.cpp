@@ -32,15 +32,9 @@ class Stages {
   std::vector<vk::PipelineShaderStageCreateInfo> infos_;
 };
 
-std::vector<vk::PipelineColorBlendAttachmentState> blending(std::uint32_t targets, bool added_up) {
+std::vector<vk::PipelineColorBlendAttachmentState> overwriting(std::uint32_t targets) {
   using enum vk::ColorComponentFlagBits;
-  return {targets,
-          {.blendEnable = added_up ? VK_TRUE : VK_FALSE,
-           .srcColorBlendFactor = vk::BlendFactor::eOne,
-           .dstColorBlendFactor = vk::BlendFactor::eOne,
-           .srcAlphaBlendFactor = vk::BlendFactor::eOne,
-           .dstAlphaBlendFactor = vk::BlendFactor::eOne,
-           .colorWriteMask = eR | eG | eB | eA}};
+  return {targets, {.colorWriteMask = eR | eG | eB | eA}};
 }
 
 vk::PipelineDepthStencilStateCreateInfo depth_state(std::optional<vk::CompareOp> compare) {
@@ -58,11 +52,10 @@ std::string key_of(const DrawState& state, const Layout& layout, const Specializ
     codes.push_back(each.code);
     text += vk::to_string(each.stage) + " ";
   }
-  text +=
-      fmt::format("{}; {}; {} {} {} {} {} {}x{}", code_hash(codes, constants), layout.definition,
-                  vk::to_string(state.topology), state.patch_points, state.colour_targets,
-                  state.added_up, state.depth ? vk::to_string(*state.depth) : "no depth",
-                  state.extent.width, state.extent.height);
+  text += fmt::format("{}; {}; {} {} {} {} {}x{}", code_hash(codes, constants), layout.definition,
+                      vk::to_string(state.topology), state.patch_points, state.colour_targets,
+                      state.depth ? vk::to_string(*state.depth) : "no depth", state.extent.width,
+                      state.extent.height);
   for (const vk::VertexInputBindingDescription& each : state.vertex_bindings) {
     text +=
         fmt::format("; binding {} {} {}", each.binding, each.stride, vk::to_string(each.inputRate));
@@ -96,7 +89,7 @@ vk::raii::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout,
   const vk::PipelineMultisampleStateCreateInfo one_sample{.rasterizationSamples =
                                                               vk::SampleCountFlagBits::e1};
   const vk::PipelineDepthStencilStateCreateInfo depth = depth_state(state.depth);
-  const auto targets = blending(state.colour_targets, state.added_up);
+  const auto targets = overwriting(state.colour_targets);
   const vk::PipelineColorBlendStateCreateInfo blend{
       .attachmentCount = static_cast<std::uint32_t>(targets.size()),
       .pAttachments = targets.data()};

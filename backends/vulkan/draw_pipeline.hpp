@@ -22,7 +22,6 @@ struct DrawState {
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
   std::uint32_t patch_points = 1;  // of ePatchList
   std::uint32_t colour_targets = 1;
-  bool added_up = false;               // colours are added to the targets, else overwrite them
   std::optional<vk::CompareOp> depth;  // tested and written where given
   vk::Extent3D extent;
   std::vector<vk::Format> formats;  // of the render pass's attachments, in its order

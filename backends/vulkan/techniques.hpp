@@ -36,15 +36,4 @@ namespace triptych::vulkan_backend {
                                                                const Instance& instance,
                                                                const measure::ParticleWork& work);
 
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_anchor_arithmetic(
-    const Gpu& gpu, const Instance& instance, const measure::AnchorWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_anchor_fetch(
-    const Gpu& gpu, const Instance& instance, const measure::AnchorWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_anchor_memory(
-    const Gpu& gpu, const Instance& instance, const measure::AnchorWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_anchor_raster(
-    const Gpu& gpu, const Instance& instance, const measure::AnchorWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_anchor_launch(
-    const Gpu& gpu, const Instance& instance, const measure::AnchorWork& work);
-
 }  // namespace triptych::vulkan_backend

@@ -3,17 +3,15 @@
 #include <memory>
 #include <set>
 
+#include "analysis/tables.hpp"
 #include "app/arguments.hpp"
 #include "app/paths.hpp"
 #include "core/json_text.hpp"
-#include "judge/analysis/tables.hpp"
 #include "record/store.hpp"
 #include "report/analysis_page.hpp"
 
 namespace triptych::app {
 namespace {
-
-namespace analysis = judge::analysis;
 
 struct AnalyzeArguments {
   std::string plan;

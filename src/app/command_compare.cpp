@@ -7,12 +7,13 @@
 #include <memory>
 
 #include "app/arguments.hpp"
-#include "app/comparison.hpp"
-#include "app/comparison_text.hpp"
 #include "app/loading.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/saying.hpp"
+#include "app/truth.hpp"
+#include "comparison/comparison.hpp"
+#include "comparison/text.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "measure/plant.hpp"
@@ -79,7 +80,7 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
 }
 
 // A line that rewrites itself on a terminal, a line per step elsewhere.
-void show(const ComparisonProgress& progress) {
+void show(const comparison::ComparisonProgress& progress) {
   if (progress.loading) return show_loading(*progress.loading);
   static const bool terminal = ::isatty(STDERR_FILENO) == 1;
   say("{}{}/{} {}: {}, left at most {} s{}", terminal ? "\r\033[K" : "", progress.done,
@@ -87,17 +88,19 @@ void show(const ComparisonProgress& progress) {
       terminal ? "" : "\n");
 }
 
-ComparisonCommand command_of(const CompareArguments& arguments, const measure::Plan& plan) {
-  ComparisonCommand command{
+comparison::ComparisonCommand command_of(const CompareArguments& arguments,
+                                         const measure::Plan& plan) {
+  comparison::ComparisonCommand command{
       .plan = arguments.plan.plan,
-      .sides = fmt::format("--a {} --b {}", shell_word(arguments.a), shell_word(arguments.b)),
+      .sides = fmt::format("--a {} --b {}", comparison::shell_word(arguments.a),
+                           comparison::shell_word(arguments.b)),
       .varied = plan.varied};
   if (!arguments.a_program.empty())
-    command.sides += " --a-program " + shell_word(arguments.a_program);
+    command.sides += " --a-program " + comparison::shell_word(arguments.a_program);
   if (!arguments.b_program.empty())
-    command.sides += " --b-program " + shell_word(arguments.b_program);
+    command.sides += " --b-program " + comparison::shell_word(arguments.b_program);
   for (const std::string& plant : arguments.plants)
-    command.sides += " --plant " + shell_word(plant);
+    command.sides += " --plant " + comparison::shell_word(plant);
   // What the command line set to one value is no longer varied, but must be said again.
   for (const auto& [factor, values] : parse_overrides(arguments.plan.choice.set)) {
     if (std::ranges::find(command.varied, factor) == command.varied.end()) {
@@ -109,7 +112,7 @@ ComparisonCommand command_of(const CompareArguments& arguments, const measure::P
 
 core::ExitCode run_comparison(const CompareArguments& arguments) {
   const Registry registry = make_registry();
-  ComparisonOptions options{
+  comparison::ComparisonOptions options{
       .plan = arguments.plan.load(registry.find_suite()),
       .a = parse_side("--a", arguments.a, arguments.a_program),
       .b = parse_side("--b", arguments.b, arguments.b_program),
@@ -122,15 +125,20 @@ core::ExitCode run_comparison(const CompareArguments& arguments) {
   require_writable(std::filesystem::path(arguments.store).parent_path());
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
-  const ComparisonResult result = [&] {
+  const comparison::ComparisonResult result = [&] {
     try {
-      return compare(options, registry.suite(options.plan.suite), truths, show);
+      return comparison::compare(
+          options, registry.suite(options.plan.suite),
+          [&](const record::Record& record) -> const judge::TruthPair& {
+            return truths.of(record);
+          },
+          show);
     } catch (const measure::Interrupted&) {
       throw core::Error("interrupted; a comparison keeps nothing, begin it again");
     }
   }();
   if (::isatty(STDERR_FILENO) == 1) say("\r\033[K");
-  const ComparisonCommand command = command_of(arguments, options.plan);
+  const comparison::ComparisonCommand command = command_of(arguments, options.plan);
   if (arguments.json) {
     fmt::print("{}\n", core::json_text(to_json(result, command), 2));
   } else {

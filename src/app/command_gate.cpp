@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <exception>
 #include <memory>
 #include <set>
 
@@ -8,13 +7,11 @@
 #include "app/judging.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
-#include "app/saying.hpp"
 #include "app/truth.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "judge/gate/gate.hpp"
 #include "measure/plan.hpp"
-#include "measure/runner.hpp"
 #include "report/junit.hpp"
 #include "report/markdown.hpp"
 
@@ -31,7 +28,6 @@ struct GateArguments {
   std::string junit;
   std::string markdown;
   bool json = false;
-  bool confirm = false;
 };
 
 struct AcceptArguments {
@@ -43,19 +39,6 @@ struct AcceptArguments {
   bool drop = false;
   bool forget_times = false;
 };
-
-// Whether the suspects have been measured again. Where they cannot be – the driver is gone, or the
-// plan's file – what was found stands, and is told.
-bool confirmed(const judge::GateResult& result, const GateArguments& arguments) {
-  try {
-    return measure_suspects_again(result, arguments.plan, arguments.store);
-  } catch (const measure::Interrupted&) {
-    throw;
-  } catch (const std::exception& error) {
-    say("could not confirm: {}\n", error.what());
-    return false;
-  }
-}
 
 core::ExitCode gate(const GateArguments& arguments) {
   refuse_overwriting({{"--store", arguments.store}, {"PLAN", arguments.plan}},
@@ -72,10 +55,7 @@ core::ExitCode gate(const GateArguments& arguments) {
   request.checks = checks;
   const judge::Baselines baselines(arguments.baselines, plan);
   const std::string run = latest_run_of(store, arguments.plan, arguments.store);
-  judge::GateResult result = judge::judge_run(store, run, baselines, request);
-  if (arguments.confirm && confirmed(result, arguments)) {
-    result = judge::judge_run(store, run, baselines, request);
-  }
+  const judge::GateResult result = judge::judge_run(store, run, baselines, request);
   if (!arguments.junit.empty()) write_text(arguments.junit, report::junit(result));
   if (!arguments.markdown.empty()) write_text(arguments.markdown, report::markdown(result));
   if (arguments.json) {
@@ -137,10 +117,6 @@ void add_gate_commands(Commands& commands) {
   command->add_option("--junit", arguments->junit, "Write JUnit XML");
   command->add_option("--markdown", arguments->markdown, "Write a Markdown summary");
   command->add_flag("--json", arguments->json, "Print every finding as JSON");
-  command->add_flag(
-      "--confirm", arguments->confirm,
-      "Measure devices that may be slower once more, into the same store: the quieter launch "
-      "counts");
 
   auto accepted = std::make_shared<AcceptArguments>();
   CLI::App* accepting = commands.add("accept", "Make a plan's latest run the baseline",

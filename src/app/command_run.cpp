@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -15,7 +14,6 @@
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/saying.hpp"
-#include "judge/timing/anchor.hpp"
 #include "measure/plant.hpp"
 #include "measure/process.hpp"
 
@@ -28,15 +26,11 @@ struct RunArguments {
   std::vector<std::string> devices;
   std::string store = "triptych.sqlite";
   bool resume = false;
-  bool confirm = false;
   int limit_s = 60;
-  std::optional<int> rounds;
-  std::optional<int> budget_s;
   bool measure_every = false;
   bool untimed = false;
   std::vector<std::string> plants;
   std::optional<double> error;
-  std::FILE* told_to = stdout;
 };
 
 std::string outcome_text(const record::Record& record) {
@@ -55,16 +49,14 @@ std::string outcome_text(const record::Record& record) {
 void show(const measure::Progress& progress) {
   if (progress.loading) return show_loading(*progress.loading);
   static const bool terminal = ::isatty(STDERR_FILENO) == 1;
-  const std::string round =
-      progress.round > 1 ? fmt::format("round {}: ", progress.round) : std::string{};
   const std::string what = progress.record != nullptr ? outcome_text(*progress.record) : "";
   if (terminal) {
-    say("\r\033[K{}{}/{} {} {} {} left {} s", round, progress.done, progress.total, progress.device,
+    say("\r\033[K{}/{} {} {} {} left {} s", progress.done, progress.total, progress.device,
         progress.configuration, what, progress.left.count());
     if (progress.done == progress.total) say("\n");
   } else if (progress.record != nullptr) {
-    say("{}{}/{} {} {}: {}\n", round, progress.done, progress.total, progress.device,
-        progress.configuration, what);
+    say("{}/{} {} {}: {}\n", progress.done, progress.total, progress.device, progress.configuration,
+        what);
   }
 }
 
@@ -81,15 +73,13 @@ bool tell_cheapest(const Registry& registry, const measure::Suite& suite, record
   return all;
 }
 
-void tell(std::FILE* out, const measure::Plan& plan, const measure::RunResult& result,
-          const std::string& store) {
+void tell(const measure::Plan& plan, const measure::RunResult& result, const std::string& store) {
   std::string text = fmt::format(
       "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
       plan.name, result.run, store, result.measured, result.skipped, result.failed,
       result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
   if (result.there_before > 0) {
-    text += fmt::format("{} of them were there before; timed again: {}\n", result.there_before,
-                        result.rounds_added);
+    text += fmt::format("{} of them were there before\n", result.there_before);
   }
   if (result.taken_over > 0) {
     text += fmt::format(
@@ -97,14 +87,7 @@ void tell(std::FILE* out, const measure::Plan& plan, const measure::RunResult& r
         "apart; --measure-every measures them too\n",
         result.taken_over);
   }
-  if (result.unsettled > 0) {
-    text += fmt::format(
-        "{} not settled: their quietest round was not seen again; --rounds N or --budget "
-        "SECONDS --resume goes on with them\n",
-        result.unsettled);
-  }
-  if (out == stderr) return say("{}", text);
-  fmt::print(out, "{}", text);
+  fmt::print("{}", text);
 }
 
 // A factor belongs to one suite, an error to its scenes.
@@ -139,10 +122,6 @@ measure::RunOptions options_of(const RunArguments& arguments) {
       .protocol = {.timed = !arguments.untimed, .measure_every = arguments.measure_every},
       .limit = std::chrono::seconds(arguments.limit_s),
       .resume = arguments.resume,
-      .confirm = arguments.confirm,
-      .rounds = arguments.rounds,
-      .budget = arguments.budget_s ? std::optional(std::chrono::seconds(*arguments.budget_s))
-                                   : std::nullopt,
       .plants = parse_plants(arguments.plants),
       .worker_command = {own_program(), "worker", "--device"},
   };
@@ -169,7 +148,7 @@ Told run_and_tell(const RunArguments& arguments) {
   }
   Told told{.results = measure::run_plans(runs, devices, store, show)};
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    tell(arguments.told_to, plans[i], told.results[i], arguments.store);
+    tell(plans[i], told.results[i], arguments.store);
   }
   if (arguments.error) {
     told.error_kept = tell_cheapest(registry, runs.front().suite, store, told.results.front().run,
@@ -196,19 +175,10 @@ bool has_told(const measure::RunResult& result) {
 }
 
 // Where nothing of a plan is measured there is nothing that anybody could judge.
-core::ExitCode run(RunArguments arguments) {
-  // Anchors are beside a run that began after them (judge/gate/anchor_run.hpp).
-  std::ranges::stable_partition(
-      arguments.plans, [](const std::string& plan) { return plan == judge::anchors_plan; });
+core::ExitCode run(const RunArguments& arguments) {
   const auto [results, error_kept] = run_resumably(arguments);
   const bool measured = std::ranges::all_of(results, has_measured) && error_kept;
   return measured ? core::ExitCode::pass : core::ExitCode::cannot_judge;
-}
-
-bool has_anchors(const std::string& store) {
-  return record::Store(store, record::Store::Mode::read)
-      .latest_run(judge::anchors_plan)
-      .has_value();
 }
 
 // As a CTest fixture: a configuration that failed fails the test – but for a stress case, whose
@@ -247,10 +217,7 @@ void add_worker_command(Commands& commands) {
 }
 
 void add_run_options(CLI::App& command, RunArguments& arguments) {
-  command
-      .add_option(
-          "PLAN", arguments.plans,
-          "A YAML file, or SUITE/PLAN such as volume/quick; the rounds of several alternate")
+  command.add_option("PLAN", arguments.plans, "A YAML file, or SUITE/PLAN such as volume/quick")
       ->required();
   arguments.choice.add_to(command);
   command.add_option("--device", arguments.devices,
@@ -262,22 +229,8 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                   "Seconds after which a configuration counts as hung")
       ->capture_default_str()
       ->check(CLI::Range(1, 86400));
-  CLI::Option* rounds =
-      command
-          .add_option(
-              "--rounds", arguments.rounds,
-              "Passes over the plan at most (default: the plan's); what is settled is left out")
-          ->check(CLI::Range(1, 99));
-  CLI::Option* budget =
-      command
-          .add_option("--budget", arguments.budget_s,
-                      "Seconds for the run: rounds until then, the most doubtful first")
-          ->check(CLI::Range(1, 1000000));
-  command
-      .add_flag("--untimed", arguments.untimed,
-                "One frame for the picture and one for the counters: no times, no statistics")
-      ->excludes(rounds)
-      ->excludes(budget);
+  command.add_flag("--untimed", arguments.untimed,
+                   "One frame for the picture and one for the counters: no times, no statistics");
   command.add_flag("--measure-every", arguments.measure_every,
                    "Measure configurations too that their scene cannot tell from one before");
   command.add_option("--plant", arguments.plants,
@@ -287,33 +240,19 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
 
 }  // namespace
 
-std::vector<int> measure_plans_once(const std::vector<std::string>& plans,
-                                    const std::vector<std::string>& devices,
-                                    const std::string& store, bool resume) {
+std::vector<int> measure_plans(const std::vector<std::string>& plans,
+                               const std::vector<std::string>& devices, const std::string& store,
+                               bool resume) {
   RunArguments arguments;
   arguments.plans = plans;
   arguments.devices = devices;
   arguments.store = store;
   arguments.resume = resume;
-  arguments.rounds = 1;
   std::vector<int> told;
   for (const measure::RunResult& result : run_resumably(arguments).results) {
     told.push_back(result.measured + result.failed);
   }
   return told;
-}
-
-void measure_again(const std::string& plan, const std::vector<std::string>& devices,
-                   const std::string& store) {
-  RunArguments arguments;
-  const bool with_anchors = plan != judge::anchors_plan && has_anchors(store);
-  if (with_anchors) arguments.plans.emplace_back(judge::anchors_plan);
-  arguments.plans.push_back(plan);
-  arguments.devices = devices;
-  arguments.store = store;
-  arguments.confirm = true;
-  arguments.told_to = stderr;  // the caller's answer may be JSON
-  (void)run_and_tell(arguments);
 }
 
 void add_run_commands(Commands& commands) {

@@ -13,9 +13,6 @@
 #include "app/listing.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
-#include "judge/gate/gate.hpp"
-#include "judge/timing/anchor.hpp"
-#include "technique/catalogue.hpp"
 
 namespace triptych::app {
 namespace {
@@ -62,7 +59,6 @@ struct PlanTests {
   std::string plan;  // "volume/quick"
   std::string stem;  // "volume.quick"
   fs::path store;
-  bool has_data = true;  // of one configuration at least
 };
 
 // Errors and their orders need no times, whose measuring takes minutes.
@@ -72,20 +68,12 @@ bool is_untimed(const PlanTests& plan) {
 
 // What is judged of a plan. One for correlation is held against other devices; its pictures and
 // times are of the kinds that the other plans judge.
-std::vector<std::string_view> checks_of(const PlanTests& plan, bool pictures) {
+std::vector<std::string_view> checks_of(const PlanTests& plan) {
   if (plan.plan.ends_with("/correlation")) return {"correlation"};
   // One frame each: no times, no statistics; a stress case's picture is judged by its score.
   if (plan.plan.ends_with("/stress")) return {"counters", "stress"};
   if (is_untimed(plan)) return {"image", "counters", "accuracy"};
-  std::vector<std::string_view> result(checks.begin(), checks.end());
-  if (!pictures) std::erase(result, "image");
-  return result;
-}
-
-bool has_pictures(const std::string& suite) {
-  return std::ranges::any_of(technique::catalogue(), [&](const technique::Technique& each) {
-    return each.suite == suite && each.picture;
-  });
+  return {checks.begin(), checks.end()};
 }
 
 void add_plan(std::vector<Test>& tests, const PlanTests& plan,
@@ -96,21 +84,13 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
                    .labels = {plan.suite, "device"},
                    .requires_fixtures = {},
                    .sets_up = plan.stem});
-  const std::vector<std::string_view> own_checks = checks_of(plan, has_pictures(plan.suite));
-  const bool judges_times =
-      plan.has_data && std::ranges::any_of(own_checks, [](std::string_view check) {
-        return judge::is_of_times(judge::check(check));
-      });
+  const std::vector<std::string_view> own_checks = checks_of(plan);
   std::vector<std::string> measured;
   for (const record::Device& device : devices) measured.push_back(plan.stem + "." + device.id);
   for (const record::Device& device : devices) {
     const std::string fixture = plan.stem + "." + device.id;
-    std::vector<std::string> measure{"test-measure"};
-    // In one store: what the anchors show is taken out of the others' times.
-    if (judges_times && plan.plan != judge::anchors_plan) {
-      measure.emplace_back(judge::anchors_plan);
-    }
-    measure.insert(measure.end(), {plan.plan, "--device", device.id, "--store", store});
+    std::vector<std::string> measure{"test-measure", plan.plan, "--device",
+                                     device.id,      "--store", store};
     if (is_untimed(plan)) measure.emplace_back("--untimed");
     tests.push_back({.name = plan.stem + ".measure." + device.id,
                      .command = std::move(measure),
@@ -127,8 +107,7 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
            // A score says how a device agrees with the others.
            .requires_fixtures = check == "stress" ? measured : std::vector<std::string>{fixture},
            .sets_up = {},
-           // What is slower is measured again.
-           .lock = judge::is_of_times(judge::check(check)) ? device.id : std::string()});
+           .lock = {}});
     }
   }
   if (std::ranges::find(own_checks, "image") == own_checks.end()) return;
@@ -140,12 +119,6 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
                    .lock = {}});
 }
 
-bool has_data(const std::string& plan, const measure::Suite& suite, const Registry& registry) {
-  return std::ranges::any_of(
-      measure::load_plan(plan, {}, registry.find_suite()).configurations,
-      [&](const measure::Configuration& each) { return suite.missing_data(each).empty(); });
-}
-
 core::ExitCode register_tests(const fs::path& out, const fs::path& folder,
                               const std::vector<std::string>& plans) {
   const Registry registry = make_registry();
@@ -155,10 +128,7 @@ core::ExitCode register_tests(const fs::path& out, const fs::path& folder,
     const std::string suite = plan.substr(0, plan.find('/'));
     std::string stem = plan;
     stem.replace(plan.find('/'), 1, ".");
-    add_plan(tests,
-             {suite, plan, stem, folder / (stem + ".sqlite"),
-              has_data(plan, registry.suite(suite), registry)},
-             listing.devices);
+    add_plan(tests, {suite, plan, stem, folder / (stem + ".sqlite")}, listing.devices);
   }
   std::string text = "# Made by asking triptych which devices are here.\n";
   for (const Test& test : tests) text += as_cmake(test);

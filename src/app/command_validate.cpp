@@ -50,7 +50,7 @@ core::ExitCode validate(const ValidateArguments& arguments) {
   require_writable(arguments.out);
   const std::string file = (std::filesystem::path(arguments.out) / "validation.sqlite").string();
   const std::vector<int> told =
-      measure_plans_once({plans.begin(), plans.end()}, arguments.devices, file, arguments.resume);
+      measure_plans({plans.begin(), plans.end()}, arguments.devices, file, arguments.resume);
   for (std::size_t i = 0; i < plans.size(); ++i) {
     if (told[i] > 0) continue;
     throw core::NotSupported(fmt::format("{}: the devices asked for can do none of it", plans[i]));

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -89,10 +88,14 @@ judge::GateResult judge_store(const CheckArguments& arguments, const record::Sto
 }
 
 // Files that are not here are no fault of a device or a driver, whatever it measured when they
-// were: what only they keep from being judged is a skip, with the same reason. `records`: of the
-// devices that were judged.
-void excuse_absent_data(const Registry& registry, const std::vector<record::Record>& records,
-                        judge::GateResult& result) {
+// were: what only they keep from being judged is a skip, with the same reason.
+void excuse_absent_data(const CheckArguments& arguments, const Registry& registry,
+                        const record::Store& store, judge::GateResult& result) {
+  if (!has(result, judge::Verdict::cannot_judge)) return;
+  std::vector<record::Record> records = store.records(result.run);
+  std::erase_if(records, [&](const record::Record& record) {
+    return !arguments.device.empty() && record.device != arguments.device;
+  });
   const auto absent = [&](const record::Record* record) {
     return record->outcome == record::Outcome::skipped &&
            !registry.find_suite()(record->suite).missing_data(record->factors).empty();
@@ -110,49 +113,6 @@ void excuse_absent_data(const Registry& registry, const std::vector<record::Reco
       finding.verdict = judge::Verdict::skipped;
     }
   }
-}
-
-// A slow day fails no test: what was judged and came out as too noisy to tell is advice here, and
-// to be settled by `triptych compare`, as its message says. The gate's exit code stays "could not
-// judge".
-void excuse_noise(judge::GateResult& result) {
-  for (judge::Finding& finding : result.findings) {
-    const bool noisy = finding.check == judge::Check::timing &&
-                       finding.verdict == judge::Verdict::cannot_judge &&
-                       finding.numbers.contains("half_width");
-    if (noisy) finding.verdict = judge::Verdict::advisory;
-  }
-}
-
-// Nor does a slow machine: what both launches show may be another processor under the same name, or
-// an hour of somebody else's work. Where the environment asks for it, on a machine that is kept for
-// measuring, it is a failure; else advice, and the reason to skip.
-std::optional<std::string> excuse_slowness(judge::GateResult& result) {
-  const char* judged = std::getenv("TRIPTYCH_JUDGE_TIMES");
-  if (judged != nullptr && std::string_view(judged) == "1") return std::nullopt;
-  int slower = 0;
-  for (judge::Finding& finding : result.findings) {
-    if (!judge::is_slower(finding)) continue;
-    finding.verdict = judge::Verdict::advisory;
-    ++slower;
-  }
-  if (slower == 0) return std::nullopt;
-  return fmt::format(
-      "{} slower than stored, in two launches; TRIPTYCH_JUDGE_TIMES=1 makes it a failure", slower);
-}
-
-// What fails no test: files that are not here, noise, and, with the reason to skip, slowness.
-std::optional<std::string> excuse(const CheckArguments& arguments, const Registry& registry,
-                                  const record::Store& store, judge::GateResult& result) {
-  if (has(result, judge::Verdict::cannot_judge)) {
-    std::vector<record::Record> records = store.records(result.run);
-    std::erase_if(records, [&](const record::Record& record) {
-      return !arguments.device.empty() && record.device != arguments.device;
-    });
-    excuse_absent_data(registry, records, result);
-  }
-  excuse_noise(result);
-  return excuse_slowness(result);
 }
 
 // Findings as text, the worst one's numbers and pictures for CTest's dashboard.
@@ -181,14 +141,9 @@ core::ExitCode check_as_test(const CheckArguments& arguments) {
   record::Store store(arguments.store, record::Store::Mode::append);
   Truths truths(registry, store);
   judge::GateResult result = judge_store(arguments, store, truths);
-  if (measure_suspects_again(result, arguments.plan, arguments.store)) {
-    result = judge_store(arguments, store, truths);
-  }
-  const std::optional<std::string> slower = excuse(arguments, registry, store, result);
+  excuse_absent_data(arguments, registry, store, result);
   tell(arguments, store, truths, result);
-  const bool fails =
-      has(result, judge::Verdict::regression) || has(result, judge::Verdict::cannot_judge);
-  if (const auto reason = slower && !fails ? slower : reason_to_skip(result)) {
+  if (const auto reason = reason_to_skip(result)) {
     fmt::print("skipped: {}\n", *reason);
     return core::ExitCode::skip;
   }

@@ -7,9 +7,7 @@
 #include <map>
 #include <set>
 
-#include "app/measuring.hpp"
 #include "app/paths.hpp"
-#include "judge/timing/anchor.hpp"
 #include "measure/plan.hpp"
 #include "report/finding_groups.hpp"
 #include "report/page.hpp"
@@ -35,14 +33,6 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
                   name, plan, file));
 }
 
-bool measure_suspects_again(const judge::GateResult& result, const std::string& plan,
-                            const std::string& file) {
-  const std::vector<std::string> devices = result.left_in_doubt();
-  if (devices.empty()) return false;
-  measure_again(plan, devices, file);
-  return true;
-}
-
 void print_text(const judge::GateResult& result) {
   for (const report::FindingGroup& group : report::grouped(result.findings)) {
     const judge::Finding& finding = *group.first;
@@ -62,8 +52,6 @@ std::vector<record::Run> latest_runs(const record::Store& store) {
   for (const record::Run& run : store.runs()) plans.insert(run.plan);
   std::vector<record::Run> runs;
   for (const std::string& plan : plans) runs.push_back(*store.latest_run(plan));
-  std::ranges::stable_partition(
-      runs, [](const record::Run& run) { return run.plan != judge::anchors_plan; });
   return runs;
 }
 

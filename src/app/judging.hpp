@@ -19,18 +19,11 @@ namespace triptych::app {
 [[nodiscard]] std::string latest_run_of(const record::Store& store, const std::string& plan,
                                         const std::string& file);
 
-// Measures devices in doubt that no run measured again once more, into the same store, which `file`
-// names. `plan` as it was typed: of a YAML file the store knows the stem alone, and that cannot be
-// loaded. False: there was nothing to be measured. Throws as measure_again does.
-[[nodiscard]] bool measure_suspects_again(const judge::GateResult& result, const std::string& plan,
-                                          const std::string& file);
-
 // Every finding but those that pass, a line each, then how many there are of each verdict and the
 // headline.
 void print_text(const judge::GateResult& result);
 
-// The latest run of each plan in a store, by the plans' names, that of the anchors last: it is
-// measured for the others' sake.
+// The latest run of each plan in a store, by the plans' names.
 [[nodiscard]] std::vector<record::Run> latest_runs(const record::Store& store);
 
 // The report on the latest run of each plan in a store, which holds one.

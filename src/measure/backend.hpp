@@ -42,17 +42,11 @@ struct ParticleWork {
   }
 };
 
-// A frozen piece of work that measures the device and not our program; the suite is "anchors". Its
-// counters are technique::anchor_counter, whose value is known; its picture is empty.
-struct AnchorWork {
-  int size = 1;  // amount of work; technique::anchor_size_reason says how much there may be
-};
-
 // What is to be drawn and how. The kind of scene is the one that the technique's suite in the
 // catalogue says.
 struct Work {
   std::string technique;  // catalogue id
-  std::variant<VolumeWork, ParticleWork, AnchorWork> scene;
+  std::variant<VolumeWork, ParticleWork> scene;
 };
 
 // A frame is made for one purpose only.

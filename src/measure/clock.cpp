@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "measure/protocol.hpp"
-#include "technique/anchors/anchor_work.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -61,18 +60,12 @@ std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::siz
 }
 
 // Finer steps along the rays are the same kind of work, only more of it; so are more pixels of the
-// same particles and a larger anchor. False when this work cannot grow.
+// same particles. False when this work cannot grow.
 bool lengthen(Work& work, double factor) {
   if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {
     constexpr double finest_step_voxels = 1e-3;
     if (volume->scene.step_voxels <= finest_step_voxels) return false;
     volume->scene.step_voxels = std::max(volume->scene.step_voxels / factor, finest_step_voxels);
-    return true;
-  }
-  if (auto* anchor = std::get_if<AnchorWork>(&work.scene)) {
-    const int larger = static_cast<int>(std::ceil(anchor->size * factor));
-    if (technique::anchor_size_reason(work.technique, larger)) return false;
-    anchor->size = larger;
     return true;
   }
   scene::ParticleScene& scene = std::get<ParticleWork>(work.scene).scene;

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <numeric>
 #include <utility>
 #include <variant>
 
 #include "measure/counting/emulator.hpp"
-#include "measure/rounds.hpp"
 #include "measure/stopwatch.hpp"
 
 namespace triptych::measure {
@@ -19,10 +17,6 @@ record::Record ended(record::Outcome outcome, std::string reason) {
   record.outcome = outcome;
   record.reason = std::move(reason);
   return record;
-}
-
-Turn ended_turn(record::Outcome outcome, std::string reason) {
-  return {.outcome = outcome, .reason = std::move(reason), .wall_ns = {}, .device_ns = {}};
 }
 
 // A worker under the emulator has caches of its own: its code is made for another processor.
@@ -104,39 +98,6 @@ Done DeviceRun::pass_by(const Configuration& configuration, const std::string& k
   return done;
 }
 
-DeviceRun::Round DeviceRun::round(const Configuration& configuration, const record::Record& record,
-                                  const OnLoading& on_loading) {
-  Round round;
-  if (!ensure_worker()) {
-    round.ended = Ended{record::Outcome::failed, seat_.why_closed()};
-    return round;
-  }
-  const Stopwatch stopwatch;
-  const Protocol protocol = this->protocol();
-  const auto request = [&](const Message& message) {
-    Turn turn = this->turn(message, on_loading);
-    if (turn.outcome != record::Outcome::measured) round.ended = Ended{turn.outcome, turn.reason};
-    return turn;
-  };
-  request(to_message(
-      Hold{.configuration = configuration,
-           .plants = faults_for(context_.options.plants, record.configuration, device_)}));
-  if (!round.ended) request(to_message(Frames{.count = record.warm_up_frames}));
-  double lasted_ns = 0;
-  bool seen_again = false;
-  for (int frames = 0; !round.ended && !seen_again && lasted_ns < protocol.most_round_ns &&
-                       frames < protocol.most_loop_frames;
-       frames += protocol.timed_frames) {
-    Turn pass = request(to_message(Frames{.count = protocol.timed_frames}));
-    lasted_ns = std::accumulate(pass.wall_ns.begin(), pass.wall_ns.end(), lasted_ns);
-    seen_again = sees_again(record, pass);
-    round.passes.push_back(std::move(pass));
-  }
-  if (!round.ended) request(to_message(Release{}));
-  round.work_ns = stopwatch.ns();
-  return round;
-}
-
 void DeviceRun::finish() {
   seat_.finish();
 }
@@ -204,7 +165,7 @@ void DeviceRun::greet(const Hello& hello) {
 
 Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
   const Stopwatch stopwatch;
-  auto reply = exchange(to_message(job), as_answer, on_loading);
+  auto reply = exchange(to_message(job), on_loading);
   if (const auto* lost = std::get_if<Ended>(&reply)) return {ended(lost->outcome, lost->reason)};
   Answer& answer = std::get<Answer>(reply);
   if (answer.record.outcome == record::Outcome::lost) seat_.vacate();
@@ -215,19 +176,8 @@ Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
   return done;
 }
 
-Turn DeviceRun::turn(const Message& message, const OnLoading& on_loading) {
-  auto reply = exchange(message, as_turn, on_loading);
-  if (const auto* lost = std::get_if<Ended>(&reply)) {
-    return ended_turn(lost->outcome, lost->reason);
-  }
-  Turn& turn = std::get<Turn>(reply);
-  if (turn.outcome == record::Outcome::lost) seat_.vacate();
-  return std::move(turn);
-}
-
-template <typename As>
-auto DeviceRun::exchange(const Message& message, As as, const OnLoading& on_loading)
-    -> std::variant<typename std::invoke_result_t<As, Message>::value_type, Ended> {
+std::variant<Answer, DeviceRun::Ended> DeviceRun::exchange(const Message& message,
+                                                           const OnLoading& on_loading) {
   const std::chrono::seconds limit = context_.plan.counted()
                                          ? std::max(counted_limit, context_.options.limit)
                                          : context_.options.limit;
@@ -239,7 +189,7 @@ auto DeviceRun::exchange(const Message& message, As as, const OnLoading& on_load
     ended = {record::Outcome::hung, std::move(late->reason)};
   } else {
     try {
-      if (auto answer = as(std::move(std::get<Message>(reply)))) return std::move(*answer);
+      if (auto answer = as_answer(std::move(std::get<Message>(reply)))) return std::move(*answer);
       ended = {record::Outcome::failed, "the worker said something other than its answer"};
     } catch (const core::InputError& error) {
       ended = {record::Outcome::failed, error.what()};

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -58,17 +57,6 @@ class DeviceRun {
   [[nodiscard]] Done pass_by(const Configuration& configuration, const std::string& key,
                              const Ended& why) const;
 
-  // Only the timed frames of what `record` tells of, after as many to warm up as its first round
-  // took, pass after pass until one sees its time again or they have lasted
-  // Protocol::most_round_ns: whatever disturbs comes and goes within tens of milliseconds.
-  struct Round {
-    std::vector<Turn> passes;
-    std::optional<Ended> ended;  // why it came to no end: the configuration failed
-    double work_ns = 0;
-  };
-  [[nodiscard]] Round round(const Configuration& configuration, const record::Record& record,
-                            const OnLoading& on_loading);
-
   // Lets the worker leave in peace.
   void finish();
 
@@ -84,11 +72,9 @@ class DeviceRun {
   [[nodiscard]] Job job(const Configuration& configuration, const std::string& key) const;
   void sign(const Job& job, const std::string& key, record::Record& record) const;
   [[nodiscard]] Done ask(const Job& job, const OnLoading& on_loading);
-  [[nodiscard]] Turn turn(const Message& message, const OnLoading& on_loading);
-  // `as` reads the answer: as_answer, as_turn. Where there is none the worker is gone.
-  template <typename As>
-  [[nodiscard]] auto exchange(const Message& message, As as, const OnLoading& on_loading)
-      -> std::variant<typename std::invoke_result_t<As, Message>::value_type, Ended>;
+  // Where there is no answer the worker is gone.
+  [[nodiscard]] std::variant<Answer, Ended> exchange(const Message& message,
+                                                     const OnLoading& on_loading);
 
   void only_counted(record::Record& record) const;
   // Of a plan that counts, why nothing can be counted here; else nothing.

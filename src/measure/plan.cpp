@@ -134,7 +134,6 @@ Plan make_plan(const std::string& name, const Suite& suite,
             .configurations = {},
             .varied = {},
             .checks = Plan::standard_checks(),
-            .rounds = 1,
             .hash = {}};
   for (const ValuesByFactor& values : blocks) {
     std::vector<Configuration> all = all_combinations(suite, values, name);
@@ -179,7 +178,6 @@ Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
   Plan plan = make_plan(source.name, suite, blocks);
   plan.summary = text.summary;
   if (!text.checks.empty()) plan.checks = text.checks;
-  plan.rounds = text.rounds;
   plan.hash = hash_of(source.yaml, overrides);
   return plan;
 }

@@ -22,8 +22,6 @@ struct Plan {
   // What its runs are judged by. Only what they need is measured: no clock is read where timing is
   // not among them, and where cost is, workers run under the emulator and draw for nothing else.
   record::Checks checks = standard_checks();
-  // Passes over the plan, most of all; what is settled earlier is left out (measure/rounds.hpp).
-  int rounds = 1;
   // Of its text and of what was set over it: another plan of the same name has another.
   std::string hash;
 

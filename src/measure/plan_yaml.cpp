@@ -77,15 +77,6 @@ record::Checks checks_of(const std::vector<PlacedText>& names) {
   return checks;
 }
 
-int number_of_rounds(const PlacedText& value) {
-  int rounds = 0;
-  const char* end = value.text.data() + value.text.size();
-  const auto [stop, error] = std::from_chars(value.text.data(), end, rounds);
-  if (error == std::errc{} && stop == end && rounds >= 1 && rounds <= 99) return rounds;
-  throw core::InputError(
-      value.place, fmt::format("'rounds': expected a number from 1 to 99, found '{}'", value.text));
-}
-
 // The places of keys, to refuse one that is there twice: yaml-cpp keeps every pair of a mapping,
 // also those whose key was there before.
 class Keys {
@@ -137,8 +128,6 @@ PlanText parse_plan(std::string_view yaml, const std::string& file) {
       plan.summary = scalar(pair.second, file, key.text).text;
     } else if (key.text == "checks") {
       plan.checks = checks_of(values_of(pair.second, file, key.text));
-    } else if (key.text == "rounds") {
-      plan.rounds = number_of_rounds(scalar(pair.second, file, key.text));
     } else if (key.text == "also") {
       plan.also = also_of(pair.second, file);
     } else {

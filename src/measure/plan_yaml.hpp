@@ -25,7 +25,6 @@ struct PlanText {
   PlacedText suite;
   std::string summary;
   record::Checks checks;  // empty where it says none
-  int rounds = 1;
   std::vector<PlanEntry> entries;  // in the order of the file, no factor twice
   // What stands under `also`: further combinations, by entries in the place of those above.
   std::vector<std::vector<PlanEntry>> also;
@@ -33,8 +32,7 @@ struct PlanText {
 
 // `file` is what errors call the text. Throws InputError for what is not YAML, not one mapping, has
 // no `suite`, a key twice, an empty list, a value that is not a scalar or has none, a `timed` that
-// is neither true nor false, `rounds` that are no number from 1 to 99, an `also` that is not a
-// list of mappings.
+// is neither true nor false, an `also` that is not a list of mappings.
 [[nodiscard]] PlanText parse_plan(std::string_view yaml, const std::string& file);
 
 }  // namespace triptych::measure

@@ -108,10 +108,6 @@ void apply_plant(std::string_view fault, Work& work) {
   if (fault == "crash") crash();
   if (fault == "hang") hang();
   if (fault == "device_lost") throw core::DeviceLost("plant", "device_lost");
-  if (std::holds_alternative<AnchorWork>(work.scene)) {
-    throw core::NotSupported(
-        fmt::format("technique {} is frozen: it takes no fault", work.technique));
-  }
   const auto plant_into = [&](auto& options, const auto& faults) {
     if (const auto planted = named(faults, fault)) {
       options.fault = *planted;

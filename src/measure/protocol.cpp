@@ -163,9 +163,6 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   core::Json entries = time_into(record, prepared, protocol.timed_frames, name, work_ns);
   record.device_clock_trusted =
       is_trusted(work_kind, clocks) && plausible(record.device_ns, record.wall_ns);
-  if (const auto summary = record::summarise(record.time_ns())) {
-    record.rounds_ns = {summary->median};
-  }
   result.image = prepared.image();
 
   if (protocol.statistics) {

@@ -22,7 +22,6 @@ struct Protocol {
   int timed_frames = 8;
   double least_loop_ns = 100e6;  // of the wall-clock loop
   int most_loop_frames = 1000;
-  double most_round_ns = 250e6;  // of the timed frames of a further round (measure/rounds.hpp)
   bool statistics = true;
   bool counters = true;
   // Else one frame for its picture and one for our counters: nothing is warmed up, and no time,

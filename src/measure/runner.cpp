@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <ctime>
-#include <deque>
 #include <optional>
 #include <random>
 #include <set>
@@ -15,7 +14,6 @@
 #include "measure/interrupt.hpp"
 #include "measure/plan_run.hpp"
 #include "measure/plant.hpp"
-#include "measure/stopwatch.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -68,7 +66,6 @@ std::string open_run(const PlannedRun& planned, record::Store& store) {
     return latest->id;
   }
   record::Run run = new_run(plan);
-  if (options.confirm && latest) run.confirms = latest->id;
   store.add_run(run);
   return run.id;
 }
@@ -83,25 +80,21 @@ void refuse_bad_options(const RunOptions& options) {
 std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
                                  const std::vector<std::string>& devices, record::Store& store,
                                  const std::function<void(const Progress&)>& on_progress) {
-  const Stopwatch run;
   for (const PlannedRun& each : runs) refuse_bad_options(each.options);
   InterruptGuard interrupts;
-  std::deque<RunContext> contexts;  // each PlanRun refers to its own
-  std::deque<PlanRun> all;
+  std::vector<RunResult> results;
+  results.reserve(runs.size());
   for (const PlannedRun& each : runs) {
     const auto& [plan, suite, options] = each;
-    contexts.push_back({plan, suite, store, options, interrupts, open_run(each, store),
-                        kinds_of(plan, options.protocol)});
-    all.emplace_back(contexts.back(), devices, on_progress).first_round();
+    const RunContext context{plan,
+                             suite,
+                             store,
+                             options,
+                             interrupts,
+                             open_run(each, store),
+                             kinds_of(plan, options.protocol)};
+    results.push_back(PlanRun(context, devices, on_progress).measure_all());
   }
-  std::size_t most = 1;
-  for (const PlanRun& each : all) most = std::max(most, each.most_rounds());
-  for (std::size_t round = 2; round <= most; ++round) {
-    for (PlanRun& each : all) each.further_round(round, run);
-  }
-  std::vector<RunResult> results;
-  results.reserve(all.size());
-  for (PlanRun& each : all) results.push_back(each.conclude());
   return results;
 }
 

@@ -24,14 +24,6 @@ struct RunOptions {
   std::chrono::seconds limit{60};  // of one configuration; a worker past it is killed and replaced
   std::chrono::seconds start_limit{60};  // of opening a device and calibrating its clocks
   bool resume = false;  // continue the plan's latest run: what has a record is left alone
-  // A new run measures again what the plan's latest run in the store made suspicious
-  // (record::Run::confirms). Not with `resume`.
-  bool confirm = false;
-  // Rounds over the plan at most, instead of the plan's own number.
-  std::optional<int> rounds;
-  // Of the whole run, the plans beside it included: rounds go on until then, of the most doubtful
-  // configurations first. The first round is made whatever the budget.
-  std::optional<std::chrono::seconds> budget;
   std::vector<Plant> plants;
   // Command that starts a worker for a device; the device id is appended. It must call
   // serve_worker with Process::child_request_fd and child_answer_fd (measure/process.hpp).
@@ -52,7 +44,6 @@ class Interrupted : public core::Error {
 struct Progress {
   std::string device;
   std::string configuration;
-  int round = 1;  // `done`, `total` and `left` are of this round
   int done = 0;
   int total = 0;
   std::chrono::seconds left{0};
@@ -66,11 +57,9 @@ struct RunResult {
   int measured = 0;
   int taken_over = 0;  // of those, by another configuration's frames (measure/twins.hpp)
   int skipped = 0;
-  int failed = 0;          // failed, crashed, hung or lost
-  int there_before = 0;    // of all these, those that a resumed run held already
-  int rounds_added = 0;    // times that one of them was timed again
-  int unsettled = 0;       // of several rounds: measured, but the quietest was not seen again
-  double wall_ns = 0;      // without what was measured of other plans meanwhile
+  int failed = 0;        // failed, crashed, hung or lost
+  int there_before = 0;  // of all these, those that a resumed run held already
+  double wall_ns = 0;
   double overhead_ns = 0;  // of wall_ns, what was neither opening devices, preparing nor frames
 };
 
@@ -82,15 +71,12 @@ struct PlannedRun {
 };
 
 // Every configuration of each plan on every device, devices one after the other so that none
-// disturbs another's timing; then, as the plan or the options ask, further rounds of timed frames
-// over what is not settled (measure/rounds.hpp). The plans' rounds alternate, so that anchors and
-// what they judge see the same minutes of a machine and a configuration's rounds lie as far apart
-// as can be. A crash, a hang or a lost device costs one configuration; a device whose worker cannot
-// be started twice in a row costs the device, each of its configurations failed with the reason.
-// One result per plan, each of a run of its own. Throws InputError for an unknown fault, for an
-// environment that forbids measuring, and for a resumed run whose device has changed or that holds
-// what its plan, changed since, does not measure; IoError when the store cannot be written;
-// Interrupted.
+// disturbs another's timing. A crash, a hang or a lost device costs one configuration; a device
+// whose worker cannot be started twice in a row costs the device, each of its configurations failed
+// with the reason. One result per plan, each of a run of its own. Throws InputError for an unknown
+// fault, for an environment that forbids measuring, and for a resumed run whose device has changed
+// or that holds what its plan, changed since, does not measure; IoError when the store cannot be
+// written; Interrupted.
 [[nodiscard]] std::vector<RunResult> run_plans(
     std::span<const PlannedRun> runs, const std::vector<std::string>& devices, record::Store& store,
     const std::function<void(const Progress&)>& on_progress);

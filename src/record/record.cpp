@@ -137,14 +137,6 @@ std::string_view Record::clock() const {
   return device_clock_trusted && !device_ns.empty() ? "device" : "wall";
 }
 
-std::optional<double> Record::round_gap() const {
-  if (rounds_ns.size() < 2) return std::nullopt;
-  std::vector<double> sorted = rounds_ns;
-  std::ranges::sort(sorted);
-  if (!(sorted[0] > 0)) return std::nullopt;
-  return std::log(sorted[1] / sorted[0]);
-}
-
 std::string Record::test_id(std::string_view check) const {
   const std::size_t slash = plan.find_last_of('/');
   const std::string_view last = slash == std::string::npos

@@ -100,10 +100,7 @@ struct Record {
   bool device_clock_trusted = false;
   int warm_up_frames = 0;
   int frames_per_100ms = 0;  // as the warm-up found
-  // Medians of the clock that counts, one per round of timed frames, as made; the times above are
-  // of the round with the least of them. Where a plan has one round, that one.
-  std::vector<double> rounds_ns;
-  double loop_wall_ns = 0;  // the closing wall-clock loop, whole
+  double loop_wall_ns = 0;   // the closing wall-clock loop, whole
   int loop_frames = 0;
   double prepare_ns = 0;   // data, pipelines, upload
   double overhead_ns = 0;  // wall clock of this configuration outside device work and warm-up
@@ -135,9 +132,6 @@ struct Record {
     return clock == "wall" ? wall_ns : device_ns;
   }
   [[nodiscard]] std::string_view clock() const;
-  // ln of the second least of the rounds' medians over the least: how well the quietest round was
-  // seen again. Empty below two rounds.
-  [[nodiscard]] std::optional<double> round_gap() const;
   // "<suite>.<plan's last part>.<check>.<device>", e.g. volume.quick.image.vulkan:lavapipe.
   [[nodiscard]] std::string test_id(std::string_view check) const;
 };
@@ -152,8 +146,6 @@ struct Run {
   Checks checks = {};  // those that its plan is for
   std::string plan_hash = {};        // of the plan's text, and of what was set on the command line
   std::uint64_t configurations = 0;  // that it was to measure on each device
-  // Id of the run of the same plan whose suspects this one measured again; empty: of none.
-  std::string confirms = {};
 };
 
 // What `triptych run` and `triptych compare` take as PLAN for a run's plan: SUITE/PLAN as it is. A

@@ -165,7 +165,6 @@ void visit_fields(auto& record, Visit&& visit) requires
   visit("device_ns", record.device_ns);
   visit("device_clock_trusted", record.device_clock_trusted);
   visit("warm_up_frames", record.warm_up_frames);
-  visit("rounds_ns", record.rounds_ns);
   visit("frames_per_100ms", record.frames_per_100ms);
   visit("loop_wall_ns", record.loop_wall_ns);
   visit("loop_frames", record.loop_frames);
@@ -194,7 +193,6 @@ void visit_fields(auto& run,
   visit("system", run.system);
   visit("plan_hash", run.plan_hash);
   visit("configurations", run.configurations);
-  visit("confirms", run.confirms);
 }
 
 template <typename T>

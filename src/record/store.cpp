@@ -29,7 +29,7 @@ Run read_run(SQLite::Statement& row) {
   std::string system;
   std::string checks;
   Reader(row) >> run.id >> run.plan >> run.started_at >> system >> checks >> run.plan_hash >>
-      run.configurations >> run.confirms;
+      run.configurations;
   run.system = map_of(system);
   run.checks = checks_of(checks);
   return run;
@@ -38,10 +38,7 @@ Run read_run(SQLite::Statement& row) {
 // Runs in the order of read_run.
 std::string select_runs(std::string_view rest) {
   return fmt::format(
-      "SELECT id, plan, started_at, system, checks, plan_hash, configurations, "
-      "coalesce((SELECT c.confirms FROM confirmation c WHERE c.run = run.id), '') AS confirms "
-      "FROM run {}",
-      rest);
+      "SELECT id, plan, started_at, system, checks, plan_hash, configurations FROM run {}", rest);
 }
 
 std::vector<ClockTrust> read_clocks(const SQLite::Database& database, std::uint64_t device) {
@@ -130,9 +127,6 @@ void Store::add_run(const Run& run) {
             "configurations = excluded.configurations",
             run.id, run.plan, run.started_at, system, text_of(run.checks), run.plan_hash,
             run.configurations);
-    if (run.confirms.empty()) return;
-    execute(state_->database, "INSERT OR REPLACE INTO confirmation (run, confirms) VALUES (?, ?)",
-            run.id, run.confirms);
   });
 }
 
@@ -208,10 +202,6 @@ void Store::unbegin_record(const std::string& run, const std::string& configurat
   });
 }
 
-void Store::update_times(const Record& r) {
-  state_->write([&] { replace_times(state_->database, r); });
-}
-
 void Store::set_truth(const TruthImage& truth) {
   state_->write([&] {
     execute(state_->database, "INSERT OR REPLACE INTO truth VALUES (?, ?, ?, ?)", truth.scene,
@@ -231,8 +221,7 @@ std::vector<Run> Store::runs() const {
 std::optional<Run> Store::latest_run(std::string_view plan) const {
   return on_store(state_->file, [&]() -> std::optional<Run> {
     SQLite::Statement row =
-        prepared(state_->database,
-                 select_runs("WHERE plan = ? AND confirms = '' ORDER BY seq DESC LIMIT 1"), plan);
+        prepared(state_->database, select_runs("WHERE plan = ? ORDER BY seq DESC LIMIT 1"), plan);
     if (!row.executeStep()) return std::nullopt;
     return read_run(row);
   });

@@ -62,13 +62,9 @@ class Store {
                    const std::string& device);
   void unbegin_record(const std::string& run, const std::string& configuration,
                       const std::string& device);
-  // The times and rounds of a record that is there, after a further round; all else of it is left.
-  // Throws InputError when there is none of the same run, configuration and device.
-  void update_times(const Record& record);
   void set_truth(const TruthImage& truth);
 
   [[nodiscard]] std::vector<Run> runs() const;  // oldest first
-  // Of those that confirm no other.
   [[nodiscard]] std::optional<Run> latest_run(std::string_view plan) const;
   struct DeviceEntry {
     Device device;

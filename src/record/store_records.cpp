@@ -72,28 +72,6 @@ void insert_samples(const SQLite::Database& database, std::int64_t record, std::
   }
 }
 
-void insert_times(const SQLite::Database& database, std::int64_t seq, const Record& r) {
-  insert_samples(database, seq, "wall", r.wall_ns);
-  insert_samples(database, seq, "device", r.device_ns);
-  SQLite::Statement insert(database, "INSERT INTO round VALUES (?, ?, ?)");
-  for (std::size_t round = 0; round < r.rounds_ns.size(); ++round) {
-    Binder(insert) << seq << round << r.rounds_ns[round];
-    insert.exec();
-    insert.reset();
-  }
-}
-
-std::int64_t seq_of(const SQLite::Database& database, const Record& r) {
-  SQLite::Statement row = prepared(
-      database, "SELECT seq FROM record WHERE run = ? AND configuration = ? AND device = ?", r.run,
-      r.configuration, r.device);
-  if (!row.executeStep()) {
-    throw core::InputError(fmt::format("run {} has no record of {} on {} whose times could change",
-                                       r.run, r.configuration, r.device));
-  }
-  return row.getColumn(0).getInt64();
-}
-
 using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
 
 // Calls `read(record, row)` for every row of a table under the run's records; `columns` are those
@@ -136,15 +114,14 @@ void read_times(const SQLite::Database& database, std::string_view run,
               row >> clock >> ns;
               (clock == "device" ? record.device_ns : record.wall_ns).push_back(ns);
             });
-  read_rows(database, "round", "t.ns", "t.record, t.round", run, records,
-            [](Record& record, Reader& row) { row >> record.rounds_ns.emplace_back(); });
 }
 
 }  // namespace
 
 void insert_record(const SQLite::Database& database, const Record& r) {
   const std::int64_t seq = insert_row(database, r);
-  insert_times(database, seq, r);
+  insert_samples(database, seq, "wall", r.wall_ns);
+  insert_samples(database, seq, "device", r.device_ns);
   insert_map(database, "factor", seq, r.factors);
   insert_map(database, "counter", seq, r.counters);
   insert_map(database, "cost", seq, r.cost);
@@ -153,17 +130,6 @@ void insert_record(const SQLite::Database& database, const Record& r) {
   insert_map(database, "statistic", seq, r.statistics);
   insert_map(database, "precision", seq, r.precision);
   if (!r.same_as.empty()) execute(database, "INSERT INTO same_as VALUES (?, ?)", seq, r.same_as);
-}
-
-void replace_times(const SQLite::Database& database, const Record& r) {
-  const std::int64_t seq = seq_of(database, r);
-  execute(database, "DELETE FROM sample WHERE record = ?", seq);
-  execute(database, "DELETE FROM round WHERE record = ?", seq);
-  execute(database,
-          "UPDATE record SET frames = ?, median_ns = ?, median_wall_ns = ?, median_device_ns = ? "
-          "WHERE seq = ?",
-          r.time_ns().size(), median(r.time_ns()), median(r.wall_ns), median(r.device_ns), seq);
-  insert_times(database, seq, r);
 }
 
 std::vector<Record> read_records(const SQLite::Database& database, std::string_view run) {

@@ -13,9 +13,6 @@ namespace triptych::record {
 // The run must be there, a record of the same run, configuration and device must not.
 void insert_record(const SQLite::Database& database, const Record& record);
 
-// Store::update_times; throws InputError where there is no such record.
-void replace_times(const SQLite::Database& database, const Record& record);
-
 // Store::records.
 [[nodiscard]] std::vector<Record> read_records(const SQLite::Database& database,
                                                std::string_view run);

@@ -1,6 +1,6 @@
 #pragma once
 // Vega-Lite specifications (JSON text) of the analysis' figures. Each takes rows of the tables in
-// judge/analysis/tables.hpp.
+// analysis/tables.hpp.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "judge/analysis/tables.hpp"
+#include "analysis/tables.hpp"
 #include "report/analysis_charts.hpp"
 #include "report/html.hpp"
 #include "report/page_frame.hpp"
@@ -13,9 +13,9 @@
 namespace triptych::report {
 namespace {
 
+using analysis::SuiteAnalysis;
+using analysis::Table;
 using core::Json;
-using judge::analysis::SuiteAnalysis;
-using judge::analysis::Table;
 
 std::string cell_text(const Json& cell) {
   if (cell.is_null()) return "–";
@@ -53,7 +53,7 @@ std::string html_table(const Table& table_of) {
 class SuitePage {
  public:
   explicit SuitePage(const SuiteAnalysis& analysis)
-      : analysis_(analysis), tables_(judge::analysis::tables(analysis)) {}
+      : analysis_(analysis), tables_(analysis::tables(analysis)) {}
 
   [[nodiscard]] std::string html() {
     text_ = fmt::format("<section><h2>{}</h2><p>{} configurations on their devices, {} time.</p>",
@@ -100,15 +100,15 @@ class SuitePage {
   [[nodiscard]] Json rows_where(
       std::string_view name, const std::vector<std::pair<std::string, std::string>>& wanted) const {
     Json chosen = Json::array();
-    for (const Json& row : judge::analysis::rows_of(tables_, name)) {
+    for (const Json& row : analysis::rows_of(tables_, name)) {
       bool fits = true;
       for (const auto& [column, value] : wanted) fits = fits && row.at(column) == value;
       if (fits) chosen.push_back(row);
     }
     return chosen;
   }
-  static std::string label(std::size_t samples, const judge::analysis::Scope& scope) {
-    const std::string held = judge::analysis::text_of(scope.held);
+  static std::string label(std::size_t samples, const analysis::Scope& scope) {
+    const std::string held = analysis::text_of(scope.held);
     return fmt::format("{} samples; held: {}", samples, held.empty() ? "nothing" : held);
   }
 
@@ -136,7 +136,7 @@ class SuitePage {
     if (analysis_.matrices.empty()) return;
     text_ += "<h3>Correlation of the levels of each factor</h3>\n";
     add_figure("Pearson's r between all pairs of levels", "numbers of samples: table below",
-               correlation_boxes_chart(judge::analysis::rows_of(tables_, "correlations")));
+               correlation_boxes_chart(analysis::rows_of(tables_, "correlations")));
     text_ += html_table(*table_named("correlation_boxes"));
     for (const auto& matrix : analysis_.matrices) {
       if (matrix.levels.size() < 3) continue;  // one number, which the table has

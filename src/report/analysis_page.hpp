@@ -4,13 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "judge/analysis/analysis.hpp"
+#include "analysis/analysis.hpp"
 
 namespace triptych::report {
 
 // Every figure states the factors that were held and the number of samples; what could not be
 // computed is listed with its reason.
-[[nodiscard]] std::string analysis_page(
-    const std::vector<judge::analysis::SuiteAnalysis>& analyses);
+[[nodiscard]] std::string analysis_page(const std::vector<analysis::SuiteAnalysis>& analyses);
 
 }  // namespace triptych::report

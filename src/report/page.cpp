@@ -63,8 +63,8 @@ std::string plan_part(const record::Store& store, const PlanReport& report,
                      escape(report.verdict.headline())) +
          system_line(report.run) + common_line(plan) + verdict_section(plan) +
          devices_section(plan) + scenes_section(store, plan, request.truth) + times_section(plan) +
-         speed_of_light_section(plan) + correlation_section(plan) + accuracy_section(plan) +
-         counts_section(plan) + "</section>\n";
+         speed_of_light_section(plan) + accuracy_section(plan) + counts_section(plan) +
+         "</section>\n";
 }
 
 }  // namespace

@@ -24,8 +24,6 @@ struct PlanData {
     const std::function<judge::TruthPair(const record::Record&)>& truth);
 [[nodiscard]] std::string times_section(const PlanData& plan);
 [[nodiscard]] std::string speed_of_light_section(const PlanData& plan);
-// Of the pairs of devices in the verdict.
-[[nodiscard]] std::string correlation_section(const PlanData& plan);
 // Of the scenes whose accuracy the verdict tells.
 [[nodiscard]] std::string accuracy_section(const PlanData& plan);
 [[nodiscard]] std::string counts_section(const PlanData& plan);

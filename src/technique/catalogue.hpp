@@ -14,7 +14,7 @@ enum class Work : std::uint8_t { compute, draw };
 
 struct Technique {
   std::string id;     // also the file stem in every backend's folder
-  std::string suite;  // "volume", "particles" or "anchors"
+  std::string suite;  // "volume" or "particles"
   Work work = Work::compute;
   bool picture = true;  // draws the scene; false for a bound on speed, whose image means nothing
   std::vector<std::string> apis;  // where the technique exists at all

@@ -36,7 +36,7 @@ TEST_F(AbsentData, IsASkipForCTestAndNotToBeJudgedForTheGate) {
   std::filesystem::remove(program.folder() / "field.nrrd");
   const Result measured = program.run("test-measure plan --device null:scripted --store s.sqlite");
   EXPECT_EQ(measured.code, 77) << measured.output;
-  for (const char* name : {"image", "counters", "timing"}) {
+  for (const char* name : {"image", "counters"}) {
     const Result result = check(name);
     EXPECT_EQ(result.code, 77) << result.output;
     EXPECT_NE(result.output.find("'field.nrrd' is not here"), std::string::npos) << result.output;

@@ -23,7 +23,7 @@ class Arguments : public testing::Test {
 TEST_F(Arguments, APlanMayFollowAnOption) {
   for (const std::string option : {"--device 'null:*'", "--set step=0.5", "--plant slowdown:5"}) {
     const Result result =
-        program.run("run --rounds 1 --store s.sqlite --device 'null:*' " + option + " p.yaml");
+        program.run("run --store s.sqlite --device 'null:*' " + option + " p.yaml");
     EXPECT_EQ(result.code, 0) << result.output;
   }
   EXPECT_EQ(program.run("list --set step=0.5 p.yaml").code, 0);
@@ -32,15 +32,14 @@ TEST_F(Arguments, APlanMayFollowAnOption) {
 }
 
 TEST_F(Arguments, AWordAfterAnOptionsValueIsAPlan) {
-  const Result result =
-      program.run("run p.yaml --device 'null:*' extra.yaml --rounds 1 --store s.sqlite");
+  const Result result = program.run("run p.yaml --device 'null:*' extra.yaml --store s.sqlite");
   EXPECT_EQ(result.code, 3) << result.output;
   EXPECT_THAT(result.output, HasSubstr("extra.yaml: cannot be read"));
 }
 
 TEST_F(Arguments, EveryGlobMatchesADevice) {
   for (const std::string command :
-       {"run p.yaml --store s.sqlite", "validate", "evaluate --measure --plan p.yaml"}) {
+       {"run p.yaml --store s.sqlite", "validate"}) {
     const Result result = program.run(command + " --device 'null:*' --device 'vulcan:*'");
     EXPECT_EQ(result.code, 2) << result.output;
     EXPECT_THAT(result.output, HasSubstr("no device matches vulcan:*"));
@@ -54,7 +53,7 @@ TEST_F(Arguments, APlanWithoutAName) {
 }
 
 TEST_F(Arguments, BaselinesWithoutAName) {
-  ASSERT_EQ(program.run("run p.yaml --device 'null:*' --rounds 1 --store s.sqlite").code, 0);
+  ASSERT_EQ(program.run("run p.yaml --device 'null:*' --store s.sqlite").code, 0);
   for (const std::string command : {"accept p --reason new", "gate p", "report"}) {
     const Result result = program.run(command + " --store s.sqlite --baselines ''");
     EXPECT_EQ(result.code, 3) << result.output;
@@ -85,8 +84,7 @@ TEST_F(Arguments, AFolderThatMayNotBeSearchedIsNoError) {
 // Progress and errors go to stderr; that it takes nothing is no reason to stop.
 TEST_F(Arguments, AStderrThatTakesNothingEndsNothing) {
   const std::string full = R"(sh -c 'exec "$0" "$@" 2> /dev/full')";
-  const Result measured =
-      program.run("run p.yaml --device 'null:*' --rounds 1 --store s.sqlite", "{}", full);
+  const Result measured = program.run("run p.yaml --device 'null:*' --store s.sqlite", "{}", full);
   EXPECT_EQ(measured.code, 0);
   EXPECT_THAT(measured.output, HasSubstr("1 measured"));
   EXPECT_EQ(program.run("list nowhere.yaml", "{}", full).code, 3);

@@ -53,8 +53,8 @@ TEST(Faults, AResumedRunTellsWhatItHolds) {
   const Program program;
   const std::string run = std::string("run volume/quick --set step=0.5,1 --set skip=none --set ") +
                           "camera=orbit_y:1/8 --store s.sqlite " + tiny;
-  ASSERT_EQ(program.run(run + " --rounds 1").code, 0);
-  const Result finished = program.run(run + " --rounds 1 --resume");
+  ASSERT_EQ(program.run(run + "").code, 0);
+  const Result finished = program.run(run + " --resume");
   EXPECT_EQ(finished.code, 0) << finished.output;
   const Result timed = program.run(run + " --budget 60 --resume");
   EXPECT_EQ(timed.code, 0) << timed.output;

@@ -20,7 +20,7 @@ class Resume : public testing::Test {
     program.write("other/p.yaml", std::string(tiny_plan) + "step: [0.7]\n");
   }
   [[nodiscard]] Result run(const std::string& arguments) const {
-    return program.run("run " + arguments + " --device 'null:*' --rounds 1 --store s.sqlite");
+    return program.run("run " + arguments + " --device 'null:*' --store s.sqlite");
   }
   Program program;
 };

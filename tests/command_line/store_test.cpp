@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string one = std::string("run volume/quick ") + tiny + " --set step=1 --rounds 1";
+const std::string one = std::string("run volume/quick ") + tiny + " --set step=1";
 
 TEST(StoreName, OneWithoutCharactersIsRefusedBeforeAnythingIsMeasured) {
   const Program program;

@@ -37,7 +37,6 @@ TEST(Usage, ASuiteIsListedWithAllThatAPlanMayHold) {
                            "  generate:mandelbulb\n", "  volume/quick: "}) {
     EXPECT_NE(listed.output.find(text), std::string::npos) << text << '\n' << listed.output;
   }
-  EXPECT_EQ(program.run("list anchors").code, 0);
   const auto json = nlohmann::json::parse(program.run("list particles --json").output);
   for (const char* part : {"factors", "generators", "plans"}) {
     ASSERT_FALSE(json.at(part).empty()) << part;

@@ -14,8 +14,8 @@
 #include "judge/baselines/baselines.hpp"
 #include "judge/baselines/json_file.hpp"
 #include "judge/baselines/layout.hpp"
+#include "judge/images/has_picture.hpp"
 #include "judge/statistics/statistics.hpp"
-#include "judge/timing/anchor.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -244,7 +244,7 @@ void write_images(const Accepted& accepted, const AcceptRequest& request, const 
   std::filesystem::create_directories(layout.image_folder());
   std::set<std::string> done;
   for (const record::Record& record : accepted.measured) {
-    if (is_anchor(record) || !done.insert(record.scene).second) continue;
+    if (!has_picture(record) || !done.insert(record.scene).second) continue;
     const std::vector<std::byte> bytes = core::encode_exr(request.truth(record));
     const std::string hash = core::content_hash(bytes);
     const std::string name = Layout::image_name(record.scene);
@@ -262,7 +262,7 @@ void write_images(const Accepted& accepted, const AcceptRequest& request, const 
     entry["hash"] = hash;
   }
   for (const record::Record& record : accepted.measured) {
-    if (is_anchor(record) || record.data_hash.empty()) continue;
+    if (!has_picture(record) || record.data_hash.empty()) continue;
     table[record.scene][Layout::data_key(record)] = record.data_hash;
   }
   index.write(1, lines);

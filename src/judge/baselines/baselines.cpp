@@ -11,10 +11,11 @@
 #include "core/image_io.hpp"
 #include "judge/baselines/json_file.hpp"
 #include "judge/baselines/layout.hpp"
-#include "judge/timing/model.hpp"
 
 namespace triptych::judge {
 namespace {
+
+constexpr std::size_t least_runs = 5;  // fewer stored runs decide nothing
 
 struct StoredImage {
   std::string file;
@@ -163,7 +164,7 @@ std::string_view common_clock(const record::Record& record, std::span<const Stor
         stored, [&](const StoredTiming& timing) { return timing.median_by(clock).has_value(); });
   };
   const auto own = runs_by(record.clock());
-  const bool is_enough = own >= static_cast<std::ptrdiff_t>(TimingModel::least_runs);
+  const bool is_enough = own >= static_cast<std::ptrdiff_t>(least_runs);
   if (is_enough || record.wall_ns.empty()) return record.clock();
   return runs_by("wall") > own ? "wall" : record.clock();
 }

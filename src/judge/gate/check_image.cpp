@@ -7,8 +7,8 @@
 #include "core/image_io.hpp"
 #include "judge/gate/run_view.hpp"
 #include "judge/images/agreement.hpp"
+#include "judge/images/has_picture.hpp"
 #include "judge/images/image_metrics.hpp"
-#include "judge/timing/anchor.hpp"
 #include "record/factor_list.hpp"
 
 namespace triptych::judge {
@@ -295,7 +295,7 @@ ImageFindings check_images(const RunView& view) {
   }
   std::map<std::string, std::vector<const record::Record*>> scenes;
   for (const record::Record* record : view.measured) {
-    if (!is_anchor(*record)) scenes[record->scene].push_back(record);
+    if (has_picture(*record)) scenes[record->scene].push_back(record);
   }
   for (const auto& [scene, records] : scenes) {
     SceneJudge judge(view, out, scene);

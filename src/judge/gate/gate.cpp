@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/glob.hpp"
-#include "judge/gate/confirmation.hpp"
 #include "judge/gate/run_view.hpp"
 #include "record/bad_input.hpp"
 
@@ -29,10 +28,9 @@ bool other_data(const Baselines& baselines, const record::Record& record) {
   return !accepted.empty() && accepted != record.data_hash;
 }
 
-// `again`: launches whose times count as well.
 RunView view_of(const record::Store& store, const std::string& run, const Baselines& baselines,
-                const GateRequest& request, std::vector<Launch> again = {}) {
-  RunView view{store, baselines, request, request.checks, std::move(again), {}, {}, {}, {}};
+                const GateRequest& request) {
+  RunView view{store, baselines, request, request.checks, {}, {}, {}, {}};
   if (view.checks.empty()) {
     view.checks = {Check::image,  Check::counters,    Check::statistics,
                    Check::timing, Check::correlation, Check::accuracy};
@@ -50,14 +48,11 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
     view.devices.try_emplace(record.device, unknown);
     view.records.push_back(std::move(record));
   }
-  for (const Launch& launch : view.again) {
-    join_launches(view.records, launch.store->records(launch.run), *launch.devices);
-  }
   for (const record::Record& record : view.records) {
     if (record.outcome != record::Outcome::measured) continue;
     (other_data(baselines, record) ? view.of_other_data : view.measured).push_back(&record);
   }
-  // Plans made for it; of another, one launch and another device's times say too little to fail by.
+  // Plans made for it.
   if (request.checks.empty() && !request.plan.ends_with("/correlation")) {
     view.checks.erase(Check::correlation);
   }
@@ -159,6 +154,10 @@ void append(std::vector<Finding>& findings, std::vector<Finding> more) {
   std::ranges::move(more, std::back_inserter(findings));
 }
 
+bool is_of_times(Check check) {
+  return check == Check::timing || check == Check::correlation;
+}
+
 bool judges_times(const RunView& view) {
   return view.baselines.present() && std::ranges::any_of(view.checks, is_of_times);
 }
@@ -180,28 +179,6 @@ WrongImages run_checks_but_of_times(const RunView& view, GateResult& result) {
   if (view.checks.contains(Check::counters)) append(findings, check_counters(view));
   if (view.checks.contains(Check::statistics)) append(findings, check_statistics(view));
   return std::move(images.wrong);
-}
-
-GateResult judge_times(const RunView& view, const WrongImages& wrong) {
-  GateResult result{.plan = view.request.plan, .run = {}, .findings = {}};
-  if (view.checks.contains(Check::timing)) result.findings = check_timings(view, wrong);
-  if (view.checks.contains(Check::correlation)) {
-    CorrelationFindings correlations = check_correlations(view, wrong);
-    append(result.findings, std::move(correlations.findings));
-    result.correlations = std::move(correlations.pairs);
-  }
-  for (const Launch& launch : view.again) {
-    result.measured_again.insert(launch.devices->begin(), launch.devices->end());
-  }
-  return result;
-}
-
-// Of the launches those that measured something, each with what it measured wholly.
-std::vector<Launch> whole_launches(const RunView& view, std::span<const Launch> again) {
-  std::vector<Launch> whole(again.begin(), again.end());
-  for (Launch& launch : whole) launch.devices = measured_again(view.records, launch);
-  std::erase_if(whole, [](const Launch& launch) { return launch.devices->empty(); });
-  return whole;
 }
 
 int rank(Verdict verdict) {
@@ -238,15 +215,6 @@ void report_what_is_there(const RunView& view, GateResult& result) {
 
 }  // namespace
 
-bool is_of_times(Check check) {
-  return check == Check::timing || check == Check::correlation;
-}
-
-bool is_slower(const Finding& finding) {
-  return finding.verdict == Verdict::regression && is_of_times(finding.check) &&
-         !finding.numbers.empty();
-}
-
 void sort_findings(std::vector<Finding>& findings) {
   const auto key = [](const Finding& finding) {
     return std::tuple(rank(finding.verdict), std::string_view(finding.device),
@@ -256,38 +224,21 @@ void sort_findings(std::vector<Finding>& findings) {
   std::ranges::stable_sort(findings, {}, key);
 }
 
-GateResult judge_launches(const Launch& first, std::span<const Launch> again,
-                          const Baselines& baselines, const GateRequest& request) {
-  const RunView view = view_of(*first.store, first.run, baselines, request);
-  GateResult result{.plan = request.plan, .run = first.run, .findings = {}};
+GateResult judge_run(const record::Store& store, const std::string& run, const Baselines& baselines,
+                     const GateRequest& request) {
+  const RunView view = view_of(store, run, baselines, request);
+  GateResult result{.plan = request.plan, .run = run, .findings = {}};
   report_what_is_there(view, result);
   const WrongImages wrong = run_checks_but_of_times(view, result);
   if (judges_times(view)) {
-    GateResult times = judge_times(view, wrong);
-    std::vector<Launch> launches = whole_launches(view, again);
-    if (!launches.empty()) {
-      const GateResult alone = std::exchange(
-          times,
-          judge_times(view_of(*first.store, first.run, baselines, request, launches), wrong));
-      tell_what_was_taken_back(alone, times);
+    if (view.checks.contains(Check::timing)) append(result.findings, check_timings(view, wrong));
+    if (view.checks.contains(Check::correlation)) {
+      append(result.findings, check_correlations(view, wrong));
     }
-    result.in_doubt = devices_in_doubt(times);
-    result.measured_again = std::move(times.measured_again);
-    result.correlations = std::move(times.correlations);
-    append(result.findings, std::move(times.findings));
   }
   apply_waivers(view, result.findings);
   sort_findings(result.findings);
   return result;
-}
-
-GateResult judge_run(const record::Store& store, const std::string& run, const Baselines& baselines,
-                     const GateRequest& request) {
-  std::vector<Launch> again;
-  for (const record::Run& each : store.runs()) {
-    if (each.confirms == run) again.push_back({&store, each.id});
-  }
-  return judge_launches({&store, run}, again, baselines, request);
 }
 
 }  // namespace triptych::judge

@@ -16,9 +16,7 @@ struct RunView {
   const Baselines& baselines;
   const GateRequest& request;
   std::set<Check> checks;
-  std::vector<Launch> again;            // launches whose times are joined to the run's; each with
-                                        // the devices that it measured wholly
-  std::vector<record::Record> records;  // of the devices asked for
+  std::vector<record::Record> records;               // of the devices asked for
   std::map<std::string, record::Device> devices;     // by id
   std::vector<const record::Record*> measured;       // into `records`
   std::vector<const record::Record*> of_other_data;  // measured, but not what was accepted
@@ -30,8 +28,6 @@ struct RunView {
   [[nodiscard]] std::string plan_test(Check check) const;
   // The command that would make or renew the baselines.
   [[nodiscard]] std::string accept_command() const;
-  // The command that settles what stored runs leave open.
-  [[nodiscard]] std::string compare_command() const;
 };
 
 [[nodiscard]] Finding finding_about(const record::Record& record, Check check, Verdict verdict,
@@ -59,11 +55,8 @@ struct ImageFindings {
 [[nodiscard]] std::vector<Finding> check_statistics(const RunView& view);
 [[nodiscard]] std::vector<Finding> check_timings(const RunView& view, const WrongImages& wrong);
 
-struct CorrelationFindings {
-  std::vector<Finding> findings;
-  std::vector<CorrelationPair> pairs;
-};
-[[nodiscard]] CorrelationFindings check_correlations(const RunView& view, const WrongImages& wrong);
+[[nodiscard]] std::vector<Finding> check_correlations(const RunView& view,
+                                                      const WrongImages& wrong);
 
 struct AccuracyFindings {
   std::vector<Finding> findings;

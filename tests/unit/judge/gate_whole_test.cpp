@@ -97,13 +97,6 @@ TEST_F(GateTest, DeletedCountersCannotBeJudgedBy) {
   EXPECT_EQ(gate("a").exit_code(), ExitCode::cannot_judge);
 }
 
-TEST_F(GateTest, DeletedTimingsCannotBeJudgedBy) {
-  add_run("a");
-  (void)accept_run("a");
-  std::filesystem::remove_all(baseline("timings"));
-  EXPECT_EQ(gate("a").exit_code(), ExitCode::cannot_judge);
-}
-
 TEST_F(GateTest, CorruptBaselineIsAnErrorWithItsLine) {
   add_run("a");
   (void)accept_run("a");

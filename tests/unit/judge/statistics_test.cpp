@@ -5,14 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/special_functions/digamma.hpp>
-#include <boost/math/special_functions/trigamma.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "core/random.hpp"
-#include "tests/support/normal.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -96,75 +93,6 @@ TEST(Statistics, AlikeVariancesPoolEntirely) {
 TEST(Statistics, OneVarianceStandsForItself) {
   const VariancePrior prior = fit_variance_prior(std::array{4.0}, std::array{7.0});
   EXPECT_EQ(moderated_variance(prior, 4, 7), 4);
-}
-
-// Of seven values three may be anything.
-TEST(Statistics, RobustVarianceOfSpoiltValues) {
-  const std::array good{1.0, 1.1, 0.9, 1.05, 0.95, 1.02, 0.98};
-  std::array spoilt = good;
-  spoilt[0] = spoilt[1] = 100;
-  EXPECT_LT(robust_variance(spoilt), 6 * robust_variance(good));
-  EXPECT_GT(robust_variance(good), 0);
-  EXPECT_EQ(robust_variance(std::array{3.0, 3.0, 3.0, 9.0}), 0);
-}
-
-// What fit_variance_prior goes by: ln of it is as ln σ²χ²_ν/ν is, in mean and variance.
-TEST(Statistics, RobustVarianceIsLikeAScaledChiSquare) {
-  constexpr int samples = 40000;
-  core::Random random(5);
-  for (std::size_t n = 2; n <= 12; ++n) {
-    SCOPED_TRACE(n);
-    std::vector<double> logarithms;
-    for (int i = 0; i < samples; ++i) {
-      std::vector<double> values(n);
-      for (double& value : values) value = 3 * test::normal(random);
-      logarithms.push_back(std::log(robust_variance(values)));
-    }
-    const double degrees = robust_degrees(n);
-    const double scatter = boost::math::trigamma(degrees / 2);
-    // Four standard errors, taking ln v as normal, and the 2 % that the formulas are good to.
-    EXPECT_NEAR(mean(logarithms),
-                std::log(9.0) + boost::math::digamma(degrees / 2) - std::log(degrees / 2),
-                0.03 + 4 * std::sqrt(scatter / samples));
-    EXPECT_NEAR(inverse_trigamma(sample_variance(logarithms)) * 2, degrees, 0.1);
-  }
-}
-
-// Student's sleep data by Welch's test: R's t.test has t = −1.8608 with 17.776 degrees.
-TEST(Statistics, SumsOfVariancesHaveWelchsDegrees) {
-  const std::vector<double> first{0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0};
-  const std::vector<double> second{1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4};
-  const auto of_mean = [](const std::vector<double>& values) {
-    return KnownVariance{sample_variance(values) / 10, 9};
-  };
-  const KnownVariance sum = of_mean(first) + of_mean(second);
-  EXPECT_NEAR((mean(first) - mean(second)) / std::sqrt(sum.variance), -1.8608, 5e-5);
-  EXPECT_NEAR(sum.degrees, 17.776, 5e-4);
-  EXPECT_EQ((KnownVariance{2} + KnownVariance{3}).degrees, std::numeric_limits<double>::infinity());
-  EXPECT_EQ((KnownVariance{} + KnownVariance{0, 4}).variance, 0);
-}
-
-TEST(Statistics, TheMedianOfManyNormalValuesHasItsVariance) {
-  constexpr int samples = 400;
-  double sum = 0;
-  core::Random random(3);
-  for (int i = 0; i < samples; ++i) {
-    std::vector<double> values(49);
-    for (double& value : values) value = test::normal(random);
-    std::ranges::sort(values);
-    sum += variance_of_median(values);
-  }
-  // π/2n of normal values; the estimate is known to be large by less than a tenth at this n
-  // (Price and Bonett 2001), and its mean over so many to 3 %.
-  EXPECT_NEAR(sum / samples, std::numbers::pi / 2 / 49, 0.13 * std::numbers::pi / 2 / 49);
-}
-
-TEST(Statistics, TheMedianOfTwoPartsIsAnywhereBetweenThem) {
-  std::vector<double> values(48, 0.0);
-  std::fill(values.begin() + 24, values.end(), 1.0);
-  EXPECT_GT(std::sqrt(variance_of_median(values)), 0.15);
-  std::fill(values.begin() + 24, values.begin() + 34, 0.0);
-  EXPECT_EQ(variance_of_median(values), 0);
 }
 
 TEST(Statistics, AdjustedPValuesDecideAsTheProcedureDoes) {

@@ -27,16 +27,12 @@ std::string contents(const std::filesystem::path& file) {
 
 class UntimedGateTest : public JudgeTest {};
 
-TEST_F(UntimedGateTest, TimesAndStatisticsAreSkippedWithTheReason) {
+TEST_F(UntimedGateTest, StatisticsAreSkippedWithTheReason) {
   accept_history();
   add_run("b", untimed);
   const GateResult result = gate("b");
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
-  const auto times = with(result, Verdict::skipped, Check::timing);
-  ASSERT_EQ(times.size(), 12U) << text(result);
-  EXPECT_THAT(times[0].message, HasSubstr("timings were not measured"));
   EXPECT_EQ(with(result, Verdict::skipped, Check::statistics).size(), 12U);
-  EXPECT_TRUE(with(result, Verdict::pass, Check::timing).empty());
   EXPECT_EQ(with(result, Verdict::pass, Check::counters).size(), 12U);
 }
 
@@ -67,20 +63,6 @@ TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
   EXPECT_FALSE(std::filesystem::exists(baseline("statistics")));
   add_run("b", untimed);
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
-}
-
-// Times that were never stored are not lost ones: of the whole device, or of all but one
-// configuration.
-TEST_F(UntimedGateTest, AfterThemTimesAreNewAndOnlyAdvise) {
-  add_run("a", untimed);
-  (void)accept_run("a");
-  add_run("b");
-  EXPECT_EQ(with(gate("b"), Verdict::advisory, Check::timing).size(), 12U) << text(gate("b"));
-  EXPECT_TRUE(with(gate("b"), Verdict::cannot_judge, Check::timing).empty()) << text(gate("b"));
-  (void)accept_run("b", {.only = bricks_});
-  add_run("c");
-  EXPECT_EQ(with(gate("c"), Verdict::advisory, Check::timing).size(), 12U) << text(gate("c"));
-  EXPECT_TRUE(with(gate("c"), Verdict::cannot_judge, Check::timing).empty()) << text(gate("c"));
 }
 
 }  // namespace

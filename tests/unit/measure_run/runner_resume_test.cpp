@@ -147,7 +147,6 @@ TEST_F(RunAgain, AFinishedRunResumesToNothingAndWithoutResumeBeginsAnew) {
   EXPECT_EQ(again.run, first.run);
   EXPECT_EQ(again.measured, 4);
   EXPECT_EQ(again.there_before, 4);
-  EXPECT_EQ(again.rounds_added, 0);
   EXPECT_EQ(started_workers().size(), 1U);
   options.resume = false;
   EXPECT_NE(run(small_plan()).run, first.run);

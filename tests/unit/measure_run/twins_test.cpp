@@ -114,52 +114,6 @@ TEST_F(RunTwins, TakeOverWhatTheFirstTold) {
   EXPECT_TRUE(other.benchmark_json.empty());
 }
 
-TEST_F(RunTwins, FollowLaterRoundsWithoutDrawing) {
-  Variable busy{"TRIPTYCH_NULL_SCRIPT",
-                R"({"base_ns": 3e6, "ns_per_sample": 0, "prepare_factors": [3]})"};
-  Plan what = full();
-  what.rounds = 6;
-  const RunResult result = run(what);
-  EXPECT_THAT(told, SizeIs(2 + 3));  // both once, the first in three rounds more
-  EXPECT_EQ(result.unsettled, 0);
-  auto all = by_key(result);
-  EXPECT_EQ(all[bricks].rounds_ns, all[none].rounds_ns);
-  EXPECT_EQ(all[bricks].wall_ns, all[none].wall_ns);
-  EXPECT_THAT(all[bricks].rounds_ns, SizeIs(4));
-}
-
-TEST_F(RunTwins, NeedNotBeInThePlanThatIsResumed) {
-  Variable busy{"TRIPTYCH_NULL_SCRIPT",
-                R"({"base_ns": 3e6, "ns_per_sample": 0, "prepare_factors": [3]})"};
-  const RunResult first = run(full());
-  options.resume = true;
-  options.rounds = 2;
-  run(full("full", {"bricks"}));  // its frames are of one that is left out
-  EXPECT_THAT(by_key(first)[bricks].rounds_ns, SizeIs(1));
-  run(full("full", {"none"}));
-  auto all = by_key(first);
-  EXPECT_THAT(all[none].rounds_ns, SizeIs(2));
-  EXPECT_EQ(all[bricks].rounds_ns, all[none].rounds_ns);
-  EXPECT_EQ(all[bricks].wall_ns, all[none].wall_ns);
-}
-
-TEST_F(RunTwins, FollowARoundThoughTheRunIsStoppedAfterIt) {
-  Variable busy{"TRIPTYCH_NULL_SCRIPT",
-                R"({"base_ns": 3e6, "ns_per_sample": 0, "prepare_factors": [3]})"};
-  Plan what = full();
-  what.rounds = 6;
-  {
-    record::Store store = open_store();
-    const auto stop = [](const Progress& progress) {
-      if (progress.round == 2) throw Interrupted(SIGINT);
-    };
-    EXPECT_THROW(run_plan(what, {"null:scripted"}, suite, store, options, stop), Interrupted);
-  }
-  auto all = by_key({.run = open_store().latest_run(what.name)->id});
-  EXPECT_THAT(all[none].rounds_ns, SizeIs(2));
-  EXPECT_EQ(all[bricks].rounds_ns, all[none].rounds_ns);
-}
-
 TEST_F(RunTwins, AreMeasuredWhereTheSceneTellsThemApart) {
   EXPECT_EQ(run(full("cube")).taken_over, 0);
 }

@@ -68,20 +68,6 @@ TEST_F(StoreTest, WhatIsNotThere) {
   EXPECT_THROW(store.add_device("run-1", sample_device(), {}), core::InputError);
 }
 
-TEST_F(StoreTest, TimesOfALaterRoundLeaveAllElse) {
-  Store store(file_, Mode::append);
-  store.add_run(sample_run());
-  store.add_record(sample_record("first"));
-  store.add_record(sample_record("second"));
-  Record better = sample_record("first");
-  better.wall_ns = {2, 3};
-  better.device_ns = {1, 2};
-  better.rounds_ns.push_back(1.5);
-  store.update_times(better);
-  EXPECT_EQ(Json(store.records("run-1")), Json(std::vector{better, sample_record("second")}));
-  EXPECT_THROW(store.update_times(sample_record("third")), core::InputError);
-}
-
 TEST_F(StoreTest, WhatIsUnderWayIsCountedUntilItHasARecord) {
   Store store(file_, Mode::append);
   EXPECT_THROW((void)store.begin_record("run-1", "a", "gl:a"), core::InputError);
@@ -144,29 +130,6 @@ TEST_F(StoreTest, RunsInTheOrderTheyWereAdded) {
   EXPECT_THAT(ids_of(store.runs()), ElementsAre("b", "a", "c"));
   EXPECT_EQ(store.runs().at(0).system.at("resumed"), "yes");
   EXPECT_THAT(store.records("b"), SizeIs(1));
-}
-
-TEST_F(StoreTest, ARunThatConfirmsIsNoLatestRun) {
-  {
-    Store store(file_, Mode::append);
-    store.add_run(sample_run("a"));
-    record::Run again = sample_run("b");
-    again.confirms = "a";
-    store.add_run(again);
-  }
-  const Store store(file_, Mode::read);
-  EXPECT_EQ(store.latest_run("fake/quick")->id, "a");
-  ASSERT_THAT(ids_of(store.runs()), ElementsAre("a", "b"));
-  EXPECT_EQ(store.runs().at(0).confirms, "");
-  EXPECT_EQ(store.runs().at(1).confirms, "a");
-}
-
-TEST_F(StoreTest, ARunConfirmsOneThatIsThere) {
-  Store store(file_, Mode::append);
-  record::Run again = sample_run("b");
-  again.confirms = "a";
-  EXPECT_THROW(store.add_run(again), core::Error);
-  EXPECT_THAT(store.runs(), IsEmpty());
 }
 
 TEST_F(StoreTest, RecordsByDeviceThenAsAdded) {
