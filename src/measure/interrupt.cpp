@@ -20,18 +20,25 @@ InterruptGuard::InterruptGuard() {
 }
 
 InterruptGuard::~InterruptGuard() {
-  const std::optional<int> left = take();
+  read_signals();
   ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  if (left) std::raise(*left);
+  if (signal_ != 0 && !told_) std::raise(signal_);
 }
 
 std::optional<int> InterruptGuard::take() {
-  signalfd_siginfo info{};
+  read_signals();
+  if (signal_ == 0) return std::nullopt;
+  told_ = true;
+  return signal_;
+}
+
+void InterruptGuard::read_signals() {
   for (;;) {
+    signalfd_siginfo info{};
     const ssize_t got = ::read(signals_.get(), &info, sizeof info);
     if (got < 0 && errno == EINTR) continue;
-    if (got != static_cast<ssize_t>(sizeof info)) return std::nullopt;
-    if (info.ssi_signo != SIGPIPE) return static_cast<int>(info.ssi_signo);
+    if (got != static_cast<ssize_t>(sizeof info)) return;
+    if (info.ssi_signo != SIGPIPE) signal_ = static_cast<int>(info.ssi_signo);
   }
 }
 

@@ -2,6 +2,7 @@
 // SIGINT and SIGTERM as something that a loop can wait for beside its pipes, instead of dying in
 // the middle of them.
 
+#include <atomic>
 #include <csignal>
 #include <optional>
 
@@ -11,7 +12,7 @@ namespace triptych::measure {
 
 // While it lives, SIGINT, SIGTERM and SIGPIPE are blocked in the calling thread and arrive at fd();
 // writing to a pipe nobody reads is then an error code. Destroying it restores what was; an
-// interrupt that nobody took is raised again.
+// interrupt that nobody asked for is raised again.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -20,12 +21,17 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   [[nodiscard]] int fd() const noexcept { return signals_.get(); }  // readable when a signal waits
-  // The interrupting signal that waits, taken; SIGPIPE is dropped.
+  // The interrupting signal, if one has come; SIGPIPE is dropped. Once there, it is there for
+  // everybody who asks, on any thread.
   [[nodiscard]] std::optional<int> take();
 
  private:
+  void read_signals();
+
   sigset_t before_{};
   FileDescriptor signals_;
+  std::atomic<int> signal_{0};
+  std::atomic<bool> told_{false};
 };
 
 }  // namespace triptych::measure

@@ -24,7 +24,7 @@ struct PlanEntry {
 struct PlanText {
   PlacedText suite;
   std::string summary;
-  record::Checks checks;  // empty where it says none
+  record::Checks checks;           // empty where it says none
   std::vector<PlanEntry> entries;  // in the order of the file, no factor twice
   // What stands under `also`: further combinations, by entries in the place of those above.
   std::vector<std::vector<PlanEntry>> also;

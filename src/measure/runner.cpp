@@ -5,9 +5,14 @@
 
 #include <algorithm>
 #include <ctime>
+#include <exception>
+#include <functional>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <random>
 #include <set>
+#include <thread>
 #include <utility>
 
 #include "measure/environment.hpp"
@@ -75,6 +80,89 @@ void refuse_bad_options(const RunOptions& options) {
   for (const Plant& plant : options.plants) check_plant(plant.fault);
 }
 
+// Progress of several devices at once as one: sums, and the longest time left.
+class JointProgress {
+ public:
+  explicit JointProgress(const PlanRun::Tell& tell) : tell_(tell) {}
+
+  void operator()(Progress progress) {
+    const std::scoped_lock lock(mutex_);
+    if (!tell_) return;
+    if (!progress.loading) of_[progress.device] = {progress.done, progress.total, progress.left};
+    progress.done = progress.total = 0;
+    progress.left = {};
+    for (const auto& [device, part] : of_) {
+      progress.done += part.done;
+      progress.total += part.total;
+      progress.left = std::max(progress.left, part.left);
+    }
+    tell_(progress);
+  }
+
+ private:
+  struct Part {
+    int done;
+    int total;
+    std::chrono::seconds left;
+  };
+  const PlanRun::Tell& tell_;
+  std::mutex mutex_;
+  std::map<std::string, Part> of_;
+};
+
+void add(const RunResult& part, RunResult& sum) {
+  sum.run = part.run;
+  sum.measured += part.measured;
+  sum.taken_over += part.taken_over;
+  sum.skipped += part.skipped;
+  sum.failed += part.failed;
+  sum.there_before += part.there_before;
+  sum.overhead_ns += part.overhead_ns;
+}
+
+// Where no time is measured devices cannot disturb each other: as many at once as there are
+// processors. Each has a connection of its own to the store. The first error of one is thrown when
+// all have ended.
+RunResult measure_side_by_side(const RunContext& context, const std::vector<std::string>& devices,
+                               const PlanRun::Tell& on_progress) {
+  const Stopwatch stopwatch;
+  JointProgress joint(on_progress);
+  const PlanRun::Tell tell = std::ref(joint);
+  RunResult sum;
+  std::mutex mutex;
+  std::exception_ptr failure;
+  std::size_t next = 0;
+  const auto lane = [&] {
+    for (;;) {
+      std::unique_lock lock(mutex);
+      if (failure || next == devices.size()) return;
+      const std::vector<std::string> one{devices[next++]};
+      lock.unlock();
+      try {
+        record::Store store(context.store.file(), record::Store::Mode::append);
+        RunContext own{context.plan,       context.suite, store,        context.options,
+                       context.interrupts, context.run,   context.kinds};
+        const RunResult part = PlanRun(own, one, tell).measure_all();
+        lock.lock();
+        add(part, sum);
+      } catch (...) {
+        if (!lock.owns_lock()) lock.lock();
+        if (!failure) failure = std::current_exception();
+      }
+    }
+  };
+  const std::size_t lanes =
+      std::min<std::size_t>(devices.size(), std::max(1U, std::thread::hardware_concurrency()));
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < lanes; ++i) threads.emplace_back(lane);
+  }
+  if (failure) std::rethrow_exception(failure);
+  sum.run = context.run;
+  sum.wall_ns = stopwatch.ns();
+  return sum;
+}
+
 }  // namespace
 
 std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
@@ -93,7 +181,9 @@ std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
                              interrupts,
                              open_run(each, store),
                              kinds_of(plan, options.protocol)};
-    results.push_back(PlanRun(context, devices, on_progress).measure_all());
+    const bool side_by_side = !context.plan.timed() && devices.size() > 1;
+    results.push_back(side_by_side ? measure_side_by_side(context, devices, on_progress)
+                                   : PlanRun(context, devices, on_progress).measure_all());
   }
   return results;
 }

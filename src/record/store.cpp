@@ -115,6 +115,10 @@ Store::~Store() = default;
 Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
 
+const std::filesystem::path& Store::file() const {
+  return state_->file;
+}
+
 void Store::add_run(const Run& run) {
   const std::string system = text_of(run.system, "system", run);
   state_->write([&] {

@@ -45,6 +45,8 @@ class Store {
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
+  [[nodiscard]] const std::filesystem::path& file() const;
+
   // What is already there under the same key is replaced. Devices and records of a run that was not
   // added are refused with InputError.
   void add_run(const Run& run);
