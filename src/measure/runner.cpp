@@ -34,7 +34,9 @@ record::Run new_run(const Plan& plan) {
   return {.id = fmt::format("{}-{:08x}", utc_now("%Y%m%dT%H%M%SZ"), entropy()),
           .plan = plan.name,
           .started_at = utc_now("%Y-%m-%dT%H:%M:%SZ"),
-          .system = std::move(facts)};
+          .system = std::move(facts),
+          .plan_hash = plan.hash,
+          .configurations = plan.configurations.size()};
 }
 
 // The kinds of work whose clocks are needed.

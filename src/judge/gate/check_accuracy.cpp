@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "judge/gate/run_view.hpp"
-#include "judge/timing/anchor.hpp"
+#include "judge/images/has_picture.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -185,7 +185,7 @@ AccuracyFindings check_accuracies(const RunView& view) {
   if (view.request.limit && view.request.truth) {
     AccuracyCheck check(view, result);
     for (const record::Record* record : view.measured) {
-      if (!is_anchor(*record)) check.look_at(*record);
+      if (has_picture(*record)) check.look_at(*record);
     }
     check.finish();
   }

@@ -9,36 +9,46 @@
 #include <utility>
 
 #include "core/glob.hpp"
-#include "judge/gate/confirmation.hpp"
 #include "judge/gate/run_view.hpp"
 #include "record/bad_input.hpp"
 
 namespace triptych::judge {
 namespace {
 
-constexpr std::size_t named_rows = 3;
-
 bool asked_for(const GateRequest& request, const std::string& device) {
   return request.devices.empty() || core::any_glob_matches(request.devices, device);
 }
 
-// Of other data than was accepted, under the same name: no number of it can be held against any.
-bool other_data(const Baselines& baselines, const record::Record& record) {
-  if (record.data_hash.empty()) return false;
-  const std::string accepted = baselines.data_hash(record);
-  return !accepted.empty() && accepted != record.data_hash;
+// Why no number of the record can be held against any: it is of other data than was accepted under
+// the same name, or than are here now. Empty: it can.
+std::string other_data(const RunView& view, const record::Record& record) {
+  if (record.data_hash.empty()) return {};
+  const std::string accepted =
+      view.baselines.present() ? view.baselines.data_hash(record) : std::string();
+  if (!accepted.empty() && accepted != record.data_hash) {
+    return fmt::format("its data is not what was accepted under this name (content hash {}, "
+                       "accepted {}): restore the file and run again, or {}",
+                       record.data_hash, accepted, view.accept_command());
+  }
+  const std::string now =
+      view.request.data_hash ? view.request.data_hash(record) : std::string();
+  if (now.empty() || now == record.data_hash) return {};
+  return fmt::format("its data has changed since it was measured (content hash {}, now {}): "
+                     "restore the file or run again",
+                     record.data_hash, now);
 }
 
-// `again`: launches whose times count as well.
-RunView view_of(const record::Store& store, const std::string& run, const Baselines& baselines,
-                const GateRequest& request, std::vector<Launch> again = {}) {
-  RunView view{store, baselines, request, request.checks, std::move(again), {}, {}, {}, {}};
-  if (view.checks.empty()) {
-    view.checks = {Check::image,  Check::counters,    Check::statistics,
-                   Check::timing, Check::correlation, Check::accuracy};
-    // Its records have no times and no statistics, and their scores judge their pictures.
-    if (request.plan.ends_with("/stress")) view.checks = {Check::counters, Check::stress};
+record::Run run_of(const record::Store& store, const std::string& id) {
+  for (record::Run& run : store.runs()) {
+    if (run.id == id) return std::move(run);
   }
+  return {};
+}
+
+RunView view_of(const record::Store& store, const std::string& run, const Baselines& baselines,
+                const GateRequest& request) {
+  RunView view{store, baselines, request, request.checks, {}, {}, {}, {}};
+  if (view.checks.empty()) view.checks = checked_in(run_of(store, run));
   for (auto& entry : store.devices(run)) {
     if (asked_for(request, entry.device.id)) view.devices.emplace(entry.device.id, entry.device);
   }
@@ -50,28 +60,17 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
     view.devices.try_emplace(record.device, unknown);
     view.records.push_back(std::move(record));
   }
-  for (const Launch& launch : view.again) {
-    join_launches(view.records, launch.store->records(launch.run), *launch.devices);
-  }
   for (const record::Record& record : view.records) {
     if (record.outcome != record::Outcome::measured) continue;
-    (other_data(baselines, record) ? view.of_other_data : view.measured).push_back(&record);
-  }
-  // Plans made for it; of another, one launch and another device's times say too little to fail by.
-  if (request.checks.empty() && !request.plan.ends_with("/correlation")) {
-    view.checks.erase(Check::correlation);
-  }
-  if (request.checks.empty() && !request.plan.ends_with("/accuracy")) {
-    view.checks.erase(Check::accuracy);
+    (other_data(view, record).empty() ? view.measured : view.of_other_data).push_back(&record);
   }
   return view;
 }
 
-// A configuration that this very device, driver and all, has measured before is missed when it is
-// skipped.
+// A configuration that this device has measured before is missed when it is skipped.
 bool measured_before(const RunView& view, const record::Record& record) {
   return view.baselines.present() &&
-         view.baselines.bits(view.device(record), record.configuration).has_value();
+         view.baselines.was_measured(record.device, record.configuration);
 }
 
 // Everything but measured, once, under the first check asked for. What failed in a stress case is
@@ -113,50 +112,93 @@ void report_nothing_measured(const RunView& view, const std::string& run,
   }
 }
 
-// Every device must have a record, of whatever outcome, of every accepted configuration.
-void report_missing_rows(const RunView& view, std::vector<Finding>& findings) {
-  const std::vector<std::string> accepted = view.baselines.configurations();
-  for (const auto& [id, device] : view.devices) {
-    std::set<std::string> there;
-    for (const record::Record& record : view.records) {
-      if (record.device == id) there.insert(record.configuration);
-    }
-    std::vector<std::string> missing;
-    std::ranges::set_difference(accepted, there, std::back_inserter(missing));
-    if (missing.empty()) continue;
-    const std::size_t named = std::min(missing.size(), named_rows);
-    const std::vector<std::string> examples(missing.begin(),
-                                            missing.begin() + static_cast<std::ptrdiff_t>(named));
-    findings.push_back(finding_about(
-        view, device, *view.checks.begin(), Verdict::cannot_judge,
-        fmt::format(
-            "missing rows: {} of {} accepted configurations have no record ({}{}); finish the "
-            "run with triptych run {} --resume",
-            missing.size(), accepted.size(), fmt::join(examples, "; "),
-            missing.size() > named ? "; …" : "", record::plan_argument(view.request.plan))));
-    set_number(findings.back(), "missing", static_cast<double>(missing.size()));
+std::set<std::string> configurations_of(const RunView& view, const std::string& device) {
+  std::set<std::string> there;
+  for (const record::Record& record : view.records) {
+    if (record.device == device) there.insert(record.configuration);
   }
+  return there;
+}
+
+void report_missing(const RunView& view, const record::Device& device,
+                    const std::set<std::string>& wanted, const std::set<std::string>& there,
+                    std::string_view kind, std::vector<Finding>& findings) {
+  std::vector<std::string> missing;
+  std::ranges::set_difference(wanted, there, std::back_inserter(missing));
+  if (missing.empty()) return;
+  findings.push_back(finding_about(
+      view, device, *view.checks.begin(), Verdict::cannot_judge,
+      fmt::format("missing rows: of {} {} configurations there is no record of {}; finish the run "
+                  "with triptych run {} --resume",
+                  wanted.size(), kind, examples_of(missing),
+                  record::plan_argument(view.request.plan))));
+  set_number(findings.back(), "missing", static_cast<double>(missing.size()));
+}
+
+// Every device must have a record, of whatever outcome, of every configuration of the plan, of
+// every accepted one, and no others.
+void report_rows(const RunView& view, std::vector<Finding>& findings) {
+  const std::set<std::string> expected(view.request.expected.begin(), view.request.expected.end());
+  std::set<std::string> accepted;
+  if (view.baselines.present()) {
+    for (std::string& each : view.baselines.configurations()) accepted.insert(std::move(each));
+  }
+  for (const auto& [id, device] : view.devices) {
+    const std::set<std::string> there = configurations_of(view, id);
+    report_missing(view, device, expected, there, "planned", findings);
+    if (expected.empty() || accepted != expected) {
+      report_missing(view, device, accepted, there, "accepted", findings);
+    }
+    std::vector<std::string> extra;
+    std::ranges::set_difference(there, expected, std::back_inserter(extra));
+    if (expected.empty() || extra.empty()) continue;
+    findings.push_back(finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
+                                     fmt::format("the plan does not have {}; run it again",
+                                                 examples_of(extra))));
+  }
+}
+
+// What is judged is what was asked for.
+void report_other_plan(const RunView& view, const std::string& run,
+                       std::vector<Finding>& findings) {
+  if (view.request.plan_hash.empty() || view.records.empty()) return;
+  const std::string measured = run_of(view.store, run).plan_hash;
+  if (measured == view.request.plan_hash) return;
+  findings.push_back(finding_about(
+      view, *view.checks.begin(), Verdict::cannot_judge,
+      fmt::format("run {} is of another plan than {} is now ({}); run it again", run,
+                  view.request.plan,
+                  measured.empty() ? "it kept no hash"
+                                   : fmt::format("hash {}, now {}", measured,
+                                                 view.request.plan_hash))));
 }
 
 void report_other_data(const RunView& view, std::vector<Finding>& findings) {
   for (const record::Record* record : view.of_other_data) {
-    findings.push_back(finding_about(
-        *record, *view.checks.begin(), Verdict::cannot_judge,
-        fmt::format("its data is not what was accepted under this name (content hash {}, accepted "
-                    "{}): restore the file and run again, or {}",
-                    record->data_hash, view.baselines.data_hash(*record), view.accept_command())));
+    findings.push_back(finding_about(*record, *view.checks.begin(), Verdict::cannot_judge,
+                                     other_data(view, *record)));
   }
 }
 
 void report_no_baselines(const RunView& view, std::vector<Finding>& findings) {
-  findings.push_back(
-      finding_about(view, *view.checks.begin(), Verdict::cannot_judge,
-                    fmt::format("there are no baselines in {}; make them with {}",
-                                view.baselines.folder().string(), view.accept_command())));
+  const std::string folder = view.baselines.folder().string();
+  const std::string& problem = view.baselines.problem();
+  findings.push_back(finding_about(
+      view, *view.checks.begin(), Verdict::cannot_judge,
+      problem.empty()
+          ? fmt::format("there are no baselines in {}; make them with {}", folder,
+                        view.accept_command())
+          : fmt::format("{}: {} since it was accepted: restore it from version control, or start "
+                        "over with {} --drop",
+                        folder, problem, view.accept_command())));
 }
 
 void append(std::vector<Finding>& findings, std::vector<Finding> more) {
   std::ranges::move(more, std::back_inserter(findings));
+}
+
+bool is_of_times(Check check) {
+  return check == Check::timing || check == Check::correlation;
 }
 
 bool judges_times(const RunView& view) {
@@ -179,29 +221,9 @@ WrongImages run_checks_but_of_times(const RunView& view, GateResult& result) {
   if (!view.baselines.present()) return std::move(images.wrong);
   if (view.checks.contains(Check::counters)) append(findings, check_counters(view));
   if (view.checks.contains(Check::statistics)) append(findings, check_statistics(view));
+  if (view.checks.contains(Check::cost)) append(findings, check_cost(view));
+  if (view.checks.contains(Check::memory)) append(findings, check_memory(view));
   return std::move(images.wrong);
-}
-
-GateResult judge_times(const RunView& view, const WrongImages& wrong) {
-  GateResult result{.plan = view.request.plan, .run = {}, .findings = {}};
-  if (view.checks.contains(Check::timing)) result.findings = check_timings(view, wrong);
-  if (view.checks.contains(Check::correlation)) {
-    CorrelationFindings correlations = check_correlations(view, wrong);
-    append(result.findings, std::move(correlations.findings));
-    result.correlations = std::move(correlations.pairs);
-  }
-  for (const Launch& launch : view.again) {
-    result.measured_again.insert(launch.devices->begin(), launch.devices->end());
-  }
-  return result;
-}
-
-// Of the launches those that measured something, each with what it measured wholly.
-std::vector<Launch> whole_launches(const RunView& view, std::span<const Launch> again) {
-  std::vector<Launch> whole(again.begin(), again.end());
-  for (Launch& launch : whole) launch.devices = measured_again(view.records, launch);
-  std::erase_if(whole, [](const Launch& launch) { return launch.devices->empty(); });
-  return whole;
 }
 
 int rank(Verdict verdict) {
@@ -228,24 +250,13 @@ void report_what_is_there(const RunView& view, GateResult& result) {
   for (const record::Record* record : view.measured) result.devices.insert(record->device);
   report_nothing_measured(view, result.run, result.findings);
   report_outcomes(view, result.findings);
-  if (view.baselines.present()) {
-    report_missing_rows(view, result.findings);
-    report_other_data(view, result.findings);
-  } else {
-    report_no_baselines(view, result.findings);
-  }
+  report_other_plan(view, result.run, result.findings);
+  report_rows(view, result.findings);
+  report_other_data(view, result.findings);
+  if (!view.baselines.present()) report_no_baselines(view, result.findings);
 }
 
 }  // namespace
-
-bool is_of_times(Check check) {
-  return check == Check::timing || check == Check::correlation;
-}
-
-bool is_slower(const Finding& finding) {
-  return finding.verdict == Verdict::regression && is_of_times(finding.check) &&
-         !finding.numbers.empty();
-}
 
 void sort_findings(std::vector<Finding>& findings) {
   const auto key = [](const Finding& finding) {
@@ -256,38 +267,21 @@ void sort_findings(std::vector<Finding>& findings) {
   std::ranges::stable_sort(findings, {}, key);
 }
 
-GateResult judge_launches(const Launch& first, std::span<const Launch> again,
-                          const Baselines& baselines, const GateRequest& request) {
-  const RunView view = view_of(*first.store, first.run, baselines, request);
-  GateResult result{.plan = request.plan, .run = first.run, .findings = {}};
+GateResult judge_run(const record::Store& store, const std::string& run, const Baselines& baselines,
+                     const GateRequest& request) {
+  const RunView view = view_of(store, run, baselines, request);
+  GateResult result{.plan = request.plan, .run = run, .findings = {}};
   report_what_is_there(view, result);
   const WrongImages wrong = run_checks_but_of_times(view, result);
   if (judges_times(view)) {
-    GateResult times = judge_times(view, wrong);
-    std::vector<Launch> launches = whole_launches(view, again);
-    if (!launches.empty()) {
-      const GateResult alone = std::exchange(
-          times,
-          judge_times(view_of(*first.store, first.run, baselines, request, launches), wrong));
-      tell_what_was_taken_back(alone, times);
+    if (view.checks.contains(Check::timing)) append(result.findings, check_timings(view, wrong));
+    if (view.checks.contains(Check::correlation)) {
+      append(result.findings, check_correlations(view, wrong));
     }
-    result.in_doubt = devices_in_doubt(times);
-    result.measured_again = std::move(times.measured_again);
-    result.correlations = std::move(times.correlations);
-    append(result.findings, std::move(times.findings));
   }
   apply_waivers(view, result.findings);
   sort_findings(result.findings);
   return result;
-}
-
-GateResult judge_run(const record::Store& store, const std::string& run, const Baselines& baselines,
-                     const GateRequest& request) {
-  std::vector<Launch> again;
-  for (const record::Run& each : store.runs()) {
-    if (each.confirms == run) again.push_back({&store, each.id});
-  }
-  return judge_launches({&store, run}, again, baselines, request);
 }
 
 }  // namespace triptych::judge

@@ -6,9 +6,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +15,6 @@
 #include "core/image.hpp"
 #include "judge/accuracy/cases.hpp"
 #include "judge/baselines/baselines.hpp"
-#include "judge/correlation/model.hpp"
 #include "judge/stress/stress.hpp"
 #include "record/store.hpp"
 
@@ -26,16 +23,14 @@ namespace triptych::judge {
 using record::Check;
 using record::check;
 using record::name_of;
-// What one launch on a busy machine cannot decide.
-[[nodiscard]] bool is_of_times(Check check);
 
 enum class Verdict : std::uint8_t {
   pass,
   improved,      // passes, and is better than the baseline beyond doubt
-  advisory,      // worth knowing, decides nothing: too few stored runs, another driver version
+  advisory,      // worth knowing, decides nothing: times, another driver version
   skipped,       // the device cannot do this; the reason is the message
   waived,        // a regression that waivers.json excuses until its expiry
-  cannot_judge,  // no baseline, nothing measured, noise: never a pass
+  cannot_judge,  // no baseline, nothing measured, other data: never a pass
   regression
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
@@ -51,64 +46,30 @@ struct Finding {
   std::string message;  // one line: what, by how much, against which bound, what to do about it
   std::map<std::string, double> numbers;  // "max_error", "bound", "rmse", "ratio", …
   // What of the device and configuration, where that is not all of it: "program", "step=0.5"; of a
-  // correlation also by which device. The same in every launch.
+  // correlation also by which device.
   std::string subject = {};
-};
-
-// A device of the run held against another one, for the report. What was found of it is among the
-// findings, but for pairs within the run, which only show how alike the devices are.
-struct CorrelationPair {
-  std::string device;              // B: the one that is judged
-  std::string other;               // A: id of the one that it is held against
-  std::string other_key;           // Device::key() of A
-  bool within_run = false;         // A was measured in the same run; else it is a stored baseline
-  bool of_itself = false;          // A is B: its own stored runs
-  bool decides = false;            // of the stored ones that can judge B the nearest: its own
-                                   // history, else the largest ρ; the others advise
-  std::size_t unlike_clocks = 0;   // configurations left out: other clocks timed them on A
-  std::size_t unlike_anchors = 0;  // and anchors
-  std::size_t stored_runs = 0;     // of A, of the configuration with the fewest
-  std::vector<CorrelationCase> cases;
-  Correlation result;  // judgements in the order of the cases
 };
 
 struct GateResult {
   std::string plan;
   std::string run;
   std::vector<Finding> findings;                   // worst first, then by device and configuration
-  std::vector<CorrelationPair> correlations = {};  // where that was checked
   std::vector<AccuracyScene> accuracies = {};      // likewise; by device, then as measured
   std::set<std::string> devices = {};              // that measured something, of those asked for
-  std::set<std::string> measured_again = {};       // of these, all of it, by another launch
-  // On which something may be slower that is no regression yet, noise left a time open or kept a
-  // stored device from judging; and all with a regression in time. Another launch should settle it.
-  std::set<std::string> in_doubt = {};
   // Of which all findings are advice or reasons for not judging.
   [[nodiscard]] std::vector<std::string> nothing_decided() const;
-  // In doubt, and no other launch has settled it.
-  [[nodiscard]] std::vector<std::string> left_in_doubt() const;
   [[nodiscard]] core::ExitCode exit_code() const;
   [[nodiscard]] std::string headline()
       const;  // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices"
 };
 
-// A regression in time: of numbers, where a crash that a check of times reports is none.
-[[nodiscard]] bool is_slower(const Finding& finding);
-
 // {"plan", "run", "exit_code", "headline", "findings": [{"check", "verdict", "test", "device",
-// "configuration", "message", "numbers"}], "in_doubt": [device], "measured_again": [device],
-// "correlations": [as of the pair], "accuracies": [as of the scene]}
+// "configuration", "message", "numbers"}], "accuracies": [as of the scene]}
 [[nodiscard]] nlohmann::json to_json(const GateResult& result);
-// {"device", "other", "other_key", "within_run", "of_itself", "decides", "unlike_clocks",
-// "refusals", …, "configurations", "levels", "global"}; what is no number is null.
-[[nodiscard]] nlohmann::json to_json(const CorrelationPair& pair);
 
 struct GateRequest {
   std::string plan;
-  std::set<Check> checks;            // empty: all; the correlation only where a device measured
-                                     // CorrelationModel::least_configurations,
-                                     // accuracy only of a plan SUITE/accuracy; of a plan
-                                     // SUITE/stress counters and stress
+  std::set<Check> checks;            // empty: those of the run's plan (checked_in)
   std::vector<std::string> devices;  // globs; empty: all in the run
   std::vector<std::string>
       required_devices;  // globs; each must match a device that measured something
@@ -120,23 +81,19 @@ struct GateRequest {
   // What must hold of a record beside its truth; nothing: no record has any.
   FindExpectations expectations = {};
   std::string today;  // ISO date, for the expiry of waivers
+  // A configuration that is slower than stored by more than its interval and 2 % is a regression;
+  // else times advise.
+  bool times_decide = false;
+  // Of the plan as it is now, to tell a run of another: its hash, and its configurations' keys.
+  // Empty: not known.
+  std::string plan_hash = {};
+  std::vector<std::string> expected = {};
+  // Content hash of the data that the record's truth would be drawn from now, in the record's voxel
+  // format; empty where that cannot be told. Nothing: it is the record's.
+  std::function<std::string(const record::Record&)> data_hash = {};
 };
 
-// Another run of the same plan by the same program on the same machine.
-struct Launch {
-  const record::Store* store;  // which also holds the anchors measured beside it
-  std::string run;
-  std::optional<std::set<std::string>> devices =
-      {};  // counts of these; nullopt: of all it measured
-};
-
-// Times are judged by the quieter of all launches (judge/gate/confirmation.hpp), everything else by
-// the first. Throws InputError for a corrupt baseline (file and line), never because of what was
-// measured.
-[[nodiscard]] GateResult judge_launches(const Launch& first, std::span<const Launch> again,
-                                        const Baselines& baselines, const GateRequest& request);
-
-// A run with every one in the store that confirms it.
+// Throws InputError for a corrupt baseline (file and line), never because of what was measured.
 [[nodiscard]] GateResult judge_run(const record::Store& store, const std::string& run,
                                    const Baselines& baselines, const GateRequest& request);
 

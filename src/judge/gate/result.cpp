@@ -58,19 +58,6 @@ std::string places(const GateResult& result, Verdict verdict) {
   return devices.empty() ? where : where + fmt::format(" on {}", fmt::join(devices, ", "));
 }
 
-// What one launch was not enough for.
-std::string launches(const GateResult& result) {
-  const std::vector<std::string> doubtful = result.left_in_doubt();
-  std::string text;
-  if (!result.measured_again.empty()) {
-    text += fmt::format("; by two launches: {}", fmt::join(result.measured_again, ", "));
-  }
-  if (!doubtful.empty()) {
-    text += fmt::format("; in doubt until --confirm: {}", fmt::join(doubtful, ", "));
-  }
-  return text;
-}
-
 // "; 96 checks, 4 devices; 2 improved, 3 waived, 12 advisory"
 std::string tally(const GateResult& result) {
   std::set<std::string_view> devices;
@@ -85,19 +72,13 @@ std::string tally(const GateResult& result) {
     const std::size_t n = count(result, verdict);
     if (n > 0) rest += fmt::format("{}{} {}", rest.empty() ? "; " : ", ", n, name_of(verdict));
   }
-  return text + rest + launches(result);
+  return text + rest;
 }
 
 }  // namespace
 
 std::string_view name_of(Verdict verdict) {
   return name_in(verdict_names, verdict);
-}
-
-std::vector<std::string> GateResult::left_in_doubt() const {
-  std::vector<std::string> left;
-  std::ranges::set_difference(in_doubt, measured_again, std::back_inserter(left));
-  return left;
 }
 
 std::vector<std::string> GateResult::nothing_decided() const {
@@ -157,8 +138,6 @@ core::Json to_json(const GateResult& result) {
                         {"message", finding.message},
                         {"numbers", core::Json(finding.numbers)}});
   }
-  core::Json correlations = core::Json::array();
-  for (const CorrelationPair& pair : result.correlations) correlations.push_back(to_json(pair));
   core::Json accuracies = core::Json::array();
   for (const AccuracyScene& scene : result.accuracies) accuracies.push_back(to_json(scene));
   return {{"plan", result.plan},
@@ -166,9 +145,6 @@ core::Json to_json(const GateResult& result) {
           {"exit_code", static_cast<int>(result.exit_code())},
           {"headline", result.headline()},
           {"findings", std::move(findings)},
-          {"in_doubt", result.in_doubt},
-          {"measured_again", result.measured_again},
-          {"correlations", std::move(correlations)},
           {"accuracies", std::move(accuracies)}};
 }
 
@@ -180,10 +156,6 @@ std::string RunView::plan_test(Check check) const {
 
 std::string RunView::accept_command() const {
   return fmt::format("triptych accept {} --reason TEXT", request.plan);
-}
-
-std::string RunView::compare_command() const {
-  return "triptych compare " + record::plan_argument(request.plan);
 }
 
 Finding finding_about(const record::Record& record, Check check, Verdict verdict,
@@ -210,6 +182,13 @@ Finding finding_about(const RunView& view, const record::Device& device, Check c
 
 Finding finding_about(const RunView& view, Check check, Verdict verdict, std::string message) {
   return {check, verdict, view.plan_test(check), {}, {}, std::move(message)};
+}
+
+std::string examples_of(const std::vector<std::string>& configurations) {
+  const auto named = std::min<std::ptrdiff_t>(std::ssize(configurations), 3);
+  const std::vector<std::string> first(configurations.begin(), configurations.begin() + named);
+  return fmt::format("{} ({}{})", plural(configurations.size(), "configuration", "configurations"),
+                     fmt::join(first, "; "), std::ssize(configurations) > named ? "; …" : "");
 }
 
 void set_number(Finding& finding, const std::string& name, double value) {

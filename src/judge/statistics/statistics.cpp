@@ -1,7 +1,6 @@
 #include "judge/statistics/statistics.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/digamma.hpp>
@@ -9,7 +8,6 @@
 #include <boost/math/special_functions/trigamma.hpp>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -53,56 +51,6 @@ double sample_variance(std::span<const double> values) {
   return squares / static_cast<double>(values.size() - 1);
 }
 
-namespace {
-
-// Of a robust variance; formulas from five values on.
-struct RobustFit {
-  double correction;  // of (1.4826 MAD)², which is too small on average
-  double degrees;
-};
-
-RobustFit robust_fit(std::size_t values) {
-  constexpr RobustFit few[] = {{}, {}, {0.910, 1.00}, {1.419, 0.93}, {1.433, 1.81}};
-  if (values < std::size(few)) return few[values];
-  const auto n = static_cast<double>(values);
-  const double pairs = std::floor(n / 2);
-  return {1 + (values % 2 == 0 ? 6.9 : 3.8) / (n * n), 0.74 * pairs + 0.33};
-}
-
-}  // namespace
-
-double robust_variance(std::span<const double> values) {
-  const double scale = normal_mad * median_absolute_deviation(values);
-  return robust_fit(values.size()).correction * scale * scale;
-}
-
-double robust_degrees(std::size_t values) {
-  return robust_fit(values).degrees;
-}
-
-KnownVariance scatter_of(std::span<const double> logarithms) {
-  return {std::max(robust_variance(logarithms), least_timing_variance),
-          robust_degrees(logarithms.size())};
-}
-
-double variance_of_quantile(std::span<const double> sorted, double share) {
-  if (sorted.size() < 2) return infinite;
-  constexpr double z_of_interval = 2.576;
-  const auto count = static_cast<double>(sorted.size());
-  const double centre = count * share + 0.5;
-  const double reach = z_of_interval * std::sqrt(count * share * (1 - share));
-  const double low = std::max(std::round(centre - reach), 1.0) - 1;
-  const double high = std::min(std::round(centre + reach), count) - 1;
-  // Of the values below the quantile, what leaves it outside on either side.
-  const boost::math::binomial below(count, share);
-  const double z =
-      student_t_upper_quantile(boost::math::cdf(below, low), infinite) +
-      student_t_upper_quantile(boost::math::cdf(boost::math::complement(below, high)), infinite);
-  const double error =
-      (sorted[static_cast<std::size_t>(high)] - sorted[static_cast<std::size_t>(low)]) / z;
-  return error * error;
-}
-
 double student_t_upper_tail(double t, double degrees) {
   if (std::isinf(t)) return t > 0 ? 0 : 1;
   namespace math = boost::math;
@@ -128,32 +76,6 @@ std::vector<bool> benjamini_hochberg(std::span<const double> p_values, double q)
   rejected.reserve(p_values.size());
   for (const double p : p_values) rejected.push_back(p <= threshold);
   return rejected;
-}
-
-std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values) {
-  std::vector<std::size_t> order(p_values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order,
-                           [&](std::size_t a, std::size_t b) { return p_values[a] < p_values[b]; });
-  std::vector<double> adjusted(p_values.size());
-  double smallest = 1;
-  for (std::size_t rank = order.size(); rank > 0; --rank) {
-    const std::size_t i = order[rank - 1];
-    smallest = std::min(
-        smallest, p_values[i] * static_cast<double>(order.size()) / static_cast<double>(rank));
-    adjusted[i] = smallest;
-  }
-  return adjusted;
-}
-
-KnownVariance moderated(const VariancePrior& prior, const KnownVariance& own) {
-  return {moderated_variance(prior, own.variance, own.degrees), prior.degrees + own.degrees};
-}
-
-KnownVariance operator+(const KnownVariance& a, const KnownVariance& b) {
-  const double sum = a.variance + b.variance;
-  const double squares = a.variance * a.variance / a.degrees + b.variance * b.variance / b.degrees;
-  return {sum, squares > 0 ? sum * sum / squares : infinite};
 }
 
 // Newton's method on 1/ψ', which is convex and nearly linear: it approaches from one side (Smyth
@@ -190,17 +112,6 @@ VariancePrior fit_variance_prior(std::span<const double> variances,
   if (excess <= 0) return {infinite, std::exp(centre)};
   const double half = inverse_trigamma(excess);
   return {2 * half, std::exp(centre + digamma(half) - std::log(half))};
-}
-
-VariancePrior fit_variance_prior(std::span<const KnownVariance> variances) {
-  std::vector<double> values;
-  std::vector<double> degrees;
-  for (const KnownVariance& each : variances) {
-    if (each.degrees == 0) continue;
-    values.push_back(each.variance);
-    degrees.push_back(each.degrees);
-  }
-  return fit_variance_prior(values, degrees);
 }
 
 double moderated_variance(const VariancePrior& prior, double variance, double degrees) {

@@ -2,8 +2,6 @@
 // The statistics the gate rests on. Plain functions of numbers.
 
 #include <cstddef>
-#include <limits>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -17,36 +15,6 @@ namespace triptych::judge {
 [[nodiscard]] double sample_variance(std::span<const double> values);  // divides by n − 1
 
 inline constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
-// Over that of a mean of as many normal values.
-inline constexpr double variance_of_median_to_mean = std::numbers::pi / 2;
-// A variance that less than half of the values can spoil, from their median absolute deviation, and
-// the degrees of freedom ν that it is worth. Of normal values ln of it has the mean and, with these
-// ν, the variance that ln σ²χ²_ν/ν has, which is what fit_variance_prior goes by (to 2 %, at least
-// two values; by simulation).
-[[nodiscard]] double robust_variance(std::span<const double> values);
-[[nodiscard]] double robust_degrees(std::size_t values);
-
-// A variance that is known with so many degrees of freedom.
-struct KnownVariance {
-  double variance = 0;
-  double degrees = std::numeric_limits<double>::infinity();
-};
-// Of a sum of two independent values, with Satterthwaite's (1946) degrees: (Σu)²/Σ(u²/ν).
-[[nodiscard]] KnownVariance operator+(const KnownVariance& a, const KnownVariance& b);
-
-// The smallest variance of ln t: clocks step, so that identical medians occur; 1e-6 of the time.
-inline constexpr double least_timing_variance = 1e-12;
-// robust_variance, no less than that, and robust_degrees, of values of ln t.
-[[nodiscard]] KnownVariance scatter_of(std::span<const double> logarithms);
-
-// The variance of a quantile of these values (`share` of them below it), from its distribution-free
-// interval of 99 % or, of few values, the widest there is. `sorted` in ascending order; infinite
-// for fewer than two.
-[[nodiscard]] double variance_of_quantile(std::span<const double> sorted, double share);
-[[nodiscard]] inline double variance_of_median(std::span<const double> sorted) {
-  return variance_of_quantile(sorted, 0.5);
-}
-
 // P(T > t) for Student's t; `degrees` > 0, infinite for the normal distribution.
 [[nodiscard]] double student_t_upper_tail(double t, double degrees);
 // The t with P(T > t) = share, share in (0, 1).
@@ -55,9 +23,6 @@ inline constexpr double least_timing_variance = 1e-12;
 // Benjamini & Hochberg 1995: which hypotheses are rejected when the expected share of false ones
 // among the rejected is to stay ≤ q.
 [[nodiscard]] std::vector<bool> benjamini_hochberg(std::span<const double> p_values, double q);
-
-// Each p-value as the smallest q at which the same procedure rejects it.
-[[nodiscard]] std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values);
 
 // Variances of many groups borrow strength from one another: a scaled inverse chi-square prior with
 // d₀ degrees of freedom around s₀², fitted to the groups' variances by the moments of ln s²
@@ -69,14 +34,9 @@ struct VariancePrior {
 // `variances` > 0 with their `degrees` > 0. One group teaches nothing: d₀ = 0.
 [[nodiscard]] VariancePrior fit_variance_prior(std::span<const double> variances,
                                                std::span<const double> degrees);
-// Of those with any degrees: no others are known.
-[[nodiscard]] VariancePrior fit_variance_prior(std::span<const KnownVariance> variances);
 // s̃² = (d₀s₀² + d·s²)/(d₀ + d)
 [[nodiscard]] double moderated_variance(const VariancePrior& prior, double variance,
                                         double degrees);
-
-// The same, known as well as both together.
-[[nodiscard]] KnownVariance moderated(const VariancePrior& prior, const KnownVariance& own);
 // The x > 0 with ψ'(x) = y, y > 0.
 [[nodiscard]] double inverse_trigamma(double y);
 
