@@ -136,9 +136,10 @@ void add_gate_commands(Commands& commands) {
   add_run_plan(*accepting, accepted->plan);
   accepting->add_option("--reason", accepted->reason, "Why; kept in history.json")->required();
   accepting->add_option("--only", accepted->only, "Glob over configurations");
-  accepting->add_flag("--drop", accepted->drop,
-                      "Drop stored configurations that the run has no record of, and files that are "
-                      "not as they were accepted");
+  accepting->add_flag(
+      "--drop", accepted->drop,
+      "Drop stored configurations that the run has no record of, and files that are "
+      "not as they were accepted");
   accepting->add_option("--store", accepted->store)->capture_default_str();
   add_baselines_option(*accepting, accepted->baselines);
 }

@@ -101,18 +101,17 @@ judge::LimitPicture Truths::find_or_render_limit(const record::Record& record,
 }
 
 judge::GateRequest request_of(Truths& truths, const std::string& plan) {
-  return {.plan = plan,
-          .checks = {},
-          .devices = {},
-          .required_devices = {},
-          .truth = [&truths](const record::Record& record) { return truths.of(record); },
-          .limit = [&truths](const record::Record& record) { return truths.limit_of(record); },
-          .expectations =
-              [&truths](const record::Record& record) { return truths.expectations_of(record); },
-          .today = today(),
-          .data_hash = [&truths](const record::Record& record) {
-            return truths.data_hash_of(record);
-          }};
+  return {
+      .plan = plan,
+      .checks = {},
+      .devices = {},
+      .required_devices = {},
+      .truth = [&truths](const record::Record& record) { return truths.of(record); },
+      .limit = [&truths](const record::Record& record) { return truths.limit_of(record); },
+      .expectations =
+          [&truths](const record::Record& record) { return truths.expectations_of(record); },
+      .today = today(),
+      .data_hash = [&truths](const record::Record& record) { return truths.data_hash_of(record); }};
 }
 
 }  // namespace triptych::app

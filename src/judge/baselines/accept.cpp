@@ -1,21 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <set>
-#include <span>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/glob.hpp"
 #include "core/image_io.hpp"
-#include "core/json_text.hpp"
 #include "judge/baselines/baselines.hpp"
-#include "judge/baselines/folder.hpp"
 #include "judge/baselines/json_file.hpp"
 #include "judge/baselines/layout.hpp"
+#include "judge/baselines/next_folder.hpp"
 #include "judge/images/has_picture.hpp"
 #include "judge/statistics/statistics.hpp"
 
@@ -24,8 +20,6 @@ namespace {
 
 using core::Json;
 using record::Check;
-
-constexpr std::size_t listed_values = 40;
 
 // The part of a run that is to be accepted.
 struct Accepted {
@@ -37,84 +31,6 @@ struct Accepted {
   bool replaces_all = false;
   std::set<std::string> configurations;
   std::set<std::string> scenes;
-};
-
-std::vector<std::byte> bytes_of(std::string_view text) {
-  const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
-  return {bytes.begin(), bytes.end()};
-}
-
-// The folder as it will be.
-struct Next {
-  std::filesystem::path folder;
-  Files files;
-  std::vector<std::string> lines;  // what changes
-
-  void drop_folder(std::string_view start) {
-    std::erase_if(files, [&](const auto& file) { return file.first.starts_with(start); });
-  }
-};
-
-// Of one file of the next folder; remembers what changes.
-class Update {
- public:
-  Update(Next& next, std::string name) : next_(next), name_(std::move(name)) {
-    if (next.files.contains(name_)) before_ = JsonFile::read(next.folder / name_)->value();
-    after_ = before_;
-  }
-
-  Json& value() { return after_; }
-  Json& object() {
-    if (!after_.is_object()) after_ = Json::object();
-    return after_;
-  }
-
-  void write(int depth) const {
-    if (after_ == before_) return;
-    next_.files[name_] = bytes_of(to_lines(after_, depth));
-    describe(next_.lines);
-  }
-
- private:
-  void describe(std::vector<std::string>& lines) const {
-    const Json before = flat(before_);
-    const Json after = flat(after_);
-    std::vector<std::string> values;
-    std::size_t added = 0;
-    for (const auto& item : after.items()) {
-      const auto old = before.find(item.key());
-      if (old == before.end()) ++added;
-      if (old == before.end() || *old == item.value()) continue;
-      values.push_back(fmt::format("  {}: {} → {}", readable(item.key()), core::json_text(*old),
-                                   core::json_text(item.value())));
-    }
-    const auto removed = std::ranges::count_if(
-        before.items(), [&](const auto& item) { return !after.contains(item.key()); });
-    lines.push_back(
-        fmt::format("{}: {} changed, {} added, {} removed", name_, values.size(), added, removed));
-    const std::size_t shown = std::min(values.size(), listed_values);
-    lines.insert(lines.end(), values.begin(), values.begin() + static_cast<std::ptrdiff_t>(shown));
-    if (values.size() > shown)
-      lines.push_back(fmt::format("  … and {} more", values.size() - shown));
-  }
-
-  static Json flat(const Json& value) { return value.is_null() ? Json::object() : value.flatten(); }
-  // JSON pointer without its escapes.
-  static std::string readable(std::string pointer) {
-    constexpr std::array<std::pair<std::string_view, char>, 2> escapes{{{"~1", '/'}, {"~0", '~'}}};
-    for (const auto& [escape, character] : escapes) {
-      for (auto at = pointer.find(escape); at != std::string::npos;
-           at = pointer.find(escape, at + 1)) {
-        pointer.replace(at, escape.size(), 1, character);
-      }
-    }
-    return pointer.substr(1);
-  }
-
-  Next& next_;
-  std::string name_;
-  Json before_;
-  Json after_;
 };
 
 void drop_all_but(Json& object, const std::set<std::string>& kept) {
@@ -185,7 +101,7 @@ record::Counts kept_of(record::Counts cost) {
 }
 
 // Counts of another emulator are another kind of number: they replace all that is stored.
-void update_cost(const Accepted& accepted, const record::Device& device, Next& next) {
+void update_cost(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::cost(device));
   bool counted = false;
   for (const record::Record& record : accepted.measured) {
@@ -209,7 +125,7 @@ void update_cost(const Accepted& accepted, const record::Device& device, Next& n
 }
 
 // Of untimed records nothing is known: what is stored of them stays.
-void update_statistics(const Accepted& accepted, const record::Device& device, Next& next) {
+void update_statistics(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::statistics(device));
   update.object()["device"] = device.statistics_key();
   // What a run did not look at leaves what is known of this driver version.
@@ -226,7 +142,7 @@ void update_statistics(const Accepted& accepted, const record::Device& device, N
   if (tells) update.write(3);
 }
 
-void update_timings(const Accepted& accepted, const record::Device& device, Next& next) {
+void update_timings(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::timings(device));
   update.object()["device"] = device.key();
   Json& table = table_of(update.object()["configurations"], accepted);
@@ -250,21 +166,20 @@ void update_timings(const Accepted& accepted, const record::Device& device, Next
   }
 }
 
-void update_image(const record::Record& record, const core::Image& reference, Next& next) {
+void update_image(const record::Record& record, const core::Image& reference, NextFolder& next) {
   const std::string name = Layout::image(record.scene);
   std::vector<std::byte> bytes = core::encode_exr(reference);
   const auto known = next.files.find(name);
   const bool exists = known != next.files.end();
   if (exists && known->second == bytes) return;
-  next.lines.push_back(
-      fmt::format("{}: {} ({})", name, exists ? "replaced" : "new", record.scene));
+  next.lines.push_back(fmt::format("{}: {} ({})", name, exists ? "replaced" : "new", record.scene));
   next.files[name] = std::move(bytes);
 }
 
 // Pictures are large: kept of the plans that people measure by, whose report shows them.
-void update_images(const Accepted& accepted, const AcceptRequest& request, Next& next) {
-  const bool keeps = accepted.checks.contains(Check::image) &&
-                     accepted.checks.contains(Check::timing);
+void update_images(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
+  const bool keeps =
+      accepted.checks.contains(Check::image) && accepted.checks.contains(Check::timing);
   Update index(next, Layout::images);
   Json& table = index.object();
   if (accepted.replaces_all) drop_all_but(table, accepted.scenes);
@@ -293,17 +208,16 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, Next&
   });
 }
 
-void append_history(const Accepted& accepted, const AcceptRequest& request, Next& next) {
+void append_history(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
   std::set<std::string> ids;
   for (const auto& [id, device] : accepted.devices) ids.insert(id);
   Update history(next, Layout::history);
   if (!history.value().is_array()) history.value() = Json::array();
-  history.value().push_back(
-      {{"date", request.date}, {"reason", request.reason}, {"devices", ids}});
+  history.value().push_back({{"date", request.date}, {"reason", request.reason}, {"devices", ids}});
   next.files[Layout::history] = bytes_of(to_lines(history.value(), 1));
 }
 
-void write_manifest(const Accepted& accepted, const Manifest& stored, Next& next) {
+void write_manifest(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
   // A part of a run says nothing of the plan as a whole.
   const bool whole = accepted.replaces_all || stored.plan_hash.empty();
   Json devices = stored.devices;
@@ -409,8 +323,8 @@ void refuse_part(const Accepted& accepted, const Baselines& stored, const std::s
 }
 
 // Everything that is stored and as it was accepted; nothing where that is to be dropped.
-Next next_of(const Baselines& stored, const AcceptRequest& request) {
-  Next next{.folder = stored.folder(), .files = {}, .lines = {}};
+NextFolder next_of(const Baselines& stored, const AcceptRequest& request) {
+  NextFolder next{.folder = stored.folder(), .files = {}, .lines = {}};
   if (!stored.problem().empty()) {
     if (request.drop && request.only.empty()) return next;
     throw core::InputError(
@@ -437,7 +351,7 @@ std::vector<std::string> accept(const record::Store& store, const std::string& r
   refuse_other_data(accepted, request);
   const WriterLock lock(root);
   const Baselines stored(root, request.plan);
-  Next next = next_of(stored, request);
+  NextFolder next = next_of(stored, request);
   const Manifest manifest = next.files.empty() ? Manifest{} : stored.manifest();
   if (!next.files.empty()) refuse_part(accepted, stored, run, request);
   update_images(accepted, request, next);

@@ -292,7 +292,8 @@ std::optional<StoredCounters> Baselines::counters(const std::string& configurati
 
 bool Baselines::was_measured(const std::string& device, const std::string& configuration) const {
   const auto stored = counters(configuration).value_or(StoredCounters{});
-  return std::ranges::any_of(stored, [&](const auto& each) { return each.second.contains(device); });
+  return std::ranges::any_of(stored,
+                             [&](const auto& each) { return each.second.contains(device); });
 }
 
 std::map<std::string, record::Counts> Baselines::memory(const std::string& configuration) const {

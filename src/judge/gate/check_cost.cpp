@@ -131,8 +131,7 @@ class DeviceCostCheck {
     for (const auto& [part, name] : parts) {
       const double before = count_of(stored, part).value_or(0);
       const double now = count_of(record.cost, part).value_or(0);
-      const double tolerated =
-          frame * cost_tolerance(part, record.device, record.technique);
+      const double tolerated = frame * cost_tolerance(part, record.device, record.technique);
       if (std::abs(now - before) <= tolerated) continue;
       (now > before ? more : less) = true;
       changes.push_back(change_text(name, before, now));
@@ -142,9 +141,7 @@ class DeviceCostCheck {
     if (!changes.empty() && before && now && *before != *now) {
       changes.push_back(change_text("allocations", *before, *now));
     }
-    const Verdict verdict = more   ? Verdict::regression
-                            : less ? Verdict::improved
-                                   : Verdict::pass;
+    const Verdict verdict = more ? Verdict::regression : less ? Verdict::improved : Verdict::pass;
     const double all = frame_of(record.cost);
     Finding finding = finding_about(
         record, Check::cost, verdict,
@@ -212,8 +209,7 @@ class DeviceCostCheck {
 std::vector<Finding> check_cost(const RunView& view) {
   std::map<std::string, DeviceCostCheck> devices;
   for (const record::Record* record : view.measured) {
-    devices.try_emplace(record->device, view, view.device(*record))
-        .first->second.look_at(*record);
+    devices.try_emplace(record->device, view, view.device(*record)).first->second.look_at(*record);
   }
   std::vector<Finding> findings;
   for (auto& [id, check] : devices) check.finish(findings);

@@ -70,16 +70,17 @@ void compare_own(const std::string& name, std::uint64_t stored, const record::Re
 }
 
 // Another device's counter may have no meaning here: it need not be there.
-void compare_with_others(const std::string& name, const Range& range,
-                         const record::Record& record, Differences& out) {
+void compare_with_others(const std::string& name, const Range& range, const record::Record& record,
+                         Differences& out) {
   const auto found = record.counters.find(name);
   if (found == record.counters.end()) return;
   const double relative = relative_difference(found->second, range.nearest(found->second));
   out.largest = std::max(out.largest, std::abs(relative));
   if (std::abs(relative) <= counters_across_devices) return;
-  out.wrong.push_back(fmt::format("{} {} ({:+.4g} % beyond what other devices were accepted with: "
-                                  "{})",
-                                  name, found->second, 100 * relative, range.text()));
+  out.wrong.push_back(
+      fmt::format("{} {} ({:+.4g} % beyond what other devices were accepted with: "
+                  "{})",
+                  name, found->second, 100 * relative, range.text()));
 }
 
 void compare_counter(const std::string& name, const std::map<std::string, std::uint64_t>& stored,
@@ -96,8 +97,8 @@ Finding check_record(const RunView& view, const record::Record& record,
   };
   if (record.counters.empty()) {
     return stored.empty() ? about(Verdict::skipped, "this technique counts nothing")
-                           : about(Verdict::cannot_judge,
-                                   "nothing was counted; run the plan again with counting frames");
+                          : about(Verdict::cannot_judge,
+                                  "nothing was counted; run the plan again with counting frames");
   }
   Differences differences;
   for (const auto& [name, values] : stored) compare_counter(name, values, record, differences);
@@ -131,10 +132,10 @@ std::vector<Finding> check_counters(const RunView& view) {
     }
   }
   for (const auto& [device, configurations] : not_stored) {
-    findings.push_back(finding_about(
-        view, view.devices.at(device), Check::counters, Verdict::cannot_judge,
-        fmt::format("no stored counters for {}; accept them: {}", examples_of(configurations),
-                    view.accept_command())));
+    findings.push_back(
+        finding_about(view, view.devices.at(device), Check::counters, Verdict::cannot_judge,
+                      fmt::format("no stored counters for {}; accept them: {}",
+                                  examples_of(configurations), view.accept_command())));
   }
   return findings;
 }

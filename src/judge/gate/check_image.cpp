@@ -224,7 +224,7 @@ class SceneJudge {
   const RunView& view_;
   ImageFindings& out_;
   std::string scene_;
-  std::optional<core::Image> stored_;         // the reference, where the picture is kept
+  std::optional<core::Image> stored_;       // the reference, where the picture is kept
   std::optional<ReferenceHash> reference_;  // where it is not
   bool truth_checked_ = false;
   std::vector<Picture> pictures_;

@@ -56,10 +56,10 @@ void tell(const RunView& view, const record::Device& device, const Untold& untol
   }
   if (untold.not_stored.empty()) return;
   add(untold.accepted ? Verdict::cannot_judge : Verdict::advisory,
-      fmt::format("no stored memory {}; accept it: {}",
-                  untold.accepted ? "for " + examples_of(untold.not_stored)
-                                  : std::string("of this device"),
-                  view.accept_command()));
+      fmt::format(
+          "no stored memory {}; accept it: {}",
+          untold.accepted ? "for " + examples_of(untold.not_stored) : std::string("of this device"),
+          view.accept_command()));
 }
 
 }  // namespace

@@ -110,9 +110,9 @@ Finding tell_elsewhere(const RunView& view, const record::Device& device, const 
     message += "nor for any other";
   } else if (!result.differences.empty()) {
     const std::size_t n = std::min(named, result.differences.size());
-    const std::vector<std::string> first(result.differences.begin(),
-                                         std::next(result.differences.begin(),
-                                                   static_cast<std::ptrdiff_t>(n)));
+    const std::vector<std::string> first(
+        result.differences.begin(),
+        std::next(result.differences.begin(), static_cast<std::ptrdiff_t>(n)));
     message += fmt::format("in {} of them it differs from every stored driver: {}{}",
                            result.differing.size(), fmt::join(first, "; "),
                            result.differences.size() > n ? "; …" : "");
@@ -157,10 +157,10 @@ class StatisticsCheck {
       findings_.push_back(tell_elsewhere(view_, view_.devices.at(device), result));
     }
     for (const auto& [device, configurations] : not_stored_) {
-      findings_.push_back(finding_about(
-          view_, view_.devices.at(device), Check::statistics, Verdict::cannot_judge,
-          fmt::format("no stored statistics for {}; accept them: {}", examples_of(configurations),
-                      view_.accept_command())));
+      findings_.push_back(
+          finding_about(view_, view_.devices.at(device), Check::statistics, Verdict::cannot_judge,
+                        fmt::format("no stored statistics for {}; accept them: {}",
+                                    examples_of(configurations), view_.accept_command())));
     }
     return std::move(findings_);
   }
@@ -168,7 +168,7 @@ class StatisticsCheck {
  private:
   const RunView& view_;
   std::vector<Finding> findings_;
-  std::map<std::string, Elsewhere> elsewhere_;                   // by device
+  std::map<std::string, Elsewhere> elsewhere_;                  // by device
   std::map<std::string, std::vector<std::string>> not_stored_;  // beside others of the device
 };
 

@@ -70,10 +70,9 @@ class DeviceTimes {
     // Where times decide, what they cannot be held against is no pass.
     const Verdict missing = decides() ? Verdict::cannot_judge : Verdict::advisory;
     if (!not_stored_.empty()) {
-      add(missing, stored_.empty()
-                       ? "no stored times of this device: " + device_.key()
-                       : fmt::format("no stored times for {}; accept them: {}",
-                                     examples_of(not_stored_), view_.accept_command()));
+      add(missing, stored_.empty() ? "no stored times of this device: " + device_.key()
+                                   : fmt::format("no stored times for {}; accept them: {}",
+                                                 examples_of(not_stored_), view_.accept_command()));
     }
     if (!other_clock_.empty()) {
       add(missing,
@@ -126,8 +125,8 @@ class DeviceTimes {
     std::string message = fmt::format("{:.4g} ms, stored {:.4g} ms: {}", 1e-6 * now,
                                       1e-6 * stored.median_ns, text_of(ratio));
     if (verdict != Verdict::pass) {
-      message += "; " + why_text(work_change(record.counters, view_.baselines,
-                                             record.configuration, record.device),
+      message += "; " + why_text(work_change(record.counters, view_.baselines, record.configuration,
+                                             record.device),
                                  ratio.log_ratio);
     }
     if (stored.kernel_hash != record.kernel_hash) message += "; the device code changed since";

@@ -26,16 +26,17 @@ std::string other_data(const RunView& view, const record::Record& record) {
   const std::string accepted =
       view.baselines.present() ? view.baselines.data_hash(record) : std::string();
   if (!accepted.empty() && accepted != record.data_hash) {
-    return fmt::format("its data is not what was accepted under this name (content hash {}, "
-                       "accepted {}): restore the file and run again, or {}",
-                       record.data_hash, accepted, view.accept_command());
+    return fmt::format(
+        "its data is not what was accepted under this name (content hash {}, "
+        "accepted {}): restore the file and run again, or {}",
+        record.data_hash, accepted, view.accept_command());
   }
-  const std::string now =
-      view.request.data_hash ? view.request.data_hash(record) : std::string();
+  const std::string now = view.request.data_hash ? view.request.data_hash(record) : std::string();
   if (now.empty() || now == record.data_hash) return {};
-  return fmt::format("its data has changed since it was measured (content hash {}, now {}): "
-                     "restore the file or run again",
-                     record.data_hash, now);
+  return fmt::format(
+      "its data has changed since it was measured (content hash {}, now {}): "
+      "restore the file or run again",
+      record.data_hash, now);
 }
 
 record::Run run_of(const record::Store& store, const std::string& id) {
@@ -152,9 +153,9 @@ void report_rows(const RunView& view, std::vector<Finding>& findings) {
     std::vector<std::string> extra;
     std::ranges::set_difference(there, expected, std::back_inserter(extra));
     if (expected.empty() || extra.empty()) continue;
-    findings.push_back(finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
-                                     fmt::format("the plan does not have {}; run it again",
-                                                 examples_of(extra))));
+    findings.push_back(
+        finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
+                      fmt::format("the plan does not have {}; run it again", examples_of(extra))));
   }
 }
 
@@ -166,11 +167,10 @@ void report_other_plan(const RunView& view, const std::string& run,
   if (measured == view.request.plan_hash) return;
   findings.push_back(finding_about(
       view, *view.checks.begin(), Verdict::cannot_judge,
-      fmt::format("run {} is of another plan than {} is now ({}); run it again", run,
-                  view.request.plan,
-                  measured.empty() ? "it kept no hash"
-                                   : fmt::format("hash {}, now {}", measured,
-                                                 view.request.plan_hash))));
+      fmt::format(
+          "run {} is of another plan than {} is now ({}); run it again", run, view.request.plan,
+          measured.empty() ? "it kept no hash"
+                           : fmt::format("hash {}, now {}", measured, view.request.plan_hash))));
 }
 
 void report_other_data(const RunView& view, std::vector<Finding>& findings) {
@@ -185,12 +185,11 @@ void report_no_baselines(const RunView& view, std::vector<Finding>& findings) {
   const std::string& problem = view.baselines.problem();
   findings.push_back(finding_about(
       view, *view.checks.begin(), Verdict::cannot_judge,
-      problem.empty()
-          ? fmt::format("there are no baselines in {}; make them with {}", folder,
-                        view.accept_command())
-          : fmt::format("{}: {} since it was accepted: restore it from version control, or start "
-                        "over with {} --drop",
-                        folder, problem, view.accept_command())));
+      problem.empty() ? fmt::format("there are no baselines in {}; make them with {}", folder,
+                                    view.accept_command())
+                      : fmt::format("{}: {}: restore it from version control, or start "
+                                    "over with {} --drop",
+                                    folder, problem, view.accept_command())));
 }
 
 void append(std::vector<Finding>& findings, std::vector<Finding> more) {

@@ -53,9 +53,9 @@ struct Finding {
 struct GateResult {
   std::string plan;
   std::string run;
-  std::vector<Finding> findings;                   // worst first, then by device and configuration
-  std::vector<AccuracyScene> accuracies = {};      // likewise; by device, then as measured
-  std::set<std::string> devices = {};              // that measured something, of those asked for
+  std::vector<Finding> findings;               // worst first, then by device and configuration
+  std::vector<AccuracyScene> accuracies = {};  // likewise; by device, then as measured
+  std::set<std::string> devices = {};          // that measured something, of those asked for
   // Of which all findings are advice or reasons for not judging.
   [[nodiscard]] std::vector<std::string> nothing_decided() const;
   [[nodiscard]] core::ExitCode exit_code() const;

@@ -16,7 +16,7 @@ struct RunView {
   const Baselines& baselines;
   const GateRequest& request;
   std::set<Check> checks;
-  std::vector<record::Record> records;  // of the devices asked for
+  std::vector<record::Record> records;               // of the devices asked for
   std::map<std::string, record::Device> devices;     // by id
   std::vector<const record::Record*> measured;       // into `records`
   std::vector<const record::Record*> of_other_data;  // measured, but of data that are not

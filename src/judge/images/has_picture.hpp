@@ -5,8 +5,8 @@
 
 namespace triptych::judge {
 
-// What speed_of_light leaves behind is sums. By name, as a record is all there is: the test holds it
-// to the catalogue's techniques without a picture.
+// What speed_of_light leaves behind is sums. By name, as a record is all there is: the test holds
+// it to the catalogue's techniques without a picture.
 [[nodiscard]] inline bool has_picture(const record::Record& record) {
   return record.technique != "speed_of_light";
 }

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
 #include "core/json.hpp"
-#include "judge/timing/anchor.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -57,8 +57,7 @@ record::Record JudgeTest::make_record(const std::string& run, const record::Devi
   record.plan = plan;
   record.scene = scene;
   record.device = device.id;
-  const bool anchor = variant == "anchor";
-  record.technique = anchor ? "speed_of_light" : "raycast";
+  record.technique = "raycast";
   record.configuration = fmt::format("{},{}technique={}", scene,
                                      variant == "bricks" ? "skip=bricks," : "", record.technique);
   record.outcome = record::Outcome::measured;
@@ -67,11 +66,9 @@ record::Record JudgeTest::make_record(const std::string& run, const record::Devi
   const double level = 1e6 * static_cast<double>(1 + record.configuration.size() % 7);
   record.warm_up_frames = 4;
   record.wall_ns = noisy(level);
-  if (!anchor) {
-    record.counters = {{"rays", 48}, {"samples", 1000000}};
-    if (device.api != "opencl") {
-      record.statistics = {{"compute_invocations", 48}, {"fragment_invocations", 64}};
-    }
+  record.counters = {{"rays", 48}, {"samples", 1000000}};
+  if (device.api != "opencl") {
+    record.statistics = {{"compute_invocations", 48}, {"fragment_invocations", 64}};
   }
   return record;
 }
@@ -86,13 +83,13 @@ std::vector<double> JudgeTest::noisy(double level) {
 }
 
 void JudgeTest::add_run(const std::string& run, const Tweak& tweak) {
-  store_.add_run({run, plan, "2026-02-01T00:00:00Z", {}});
+  store_.add_run({run, plan, "2026-02-01T00:00:00Z", {}, checks_, plan_hash_});
   for (record::Device device : devices()) {
     device.statistics_dialect = dialects_[device.id];
+    if (driver_versions_.contains(device.id)) device.driver_version = driver_versions_[device.id];
     store_.add_device(run, device, {});
     for (const std::string& scene : {front_, std::string("camera=side,data=ball")}) {
-      for (const std::string variant : {"plain", "bricks", "anchor"}) {
-        if (variant == "anchor" && (!with_anchors_ || scene != front_)) continue;
+      for (const std::string variant : {"plain", "bricks"}) {
         record::Record record = make_record(run, device, scene, variant);
         core::Image image = truth_of(scene);
         // Each device rounds in its own way.
@@ -117,57 +114,20 @@ std::vector<std::string> JudgeTest::accept_run(const std::string& run, AcceptReq
   return accept(store_, run, folder_.path() / "baselines", how);
 }
 
-void JudgeTest::confirm(const std::string& run, const std::string& again, const std::string& of) {
-  record::Run said{again, of, "2026-02-01T00:00:00Z", {}};
-  said.confirms = run;
-  store_.add_run(said);
+void JudgeTest::accept_first(const Tweak& tweak) {
+  add_run("accepted", tweak);
+  (void)accept_run("accepted");
 }
 
-void JudgeTest::add_anchors(const std::string& run, double factor, double longest) {
-  store_.add_run({run, std::string(anchors_plan), "2026-02-01T00:00:00Z", {}});
-  for (const record::Device& device : devices()) {
-    store_.add_device(run, device, {});
-    for (int size = 1; size <= 8; ++size) {
-      record::Record record;
-      record.run = run;
-      record.suite = "anchors";
-      record.plan = anchors_plan;
-      record.scene = "none";
-      record.device = device.id;
-      record.technique = "anchor_arithmetic";
-      record.configuration = fmt::format("size={},technique=anchor_arithmetic", size);
-      record.outcome = record::Outcome::measured;
-      record.counters = {{"checksum", 7}};
-      record.wall_ns = noisy(1e6 * size * factor * (size == 8 ? longest : 1));
-      store_.add_record(record);
-    }
-  }
-}
-
-void JudgeTest::accept_anchors(const std::string& run) {
-  AcceptRequest request;
-  request.plan = anchors_plan;
-  request.reason = "a test";
-  request.date = "2026-02-01";
-  (void)accept(store_, run, folder_.path() / "baselines", request);
-}
-
-void JudgeTest::accept_history(const Tweak& tweak) {
-  for (int i = 1; i <= 8; ++i) {
-    add_run(fmt::format("r{}", i), tweak);
-    (void)accept_run(fmt::format("r{}", i));
-  }
+void JudgeTest::rewrite(const std::string& name, const std::string& content) {
+  core::write_file(content, baseline(name));
+  core::Json manifest = core::Json::parse(folder_.read(baseline("manifest.json")));
+  manifest["files"][name] = core::content_hash(content);
+  core::write_file(manifest.dump(1), baseline("manifest.json"));
 }
 
 GateResult JudgeTest::gate(const std::string& run, const GateRequest& request) const {
   return judge_run(store_, run, Baselines(folder_.path() / "baselines", plan), request);
-}
-
-GateResult JudgeTest::gate(const std::string& run, const std::string& again,
-                           std::optional<std::set<std::string>> devices) const {
-  const Launch launch{&store_, again, std::move(devices)};
-  return judge_launches({&store_, run}, {&launch, 1}, Baselines(folder_.path() / "baselines", plan),
-                        request_);
 }
 
 std::filesystem::path JudgeTest::baseline(const std::string& name) const {

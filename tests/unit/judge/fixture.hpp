@@ -7,8 +7,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -33,24 +31,17 @@ class JudgeTest : public testing::Test {
  protected:
   JudgeTest();
 
-  // Twelve measured records (fifteen with anchors), times with 0.5 % noise around a level per
+  // Twelve measured records, times with 0.5 % noise around a level per
   // configuration.
   void add_run(const std::string& run, const Tweak& tweak = {});
   // `how`: all but the plan, the reason, the date and the truth.
   std::vector<std::string> accept_run(const std::string& run, AcceptRequest how = {});
-  // Says that `again`, which is there, was measured to confirm `run`.
-  void confirm(const std::string& run, const std::string& again, const std::string& of = plan);
-  // Eight records of anchors/frozen on each device, with as much noise, `factor` times as long as
-  // usual, the longest by `longest` more.
-  void add_anchors(const std::string& run, double factor, double longest = 1);
-  void accept_anchors(const std::string& run);
-  // Eight accepted runs, r1 … r8.
-  void accept_history(const Tweak& tweak = {});
+  // An accepted run, "accepted".
+  void accept_first(const Tweak& tweak = {});
   [[nodiscard]] GateResult gate(const std::string& run) const { return gate(run, request_); }
   [[nodiscard]] GateResult gate(const std::string& run, const GateRequest& request) const;
-  // With another launch, of all devices or of these.
-  [[nodiscard]] GateResult gate(const std::string& run, const std::string& again,
-                                std::optional<std::set<std::string>> devices = std::nullopt) const;
+  // Changes an accepted file as if it had been accepted so.
+  void rewrite(const std::string& name, const std::string& content);
   [[nodiscard]] std::filesystem::path baseline(const std::string& name) const;
   // The only file in a folder of the plan's baselines whose name begins so.
   [[nodiscard]] std::filesystem::path device_file(const std::string& folder,
@@ -71,8 +62,10 @@ class JudgeTest : public testing::Test {
   TemporaryFolder folder_;
   record::Store store_;
   GateRequest request_;
-  bool with_anchors_ = false;
+  record::Checks checks_;  // of the plan of runs to come
+  std::string plan_hash_;
   // Of the devices of runs to come, by id.
+  std::map<std::string, std::string> driver_versions_;
   std::map<std::string, std::map<std::string, std::string>> dialects_;
 
  private:

@@ -28,7 +28,7 @@ std::string contents(const std::filesystem::path& file) {
 class UntimedGateTest : public JudgeTest {};
 
 TEST_F(UntimedGateTest, TimesAndStatisticsAreSkippedWithTheReason) {
-  accept_history();
+  accept_first();
   add_run("b", untimed);
   const GateResult result = gate("b");
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
@@ -41,7 +41,7 @@ TEST_F(UntimedGateTest, TimesAndStatisticsAreSkippedWithTheReason) {
 }
 
 TEST_F(UntimedGateTest, ThePictureIsJudgedAllTheSame) {
-  accept_history();
+  accept_first();
   add_run("b", [](record::Record& record, core::Image& image) {
     untimed(record, image);
     image.rgba[5] += 0.5F;
@@ -50,7 +50,7 @@ TEST_F(UntimedGateTest, ThePictureIsJudgedAllTheSame) {
 }
 
 TEST_F(UntimedGateTest, WhatIsStoredOfTimesAndStatisticsStays) {
-  accept_history();
+  accept_first();
   const std::string timings = contents(device_file("timings", "vulkan"));
   const std::string statistics = contents(device_file("statistics", "vulkan"));
   add_run("b", untimed);
@@ -75,11 +75,11 @@ TEST_F(UntimedGateTest, AfterThemTimesAreNewAndOnlyAdvise) {
   add_run("a", untimed);
   (void)accept_run("a");
   add_run("b");
-  EXPECT_EQ(with(gate("b"), Verdict::advisory, Check::timing).size(), 12U) << text(gate("b"));
+  EXPECT_EQ(with(gate("b"), Verdict::advisory, Check::timing).size(), 3U) << text(gate("b"));
   EXPECT_TRUE(with(gate("b"), Verdict::cannot_judge, Check::timing).empty()) << text(gate("b"));
   (void)accept_run("b", {.only = bricks_});
   add_run("c");
-  EXPECT_EQ(with(gate("c"), Verdict::advisory, Check::timing).size(), 12U) << text(gate("c"));
+  EXPECT_EQ(with(gate("c"), Verdict::advisory, Check::timing).size(), 6U) << text(gate("c"));
   EXPECT_TRUE(with(gate("c"), Verdict::cannot_judge, Check::timing).empty()) << text(gate("c"));
 }
 
