@@ -253,9 +253,16 @@ bool Baselines::present() const {
 const std::string& Baselines::problem() const {
   if (cache_->problem) return *cache_->problem;
   std::string problem;
-  if (fs::is_directory(folder_)) {
-    problem = fs::exists(folder_ / Layout::manifest) ? first_change(folder_, manifest())
-                                                     : std::string(Layout::manifest) + " is gone";
+  if (!fs::is_directory(folder_)) {
+    // There is nothing to be wrong.
+  } else if (!fs::exists(folder_ / Layout::manifest)) {
+    problem = std::string(Layout::manifest) + " is gone";
+  } else {
+    try {
+      problem = first_change(folder_, manifest());
+    } catch (const core::InputError& error) {  // what a careless merge leaves
+      problem = error.what();
+    }
   }
   cache_->problem = std::move(problem);
   return *cache_->problem;
