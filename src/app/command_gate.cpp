@@ -6,7 +6,6 @@
 #include "app/judging.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
-#include "app/saying.hpp"
 #include "app/truth.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"

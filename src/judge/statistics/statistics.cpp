@@ -78,6 +78,22 @@ std::vector<bool> benjamini_hochberg(std::span<const double> p_values, double q)
   return rejected;
 }
 
+std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values) {
+  std::vector<std::size_t> order(p_values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order,
+                           [&](std::size_t a, std::size_t b) { return p_values[a] < p_values[b]; });
+  std::vector<double> adjusted(p_values.size());
+  double smallest = 1;
+  for (std::size_t rank = order.size(); rank > 0; --rank) {
+    const std::size_t i = order[rank - 1];
+    smallest = std::min(
+        smallest, p_values[i] * static_cast<double>(order.size()) / static_cast<double>(rank));
+    adjusted[i] = smallest;
+  }
+  return adjusted;
+}
+
 // Newton's method on 1/ψ', which is convex and nearly linear: it approaches from one side (Smyth
 // 2004, appendix). Outside the range the asymptotes are exact to double precision.
 double inverse_trigamma(double y) {

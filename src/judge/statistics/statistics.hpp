@@ -24,6 +24,9 @@ inline constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 // among the rejected is to stay ≤ q.
 [[nodiscard]] std::vector<bool> benjamini_hochberg(std::span<const double> p_values, double q);
 
+// Each p-value as the smallest q at which the same procedure rejects it.
+[[nodiscard]] std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values);
+
 // Variances of many groups borrow strength from one another: a scaled inverse chi-square prior with
 // d₀ degrees of freedom around s₀², fitted to the groups' variances by the moments of ln s²
 // (Smyth 2004, "Linear models and empirical Bayes methods", section 6.2).

@@ -5,14 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/special_functions/digamma.hpp>
-#include <boost/math/special_functions/trigamma.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "core/random.hpp"
-#include "tests/support/normal.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -98,6 +95,14 @@ TEST(Statistics, OneVarianceStandsForItself) {
   EXPECT_EQ(moderated_variance(prior, 4, 7), 4);
 }
 
-// Of seven values three may be anything.
+TEST(Statistics, AdjustedPValuesDecideAsTheProcedureDoes) {
+  const std::vector<double> p{0.001, 0.8, 0.012, 0.02, 0.04, 0.5};
+  const auto adjusted = benjamini_hochberg_adjusted(p);
+  for (const double q : {0.005, 0.01, 0.03, 0.05, 0.07, 0.9}) {
+    const auto rejected = benjamini_hochberg(p, q);
+    for (std::size_t i = 0; i < p.size(); ++i) EXPECT_EQ(adjusted[i] <= q, rejected[i]) << q;
+  }
+}
+
 }  // namespace
 }  // namespace triptych::judge
