@@ -192,7 +192,9 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, NextF
       // Other devices' voxel formats have their own hashes of the data; they hold with the truth.
       Json& entry = table[record.scene];
       const Json hash = reference_hash(reference);
-      if (entry.value("reference", Json()) != hash) entry = {{"reference", hash}};
+      if (!entry.is_object() || entry.value("reference", Json()) != hash) {
+        entry = {{"reference", hash}};
+      }
     }
     if (!record.data_hash.empty()) {
       table[record.scene][Layout::data_key(record)] = record.data_hash;

@@ -116,7 +116,7 @@ TEST_F(CostGateTest, WhatRestsOnTheHeapDecidesNothing) {
   const GateResult result = judge(counted([](record::Record& record) {
     record.cost["libc"] *= 3;
     record.cost["program"] = 77;
-    record.cost["allocations"] += record.configuration == plain_ ? 10 : 1;
+    record.cost["allocations"] += record.configuration == plain_ ? 10U : 1U;
   }));
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
   const auto advice = with(result, Verdict::advisory);
