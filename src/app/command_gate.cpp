@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <set>
 
 #include "app/arguments.hpp"
 #include "app/judging.hpp"
@@ -28,6 +27,7 @@ struct GateArguments {
   std::string junit;
   std::string markdown;
   bool json = false;
+  bool times = false;
 };
 
 struct AcceptArguments {
@@ -37,25 +37,35 @@ struct AcceptArguments {
   std::string reason;
   std::string only;
   bool drop = false;
-  bool forget_times = false;
 };
+
+// The request to judge a plan as it is now: one that cannot be read is judged by nothing.
+judge::GateRequest request_for(const GateArguments& arguments, const Registry& registry,
+                               Truths& truths) {
+  const measure::Plan plan = measure::load_plan(arguments.plan, {}, registry.find_suite());
+  judge::GateRequest request = request_of(truths, plan.name);
+  request.devices = arguments.devices;
+  request.required_devices = arguments.required;
+  for (const std::string& name : arguments.checks) request.checks.insert(judge::check(name));
+  request.times_decide = arguments.times;
+  request.plan_hash = plan.hash;
+  const measure::Suite& suite = registry.suite(plan.suite);
+  for (const measure::Configuration& each : plan.configurations) {
+    request.expected.push_back(measure::configuration_key(suite, each));
+  }
+  return request;
+}
 
 core::ExitCode gate(const GateArguments& arguments) {
   refuse_overwriting({{"--store", arguments.store}, {"PLAN", arguments.plan}},
                      {{"--junit", arguments.junit}, {"--markdown", arguments.markdown}});
-  std::set<judge::Check> checks;
-  for (const std::string& name : arguments.checks) checks.insert(judge::check(name));
   const Registry registry = make_registry();
   record::Store store = open_to_judge(arguments.store);
   Truths truths(registry, store);
-  const std::string plan = measure::plan_name(arguments.plan);
-  judge::GateRequest request = request_of(truths, plan);
-  request.devices = arguments.devices;
-  request.required_devices = arguments.required;
-  request.checks = checks;
-  const judge::Baselines baselines(arguments.baselines, plan);
-  const std::string run = latest_run_of(store, arguments.plan, arguments.store);
-  const judge::GateResult result = judge::judge_run(store, run, baselines, request);
+  const judge::GateRequest request = request_for(arguments, registry, truths);
+  const judge::GateResult result =
+      judge::judge_run(store, latest_run_of(store, arguments.plan, arguments.store),
+                       judge::Baselines(arguments.baselines, request.plan), request);
   if (!arguments.junit.empty()) write_text(arguments.junit, report::junit(result));
   if (!arguments.markdown.empty()) write_text(arguments.markdown, report::markdown(result));
   if (arguments.json) {
@@ -71,18 +81,17 @@ core::ExitCode accept(const AcceptArguments& arguments) {
   record::Store store = open_to_judge(arguments.store);
   Truths truths(registry, store);
   const std::string plan = measure::plan_name(arguments.plan);
-  judge::AcceptRequest request{
+  const judge::GateRequest judged = request_of(truths, plan);
+  const judge::AcceptRequest request{
       .plan = plan,
       .reason = arguments.reason,
       .only = arguments.only,
       .date = today(),
       .drop = arguments.drop,
-      .forget_times = arguments.forget_times,
-      .truth = [&](const record::Record& record) { return truths.of(record).truth; }};
-  const judge::GateRequest judged = request_of(truths, plan);
-  // Errors against the limit and scores are baselines of the plans made for them.
-  if (plan.ends_with("/accuracy")) request.limit = judged.limit;
-  if (plan.ends_with("/stress")) request.stress = {judged.truth, judged.expectations};
+      .truth = [&](const record::Record& record) { return truths.of(record).truth; },
+      .data_hash = judged.data_hash,
+      .limit = judged.limit,
+      .stress = judge::StressTruths{judged.truth, judged.expectations}};
   const std::vector<std::string> changes = judge::accept(
       store, latest_run_of(store, arguments.plan, arguments.store), arguments.baselines, request);
   for (const std::string& change : changes) fmt::print("{}\n", change);
@@ -108,8 +117,8 @@ void add_gate_commands(Commands& commands) {
   add_baselines_option(*command, arguments->baselines);
   command
       ->add_option("--check", arguments->checks,
-                   "image,counters,statistics,timing,correlation,accuracy,stress (default: "
-                   "those made for the plan)")
+                   "image,counters,statistics,cost,memory,timing,correlation,accuracy,stress "
+                   "(default: those of the plan)")
       ->delimiter(',');
   command->add_option("--device", arguments->devices, "Glob: judge only these (repeatable)");
   command->add_option("--require", arguments->required,
@@ -117,6 +126,8 @@ void add_gate_commands(Commands& commands) {
   command->add_option("--junit", arguments->junit, "Write JUnit XML");
   command->add_option("--markdown", arguments->markdown, "Write a Markdown summary");
   command->add_flag("--json", arguments->json, "Print every finding as JSON");
+  command->add_flag("--times", arguments->times,
+                    "Times decide: for a machine that is kept for measuring; else they advise");
 
   auto accepted = std::make_shared<AcceptArguments>();
   CLI::App* accepting = commands.add("accept", "Make a plan's latest run the baseline",
@@ -124,10 +135,10 @@ void add_gate_commands(Commands& commands) {
   add_run_plan(*accepting, accepted->plan);
   accepting->add_option("--reason", accepted->reason, "Why; kept in history.json")->required();
   accepting->add_option("--only", accepted->only, "Glob over configurations");
-  accepting->add_flag("--drop", accepted->drop,
-                      "Drop stored configurations that the run has no record of");
-  accepting->add_flag("--forget-times", accepted->forget_times,
-                      "Drop the times that were accepted before on the devices of this run");
+  accepting->add_flag(
+      "--drop", accepted->drop,
+      "Drop stored configurations that the run has no record of, and files that are "
+      "not as they were accepted");
   accepting->add_option("--store", accepted->store)->capture_default_str();
   add_baselines_option(*accepting, accepted->baselines);
 }

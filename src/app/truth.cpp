@@ -31,6 +31,22 @@ const judge::TruthPair& Truths::of(const record::Record& record) {
   return known_.emplace(key, find_or_render(record)).first->second;
 }
 
+std::string Truths::data_hash_of(const record::Record& record) {
+  std::string key = record.suite;
+  for (const char* factor : {"data", "voxel", "colour"}) {
+    const auto found = record.factors.find(factor);
+    if (found != record.factors.end()) key += " " + found->second;
+  }
+  if (const auto found = data_hashes_.find(key); found != data_hashes_.end()) return found->second;
+  std::string hash;
+  try {
+    hash = registry_.suite(record.suite).data_hash(record.factors);
+  } catch (const core::Error&) {
+    // Whoever wants the truth is told why there are none.
+  }
+  return data_hashes_.emplace(key, std::move(hash)).first->second;
+}
+
 judge::TruthPair Truths::find_or_render(const record::Record& record) {
   measure::SuiteWithTruth& suite = registry_.suite(record.suite);
   const std::string version = suite.truth_key(record.factors, record.precision);
@@ -85,15 +101,17 @@ judge::LimitPicture Truths::find_or_render_limit(const record::Record& record,
 }
 
 judge::GateRequest request_of(Truths& truths, const std::string& plan) {
-  return {.plan = plan,
-          .checks = {},
-          .devices = {},
-          .required_devices = {},
-          .truth = [&truths](const record::Record& record) { return truths.of(record); },
-          .limit = [&truths](const record::Record& record) { return truths.limit_of(record); },
-          .expectations =
-              [&truths](const record::Record& record) { return truths.expectations_of(record); },
-          .today = today()};
+  return {
+      .plan = plan,
+      .checks = {},
+      .devices = {},
+      .required_devices = {},
+      .truth = [&truths](const record::Record& record) { return truths.of(record); },
+      .limit = [&truths](const record::Record& record) { return truths.limit_of(record); },
+      .expectations =
+          [&truths](const record::Record& record) { return truths.expectations_of(record); },
+      .today = today(),
+      .data_hash = [&truths](const record::Record& record) { return truths.data_hash_of(record); }};
 }
 
 }  // namespace triptych::app

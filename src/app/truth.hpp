@@ -20,6 +20,8 @@ class Truths {
   [[nodiscard]] std::vector<record::Expectation> expectations_of(const record::Record& record) {
     return registry_.suite(record.suite).expectations(record.factors);
   }
+  // GateRequest::data_hash.
+  [[nodiscard]] std::string data_hash_of(const record::Record& record);
   // The picture that a record names.
   [[nodiscard]] core::Image picture_of(const record::Record& record) const {
     return core::decode_exr(store_.image(record.image));
@@ -37,6 +39,7 @@ class Truths {
                                                          const std::string& key);
   std::map<std::string, judge::TruthPair> known_;
   std::map<std::string, judge::LimitPicture> limits_;  // by key
+  std::map<std::string, std::string> data_hashes_;
 };
 
 // A request to judge a plan on all devices by every check that is made for it, with these truths,

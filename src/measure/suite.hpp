@@ -124,6 +124,11 @@ class SuiteWithTruth : public Suite {
   [[nodiscard]] virtual std::string truth_key(const Configuration& configuration,
                                               const std::map<std::string, double>& precision) = 0;
 
+  // Content hash of a configuration's data as they are now, in its voxel format, of which "auto" is
+  // resolved: what Record::data_hash was when it was measured. Empty: it has no data. Throws as
+  // Suite::work does.
+  [[nodiscard]] virtual std::string data_hash(const Configuration&) { return {}; }
+
   // Two configurations with the same text share their limit; empty: they have none.
   [[nodiscard]] virtual std::string limit_key(const Configuration&) { return {}; }
   // Of a configuration with a limit_key.

@@ -53,6 +53,10 @@ class ParticleSuite final : public measure::SuiteWithTruth {
   std::string truth_key(const Configuration& configuration,
                         const std::map<std::string, double>& precision) override;
   nlohmann::json describe(const Configuration& configuration) override;
+  std::string data_hash(const Configuration& configuration) override {
+    load(configuration);
+    return loaded_.particles->hash;
+  }
   std::string limit_key(const Configuration& configuration) override;
   measure::Limit limit(const Configuration& configuration) override;
   std::vector<record::Expectation> expectations(const Configuration& configuration) override;

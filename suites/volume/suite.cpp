@@ -54,6 +54,7 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   std::string truth_key(const Configuration& configuration,
                         const std::map<std::string, double>& precision) override;
   nlohmann::json describe(const Configuration& configuration) override;
+  std::string data_hash(const Configuration& configuration) override;
   std::string limit_key(const Configuration& configuration) override;
   measure::Limit limit(const Configuration& configuration) override;
   std::optional<core::Image> closed_form(const Configuration& configuration) override;
@@ -262,6 +263,14 @@ std::string VolumeSuite::truth_key(const Configuration& configuration,
     key += " frame " + core::content_hash(describe_frame(pictured, model.ert, model.adapt).dump());
   }
   return key + table_text(configuration, pictured.transfer_function);
+}
+
+std::string VolumeSuite::data_hash(const Configuration& configuration) {
+  const auto choose = [&](scene::VoxelFormat native) {
+    const std::string& voxel = configuration.at("voxel");
+    return voxel == "auto" ? native : scene::voxel_format(voxel);
+  };
+  return load(configuration.at("data"), choose).grid->hash;
 }
 
 nlohmann::json VolumeSuite::describe(const Configuration& configuration) {

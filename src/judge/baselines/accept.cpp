@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <set>
 #include <utility>
 
@@ -10,10 +8,10 @@
 #include "core/file.hpp"
 #include "core/glob.hpp"
 #include "core/image_io.hpp"
-#include "core/json_text.hpp"
 #include "judge/baselines/baselines.hpp"
 #include "judge/baselines/json_file.hpp"
 #include "judge/baselines/layout.hpp"
+#include "judge/baselines/next_folder.hpp"
 #include "judge/images/has_picture.hpp"
 #include "judge/statistics/statistics.hpp"
 
@@ -21,12 +19,12 @@ namespace triptych::judge {
 namespace {
 
 using core::Json;
-
-constexpr std::size_t kept_timings = 20;
-constexpr std::size_t listed_values = 40;
+using record::Check;
 
 // The part of a run that is to be accepted.
 struct Accepted {
+  record::Run run;
+  record::Checks checks;
   std::vector<record::Record> measured;
   std::map<std::string, record::Device> devices;  // by id
   // Configurations and scenes the run has any record of; used only when everything is replaced.
@@ -35,89 +33,21 @@ struct Accepted {
   std::set<std::string> scenes;
 };
 
-// Remembers what changes in a file, writes it when anything does.
-class Update {
- public:
-  Update(std::filesystem::path file, const std::filesystem::path& folder)
-      : file_(std::move(file)), name_(file_.lexically_relative(folder).string()) {
-    if (const auto stored = JsonFile::read(file_)) before_ = stored->value();
-    after_ = before_;
-  }
-
-  [[nodiscard]] bool is_stored() const { return !before_.is_null(); }
-  Json& value() { return after_; }
-  Json& object() {
-    if (!after_.is_object()) after_ = Json::object();
-    return after_;
-  }
-
-  void write(int depth, std::vector<std::string>& lines) const {
-    if (after_ == before_) return;
-    std::filesystem::create_directories(file_.parent_path());
-    core::write_file(to_lines(after_, depth), file_);
-    describe(lines);
-  }
-
- private:
-  void describe(std::vector<std::string>& lines) const {
-    const Json before = flat(before_);
-    const Json after = flat(after_);
-    std::vector<std::string> values;
-    std::size_t added = 0;
-    for (const auto& item : after.items()) {
-      const auto old = before.find(item.key());
-      if (old == before.end()) ++added;
-      if (old == before.end() || *old == item.value()) continue;
-      values.push_back(fmt::format("  {}: {} → {}", readable(item.key()), core::json_text(*old),
-                                   core::json_text(item.value())));
-    }
-    const auto removed = std::ranges::count_if(
-        before.items(), [&](const auto& item) { return !after.contains(item.key()); });
-    lines.push_back(
-        fmt::format("{}: {} changed, {} added, {} removed", name_, values.size(), added, removed));
-    const std::size_t shown = std::min(values.size(), listed_values);
-    lines.insert(lines.end(), values.begin(), values.begin() + static_cast<std::ptrdiff_t>(shown));
-    if (values.size() > shown)
-      lines.push_back(fmt::format("  … and {} more", values.size() - shown));
-  }
-
-  static Json flat(const Json& value) { return value.is_null() ? Json::object() : value.flatten(); }
-  // JSON pointer without its escapes.
-  static std::string readable(std::string pointer) {
-    constexpr std::array<std::pair<std::string_view, char>, 2> escapes{{{"~1", '/'}, {"~0", '~'}}};
-    for (const auto& [escape, character] : escapes) {
-      for (auto at = pointer.find(escape); at != std::string::npos;
-           at = pointer.find(escape, at + 1)) {
-        pointer.replace(at, escape.size(), 1, character);
-      }
-    }
-    return pointer.substr(1);
-  }
-
-  std::filesystem::path file_;
-  std::string name_;
-  Json before_;
-  Json after_;
-};
-
 void drop_all_but(Json& object, const std::set<std::string>& kept) {
   for (auto item = object.begin(); item != object.end();) {
     item = kept.contains(item.key()) ? std::next(item) : object.erase(item);
   }
 }
 
-Json& configurations_of(Update& update, const std::string& device, const Accepted& accepted) {
-  Json& file = update.object();
-  file["device"] = device;
-  Json& table = file["configurations"];
+// {configuration: …}, without those that go.
+Json& table_of(Json& table, const Accepted& accepted) {
   if (!table.is_object()) table = Json::object();
   if (accepted.replaces_all) drop_all_but(table, accepted.configurations);
   return table;
 }
 
 void update_counters(const Accepted& accepted, Update& update) {
-  Json& table = update.object();
-  if (accepted.replaces_all) drop_all_but(table, accepted.configurations);
+  Json& table = table_of(update.value(), accepted);
   for (const record::Record& record : accepted.measured) {
     Json& counters = table[record.configuration];
     if (!counters.is_object()) counters = Json::object();
@@ -129,11 +59,17 @@ void update_counters(const Accepted& accepted, Update& update) {
   }
 }
 
+void update_memory(const Accepted& accepted, Update& update) {
+  Json& table = table_of(update.value(), accepted);
+  for (const record::Record& record : accepted.measured) {
+    if (!record.memory.empty()) table[record.configuration][record.device] = record.memory;
+  }
+}
+
 // Each record's error against the limit of its scene, on the device it was measured on.
 void update_errors(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
-  Json& table = update.object();
-  if (accepted.replaces_all) drop_all_but(table, accepted.configurations);
+  Json& table = table_of(update.value(), accepted);
   for (const record::Record& record : accepted.measured) {
     const LimitPicture* limit = record.image.empty() ? nullptr : request.limit(record);
     if (limit == nullptr) continue;
@@ -146,10 +82,10 @@ void update_errors(const record::Store& store, const Accepted& accepted,
 }
 
 // What each configuration scored on each device of the run; one that failed has a score too.
-void update_scores(const record::Store& store, const std::vector<record::Record>& records,
-                   const Accepted& accepted, const AcceptRequest& request, Update& update) {
-  Json& table = update.object();
-  if (accepted.replaces_all) drop_all_but(table, accepted.configurations);
+void update_scores(const record::Store& store, const Accepted& accepted,
+                   const AcceptRequest& request, Update& update) {
+  Json& table = table_of(update.value(), accepted);
+  const std::vector<record::Record> records = store.records(accepted.run.id);
   for (const StressScored& scored : score_stress(store, records, *request.stress)) {
     const std::string& configuration = scored.record->configuration;
     if (!request.only.empty() && !core::glob_matches(request.only, configuration)) continue;
@@ -157,131 +93,155 @@ void update_scores(const record::Store& store, const std::vector<record::Record>
   }
 }
 
-void update_bits(const record::Record& record, Json& table) {
-  if (record.image.empty()) {
-    table.erase(record.configuration);
-  } else {
-    table[record.configuration] = {{"image", record.image}, {"kernel_hash", record.kernel_hash}};
-  }
+// What no two process runs agree on is shown by the gate, and not stored.
+record::Counts kept_of(record::Counts cost) {
+  cost.erase("libc");
+  cost.erase("program");
+  return cost;
 }
 
-void update_timings(const record::Record& record, bool forget, Json& table) {
-  if (record.time_ns().empty()) return;
-  Json& runs = table[record.configuration];
-  if (!runs.is_array() || forget) runs = Json::array();
-  Json kept = Json::array();
-  for (const Json& entry : runs) {
-    if (entry.value("run", "") != record.run) kept.push_back(entry);
+// Counts of another emulator are another kind of number: they replace all that is stored.
+void update_cost(const Accepted& accepted, const record::Device& device, NextFolder& next) {
+  Update update(next, Layout::cost(device));
+  bool counted = false;
+  for (const record::Record& record : accepted.measured) {
+    if (record.device != device.id || record.cost.empty()) continue;
+    Json& file = update.object();
+    if (file.value("counted_by", "") != record.counted_by) {
+      if (counted) {
+        throw core::InputError(fmt::format("run {}: {} was counted by {} and by {}", record.run,
+                                           device.id, file.value("counted_by", ""),
+                                           record.counted_by));
+      }
+      file = {{"device", device.id},
+              {"driver_version", device.driver_version},
+              {"counted_by", record.counted_by}};
+    }
+    counted = true;
+    table_of(file["configurations"], accepted)[record.configuration] = {
+        {"frame", kept_of(record.cost)}, {"prepare", kept_of(record.prepare_cost)}};
   }
-  Json entry{{"run", record.run},
-             {"median_ns", median(record.time_ns())},
-             {"clock", record.clock()},
-             {"kernel_hash", record.kernel_hash}};
-  if (record.clock() != "wall" && !record.wall_ns.empty()) {
-    entry["median_wall_ns"] = median(record.wall_ns);
-  }
-  kept.push_back(std::move(entry));
-  while (kept.size() > kept_timings) kept.erase(kept.begin());
-  runs = std::move(kept);
+  update.write(3);
 }
 
-void write_device_files(const Accepted& accepted, const record::Device& device, bool forget_times,
-                        const Layout& layout, std::vector<std::string>& lines) {
-  Update bits(layout.bits(device), layout.folder);
-  Update statistics(layout.statistics(device), layout.folder);
-  Update timings(layout.timings(device), layout.folder);
-  Json& bits_table = configurations_of(bits, device.key(), accepted);
-  Json& statistics_table = configurations_of(statistics, device.statistics_key(), accepted);
-  Json& timings_table = configurations_of(timings, device.key(), accepted);
+// Of untimed records nothing is known: what is stored of them stays.
+void update_statistics(const Accepted& accepted, const record::Device& device, NextFolder& next) {
+  Update update(next, Layout::statistics(device));
+  update.object()["device"] = device.statistics_key();
   // What a run did not look at leaves what is known of this driver version.
   for (const auto& [statistic, worth] : device.statistics_dialect) {
-    statistics.object()["dialect"][statistic] = worth;
+    update.object()["dialect"][statistic] = worth;
   }
-  bool tells_statistics = !statistics_table.empty();
-  std::size_t kept = 0;  // what an untimed run says nothing of
+  Json& table = table_of(update.object()["configurations"], accepted);
+  bool tells = !table.empty();
+  for (const record::Record& record : accepted.measured) {
+    if (record.device != device.id || record.untimed()) continue;
+    table[record.configuration] = record.statistics;
+    tells = tells || !record.statistics.empty();
+  }
+  if (tells) update.write(3);
+}
+
+void update_timings(const Accepted& accepted, const record::Device& device, NextFolder& next) {
+  Update update(next, Layout::timings(device));
+  update.object()["device"] = device.key();
+  Json& table = table_of(update.object()["configurations"], accepted);
+  std::size_t kept = 0;
   for (const record::Record& record : accepted.measured) {
     if (record.device != device.id) continue;
-    update_bits(record, bits_table);
-    if (record.untimed()) {
-      if (timings_table.contains(record.configuration)) ++kept;
-      continue;
-    }
-    statistics_table[record.configuration] = record.statistics;
-    tells_statistics = tells_statistics || !record.statistics.empty();
-    update_timings(record, forget_times, timings_table);
+    if (record.untimed() && table.contains(record.configuration)) ++kept;
+    const std::vector<double>& times = record.time_ns();
+    if (times.empty()) continue;
+    table[record.configuration] = {{"clock", record.clock()},
+                                   {"median_ns", median(times)},
+                                   {"spread", log_spread(times)},
+                                   {"frames", times.size()},
+                                   {"kernel_hash", record.kernel_hash}};
   }
-  bits.write(2, lines);
-  if (tells_statistics) statistics.write(3, lines);
-  if (!timings_table.empty() || timings.is_stored()) timings.write(3, lines);
+  if (!table.empty()) update.write(2);
   if (kept > 0) {
-    lines.push_back(fmt::format(
+    next.lines.push_back(fmt::format(
         "{}: times and statistics of {} configurations stay as stored, the run was untimed",
         device.id, kept));
   }
 }
 
-void remove_unlisted_images(const Json& listed, const Layout& layout,
-                            std::vector<std::string>& lines) {
-  std::set<std::string> names;
-  for (const Json& entry : listed) names.insert(entry.at("file").get<std::string>());
-  std::set<std::filesystem::path> unlisted;
-  for (const auto& entry : std::filesystem::directory_iterator(layout.image_folder())) {
-    if (entry.path().extension() == ".exr" && !names.contains(entry.path().filename().string())) {
-      unlisted.insert(entry.path());
-    }
-  }
-  for (const auto& path : unlisted) {
-    std::filesystem::remove(path);
-    lines.push_back(fmt::format("images/{}: removed", path.filename().string()));
-  }
+void update_image(const record::Record& record, const core::Image& reference, NextFolder& next) {
+  const std::string name = Layout::image(record.scene);
+  std::vector<std::byte> bytes = core::encode_exr(reference);
+  const auto known = next.files.find(name);
+  const bool exists = known != next.files.end();
+  if (exists && known->second == bytes) return;
+  next.lines.push_back(fmt::format("{}: {} ({})", name, exists ? "replaced" : "new", record.scene));
+  next.files[name] = std::move(bytes);
 }
 
-void write_images(const Accepted& accepted, const AcceptRequest& request, const Layout& layout,
-                  std::vector<std::string>& lines) {
-  Update index(layout.images(), layout.folder);
+// Pictures are large: kept of the plans that people measure by, whose report shows them.
+void update_images(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
+  const bool keeps =
+      accepted.checks.contains(Check::image) && accepted.checks.contains(Check::timing);
+  Update index(next, Layout::images);
   Json& table = index.object();
   if (accepted.replaces_all) drop_all_but(table, accepted.scenes);
-  std::filesystem::create_directories(layout.image_folder());
   std::set<std::string> done;
   for (const record::Record& record : accepted.measured) {
-    if (!has_picture(record) || !done.insert(record.scene).second) continue;
-    const std::vector<std::byte> bytes = core::encode_exr(request.truth(record));
-    const std::string hash = core::content_hash(bytes);
-    const std::string name = Layout::image_name(record.scene);
-    const auto path = layout.image_folder() / name;
-    const bool exists = std::filesystem::exists(path);
-    if (!exists || core::content_hash(core::read_file(path)) != hash) {
-      core::write_file(bytes, path);
-      lines.push_back(
-          fmt::format("images/{}: {} ({})", name, exists ? "replaced" : "new", record.scene));
+    if (!has_picture(record)) continue;
+    if (done.insert(record.scene).second) {
+      const core::Image reference = request.truth(record);
+      if (keeps) update_image(record, reference, next);
+      // Other devices' voxel formats have their own hashes of the data; they hold with the truth.
+      Json& entry = table[record.scene];
+      const Json hash = reference_hash(reference);
+      if (!entry.is_object() || entry.value("reference", Json()) != hash) {
+        entry = {{"reference", hash}};
+      }
     }
-    // Other devices' voxel formats have their own hashes of the data; they hold with the truth.
-    Json& entry = table[record.scene];
-    if (!entry.is_object() || entry.value("hash", "") != hash) entry = Json::object();
-    entry["file"] = name;
-    entry["hash"] = hash;
+    if (!record.data_hash.empty()) {
+      table[record.scene][Layout::data_key(record)] = record.data_hash;
+    }
   }
-  for (const record::Record& record : accepted.measured) {
-    if (!has_picture(record) || record.data_hash.empty()) continue;
-    table[record.scene][Layout::data_key(record)] = record.data_hash;
-  }
-  index.write(1, lines);
-  remove_unlisted_images(table, layout, lines);
+  index.write(1);
+  std::set<std::string> kept;
+  for (const auto& item : table.items()) kept.insert(Layout::image(item.key()));
+  std::erase_if(next.files, [&](const auto& file) {
+    if (!file.first.starts_with("images/") || (keeps && kept.contains(file.first))) return false;
+    next.lines.push_back(file.first + ": removed");
+    return true;
+  });
 }
 
-void append_history(const Accepted& accepted, const std::string& run, const AcceptRequest& request,
-                    const Layout& layout, const std::vector<std::string>& lines) {
-  std::set<std::string> keys;
-  for (const auto& [id, device] : accepted.devices) keys.insert(device.key());
-  Update history(layout.history(), layout.folder);
+void append_history(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
+  std::set<std::string> ids;
+  for (const auto& [id, device] : accepted.devices) ids.insert(id);
+  Update history(next, Layout::history);
   if (!history.value().is_array()) history.value() = Json::array();
-  history.value().push_back({{"date", request.date},
-                             {"reason", request.reason},
-                             {"run", run},
-                             {"devices", keys},
-                             {"changes", lines}});
-  std::vector<std::string> unused;
-  history.write(3, unused);
+  history.value().push_back({{"date", request.date}, {"reason", request.reason}, {"devices", ids}});
+  next.files[Layout::history] = bytes_of(to_lines(history.value(), 1));
+}
+
+void write_manifest(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
+  // A part of a run says nothing of the plan as a whole.
+  const bool whole = accepted.replaces_all || stored.plan_hash.empty();
+  Json devices = stored.devices;
+  for (const auto& [id, device] : accepted.devices) {
+    std::set<std::string> drivers{device.statistics_key()};
+    if (const auto known = stored.devices.find(id); known != stored.devices.end()) {
+      drivers.insert(known->second.begin(), known->second.end());
+    }
+    devices[id] = drivers;
+  }
+  Json files = Json::object();
+  next.files.erase(Layout::manifest);
+  for (const auto& [name, content] : next.files) files[name] = core::content_hash(content);
+  const Json manifest{
+      {"plan_hash", whole ? accepted.run.plan_hash : stored.plan_hash},
+      {"checks", record::text_of(accepted.checks)},
+      {"configurations",
+       whole ? std::max<std::uint64_t>(accepted.run.configurations, accepted.configurations.size())
+             : stored.configurations},
+      {"devices", devices},
+      {"files", files}};
+  next.files[Layout::manifest] = bytes_of(to_lines(manifest, 2));
 }
 
 void refuse_unfit(const std::vector<record::Record>& records, const std::string& run,
@@ -306,6 +266,10 @@ Accepted select(const record::Store& store, const std::string& run, const Accept
   const std::vector<record::Record> records = store.records(run);
   refuse_unfit(records, run, request);
   Accepted accepted;
+  for (record::Run& each : store.runs()) {
+    if (each.id == run) accepted.run = std::move(each);
+  }
+  accepted.checks = checked_in(accepted.run);
   accepted.replaces_all = request.only.empty();
   for (const record::Record& record : records) {
     accepted.configurations.insert(record.configuration);
@@ -329,6 +293,21 @@ Accepted select(const record::Store& store, const std::string& run, const Accept
   return accepted;
 }
 
+// The truth is drawn from the data that are here now: with another's hash beside it, it would be a
+// baseline that no run can meet.
+void refuse_other_data(const Accepted& accepted, const AcceptRequest& request) {
+  if (!request.data_hash) return;
+  for (const record::Record& record : accepted.measured) {
+    if (record.data_hash.empty()) continue;
+    const std::string now = request.data_hash(record);
+    if (now.empty() || now == record.data_hash) continue;
+    throw core::InputError(fmt::format(
+        "the data of {} are not those that run {} measured (content hash {}, now {}): restore "
+        "them, or measure again",
+        record.configuration, record.run, record.data_hash, now));
+  }
+}
+
 // A shard, a run with --set or one that was cut short would take the rest of the plan with it.
 void refuse_part(const Accepted& accepted, const Baselines& stored, const std::string& run,
                  const AcceptRequest& request) {
@@ -345,49 +324,63 @@ void refuse_part(const Accepted& accepted, const Baselines& stored, const std::s
       record::plan_argument(request.plan)));
 }
 
-// Reads every file first: a corrupt one is reported before anything is written.
-void check_stored(const Accepted& accepted, const Baselines& stored) {
-  const std::string& any = accepted.measured.front().configuration;
-  (void)stored.counters(any);
-  (void)stored.errors(any);
-  (void)stored.scores(any);
-  for (const auto& [id, device] : accepted.devices) {
-    (void)stored.bits(device, any);
-    (void)stored.statistics(device, any);
-    (void)stored.timings(device, any);
-    (void)stored.accepted_before(device);
+// Everything that is stored and as it was accepted; nothing where that is to be dropped.
+NextFolder next_of(const Baselines& stored, const AcceptRequest& request) {
+  NextFolder next{.folder = stored.folder(), .files = {}, .lines = {}};
+  if (!stored.problem().empty()) {
+    if (request.drop && request.only.empty()) return next;
+    throw core::InputError(
+        fmt::format("{}: {}: restore it from version control, or accept a whole run with --drop",
+                    stored.folder().string(), stored.problem()));
   }
+  for (const auto& [name, hash] : stored.manifest().files) {
+    next.files.emplace(name, core::read_file(next.folder / name));
+  }
+  return next;
 }
 
 }  // namespace
 
+record::Checks checked_in(const record::Run& run) {
+  if (!run.checks.empty()) return run.checks;
+  return {Check::image, Check::counters, Check::statistics,
+          Check::cost,  Check::memory,   Check::timing};
+}
+
 std::vector<std::string> accept(const record::Store& store, const std::string& run,
                                 const std::filesystem::path& root, const AcceptRequest& request) {
   const Accepted accepted = select(store, run, request);
+  refuse_other_data(accepted, request);
+  const WriterLock lock(root);
   const Baselines stored(root, request.plan);
-  check_stored(accepted, stored);
-  refuse_part(accepted, stored, run, request);
-  const Layout layout{stored.folder()};
-  std::vector<std::string> lines;
-  write_images(accepted, request, layout, lines);
-  Update counters(layout.counters(), layout.folder);
-  update_counters(accepted, counters);
-  counters.write(2, lines);
-  if (request.limit) {
-    Update errors(layout.errors(), layout.folder);
-    update_errors(store, accepted, request, errors);
-    errors.write(2, lines);
+  NextFolder next = next_of(stored, request);
+  const Manifest manifest = next.files.empty() ? Manifest{} : stored.manifest();
+  if (!next.files.empty()) refuse_part(accepted, stored, run, request);
+  update_images(accepted, request, next);
+  const auto update = [&](const char* name, const auto& act) {
+    Update file(next, name);
+    act(file);
+    if (!file.object().empty() || next.files.contains(name)) file.write(2);
+  };
+  update(Layout::counters, [&](Update& file) { update_counters(accepted, file); });
+  update(Layout::memory, [&](Update& file) { update_memory(accepted, file); });
+  if (accepted.checks.contains(Check::accuracy) && request.limit) {
+    update(Layout::errors, [&](Update& file) { update_errors(store, accepted, request, file); });
   }
-  if (request.stress) {
-    Update scores(layout.scores(), layout.folder);
-    update_scores(store, store.records(run), accepted, request, scores);
-    scores.write(2, lines);
+  if (accepted.checks.contains(Check::stress) && request.stress) {
+    update(Layout::scores, [&](Update& file) { update_scores(store, accepted, request, file); });
   }
+  const bool keeps_times = accepted.checks.contains(Check::timing);
+  if (!keeps_times) next.drop_folder("timings/");
   for (const auto& [id, device] : accepted.devices) {
-    write_device_files(accepted, device, request.forget_times, layout, lines);
+    update_cost(accepted, device, next);
+    update_statistics(accepted, device, next);
+    if (keeps_times) update_timings(accepted, device, next);
   }
-  append_history(accepted, run, request, layout, lines);
-  return lines;
+  append_history(accepted, request, next);
+  write_manifest(accepted, manifest, next);
+  replace_folder(next.folder, next.files, request.on_written);
+  return next.lines;
 }
 
 }  // namespace triptych::judge

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/error.hpp"
@@ -11,18 +12,17 @@
 #include "core/image_io.hpp"
 #include "judge/baselines/json_file.hpp"
 #include "judge/baselines/layout.hpp"
+#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t least_runs = 5;  // fewer stored runs decide nothing
 
 struct StoredImage {
-  std::string file;
-  std::string hash;
-  // Content hashes of the scene's data by Layout::data_key; none in baselines from before they were
-  // kept.
-  std::map<std::string, std::string> data;
+  ReferenceHash reference;
+  std::map<std::string, std::string> data;  // content hashes by Layout::data_key
 };
 
 template <typename Value>
@@ -37,16 +37,14 @@ ByName<Value> read_members(const JsonNode& node, const Read& read) {
 }
 
 template <typename Value, typename Read>
-ByName<Value> read_table(const std::filesystem::path& path, const Read& read) {
+ByName<Value> read_table(const fs::path& path, const Read& read) {
   const auto file = JsonFile::read(path);
   return file ? read_members<Value>(file->root(), read) : ByName<Value>{};
 }
 
-// {"device": …, "configurations": {name: value, …}}. A file that was renamed must not speak for
-// another device.
+// {"device": …, "configurations": {name: value, …}}. A file must not speak for another device.
 template <typename Value, typename Read>
-ByName<Value> read_device_table(const std::filesystem::path& path, std::string_view device,
-                                const Read& read) {
+ByName<Value> read_device_table(const fs::path& path, std::string_view device, const Read& read) {
   const auto file = JsonFile::read(path);
   if (!file) return {};
   const JsonNode named = file->root().at("device");
@@ -54,12 +52,32 @@ ByName<Value> read_device_table(const std::filesystem::path& path, std::string_v
   return read_members<Value>(file->root().at("configurations"), read);
 }
 
+std::string read_text(const JsonNode& node) {
+  return node.text();
+}
+
 record::Counts read_counts(const JsonNode& node) {
   return read_members<std::uint64_t>(node, [](const JsonNode& n) { return n.whole_number(); });
 }
 
+Manifest read_manifest(const JsonNode& node) {
+  Manifest manifest{.plan_hash = node.at("plan_hash").text(),
+                    .checks = record::checks_of(node.at("checks").text()),
+                    .configurations = node.at("configurations").whole_number(),
+                    .files = read_members<std::string>(node.at("files"), read_text)};
+  for (const auto& [device, drivers] : node.at("devices").members()) {
+    for (const JsonNode& driver : drivers.elements()) {
+      manifest.devices[device].insert(driver.text());
+    }
+  }
+  return manifest;
+}
+
 StoredImage read_stored_image(const JsonNode& node) {
-  StoredImage image{node.at("file").text(), node.at("hash").text(), {}};
+  const JsonNode both = node.at("reference");
+  const auto hashes = both.elements();
+  if (hashes.size() != 2) both.fail("expected two hashes");
+  StoredImage image{{hashes[0].text(), hashes[1].text()}, {}};
   for (const auto& [name, value] : node.members()) {
     if (name.starts_with("data")) image.data.emplace(name, value.text());
   }
@@ -74,33 +92,30 @@ StoredCounters read_counters(const JsonNode& node) {
   });
 }
 
-std::map<std::string, StoredError> read_errors(const JsonNode& node) {
+ByName<record::Counts> read_memory(const JsonNode& node) {
+  return read_members<record::Counts>(node, read_counts);
+}
+
+ByName<StoredError> read_errors(const JsonNode& node) {
   return read_members<StoredError>(node, [](const JsonNode& error) {
     return StoredError{error.at("rmse").number_from_zero(),
                        error.at("arithmetic").number_from_zero()};
   });
 }
 
-StoredBits read_bits(const JsonNode& node) {
-  return {node.at("image").text(), node.at("kernel_hash").text()};
+DriverCost read_cost(const JsonNode& node) {
+  return {.device = node.at("device").text(),
+          .driver_version = node.at("driver_version").text(),
+          .counted_by = node.at("counted_by").text(),
+          .configurations =
+              read_members<StoredCost>(node.at("configurations"), [](const JsonNode& cost) {
+                return StoredCost{read_counts(cost.at("frame")), read_counts(cost.at("prepare"))};
+              })};
 }
 
-std::vector<StoredTiming> read_timings(const JsonNode& node) {
-  std::vector<StoredTiming> result;
-  for (const JsonNode& entry : node.elements()) {
-    result.push_back({entry.at("run").text(), entry.at("median_ns").positive_number(),
-                      entry.at("clock").text(), entry.at("kernel_hash").text(),
-                      entry.has("median_wall_ns")
-                          ? std::optional(entry.at("median_wall_ns").positive_number())
-                          : std::nullopt});
-  }
-  if (result.empty()) node.fail("expected a run at least");
-  return result;
-}
-
-// Device::key() begins with the id and the driver.
-std::string id_of_key(const std::string& key) {
-  return key.substr(0, key.find("; driver "));
+StoredTiming read_timing(const JsonNode& node) {
+  return {node.at("clock").text(), node.at("median_ns").positive_number(),
+          node.at("spread").positive_number(), node.at("kernel_hash").text()};
 }
 
 bool is_iso_date(std::string_view text) {
@@ -126,29 +141,6 @@ std::vector<Waiver> read_waivers(const std::filesystem::path& path) {
   return result;
 }
 
-// What history.json tells of all that was ever accepted.
-struct History {
-  std::set<std::string> devices;  // keys
-  std::set<std::string> files;    // within the plan's folder
-};
-
-History read_history(const std::filesystem::path& path) {
-  History result;
-  const auto file = JsonFile::read(path);
-  if (!file) return result;
-  for (const JsonNode& entry : file->root().elements()) {
-    for (const JsonNode& device : entry.at("devices").elements()) {
-      result.devices.insert(device.text());
-    }
-    // "FILE: 3 changed, 0 added, 0 removed"
-    for (const JsonNode& change : entry.at("changes").elements()) {
-      const std::string line = change.text();
-      result.files.insert(line.substr(0, line.find(": ")));
-    }
-  }
-  return result;
-}
-
 template <typename Table>
 auto find_optional(const Table& table, const std::string& name) {
   const auto found = table.find(name);
@@ -156,62 +148,93 @@ auto find_optional(const Table& table, const std::string& name) {
                               : std::optional(found->second);
 }
 
+// The JSON files of a subfolder, by their stems.
+std::map<std::string, fs::path> files_in(const fs::path& folder) {
+  std::map<std::string, fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".json") files.emplace(entry.path().stem(), entry.path());
+  }
+  return files;
+}
+
+// The first file that is not as the manifest says, and how; empty where all are.
+std::string first_change(const fs::path& folder, const Manifest& manifest) {
+  for (const auto& [name, hash] : manifest.files) {
+    const fs::path file = folder / name;
+    if (!fs::is_regular_file(file)) return name + " is gone";
+    if (core::content_hash(core::read_file(file)) != hash) return name + " was changed";
+  }
+  std::set<std::string> others;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().lexically_relative(folder).generic_string();
+    if (!entry.is_directory() && name != Layout::manifest && !manifest.files.contains(name)) {
+      others.insert(name);
+    }
+  }
+  return others.empty() ? std::string() : *others.begin() + " is none of its files";
+}
+
 }  // namespace
 
-std::string_view common_clock(const record::Record& record, std::span<const StoredTiming> stored) {
-  const auto runs_by = [&](std::string_view clock) {
-    return std::ranges::count_if(
-        stored, [&](const StoredTiming& timing) { return timing.median_by(clock).has_value(); });
-  };
-  const auto own = runs_by(record.clock());
-  const bool is_enough = own >= static_cast<std::ptrdiff_t>(least_runs);
-  if (is_enough || record.wall_ns.empty()) return record.clock();
-  return runs_by("wall") > own ? "wall" : record.clock();
+double log_spread(std::vector<double> times_ns) {
+  constexpr double between_processes = 0.005;
+  constexpr double normal = 1.4826;
+  std::ranges::sort(times_ns);
+  std::vector<double> logarithms;
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < times_ns.size(); ++i) {
+    logarithms.push_back(std::log(times_ns[i]));
+    if (i > 0 && times_ns[i] > times_ns[i - 1]) {
+      step = std::min(step, logarithms[i] - logarithms[i - 1]);
+    }
+  }
+  if (!std::isfinite(step)) step = 0;
+  const double centre = median(logarithms);
+  for (double& value : logarithms) value = std::abs(value - centre);
+  return std::max({normal * median(logarithms), step, between_processes});
 }
 
 // What was read so far, by file.
 struct Baselines::Cache {
-  Layout layout;
+  fs::path folder;
+  std::optional<Manifest> manifest;
+  std::optional<std::string> problem;
   std::optional<ByName<StoredImage>> images;
   std::optional<ByName<StoredCounters>> counters;
-  std::optional<ByName<std::map<std::string, StoredError>>> errors;
+  std::optional<ByName<ByName<record::Counts>>> memory;
+  std::optional<ByName<ByName<StoredError>>> errors;
   std::optional<ByName<ByName<std::uint64_t>>> scores;
-  std::map<std::filesystem::path, ByName<StoredBits>> bits;
-  std::map<std::filesystem::path, ByName<record::Counts>> statistics;
-  std::map<std::filesystem::path, ByName<std::string>> dialects;
-  std::map<std::filesystem::path, ByName<std::vector<StoredTiming>>> timings;
+  std::optional<ByName<DriverCost>> cost;
+  std::map<fs::path, ByName<record::Counts>> statistics;
+  std::map<fs::path, ByName<std::string>> dialects;
+  std::map<fs::path, ByName<StoredTiming>> timings;
   std::optional<std::vector<Waiver>> waivers;
-  std::optional<History> history;
 
+  // {configuration: …} of a whole file.
+  template <typename Value, typename Read>
+  const ByName<Value>& table(std::optional<ByName<Value>>& known, const char* file,
+                             const Read& read) {
+    if (!known) known = read_table<Value>(folder / file, read);
+    return *known;
+  }
   const ByName<StoredCounters>& all_counters() {
-    if (!counters) counters = read_table<StoredCounters>(layout.counters(), read_counters);
-    return *counters;
+    return table(counters, Layout::counters, read_counters);
   }
-  const History& all_history() {
-    if (!history) history = read_history(layout.history());
-    return *history;
-  }
-  // The history tells of the file, and it is gone.
-  bool lost(const std::filesystem::path& file) {
-    const std::string name = file.lexically_relative(layout.folder).generic_string();
-    return all_history().files.contains(name) && !std::filesystem::exists(file);
+  const ByName<StoredImage>& stored_images() {
+    return table(images, Layout::images, read_stored_image);
   }
   // The dialect lies in the same file; one that was accepted without has none.
-  const ByName<std::string>& dialect_of(const std::filesystem::path& path) {
+  const ByName<std::string>& dialect_of(const fs::path& path) {
     const auto known = dialects.find(path);
     if (known != dialects.end()) return known->second;
     ByName<std::string> dialect;
     if (const auto file = JsonFile::read(path); file && file->value().contains("dialect")) {
-      dialect = read_members<std::string>(file->root().at("dialect"),
-                                          [](const JsonNode& n) { return n.text(); });
+      dialect = read_members<std::string>(file->root().at("dialect"), read_text);
     }
     return dialects.emplace(path, std::move(dialect)).first->second;
   }
-  const ByName<StoredImage>& stored_images() {
-    if (!images) images = read_table<StoredImage>(layout.images(), read_stored_image);
-    return *images;
-  }
-  const ByName<record::Counts>& statistics_of(const std::filesystem::path& path) {
+  const ByName<record::Counts>& statistics_of(const fs::path& path) {
     const auto known = statistics.find(path);
     if (known != statistics.end()) return known->second;
     return statistics
@@ -220,134 +243,131 @@ struct Baselines::Cache {
   }
 };
 
-Baselines::Baselines(std::filesystem::path root, std::string_view plan)
+Baselines::Baselines(fs::path root, std::string_view plan)
     : root_(std::move(root)), folder_(root_ / plan), cache_(std::make_shared<Cache>()) {
-  cache_->layout.folder = folder_;
+  cache_->folder = folder_;
 }
 
 bool Baselines::present() const {
-  return std::filesystem::is_directory(folder_);
+  return fs::is_directory(folder_) && problem().empty();
+}
+
+const std::string& Baselines::problem() const {
+  if (cache_->problem) return *cache_->problem;
+  std::string problem;
+  if (!fs::is_directory(folder_)) {
+    // There is nothing to be wrong.
+  } else if (!fs::exists(folder_ / Layout::manifest)) {
+    problem = std::string(Layout::manifest) + " is gone";
+  } else {
+    try {
+      problem = first_change(folder_, manifest());
+    } catch (const core::InputError& error) {  // what a careless merge leaves
+      problem = error.what();
+    }
+  }
+  cache_->problem = std::move(problem);
+  return *cache_->problem;
+}
+
+const Manifest& Baselines::manifest() const {
+  if (!cache_->manifest) {
+    const auto file = JsonFile::read(folder_ / Layout::manifest);
+    cache_->manifest = file ? read_manifest(file->root()) : Manifest{};
+  }
+  return *cache_->manifest;
 }
 
 std::string Baselines::data_hash(const record::Record& record) const {
-  const StoredImage stored =
-      find_optional(cache_->stored_images(), record.scene).value_or(StoredImage{});
-  return find_optional(stored.data, Layout::data_key(record)).value_or(std::string{});
+  const auto stored = find_optional(cache_->stored_images(), record.scene);
+  if (!stored) return {};
+  return find_optional(stored->data, Layout::data_key(record)).value_or(std::string{});
 }
 
 std::optional<core::Image> Baselines::image(const std::string& scene) const {
+  const fs::path path = folder_ / Layout::image(scene);
+  if (!fs::exists(path)) return std::nullopt;
+  return core::decode_exr(core::read_file(path));
+}
+
+std::optional<ReferenceHash> Baselines::reference(const std::string& scene) const {
   const auto stored = find_optional(cache_->stored_images(), scene);
-  if (!stored) return std::nullopt;
-  const auto path = cache_->layout.image_folder() / stored->file;
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  const auto bytes = core::read_file(path);
-  if (core::content_hash(bytes) != stored->hash) {
-    throw core::InputError({path.string()},
-                           "not the image that images.json names; restore it or accept anew");
-  }
-  return core::decode_exr(bytes);
+  return stored ? std::optional(stored->reference) : std::nullopt;
 }
 
 std::optional<StoredCounters> Baselines::counters(const std::string& configuration) const {
   return find_optional(cache_->all_counters(), configuration);
 }
 
+bool Baselines::was_measured(const std::string& device, const std::string& configuration) const {
+  const auto stored = counters(configuration).value_or(StoredCounters{});
+  return std::ranges::any_of(stored,
+                             [&](const auto& each) { return each.second.contains(device); });
+}
+
+std::map<std::string, record::Counts> Baselines::memory(const std::string& configuration) const {
+  return find_optional(cache_->table(cache_->memory, Layout::memory, read_memory), configuration)
+      .value_or(ByName<record::Counts>{});
+}
+
 std::map<std::string, StoredError> Baselines::errors(const std::string& configuration) const {
-  if (!cache_->errors) {
-    cache_->errors =
-        read_table<std::map<std::string, StoredError>>(cache_->layout.errors(), read_errors);
-  }
-  return find_optional(*cache_->errors, configuration)
-      .value_or(std::map<std::string, StoredError>{});
+  return find_optional(cache_->table(cache_->errors, Layout::errors, read_errors), configuration)
+      .value_or(ByName<StoredError>{});
 }
 
 std::map<std::string, std::uint64_t> Baselines::scores(const std::string& configuration) const {
-  if (!cache_->scores) {
-    // The same shape as counts: names and whole numbers.
-    cache_->scores = read_table<record::Counts>(cache_->layout.scores(), read_counts);
-  }
-  return find_optional(*cache_->scores, configuration).value_or(record::Counts{});
+  // The same shape as counts: names and whole numbers.
+  return find_optional(cache_->table(cache_->scores, Layout::scores, read_counts), configuration)
+      .value_or(record::Counts{});
 }
 
-std::optional<StoredBits> Baselines::bits(const record::Device& device,
-                                          const std::string& configuration) const {
-  const auto path = cache_->layout.bits(device);
-  auto known = cache_->bits.find(path);
-  if (known == cache_->bits.end()) {
-    known = cache_->bits.emplace(path, read_device_table<StoredBits>(path, device.key(), read_bits))
-                .first;
+const std::map<std::string, DriverCost>& Baselines::cost_of_all_drivers() const {
+  if (!cache_->cost) {
+    cache_->cost.emplace();
+    for (const auto& [driver, path] : files_in(folder_ / Layout::cost_folder)) {
+      if (const auto file = JsonFile::read(path)) {
+        cache_->cost->emplace(driver, read_cost(file->root()));
+      }
+    }
   }
-  return find_optional(known->second, configuration);
+  return *cache_->cost;
+}
+
+const DriverCost* Baselines::cost(const record::Device& device) const {
+  const auto found = cost_of_all_drivers().find(device.statistics_key());
+  return found == cost_of_all_drivers().end() ? nullptr : &found->second;
 }
 
 bool Baselines::has_statistics(const record::Device& device) const {
-  return !cache_->statistics_of(cache_->layout.statistics(device)).empty();
+  return !cache_->statistics_of(folder_ / Layout::statistics(device)).empty();
 }
 
 std::optional<record::Counts> Baselines::statistics(const record::Device& device,
                                                     const std::string& configuration) const {
-  return find_optional(cache_->statistics_of(cache_->layout.statistics(device)), configuration);
+  return find_optional(cache_->statistics_of(folder_ / Layout::statistics(device)), configuration);
 }
 
 std::map<std::string, record::Counts> Baselines::statistics_of_all_drivers(
     const std::string& configuration) const {
   std::map<std::string, record::Counts> result;
-  const auto folder = cache_->layout.statistics_folder();
-  if (!std::filesystem::is_directory(folder)) return result;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".json") continue;
-    const auto counts = find_optional(cache_->statistics_of(entry.path()), configuration);
-    if (counts) result.emplace(entry.path().stem().string(), *counts);
+  for (const auto& [driver, path] : files_in(folder_ / Layout::statistics_folder)) {
+    const auto counts = find_optional(cache_->statistics_of(path), configuration);
+    if (counts) result.emplace(driver, *counts);
   }
   return result;
 }
 
 std::map<std::string, std::string> Baselines::statistics_dialect(const std::string& driver) const {
-  return cache_->dialect_of(cache_->layout.statistics_folder() / (driver + ".json"));
+  return cache_->dialect_of(folder_ / (Layout::statistics_folder + driver + ".json"));
 }
 
-std::vector<StoredTiming> Baselines::timings(const record::Device& device,
-                                             const std::string& configuration) const {
-  const auto path = cache_->layout.timings(device);
-  auto known = cache_->timings.find(path);
-  if (known == cache_->timings.end()) {
-    known = cache_->timings
-                .emplace(path, read_device_table<std::vector<StoredTiming>>(path, device.key(),
-                                                                            read_timings))
-                .first;
-  }
-  return find_optional(known->second, configuration).value_or(std::vector<StoredTiming>{});
-}
-
-std::vector<StoredDevice> Baselines::timings_of_all_devices() const {
-  std::vector<StoredDevice> result;
-  const auto folder = cache_->layout.timings_folder();
-  if (!std::filesystem::is_directory(folder)) return result;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".json") continue;
-    const auto file = JsonFile::read(entry.path());
-    if (!file) continue;
-    StoredDevice device;
-    device.key = file->root().at("device").text();
-    device.id = id_of_key(device.key);
-    device.timings =
-        read_members<std::vector<StoredTiming>>(file->root().at("configurations"), read_timings);
-    result.push_back(std::move(device));
-  }
-  std::ranges::sort(result, {}, &StoredDevice::key);
-  return result;
-}
-
-bool Baselines::accepted_before(const record::Device& device) const {
-  return cache_->all_history().devices.contains(device.key());
-}
-
-bool Baselines::lost_bits(const record::Device& device) const {
-  return cache_->lost(cache_->layout.bits(device));
-}
-
-bool Baselines::lost_timings(const record::Device& device) const {
-  return cache_->lost(cache_->layout.timings(device));
+const std::map<std::string, StoredTiming>& Baselines::timings(const record::Device& device) const {
+  const fs::path path = folder_ / Layout::timings(device);
+  const auto known = cache_->timings.find(path);
+  if (known != cache_->timings.end()) return known->second;
+  return cache_->timings
+      .emplace(path, read_device_table<StoredTiming>(path, device.key(), read_timing))
+      .first->second;
 }
 
 std::vector<std::string> Baselines::configurations() const {

@@ -1,18 +1,23 @@
 #pragma once
-// baselines/<suite>/<plan>/ : what was accepted. Text, sorted, one line per value, so that a change
+// baselines/<suite>/<plan>/ : what was accepted. Text, sorted, one value per line, so that a change
 // can be reviewed. `accept` is the only writer.
-//   images/<scene hash>.exr   the truth of each scene as it was accepted, device-independent
-//   images.json               {scene: {file, content hash, content hash of its data}}
+//   manifest.json             the plan's hash and checks, number of configurations, {device id:
+//                             [drivers]}, {file: content hash} of all that follows
 //   counters.json             {configuration: {counter: {device id: value}}}
-//   bits/<device key>.json    {device, configurations: {configuration: {image hash, kernel hash}}}
+//   memory.json               {configuration: {device id: {kind: bytes}}}
+//   cost/<driver>.json        {device, driver_version, counted_by, configurations: {configuration:
+//                             {frame: {part: instructions}, prepare: likewise}}}
 //   statistics/<driver>.json  {device, dialect: {statistic: verdict} where it is known,
 //                             configurations: {configuration: {statistic: value}}}
-//   timings/<device key>.json {device, configurations: {configuration: [{run, median, clock,
-//                             kernel hash}, …]}}, one entry per accepted run, oldest first
-//   history.json              every accept: date, reason, run, device keys, what changed
-//   accuracy.json             {configuration: {device id: {rmse, arithmetic}}}, of SUITE/accuracy
-//   score.json                {configuration: {device id: 0…3}}, of SUITE/stress
-// and baselines/waivers.json: [{device, test, reason, expiry}, …].
+//   timings/<device key>.json {device, configurations: {configuration: {clock, median_ns, spread,
+//                             frames, kernel_hash}}}, of one run; of plans that check times
+//   images.json               {scene: {reference: two hashes, data…: content hash of its data}}
+//   images/<scene hash>.exr   the reference itself, of plans that check images and times
+//   accuracy.json             {configuration: {device id: {rmse, arithmetic}}}
+//   score.json                {configuration: {device id: 0…3}}
+//   history.json              every accept: date, reason, devices
+// <driver> is Device::statistics_key(): no machine is in it. And baselines/waivers.json: [{device,
+// test, reason, expiry}, …].
 
 #include <cstdint>
 #include <filesystem>
@@ -20,45 +25,32 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/image.hpp"
 #include "judge/accuracy/cases.hpp"
+#include "judge/baselines/reference_hash.hpp"
 #include "judge/stress/stress.hpp"
 #include "record/store.hpp"
 
 namespace triptych::judge {
 
-struct StoredTiming {
-  std::string run;
-  double median_ns = 0;
-  std::string clock;
-  std::string kernel_hash;
-  // By the wall clock, where `clock` is another: what two devices whose own clocks are not both
-  // trusted can be compared by. Baselines from before it was kept have none.
-  std::optional<double> median_wall_ns = {};
-
-  [[nodiscard]] std::optional<double> median_by(std::string_view which) const {
-    if (which == clock) return median_ns;
-    return which == "wall" ? median_wall_ns : std::nullopt;
-  }
+struct Manifest {
+  std::string plan_hash;
+  record::Checks checks;
+  std::uint64_t configurations = 0;
+  std::map<std::string, std::set<std::string>> devices;  // id → Device::statistics_key()
+  std::map<std::string, std::string> files;              // name → content hash
 };
 
-// Times by different clocks are not compared: the clock that the record counts by, or the wall
-// clock, by which everything is timed, where too few stored runs of its configuration have a time
-// by that one and more by this. A clock that a busy machine made doubtful once is no reason to
-// judge nothing.
-[[nodiscard]] std::string_view common_clock(const record::Record& record,
-                                            std::span<const StoredTiming> stored);
-
-// All that is stored of one device's times.
-struct StoredDevice {
-  std::string id;
-  std::string key;                                           // Device::key()
-  std::map<std::string, std::vector<StoredTiming>> timings;  // by configuration
+struct StoredTiming {
+  std::string clock;
+  double median_ns = 0;
+  double spread = 0;  // log_spread() of its frames
+  std::string kernel_hash;
 };
 
 // Of a configuration on a device: its picture against the limit of its scene.
@@ -67,9 +59,17 @@ struct StoredError {
   double arithmetic = 0;  // against the truth on its own lattice
 };
 
-struct StoredBits {
-  std::string image;
-  std::string kernel_hash;
+struct StoredCost {
+  record::Counts frame;
+  record::Counts prepare;
+};
+
+// All that is stored of a driver version's cost.
+struct DriverCost {
+  std::string device;          // id
+  std::string driver_version;  // as the driver gives it
+  std::string counted_by;
+  std::map<std::string, StoredCost> configurations;
 };
 
 // Counter → device id → value.
@@ -84,25 +84,39 @@ struct Waiver {
 
 class Baselines {
  public:
-  // The folder need not exist: everything is then absent, `present()` is false. Files are read when
-  // they are first asked for. Throws InputError with file and line for one that is corrupt.
+  // The folder need not exist. Files are read when they are first asked for. Throws InputError with
+  // file and line for one that is corrupt.
   Baselines(std::filesystem::path root, std::string_view plan);
 
+  // They are there, and every file is as it was accepted.
   [[nodiscard]] bool present() const;
+  // Of what is there, which file is gone, edited or not of it; one line, empty where none is.
+  [[nodiscard]] const std::string& problem() const;
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-  // nullopt also when the file that images.json names is gone; InputError when it is another one.
+  [[nodiscard]] const Manifest& manifest() const;
+  // nullopt where none is kept.
   [[nodiscard]] std::optional<core::Image> image(const std::string& scene) const;
+  // Of the reference as it was accepted; nullopt: the scene never was.
+  [[nodiscard]] std::optional<ReferenceHash> reference(const std::string& scene) const;
   // Content hash of the data that the record's scene was accepted with, in the record's voxel
   // format; empty where that is not known.
   [[nodiscard]] std::string data_hash(const record::Record& record) const;
   // Of every device; nullopt: the configuration was never accepted.
   [[nodiscard]] std::optional<StoredCounters> counters(const std::string& configuration) const;
+  // Whether this device counted anything in it.
+  [[nodiscard]] bool was_measured(const std::string& device,
+                                  const std::string& configuration) const;
+  // By device id.
+  [[nodiscard]] std::map<std::string, record::Counts> memory(
+      const std::string& configuration) const;
   // By device id; empty: never accepted.
   [[nodiscard]] std::map<std::string, StoredError> errors(const std::string& configuration) const;
   // Likewise: what a stress case scored.
   [[nodiscard]] std::map<std::string, std::uint64_t> scores(const std::string& configuration) const;
-  [[nodiscard]] std::optional<StoredBits> bits(const record::Device& device,
-                                               const std::string& configuration) const;
+  // Of this driver version; nullptr: nothing is stored. Lives as long as these Baselines.
+  [[nodiscard]] const DriverCost* cost(const record::Device& device) const;
+  // By Device::statistics_key().
+  [[nodiscard]] const std::map<std::string, DriverCost>& cost_of_all_drivers() const;
   // nullopt: nothing stored for this driver version at all, or not for this configuration.
   [[nodiscard]] std::optional<record::Counts> statistics(const record::Device& device,
                                                          const std::string& configuration) const;
@@ -114,18 +128,9 @@ class Baselines {
   // looked.
   [[nodiscard]] std::map<std::string, std::string> statistics_dialect(
       const std::string& driver) const;
-  [[nodiscard]] std::vector<StoredTiming> timings(const record::Device& device,
-                                                  const std::string& configuration) const;
-  // Of every device that was ever accepted, by key.
-  [[nodiscard]] std::vector<StoredDevice> timings_of_all_devices() const;
-  // The baselines of another plan beside these.
-  [[nodiscard]] Baselines of_plan(std::string_view plan) const { return {root_, plan}; }
-  // Whether a device with this key was ever accepted.
-  [[nodiscard]] bool accepted_before(const record::Device& device) const;
-  // Whether the file of its bits, or of its timings, is gone, of which the history tells. A device
-  // that was only ever accepted by untimed runs never had timings.
-  [[nodiscard]] bool lost_bits(const record::Device& device) const;
-  [[nodiscard]] bool lost_timings(const record::Device& device) const;
+  // By configuration; empty: nothing stored of this device key.
+  [[nodiscard]] const std::map<std::string, StoredTiming>& timings(
+      const record::Device& device) const;
   // Configurations that have counters stored: what a complete run must hold.
   [[nodiscard]] std::vector<std::string> configurations() const;
   [[nodiscard]] const std::vector<Waiver>& waivers() const;
@@ -137,30 +142,41 @@ class Baselines {
   std::shared_ptr<Cache> cache_;
 };
 
+// Half the width of ln t of one run's frames: 1.4826 of their median absolute deviation, a normal
+// distribution's σ, but no less than one step of the clock, nor than what the medians of two quiet
+// process runs of the same program differ by, 0.5 % (docs/how-we-measure.md), which the frames of
+// one cannot show.
+[[nodiscard]] double log_spread(std::vector<double> times_ns);
+
+// The checks of the run's plan; of a run that keeps none, what every plan can be held to.
+[[nodiscard]] record::Checks checked_in(const record::Run& run);
+
 struct AcceptRequest {
   std::string plan;
   std::string reason;  // must not be blank
   std::string only;    // glob over configuration keys; empty: all
   std::string date;    // ISO
-  // Stored configurations that the run has no record of go; else such a run is refused.
+  // Stored configurations that the run has no record of go, and so does what is not as it was
+  // accepted; else such a run or such files are refused.
   bool drop = false;
-  // Drops the times stored before of what was measured, on these device keys: a machine that has
-  // changed, or runs made beside other work.
-  bool forget_times = false;
   // The truth of a scene, as for the gate.
   std::function<core::Image(const record::Record&)> truth;
+  // As GateRequest::data_hash.
+  std::function<std::string(const record::Record&)> data_hash = {};
   // The limit of a record's scene, nullptr where it has none; nothing: no errors are stored.
   std::function<const LimitPicture*(const record::Record&)> limit = {};
   // Scores every record of the run by both; nothing: no scores are stored.
   std::optional<StressTruths> stress = {};
+  // Told of each file that lies aside, then of "" when all do and nothing has taken effect yet.
+  std::function<void(const std::string&)> on_written = {};
 };
 
 // Writes what a run measured as the new baselines; returns one line per changed file, each followed
 // by its changed values ("  PATH: OLD → NEW", the first 40 of a file). Refuses (InputError) a blank
-// reason, a run with planted faults, one that measured nothing or holds a part of what is stored
-// (see `drop`; with `only` nothing else changes). Timings are appended (the last 20
-// runs per device key are kept) unless the old are to be forgotten, everything else is replaced.
-// Each file is written aside and renamed, so that a full disk or a kill leaves the old one whole.
+// reason, a run with planted faults, one that measured nothing, holds a part of what is stored (see
+// `drop`; with `only` nothing else changes), or was measured on other data than there are now.
+// What is kept is what the run's plan checks. All or nothing: the new folder is written beside the
+// old one and takes its place at the end. One accept at a time, else IoError.
 [[nodiscard]] std::vector<std::string> accept(const record::Store& store, const std::string& run,
                                               const std::filesystem::path& root,
                                               const AcceptRequest& request);

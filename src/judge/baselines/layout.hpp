@@ -1,5 +1,5 @@
 #pragma once
-// Where each baseline lies within baselines/<suite>/<plan>/, for the reader and the writer alike.
+// The names of the files within baselines/<suite>/<plan>/, for the reader and the writer alike.
 
 #include <filesystem>
 #include <string>
@@ -10,12 +10,27 @@
 namespace triptych::judge {
 
 struct Layout {
-  std::filesystem::path folder;
+  static constexpr const char* manifest = "manifest.json";
+  static constexpr const char* images = "images.json";
+  static constexpr const char* counters = "counters.json";
+  static constexpr const char* memory = "memory.json";
+  static constexpr const char* errors = "accuracy.json";
+  static constexpr const char* scores = "score.json";
+  static constexpr const char* history = "history.json";
+  static constexpr const char* cost_folder = "cost/";
+  static constexpr const char* statistics_folder = "statistics/";
 
-  [[nodiscard]] std::filesystem::path images() const { return folder / "images.json"; }
-  [[nodiscard]] std::filesystem::path image_folder() const { return folder / "images"; }
-  [[nodiscard]] static std::string image_name(const std::string& scene) {
-    return core::content_hash(scene) + ".exr";
+  [[nodiscard]] static std::string image(const std::string& scene) {
+    return "images/" + core::content_hash(scene) + ".exr";
+  }
+  [[nodiscard]] static std::string cost(const record::Device& device) {
+    return cost_folder + device.statistics_key() + ".json";
+  }
+  [[nodiscard]] static std::string statistics(const record::Device& device) {
+    return statistics_folder + device.statistics_key() + ".json";
+  }
+  [[nodiscard]] static std::string timings(const record::Device& device) {
+    return "timings/" + device.key_hash() + ".json";
   }
   // What an image's entry calls the content hash of its data. The same data has one per voxel
   // format, and devices prefer different formats.
@@ -23,21 +38,10 @@ struct Layout {
     const auto voxel = record.factors.find("voxel");
     return voxel == record.factors.end() ? "data" : "data_" + voxel->second;
   }
-  [[nodiscard]] std::filesystem::path counters() const { return folder / "counters.json"; }
-  [[nodiscard]] std::filesystem::path errors() const { return folder / "accuracy.json"; }
-  [[nodiscard]] std::filesystem::path scores() const { return folder / "score.json"; }
-  [[nodiscard]] std::filesystem::path bits(const record::Device& device) const {
-    return folder / "bits" / (device.key_hash() + ".json");
+  // Where `accept` writes before it takes the folder's place; left behind only by a kill.
+  [[nodiscard]] static std::filesystem::path aside(const std::filesystem::path& folder) {
+    return folder.parent_path() / ("." + folder.filename().string() + ".accepting");
   }
-  [[nodiscard]] std::filesystem::path statistics_folder() const { return folder / "statistics"; }
-  [[nodiscard]] std::filesystem::path statistics(const record::Device& device) const {
-    return statistics_folder() / (device.statistics_key() + ".json");
-  }
-  [[nodiscard]] std::filesystem::path timings_folder() const { return folder / "timings"; }
-  [[nodiscard]] std::filesystem::path timings(const record::Device& device) const {
-    return timings_folder() / (device.key_hash() + ".json");
-  }
-  [[nodiscard]] std::filesystem::path history() const { return folder / "history.json"; }
 };
 
 }  // namespace triptych::judge

@@ -96,7 +96,9 @@ class SceneJudge {
  public:
   SceneJudge(const RunView& view, ImageFindings& out, std::string scene)
       : view_(view), out_(out), scene_(std::move(scene)) {
-    if (view.baselines.present()) stored_ = view.baselines.image(scene_);
+    if (!view.baselines.present()) return;
+    stored_ = view.baselines.image(scene_);
+    reference_ = view.baselines.reference(scene_);
   }
 
   void judge(const record::Record& record) {
@@ -172,11 +174,7 @@ class SceneJudge {
     truth_checked_ = true;
     Finding finding = finding_about(view_, Check::image, Verdict::pass, {});
     finding.configuration = scene_;
-    if (!stored_) {
-      finding.verdict = Verdict::cannot_judge;
-      finding.message =
-          fmt::format("no stored picture of this scene; accept one: {}", view_.accept_command());
-    } else {
+    if (stored_) {
       const ImageComparison comparison = compare(pair.truth, *stored_, truth_tolerance);
       add_numbers(finding, comparison);
       std::string wrong = fault(comparison, pair.truth, *stored_, "the stored one");
@@ -189,6 +187,15 @@ class SceneJudge {
                             ? fmt::format("the truth is the stored one; largest difference {:.3g}",
                                           comparison.largest.error)
                             : "the scene or the truth changed: " + wrong;
+    } else if (reference_) {
+      const bool same = is_same_reference(reference_hash(pair.truth), *reference_);
+      finding.verdict = same ? Verdict::pass : Verdict::regression;
+      finding.message = same ? "the truth has the stored hash"
+                             : "the scene or the truth changed: drawn now, it has another hash "
+                               "than was accepted";
+    } else {
+      finding.verdict = Verdict::cannot_judge;
+      finding.message = "nothing is stored of this scene; accept it: " + view_.accept_command();
     }
     out_.findings.push_back(std::move(finding));
   }
@@ -217,67 +224,12 @@ class SceneJudge {
   const RunView& view_;
   ImageFindings& out_;
   std::string scene_;
-  std::optional<core::Image> stored_;
+  std::optional<core::Image> stored_;       // the reference, where the picture is kept
+  std::optional<ReferenceHash> reference_;  // where it is not
   bool truth_checked_ = false;
   std::vector<Picture> pictures_;
   core::Image bound_;  // of a particle scene: says where ids are certain
 };
-
-// Records whose bits nothing stored can be held against, per device.
-struct Unheld {
-  std::size_t unknown = 0;
-  std::size_t other_code = 0;
-  std::size_t other_code_and_image = 0;
-};
-
-void check_bits_of(const RunView& view, const record::Record& record, Unheld& unheld,
-                   std::vector<Finding>& findings) {
-  const auto stored = view.baselines.bits(view.device(record), record.configuration);
-  if (!stored) {
-    ++unheld.unknown;
-  } else if (stored->kernel_hash != record.kernel_hash) {
-    ++unheld.other_code;
-    if (stored->image != record.image) ++unheld.other_code_and_image;
-  } else if (stored->image != record.image) {
-    findings.push_back(finding_about(
-        record, Check::image, Verdict::regression,
-        fmt::format("other bits from the same device and the same device code: image {}, stored {}",
-                    record.image, stored->image)));
-  }
-}
-
-std::string why_unknown(const Baselines& baselines, const record::Device& device) {
-  if (baselines.lost_bits(device)) return "though the history tells of them: restore the file";
-  if (baselines.accepted_before(device)) return "beside others of this device";
-  return "for this device key: " + device.key();
-}
-
-void report_unheld(const RunView& view, const record::Device& device, const Unheld& unheld,
-                   std::vector<Finding>& findings) {
-  if (unheld.unknown > 0) {
-    findings.push_back(finding_about(
-        view, device, Check::image, Verdict::advisory,
-        fmt::format("{} configurations have no stored bits {}; judged by their bounds alone",
-                    unheld.unknown, why_unknown(view.baselines, device))));
-  }
-  if (unheld.other_code > 0) {
-    findings.push_back(finding_about(
-        view, device, Check::image, Verdict::advisory,
-        fmt::format("the device code of {} configurations is not the stored one; in {} of them the "
-                    "bits differ, judged by their bounds alone",
-                    unheld.other_code, unheld.other_code_and_image)));
-  }
-}
-
-void check_bits(const RunView& view, std::vector<Finding>& findings) {
-  std::map<std::string, Unheld> unheld;
-  for (const record::Record* record : view.measured) {
-    if (!record->image.empty()) check_bits_of(view, *record, unheld[record->device], findings);
-  }
-  for (const auto& [id, counts] : unheld) {
-    report_unheld(view, view.devices.at(id), counts, findings);
-  }
-}
 
 }  // namespace
 
@@ -302,7 +254,6 @@ ImageFindings check_images(const RunView& view) {
     for (const record::Record* record : records) judge.judge(*record);
     judge.judge_agreement();
   }
-  if (view.baselines.present()) check_bits(view, out.findings);
   return out;
 }
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <iterator>
+#include <set>
 #include <string_view>
 
 #include "judge/gate/run_view.hpp"
@@ -47,10 +49,14 @@ Finding check_exact(const RunView& view, const record::Record& record,
   return about(Verdict::pass, fmt::format("{} statistics as stored", stored.size()));
 }
 
+// Of a device whose driver version is new here, over all that it measured.
 struct Elsewhere {
-  std::vector<std::string> differences;   // which portable values no stored driver has
-  std::vector<std::string> not_compared;  // with the reason
-  int compared = 0;
+  std::vector<std::string> configurations;
+  std::set<std::string> differences;   // which portable values no stored driver has
+  std::set<std::string> differing;     // in which configurations
+  std::set<std::string> not_compared;  // with the reason
+  std::size_t stored = 0;              // configurations that some driver has
+  std::size_t compared = 0;            // values
 };
 
 // "input_assembly_vertices 3, but 6 on gl-llvmpipe-egl-…"; "geometry_primitives (here differs: …)".
@@ -60,7 +66,7 @@ void compare_elsewhere(const RunView& view, const record::Record& record, const 
   if (own == record.statistics.end()) return;
   const std::string here = statistic_reservation(view.device(record).statistics_dialect, name);
   if (!here.empty()) {
-    result.not_compared.push_back(fmt::format("{} (here {})", name, here));
+    result.not_compared.insert(fmt::format("{} (here {})", name, here));
     return;
   }
   std::vector<std::string> others;
@@ -71,7 +77,7 @@ void compare_elsewhere(const RunView& view, const record::Record& record, const 
     const std::string there =
         statistic_reservation(view.baselines.statistics_dialect(driver), name);
     if (!there.empty()) {
-      result.not_compared.push_back(fmt::format("{} (on {} {})", name, driver, there));
+      result.not_compared.insert(fmt::format("{} (on {} {})", name, driver, there));
       continue;
     }
     agrees = agrees || other->second == own->second;
@@ -79,28 +85,37 @@ void compare_elsewhere(const RunView& view, const record::Record& record, const 
   }
   if (!others.empty()) ++result.compared;
   if (!agrees && !others.empty()) {
-    result.differences.push_back(
+    result.differences.insert(
         fmt::format("{} {}, but {}", name, own->second, fmt::join(others, ", ")));
+    result.differing.insert(record.configuration);
   }
 }
 
-Finding check_elsewhere(const RunView& view, const record::Record& record) {
-  if (record.statistics.empty()) {
-    return finding_about(record, Check::statistics, Verdict::skipped,
-                         "the device tells no pipeline statistics");
-  }
+void look_elsewhere(const RunView& view, const record::Record& record, Elsewhere& result) {
+  result.configurations.push_back(record.configuration);
   const auto stored = view.baselines.statistics_of_all_drivers(record.configuration);
-  Elsewhere result;
+  if (stored.empty()) return;
+  ++result.stored;
   for (const std::string_view name : portable_statistics) {
-    if (stored.empty()) break;
     compare_elsewhere(view, record, std::string(name), stored, result);
   }
-  std::string message = "nothing stored for this driver version; ";
-  if (stored.empty()) {
+}
+
+Finding tell_elsewhere(const RunView& view, const record::Device& device, const Elsewhere& result) {
+  constexpr std::size_t named = 3;
+  std::string message =
+      fmt::format("nothing stored for this driver version ({}), {} configurations; ",
+                  device.driver_version, result.configurations.size());
+  if (result.stored == 0) {
     message += "nor for any other";
   } else if (!result.differences.empty()) {
-    message +=
-        fmt::format("differs from every stored driver: {}", fmt::join(result.differences, "; "));
+    const std::size_t n = std::min(named, result.differences.size());
+    const std::vector<std::string> first(
+        result.differences.begin(),
+        std::next(result.differences.begin(), static_cast<std::ptrdiff_t>(n)));
+    message += fmt::format("in {} of them it differs from every stored driver: {}{}",
+                           result.differing.size(), fmt::join(first, "; "),
+                           result.differences.size() > n ? "; …" : "");
   } else if (result.compared == 0 && !result.not_compared.empty()) {
     message += "no number of it can be held against the stored ones";
   } else {
@@ -109,24 +124,53 @@ Finding check_elsewhere(const RunView& view, const record::Record& record) {
   if (!result.not_compared.empty()) {
     message += fmt::format("; not compared: {}", fmt::join(result.not_compared, "; "));
   }
-  Finding finding = finding_about(record, Check::statistics, Verdict::advisory, std::move(message));
-  set_number(finding, "differences", static_cast<double>(result.differences.size()));
+  Finding finding =
+      finding_about(view, device, Check::statistics, Verdict::advisory, std::move(message));
+  set_number(finding, "differences", static_cast<double>(result.differing.size()));
   return finding;
 }
 
-Finding check_record(const RunView& view, const record::Record& record) {
-  if (record.untimed()) {
-    return finding_about(record, Check::statistics, Verdict::skipped,
-                         "pipeline statistics were not read: the run was untimed");
+class StatisticsCheck {
+ public:
+  explicit StatisticsCheck(const RunView& view) : view_(view) {}
+
+  void look_at(const record::Record& record) {
+    const record::Device& device = view_.device(record);
+    const auto stored = view_.baselines.statistics(device, record.configuration);
+    if (record.untimed()) {
+      findings_.push_back(finding_about(record, Check::statistics, Verdict::skipped,
+                                        "pipeline statistics were not read: the run was untimed"));
+    } else if (stored) {
+      findings_.push_back(check_exact(view_, record, *stored));
+    } else if (view_.baselines.has_statistics(device)) {
+      not_stored_[record.device].push_back(record.configuration);
+    } else if (record.statistics.empty()) {
+      findings_.push_back(finding_about(record, Check::statistics, Verdict::skipped,
+                                        "the device tells no pipeline statistics"));
+    } else {
+      look_elsewhere(view_, record, elsewhere_[record.device]);
+    }
   }
-  const record::Device& device = view.device(record);
-  if (!view.baselines.has_statistics(device)) return check_elsewhere(view, record);
-  const auto stored = view.baselines.statistics(device, record.configuration);
-  if (stored) return check_exact(view, record, *stored);
-  return finding_about(
-      record, Check::statistics, Verdict::cannot_judge,
-      "no stored statistics for this configuration; accept them: " + view.accept_command());
-}
+
+  std::vector<Finding> finish() && {
+    for (const auto& [device, result] : elsewhere_) {
+      findings_.push_back(tell_elsewhere(view_, view_.devices.at(device), result));
+    }
+    for (const auto& [device, configurations] : not_stored_) {
+      findings_.push_back(
+          finding_about(view_, view_.devices.at(device), Check::statistics, Verdict::cannot_judge,
+                        fmt::format("no stored statistics for {}; accept them: {}",
+                                    examples_of(configurations), view_.accept_command())));
+    }
+    return std::move(findings_);
+  }
+
+ private:
+  const RunView& view_;
+  std::vector<Finding> findings_;
+  std::map<std::string, Elsewhere> elsewhere_;                  // by device
+  std::map<std::string, std::vector<std::string>> not_stored_;  // beside others of the device
+};
 
 }  // namespace
 
@@ -138,11 +182,9 @@ std::string statistic_reservation(const Dialect& dialect, const std::string& sta
 }
 
 std::vector<Finding> check_statistics(const RunView& view) {
-  std::vector<Finding> findings;
-  for (const record::Record* record : view.measured) {
-    findings.push_back(check_record(view, *record));
-  }
-  return findings;
+  StatisticsCheck check(view);
+  for (const record::Record* record : view.measured) check.look_at(*record);
+  return std::move(check).finish();
 }
 
 }  // namespace triptych::judge

@@ -1,9 +1,179 @@
+// Times against the accepted run's: shown, and no verdict unless it is asked for.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "judge/baselines/work.hpp"
 #include "judge/gate/run_view.hpp"
+#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge {
 
-std::vector<Finding> check_timings(const RunView& /*view*/, const WrongImages& /*wrong*/) {
-  return {};
+const double tolerated = std::log(1.02);  // slower by this is not worth a finding
+
+// A time beside the stored one.
+struct Ratio {
+  const record::Record* record;
+  double log_ratio = 0;
+  double half_width = 0;  // of its 95 % interval
+};
+
+// The clock that both times are by: the stored one, where this run trusts it as well; else the wall
+// clock, by which everything is timed, if the stored time is by it.
+std::optional<std::string_view> common_clock(const record::Record& record,
+                                             const StoredTiming& stored) {
+  if (stored.clock == record.clock()) return record.clock();
+  if (stored.clock == "wall" && !record.wall_ns.empty()) return "wall";
+  return std::nullopt;
+}
+
+Ratio ratio_of(const record::Record& record, std::string_view clock, const StoredTiming& stored) {
+  constexpr double normal = 1.96;
+  const std::vector<double>& times = record.time_ns_by(clock);
+  return {&record, std::log(median(times) / stored.median_ns),
+          normal * std::hypot(log_spread(times), stored.spread)};
+}
+
+std::string text_of(const Ratio& ratio) {
+  return fmt::format("{:+.1f} % ± {:.1f} %", 100 * std::expm1(ratio.log_ratio),
+                     100 * std::expm1(ratio.half_width));
+}
+
+class DeviceTimes {
+ public:
+  DeviceTimes(const RunView& view, const record::Device& device, const WrongImages& wrong)
+      : view_(view), device_(device), wrong_(wrong), stored_(view.baselines.timings(device)) {}
+
+  void look_at(const record::Record& record) {
+    const auto wrong = wrong_.find({record.device, record.configuration});
+    if (record.untimed()) {
+      add(record, Verdict::skipped, "timings were not measured: the run was untimed");
+    } else if (!record.same_as.empty()) {
+      add(record, Verdict::skipped,
+          fmt::format("its frames are another configuration's, which its scene cannot tell from it "
+                      "({})",
+                      record.reason));
+    } else if (wrong != wrong_.end()) {
+      add_wrong(record, wrong->second);
+    } else if (!is_time(record.time_ns())) {
+      add(record, Verdict::cannot_judge, "no time was measured; run the plan again");
+    } else {
+      compare(record);
+    }
+  }
+
+  std::vector<Finding> finish() && {
+    // Where times decide, what they cannot be held against is no pass.
+    const Verdict missing = decides() ? Verdict::cannot_judge : Verdict::advisory;
+    if (!not_stored_.empty()) {
+      add(missing, stored_.empty() ? "no stored times of this device: " + device_.key()
+                                   : fmt::format("no stored times for {}; accept them: {}",
+                                                 examples_of(not_stored_), view_.accept_command()));
+    }
+    if (!other_clock_.empty()) {
+      add(missing,
+          fmt::format("the stored times of {} are by another clock", examples_of(other_clock_)));
+    }
+    summarise();
+    return std::move(findings_);
+  }
+
+ private:
+  [[nodiscard]] bool decides() const { return view_.request.times_decide; }
+  void add(const record::Record& record, Verdict verdict, std::string message) {
+    findings_.push_back(finding_about(record, Check::timing, verdict, std::move(message)));
+  }
+  void add(Verdict verdict, std::string message) {
+    findings_.push_back(finding_about(view_, device_, Check::timing, verdict, std::move(message)));
+  }
+  static bool is_time(const std::vector<double>& times) {
+    return !times.empty() && std::isfinite(median(times)) && median(times) > 0;
+  }
+
+  // Where the picture is judged as well, or excused, that is the verdict.
+  void add_wrong(const record::Record& record, const std::string& why) {
+    const bool is_told =
+        view_.checks.contains(Check::image) || is_waived(view_, record, Check::image);
+    add(record, is_told ? Verdict::skipped : Verdict::cannot_judge,
+        "its picture is wrong, so its time means nothing: " + why);
+  }
+
+  void compare(const record::Record& record) {
+    const auto stored = stored_.find(record.configuration);
+    if (stored == stored_.end()) return not_stored_.push_back(record.configuration);
+    const auto clock = common_clock(record, stored->second);
+    if (!clock) return other_clock_.push_back(record.configuration);
+    judge(ratio_of(record, *clock, stored->second), *clock, stored->second);
+  }
+
+  // The only place where a time decides.
+  [[nodiscard]] Verdict verdict_of(const Ratio& ratio) const {
+    if (!decides()) return Verdict::pass;
+    if (ratio.log_ratio - ratio.half_width > tolerated) return Verdict::regression;
+    if (ratio.log_ratio + ratio.half_width < -tolerated) return Verdict::improved;
+    return Verdict::pass;
+  }
+
+  void judge(const Ratio& ratio, std::string_view clock, const StoredTiming& stored) {
+    const record::Record& record = *ratio.record;
+    const double now = median(record.time_ns_by(clock));
+    const Verdict verdict = verdict_of(ratio);
+    std::string message = fmt::format("{:.4g} ms, stored {:.4g} ms: {}", 1e-6 * now,
+                                      1e-6 * stored.median_ns, text_of(ratio));
+    if (verdict != Verdict::pass) {
+      message += "; " + why_text(work_change(record.counters, view_.baselines, record.configuration,
+                                             record.device),
+                                 ratio.log_ratio);
+    }
+    if (stored.kernel_hash != record.kernel_hash) message += "; the device code changed since";
+    add(record, verdict, std::move(message));
+    set_number(findings_.back(), "ratio", std::exp(ratio.log_ratio));
+    set_number(findings_.back(), "half_width", ratio.half_width);
+    set_number(findings_.back(), "median_ns", now);
+    set_number(findings_.back(), "baseline_ns", stored.median_ns);
+    ratios_.push_back(ratio);
+  }
+
+  void summarise() {
+    if (ratios_.empty()) return;
+    std::vector<double> logarithms;
+    for (const Ratio& ratio : ratios_) logarithms.push_back(ratio.log_ratio);
+    const double middle = median(logarithms);
+    const Ratio& worst = *std::ranges::max_element(ratios_, {}, &Ratio::log_ratio);
+    add(Verdict::advisory,
+        fmt::format("times: {:+.1f} % (median of {} configurations), at worst {} in {}{}",
+                    100 * std::expm1(middle), ratios_.size(), text_of(worst),
+                    worst.record->configuration, decides() ? "" : "; they decide with --times"));
+    set_number(findings_.back(), "ratio", std::exp(middle));
+    set_number(findings_.back(), "worst_ratio", std::exp(worst.log_ratio));
+  }
+
+  const RunView& view_;
+  const record::Device& device_;
+  const WrongImages& wrong_;
+  const std::map<std::string, StoredTiming>& stored_;
+  std::vector<Finding> findings_;
+  std::vector<Ratio> ratios_;
+  std::vector<std::string> not_stored_;
+  std::vector<std::string> other_clock_;
+};
+
+}  // namespace
+
+std::vector<Finding> check_timings(const RunView& view, const WrongImages& wrong) {
+  std::map<std::string, DeviceTimes> devices;
+  for (const record::Record* record : view.measured) {
+    devices.try_emplace(record->device, view, view.device(*record), wrong)
+        .first->second.look_at(*record);
+  }
+  std::vector<Finding> findings;
+  for (auto& [id, times] : devices) {
+    std::ranges::move(std::move(times).finish(), std::back_inserter(findings));
+  }
+  return findings;
 }
 
 }  // namespace triptych::judge

@@ -15,28 +15,41 @@
 namespace triptych::judge {
 namespace {
 
-constexpr std::size_t named_rows = 3;
-
 bool asked_for(const GateRequest& request, const std::string& device) {
   return request.devices.empty() || core::any_glob_matches(request.devices, device);
 }
 
-// Of other data than was accepted, under the same name: no number of it can be held against any.
-bool other_data(const Baselines& baselines, const record::Record& record) {
-  if (record.data_hash.empty()) return false;
-  const std::string accepted = baselines.data_hash(record);
-  return !accepted.empty() && accepted != record.data_hash;
+// Why no number of the record can be held against any: it is of other data than was accepted under
+// the same name, or than are here now. Empty: it can.
+std::string other_data(const RunView& view, const record::Record& record) {
+  if (record.data_hash.empty()) return {};
+  const std::string accepted =
+      view.baselines.present() ? view.baselines.data_hash(record) : std::string();
+  if (!accepted.empty() && accepted != record.data_hash) {
+    return fmt::format(
+        "its data is not what was accepted under this name (content hash {}, "
+        "accepted {}): restore the file and run again, or {}",
+        record.data_hash, accepted, view.accept_command());
+  }
+  const std::string now = view.request.data_hash ? view.request.data_hash(record) : std::string();
+  if (now.empty() || now == record.data_hash) return {};
+  return fmt::format(
+      "its data has changed since it was measured (content hash {}, now {}): "
+      "restore the file or run again",
+      record.data_hash, now);
+}
+
+record::Run run_of(const record::Store& store, const std::string& id) {
+  for (record::Run& run : store.runs()) {
+    if (run.id == id) return std::move(run);
+  }
+  return {};
 }
 
 RunView view_of(const record::Store& store, const std::string& run, const Baselines& baselines,
                 const GateRequest& request) {
   RunView view{store, baselines, request, request.checks, {}, {}, {}, {}};
-  if (view.checks.empty()) {
-    view.checks = {Check::image,  Check::counters,    Check::statistics,
-                   Check::timing, Check::correlation, Check::accuracy};
-    // Its records have no times and no statistics, and their scores judge their pictures.
-    if (request.plan.ends_with("/stress")) view.checks = {Check::counters, Check::stress};
-  }
+  if (view.checks.empty()) view.checks = checked_in(run_of(store, run));
   for (auto& entry : store.devices(run)) {
     if (asked_for(request, entry.device.id)) view.devices.emplace(entry.device.id, entry.device);
   }
@@ -50,23 +63,15 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   }
   for (const record::Record& record : view.records) {
     if (record.outcome != record::Outcome::measured) continue;
-    (other_data(baselines, record) ? view.of_other_data : view.measured).push_back(&record);
-  }
-  // Plans made for it.
-  if (request.checks.empty() && !request.plan.ends_with("/correlation")) {
-    view.checks.erase(Check::correlation);
-  }
-  if (request.checks.empty() && !request.plan.ends_with("/accuracy")) {
-    view.checks.erase(Check::accuracy);
+    (other_data(view, record).empty() ? view.measured : view.of_other_data).push_back(&record);
   }
   return view;
 }
 
-// A configuration that this very device, driver and all, has measured before is missed when it is
-// skipped.
+// A configuration that this device has measured before is missed when it is skipped.
 bool measured_before(const RunView& view, const record::Record& record) {
   return view.baselines.present() &&
-         view.baselines.bits(view.device(record), record.configuration).has_value();
+         view.baselines.was_measured(record.device, record.configuration);
 }
 
 // Everything but measured, once, under the first check asked for. What failed in a stress case is
@@ -108,46 +113,83 @@ void report_nothing_measured(const RunView& view, const std::string& run,
   }
 }
 
-// Every device must have a record, of whatever outcome, of every accepted configuration.
-void report_missing_rows(const RunView& view, std::vector<Finding>& findings) {
-  const std::vector<std::string> accepted = view.baselines.configurations();
-  for (const auto& [id, device] : view.devices) {
-    std::set<std::string> there;
-    for (const record::Record& record : view.records) {
-      if (record.device == id) there.insert(record.configuration);
-    }
-    std::vector<std::string> missing;
-    std::ranges::set_difference(accepted, there, std::back_inserter(missing));
-    if (missing.empty()) continue;
-    const std::size_t named = std::min(missing.size(), named_rows);
-    const std::vector<std::string> examples(missing.begin(),
-                                            missing.begin() + static_cast<std::ptrdiff_t>(named));
-    findings.push_back(finding_about(
-        view, device, *view.checks.begin(), Verdict::cannot_judge,
-        fmt::format(
-            "missing rows: {} of {} accepted configurations have no record ({}{}); finish the "
-            "run with triptych run {} --resume",
-            missing.size(), accepted.size(), fmt::join(examples, "; "),
-            missing.size() > named ? "; …" : "", record::plan_argument(view.request.plan))));
-    set_number(findings.back(), "missing", static_cast<double>(missing.size()));
+std::set<std::string> configurations_of(const RunView& view, const std::string& device) {
+  std::set<std::string> there;
+  for (const record::Record& record : view.records) {
+    if (record.device == device) there.insert(record.configuration);
   }
+  return there;
+}
+
+void report_missing(const RunView& view, const record::Device& device,
+                    const std::set<std::string>& wanted, const std::set<std::string>& there,
+                    std::string_view kind, std::vector<Finding>& findings) {
+  std::vector<std::string> missing;
+  std::ranges::set_difference(wanted, there, std::back_inserter(missing));
+  if (missing.empty()) return;
+  findings.push_back(finding_about(
+      view, device, *view.checks.begin(), Verdict::cannot_judge,
+      fmt::format("missing rows: of {} {} configurations there is no record of {}; finish the run "
+                  "with triptych run {} --resume",
+                  wanted.size(), kind, examples_of(missing),
+                  record::plan_argument(view.request.plan))));
+  set_number(findings.back(), "missing", static_cast<double>(missing.size()));
+}
+
+// Every device must have a record, of whatever outcome, of every configuration of the plan, of
+// every accepted one, and no others.
+void report_rows(const RunView& view, std::vector<Finding>& findings) {
+  const std::set<std::string> expected(view.request.expected.begin(), view.request.expected.end());
+  std::set<std::string> accepted;
+  if (view.baselines.present()) {
+    for (std::string& each : view.baselines.configurations()) accepted.insert(std::move(each));
+  }
+  for (const auto& [id, device] : view.devices) {
+    const std::set<std::string> there = configurations_of(view, id);
+    report_missing(view, device, expected, there, "planned", findings);
+    if (expected.empty() || accepted != expected) {
+      report_missing(view, device, accepted, there, "accepted", findings);
+    }
+    std::vector<std::string> extra;
+    std::ranges::set_difference(there, expected, std::back_inserter(extra));
+    if (expected.empty() || extra.empty()) continue;
+    findings.push_back(
+        finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
+                      fmt::format("the plan does not have {}; run it again", examples_of(extra))));
+  }
+}
+
+// What is judged is what was asked for.
+void report_other_plan(const RunView& view, const std::string& run,
+                       std::vector<Finding>& findings) {
+  if (view.request.plan_hash.empty() || view.records.empty()) return;
+  const std::string measured = run_of(view.store, run).plan_hash;
+  if (measured == view.request.plan_hash) return;
+  findings.push_back(finding_about(
+      view, *view.checks.begin(), Verdict::cannot_judge,
+      fmt::format(
+          "run {} is of another plan than {} is now ({}); run it again", run, view.request.plan,
+          measured.empty() ? "it kept no hash"
+                           : fmt::format("hash {}, now {}", measured, view.request.plan_hash))));
 }
 
 void report_other_data(const RunView& view, std::vector<Finding>& findings) {
   for (const record::Record* record : view.of_other_data) {
-    findings.push_back(finding_about(
-        *record, *view.checks.begin(), Verdict::cannot_judge,
-        fmt::format("its data is not what was accepted under this name (content hash {}, accepted "
-                    "{}): restore the file and run again, or {}",
-                    record->data_hash, view.baselines.data_hash(*record), view.accept_command())));
+    findings.push_back(finding_about(*record, *view.checks.begin(), Verdict::cannot_judge,
+                                     other_data(view, *record)));
   }
 }
 
 void report_no_baselines(const RunView& view, std::vector<Finding>& findings) {
-  findings.push_back(
-      finding_about(view, *view.checks.begin(), Verdict::cannot_judge,
-                    fmt::format("there are no baselines in {}; make them with {}",
-                                view.baselines.folder().string(), view.accept_command())));
+  const std::string folder = view.baselines.folder().string();
+  const std::string& problem = view.baselines.problem();
+  findings.push_back(finding_about(
+      view, *view.checks.begin(), Verdict::cannot_judge,
+      problem.empty() ? fmt::format("there are no baselines in {}; make them with {}", folder,
+                                    view.accept_command())
+                      : fmt::format("{}: {}: restore it from version control, or start "
+                                    "over with {} --drop",
+                                    folder, problem, view.accept_command())));
 }
 
 void append(std::vector<Finding>& findings, std::vector<Finding> more) {
@@ -178,6 +220,8 @@ WrongImages run_checks_but_of_times(const RunView& view, GateResult& result) {
   if (!view.baselines.present()) return std::move(images.wrong);
   if (view.checks.contains(Check::counters)) append(findings, check_counters(view));
   if (view.checks.contains(Check::statistics)) append(findings, check_statistics(view));
+  if (view.checks.contains(Check::cost)) append(findings, check_cost(view));
+  if (view.checks.contains(Check::memory)) append(findings, check_memory(view));
   return std::move(images.wrong);
 }
 
@@ -205,12 +249,10 @@ void report_what_is_there(const RunView& view, GateResult& result) {
   for (const record::Record* record : view.measured) result.devices.insert(record->device);
   report_nothing_measured(view, result.run, result.findings);
   report_outcomes(view, result.findings);
-  if (view.baselines.present()) {
-    report_missing_rows(view, result.findings);
-    report_other_data(view, result.findings);
-  } else {
-    report_no_baselines(view, result.findings);
-  }
+  report_other_plan(view, result.run, result.findings);
+  report_rows(view, result.findings);
+  report_other_data(view, result.findings);
+  if (!view.baselines.present()) report_no_baselines(view, result.findings);
 }
 
 }  // namespace

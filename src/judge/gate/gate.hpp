@@ -27,10 +27,10 @@ using record::name_of;
 enum class Verdict : std::uint8_t {
   pass,
   improved,      // passes, and is better than the baseline beyond doubt
-  advisory,      // worth knowing, decides nothing: too few stored runs, another driver version
+  advisory,      // worth knowing, decides nothing: times, another driver version
   skipped,       // the device cannot do this; the reason is the message
   waived,        // a regression that waivers.json excuses until its expiry
-  cannot_judge,  // no baseline, nothing measured, noise: never a pass
+  cannot_judge,  // no baseline, nothing measured, other data: never a pass
   regression
 };
 [[nodiscard]] std::string_view name_of(Verdict verdict);
@@ -69,9 +69,7 @@ struct GateResult {
 
 struct GateRequest {
   std::string plan;
-  std::set<Check> checks;            // empty: all; correlation only of a plan
-                                     // SUITE/correlation, accuracy only of one SUITE/accuracy;
-                                     // of a plan SUITE/stress counters and stress
+  std::set<Check> checks;            // empty: those of the run's plan (checked_in)
   std::vector<std::string> devices;  // globs; empty: all in the run
   std::vector<std::string>
       required_devices;  // globs; each must match a device that measured something
@@ -83,6 +81,16 @@ struct GateRequest {
   // What must hold of a record beside its truth; nothing: no record has any.
   FindExpectations expectations = {};
   std::string today;  // ISO date, for the expiry of waivers
+  // A configuration that is slower than stored by more than its interval and 2 % is a regression;
+  // else times advise.
+  bool times_decide = false;
+  // Of the plan as it is now, to tell a run of another: its hash, and its configurations' keys.
+  // Empty: not known.
+  std::string plan_hash = {};
+  std::vector<std::string> expected = {};
+  // Content hash of the data that the record's truth would be drawn from now, in the record's voxel
+  // format; empty where that cannot be told. Nothing: it is the record's.
+  std::function<std::string(const record::Record&)> data_hash = {};
 };
 
 // Throws InputError for a corrupt baseline (file and line), never because of what was measured.

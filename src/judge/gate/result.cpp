@@ -184,6 +184,13 @@ Finding finding_about(const RunView& view, Check check, Verdict verdict, std::st
   return {check, verdict, view.plan_test(check), {}, {}, std::move(message)};
 }
 
+std::string examples_of(const std::vector<std::string>& configurations) {
+  const auto named = std::min<std::ptrdiff_t>(std::ssize(configurations), 3);
+  const std::vector<std::string> first(configurations.begin(), configurations.begin() + named);
+  return fmt::format("{} ({}{})", plural(configurations.size(), "configuration", "configurations"),
+                     fmt::join(first, "; "), std::ssize(configurations) > named ? "; …" : "");
+}
+
 void set_number(Finding& finding, const std::string& name, double value) {
   if (std::isfinite(value)) finding.numbers[name] = value;
 }

@@ -19,7 +19,8 @@ struct RunView {
   std::vector<record::Record> records;               // of the devices asked for
   std::map<std::string, record::Device> devices;     // by id
   std::vector<const record::Record*> measured;       // into `records`
-  std::vector<const record::Record*> of_other_data;  // measured, but not what was accepted
+  std::vector<const record::Record*> of_other_data;  // measured, but of data that are not
+                                                     // here, or not what was accepted
 
   [[nodiscard]] const record::Device& device(const record::Record& record) const {
     return devices.at(record.device);
@@ -39,6 +40,8 @@ struct RunView {
                                     std::string message);
 // Worst first, then by device and configuration.
 void sort_findings(std::vector<Finding>& findings);
+// "12 configurations (A; B; C; …)".
+[[nodiscard]] std::string examples_of(const std::vector<std::string>& configurations);
 // Infinities and NaN are left out: JSON has none, and missing is not zero.
 void set_number(Finding& finding, const std::string& name, double value);
 
@@ -53,6 +56,8 @@ struct ImageFindings {
 [[nodiscard]] ImageFindings check_images(const RunView& view);
 [[nodiscard]] std::vector<Finding> check_counters(const RunView& view);
 [[nodiscard]] std::vector<Finding> check_statistics(const RunView& view);
+[[nodiscard]] std::vector<Finding> check_cost(const RunView& view);
+[[nodiscard]] std::vector<Finding> check_memory(const RunView& view);
 [[nodiscard]] std::vector<Finding> check_timings(const RunView& view, const WrongImages& wrong);
 
 [[nodiscard]] std::vector<Finding> check_correlations(const RunView& view,

@@ -28,6 +28,7 @@ class AccuracyGateTest : public JudgeTest {
   static constexpr float lattice = 0.01F;
 
   AccuracyGateTest() {
+    checks_ = {Check::image, Check::counters, Check::accuracy};
     request_.checks = {Check::accuracy};
     request_.limit = [this](const record::Record& record) { return limit_of(record); };
   }
@@ -160,7 +161,7 @@ TEST_F(AccuracyGateTest, AnotherDeviceIsHeldToTheWorstOfTheAccepted) {
        place = stored.find("vulkan:lavapipe")) {
     stored.replace(place, 15, "vulkan:other");
   }
-  std::ofstream(baseline("accuracy.json")) << stored;
+  rewrite("accuracy.json", stored);
   add_run("b", moved(-bound / 2));
   add_run("c");
   EXPECT_EQ(with(gate("b"), Verdict::regression, Check::accuracy).size(), 1U);
@@ -174,7 +175,7 @@ TEST_F(AccuracyGateTest, AnOrderThatFellIsARegression) {
     return TruthPair{.truth = truth, .bound = truth};
   };
   const auto run_of_order = [this](const std::string& run, double order) {
-    store_.add_run({run, plan, "2026-02-01T00:00:00Z", {}});
+    store_.add_run({run, plan, "2026-02-01T00:00:00Z", {}, checks_});
     record::Device device;
     device.id = of_steps;
     store_.add_device(run, device, {});
@@ -246,7 +247,10 @@ TEST_F(AccuracyGateTest, OnlyAnAccuracyPlanIsJudgedUnasked) {
   accept_with_errors("a");
   GateRequest unasked = request_;
   unasked.checks.clear();
-  EXPECT_TRUE(gate("a", unasked).accuracies.empty());
+  EXPECT_FALSE(gate("a", unasked).accuracies.empty());
+  checks_ = {Check::image};
+  add_run("b");
+  EXPECT_TRUE(gate("b", unasked).accuracies.empty());
 }
 
 }  // namespace

@@ -22,9 +22,9 @@ class DialectGateTest : public JudgeTest {
   // of 48, where only GL's numbers are stored.
   std::string advice(const Dialect& stored, const Dialect& own) {
     dialects_["gl:llvmpipe-egl"] = stored;
-    add_run("a");
-    (void)accept_run("a");
-    std::filesystem::remove(device_file("statistics", "vulkan"));
+    accept_first([](record::Record& record, core::Image&) {
+      if (record.device == "vulkan:lavapipe") record.statistics.clear();
+    });
     dialects_["vulkan:lavapipe"] = own;
     add_run("b", [](record::Record& record, core::Image&) {
       if (record.device == "vulkan:lavapipe") record.statistics = {{"compute_invocations", 49}};
@@ -32,7 +32,7 @@ class DialectGateTest : public JudgeTest {
     const GateResult result = gate("b");
     EXPECT_EQ(result.exit_code(), core::ExitCode::pass) << text(result);
     const auto advice = with(result, Verdict::advisory, Check::statistics);
-    EXPECT_EQ(advice.size(), 4U);
+    EXPECT_EQ(advice.size(), 1U);
     return advice.empty() ? std::string() : advice[0].message;
   }
 };

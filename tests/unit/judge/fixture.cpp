@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
 #include "core/json.hpp"
@@ -82,9 +83,10 @@ std::vector<double> JudgeTest::noisy(double level) {
 }
 
 void JudgeTest::add_run(const std::string& run, const Tweak& tweak) {
-  store_.add_run({run, plan, "2026-02-01T00:00:00Z", {}});
+  store_.add_run({run, plan, "2026-02-01T00:00:00Z", {}, checks_, plan_hash_});
   for (record::Device device : devices()) {
     device.statistics_dialect = dialects_[device.id];
+    if (driver_versions_.contains(device.id)) device.driver_version = driver_versions_[device.id];
     store_.add_device(run, device, {});
     for (const std::string& scene : {front_, std::string("camera=side,data=ball")}) {
       for (const std::string variant : {"plain", "bricks"}) {
@@ -112,11 +114,16 @@ std::vector<std::string> JudgeTest::accept_run(const std::string& run, AcceptReq
   return accept(store_, run, folder_.path() / "baselines", how);
 }
 
-void JudgeTest::accept_history(const Tweak& tweak) {
-  for (int i = 1; i <= 8; ++i) {
-    add_run(fmt::format("r{}", i), tweak);
-    (void)accept_run(fmt::format("r{}", i));
-  }
+void JudgeTest::accept_first(const Tweak& tweak) {
+  add_run("accepted", tweak);
+  (void)accept_run("accepted");
+}
+
+void JudgeTest::rewrite(const std::string& name, const std::string& content) {
+  core::write_file(content, baseline(name));
+  core::Json manifest = core::Json::parse(folder_.read(baseline("manifest.json")));
+  manifest["files"][name] = core::content_hash(content);
+  core::write_file(manifest.dump(1), baseline("manifest.json"));
 }
 
 GateResult JudgeTest::gate(const std::string& run, const GateRequest& request) const {

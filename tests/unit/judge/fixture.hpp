@@ -36,10 +36,12 @@ class JudgeTest : public testing::Test {
   void add_run(const std::string& run, const Tweak& tweak = {});
   // `how`: all but the plan, the reason, the date and the truth.
   std::vector<std::string> accept_run(const std::string& run, AcceptRequest how = {});
-  // Eight accepted runs, r1 … r8.
-  void accept_history(const Tweak& tweak = {});
+  // An accepted run, "accepted".
+  void accept_first(const Tweak& tweak = {});
   [[nodiscard]] GateResult gate(const std::string& run) const { return gate(run, request_); }
   [[nodiscard]] GateResult gate(const std::string& run, const GateRequest& request) const;
+  // Changes an accepted file as if it had been accepted so.
+  void rewrite(const std::string& name, const std::string& content);
   [[nodiscard]] std::filesystem::path baseline(const std::string& name) const;
   // The only file in a folder of the plan's baselines whose name begins so.
   [[nodiscard]] std::filesystem::path device_file(const std::string& folder,
@@ -60,7 +62,10 @@ class JudgeTest : public testing::Test {
   TemporaryFolder folder_;
   record::Store store_;
   GateRequest request_;
+  record::Checks checks_;  // of the plan of runs to come
+  std::string plan_hash_;
   // Of the devices of runs to come, by id.
+  std::map<std::string, std::string> driver_versions_;
   std::map<std::string, std::map<std::string, std::string>> dialects_;
 
  private:

@@ -64,84 +64,6 @@ TEST_F(GateTest, RequiredDeviceMustHaveMeasured) {
               HasSubstr("the required device gl:softpipe"));
 }
 
-TEST_F(GateTest, ADeletedPictureCannotBeJudgedBy) {
-  add_run("a");
-  (void)accept_run("a");
-  std::filesystem::remove_all(baseline("images"));
-  const GateResult result = gate("a");
-  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
-  EXPECT_EQ(with(result, Verdict::cannot_judge).size(), 2U);
-}
-
-TEST_F(GateTest, AReplacedPictureIsAnError) {
-  add_run("a");
-  (void)accept_run("a");
-  for (const auto& entry : std::filesystem::directory_iterator(baseline("images"))) {
-    core::write_file(std::string_view("version https://git-lfs"), entry.path());
-  }
-  EXPECT_THROW((void)gate("a"), core::InputError);
-}
-
-TEST_F(GateTest, APictureOfAnotherSceneIsAnError) {
-  add_run("a");
-  (void)accept_run("a");
-  const std::filesystem::directory_iterator first(baseline("images"));
-  core::write_file(core::encode_exr(core::Image(8, 6)), first->path());
-  EXPECT_THROW((void)gate("a"), core::InputError);
-}
-
-TEST_F(GateTest, DeletedCountersCannotBeJudgedBy) {
-  add_run("a");
-  (void)accept_run("a");
-  std::filesystem::remove(baseline("counters.json"));
-  EXPECT_EQ(gate("a").exit_code(), ExitCode::cannot_judge);
-}
-
-TEST_F(GateTest, CorruptBaselineIsAnErrorWithItsLine) {
-  add_run("a");
-  (void)accept_run("a");
-  std::ofstream(baseline("counters.json"))
-      << "{\n \"x\": {\n  \"samples\": {\"gl:a\": \"many\"}}}\n";
-  try {
-    (void)gate("a");
-    FAIL() << "no error";
-  } catch (const core::InputError& error) {
-    EXPECT_EQ(error.place().line, 3);
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("counters.json"), HasSubstr("/x/samples/gl:a")));
-  }
-}
-
-// What a careless merge of two branches leaves.
-TEST_F(GateTest, EmptyListsInBaselinesAreErrorsWithTheirLines) {
-  accept_history();
-  add_run("b");
-  const auto error_with = [&](const std::filesystem::path& file, const std::string& content) {
-    const std::string kept = folder_.read(file);
-    core::write_file(content, file);
-    std::string message;
-    try {
-      (void)gate("b");
-    } catch (const core::InputError& error) {
-      message = fmt::format("line {}: {}", error.place().line, error.what());
-    }
-    core::write_file(kept, file);
-    return message;
-  };
-  EXPECT_THAT(error_with(baseline("counters.json"), "{\n \"x\": {\n  \"samples\": {}}}\n"),
-              AllOf(HasSubstr("line 3"), HasSubstr("/x/samples")));
-  const auto timings = device_file("timings", "gl");
-  core::Json content = core::Json::parse(folder_.read(timings));
-  content["configurations"][plain_] = core::Json::array();
-  EXPECT_THAT(error_with(timings, content.dump(1)), HasSubstr(plain_));
-}
-
-TEST_F(GateTest, ARenamedFileDoesNotSpeakForAnotherDevice) {
-  add_run("a");
-  (void)accept_run("a");
-  std::filesystem::rename(device_file("bits", "gl"), device_file("bits", "vulkan"));
-  EXPECT_THROW((void)gate("a"), core::InputError);
-}
-
 TEST_F(GateTest, MissingRowsAreNamed) {
   add_run("a");
   (void)accept_run("a");
@@ -158,7 +80,45 @@ TEST_F(GateTest, MissingRowsAreNamed) {
   EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
   const auto missing = with(result, Verdict::cannot_judge);
   ASSERT_EQ(missing.size(), 1U) << text(result);
-  EXPECT_THAT(missing[0].message, AllOf(HasSubstr("1 of 4"), HasSubstr(bricks_)));
+  EXPECT_THAT(missing[0].message,
+              AllOf(HasSubstr("of 4 accepted"), HasSubstr("1 configuration (" + bricks_)));
+}
+
+TEST_F(GateTest, ARunOfAnotherPlanTextCannotBeJudged) {
+  accept_first();
+  plan_hash_ = "0a0a";
+  add_run("b");
+  request_.plan_hash = "0a0a";
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
+  request_.plan_hash = "1b1b";
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge);
+  EXPECT_THAT(text(gate("b")), HasSubstr("of another plan than volume/quick is now (hash 0a0a, "
+                                         "now 1b1b)"));
+  EXPECT_THAT(text(gate("accepted")), HasSubstr("it kept no hash"));
+}
+
+// Nothing more and nothing less.
+TEST_F(GateTest, TheRunHoldsWhatThePlanHas) {
+  accept_first();
+  for (const auto& configuration : Baselines(folder_.path() / "baselines", plan).configurations()) {
+    request_.expected.push_back(configuration);
+  }
+  EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
+  request_.expected.emplace_back("new");
+  EXPECT_EQ(gate("accepted").exit_code(), ExitCode::cannot_judge);
+  EXPECT_THAT(text(gate("accepted")),
+              HasSubstr("of 5 planned configurations there is no record of 1 configuration (new)"));
+  request_.expected = {plain_};
+  EXPECT_EQ(gate("accepted").exit_code(), ExitCode::cannot_judge);
+  EXPECT_THAT(text(gate("accepted")), HasSubstr("the plan does not have 3 configurations ("));
+}
+
+TEST_F(GateTest, TheRunsPlanSaysWhatIsChecked) {
+  checks_ = {Check::counters};
+  accept_first();
+  for (const Finding& finding : gate("accepted").findings) {
+    EXPECT_EQ(finding.check, Check::counters);
+  }
 }
 
 TEST_F(GateTest, EveryUnhappyOutcomeIsARegressionOnce) {

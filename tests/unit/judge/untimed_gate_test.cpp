@@ -27,8 +27,8 @@ std::string contents(const std::filesystem::path& file) {
 
 class UntimedGateTest : public JudgeTest {};
 
-TEST_F(UntimedGateTest, StatisticsAreSkippedWithTheReason) {
-  accept_history();
+TEST_F(UntimedGateTest, TimesAndStatisticsAreSkippedWithTheReason) {
+  accept_first();
   add_run("b", untimed);
   const GateResult result = gate("b");
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
@@ -37,7 +37,7 @@ TEST_F(UntimedGateTest, StatisticsAreSkippedWithTheReason) {
 }
 
 TEST_F(UntimedGateTest, ThePictureIsJudgedAllTheSame) {
-  accept_history();
+  accept_first();
   add_run("b", [](record::Record& record, core::Image& image) {
     untimed(record, image);
     image.rgba[5] += 0.5F;
@@ -46,7 +46,7 @@ TEST_F(UntimedGateTest, ThePictureIsJudgedAllTheSame) {
 }
 
 TEST_F(UntimedGateTest, WhatIsStoredOfTimesAndStatisticsStays) {
-  accept_history();
+  accept_first();
   const std::string timings = contents(device_file("timings", "vulkan"));
   const std::string statistics = contents(device_file("statistics", "vulkan"));
   add_run("b", untimed);
@@ -63,6 +63,20 @@ TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
   EXPECT_FALSE(std::filesystem::exists(baseline("statistics")));
   add_run("b", untimed);
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
+}
+
+// Times that were never stored are not lost ones: of the whole device, or of all but one
+// configuration.
+TEST_F(UntimedGateTest, AfterThemTimesAreNewAndOnlyAdvise) {
+  add_run("a", untimed);
+  (void)accept_run("a");
+  add_run("b");
+  EXPECT_EQ(with(gate("b"), Verdict::advisory, Check::timing).size(), 3U) << text(gate("b"));
+  EXPECT_TRUE(with(gate("b"), Verdict::cannot_judge, Check::timing).empty()) << text(gate("b"));
+  (void)accept_run("b", {.only = bricks_});
+  add_run("c");
+  EXPECT_EQ(with(gate("c"), Verdict::advisory, Check::timing).size(), 6U) << text(gate("c"));
+  EXPECT_TRUE(with(gate("c"), Verdict::cannot_judge, Check::timing).empty()) << text(gate("c"));
 }
 
 }  // namespace

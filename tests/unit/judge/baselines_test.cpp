@@ -1,0 +1,102 @@
+// Accepted files that are gone, edited or strange: told from a device that is new.
+
+#include <gmock/gmock.h>
+
+#include "core/file.hpp"
+#include "core/json.hpp"
+#include "fixture.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using core::ExitCode;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class BaselinesTest : public JudgeTest {
+ protected:
+  BaselinesTest() {
+    accept_first([](record::Record& record, core::Image&) {
+      record.cost = {{"device_code", 700}, {"driver", 300}};
+      record.counted_by = "an emulator";
+      record.memory = {{"buffers", 4096}};
+    });
+  }
+  // What is said of the whole plan.
+  std::string verdict() {
+    const GateResult result = gate("accepted");
+    EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
+    const auto findings = with(result, Verdict::cannot_judge);
+    EXPECT_EQ(findings.size(), 1U) << text(result);
+    return findings.empty() ? std::string() : findings[0].message;
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> result;
+    const Manifest manifest = Baselines(folder_.path() / "baselines", plan).manifest();
+    for (const auto& [name, hash] : manifest.files) result.push_back(name);
+    return result;
+  }
+};
+
+TEST_F(BaselinesTest, AsAcceptedTheyPass) {
+  EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
+  EXPECT_GE(names().size(), 4U + 2 + 3 + 3 + 2);  // of plans, pictures, cost, times, statistics
+}
+
+TEST_F(BaselinesTest, EveryFileThatIsGoneIsNamed) {
+  for (const std::string& name : names()) {
+    const std::string kept = folder_.read(baseline(name));
+    std::filesystem::remove(baseline(name));
+    EXPECT_THAT(verdict(),
+                AllOf(HasSubstr(name + " is gone"), HasSubstr("restore it from version control")));
+    core::write_file(kept, baseline(name));
+  }
+}
+
+TEST_F(BaselinesTest, EveryFileThatIsEmptiedIsNamed) {
+  for (const std::string& name : names()) {
+    const std::string kept = folder_.read(baseline(name));
+    core::write_file(std::string_view("{}"), baseline(name));
+    EXPECT_THAT(verdict(), HasSubstr(name + " was changed"));
+    core::write_file(kept, baseline(name));
+  }
+}
+
+TEST_F(BaselinesTest, AFileThatWasNotAcceptedIsNamed) {
+  core::write_file(std::string_view("{}"), baseline("timings/other.json"));
+  EXPECT_THAT(verdict(), HasSubstr("timings/other.json is none of its files"));
+}
+
+TEST_F(BaselinesTest, WithoutAManifestNothingIsJudged) {
+  std::filesystem::remove(baseline("manifest.json"));
+  EXPECT_THAT(verdict(), HasSubstr("manifest.json is gone"));
+}
+
+TEST_F(BaselinesTest, ABrokenManifestIsNamedWithItsLine) {
+  core::write_file(std::string_view("{\n \"files\": {},\n \"files\": {}\n}\n"),
+                   baseline("manifest.json"));
+  EXPECT_THAT(verdict(), HasSubstr("manifest.json:3:"));
+  (void)accept_run("accepted", {.drop = true});
+  EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
+}
+
+// What a careless merge leaves, even where its checksum was mended.
+TEST_F(BaselinesTest, AWrongValueIsAnErrorWithItsLine) {
+  rewrite("counters.json", "{\n \"x\": {\n  \"samples\": {\"gl:a\": \"many\"}}}\n");
+  try {
+    (void)gate("accepted");
+    FAIL() << "no error";
+  } catch (const core::InputError& error) {
+    EXPECT_EQ(error.place().line, 3);
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("counters.json"), HasSubstr("/x/samples/gl:a")));
+  }
+}
+
+TEST_F(BaselinesTest, APictureIsStillJudgedWithoutThem) {
+  std::filesystem::remove(baseline("counters.json"));
+  add_run("b", [](record::Record&, core::Image& image) { image.rgba[5] += 0.5F; });
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
+}
+
+}  // namespace
+}  // namespace triptych::judge

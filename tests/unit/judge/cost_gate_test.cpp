@@ -1,0 +1,213 @@
+// What the gate says of instructions per frame.
+
+#include <gmock/gmock.h>
+
+#include "fixture.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using core::ExitCode;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr std::uint64_t device_code = 1'000'000;
+constexpr std::uint64_t driver = 1'000'000;
+
+class CostGateTest : public JudgeTest {
+ protected:
+  CostGateTest() { request_.checks = {Check::cost}; }
+
+  // Every frame as counted by one emulator, then changed.
+  static Tweak counted(const std::function<void(record::Record&)>& change = {}) {
+    return [change](record::Record& record, core::Image&) {
+      record.cost = {
+          {"device_code", device_code}, {"driver", driver}, {"libc", 5000}, {"allocations", 40}};
+      record.prepare_cost = {{"driver", 1'000'000}};
+      record.counted_by = "an emulator 1";
+      if (change) change(record);
+    };
+  }
+  // Of one configuration on one device.
+  static Tweak changed(const std::string& device, const std::string& part, std::int64_t by) {
+    return counted([=](record::Record& record) {
+      if (record.device != device || record.configuration != plain_) return;
+      record.cost[part] =
+          static_cast<std::uint64_t>(static_cast<std::int64_t>(record.cost.at(part)) + by);
+    });
+  }
+  // Of a frame that `change` makes of one configuration, against what was accepted.
+  GateResult judge(const Tweak& change) {
+    accept_first(counted());
+    add_run("b", change);
+    return gate("b");
+  }
+};
+
+TEST_F(CostGateTest, TheSameCountsPass) {
+  const GateResult result = judge(counted());
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  EXPECT_EQ(with(result, Verdict::pass, Check::cost).size(), 12U);
+  EXPECT_TRUE(with(result, Verdict::advisory).empty()) << text(result);
+}
+
+TEST_F(CostGateTest, OneInstructionOfDeviceCodeIsARegression) {
+  const GateResult result = judge(changed("vulkan:lavapipe", "device_code", 1));
+  const auto wrong = with(result, Verdict::regression);
+  ASSERT_EQ(wrong.size(), 1U) << text(result);
+  EXPECT_EQ(wrong[0].device, "vulkan:lavapipe");
+  EXPECT_EQ(wrong[0].configuration, plain_);
+  EXPECT_THAT(wrong[0].message,
+              AllOf(HasSubstr("generated code 1000000 → 1000001 (+0.0001 %)"),
+                    HasSubstr("instructions 2000000 → 2000001"), Not(HasSubstr("driver"))));
+}
+
+TEST_F(CostGateTest, OneInstructionLessIsAnImprovement) {
+  const GateResult result = judge(changed("vulkan:lavapipe", "device_code", -1));
+  EXPECT_EQ(result.exit_code(), ExitCode::pass);
+  EXPECT_EQ(with(result, Verdict::improved).size(), 1U) << text(result);
+}
+
+// Saved in one, spent in the other: each by itself.
+TEST_F(CostGateTest, MoreDeviceCodeIsNotMadeUpForByTheDriver) {
+  const GateResult result = judge(counted([](record::Record& record) {
+    if (record.configuration != plain_) return;
+    record.cost["device_code"] += 1000;
+    record.cost["driver"] -= 100'000;
+  }));
+  const auto wrong = with(result, Verdict::regression);
+  ASSERT_EQ(wrong.size(), 3U);
+  EXPECT_THAT(wrong[0].message, AllOf(HasSubstr("generated code"), HasSubstr("driver")));
+}
+
+// 5e-4 of a frame of two millions.
+TEST_F(CostGateTest, TheDriverMayDifferByItsTolerance) {
+  EXPECT_EQ(judge(changed("gl:llvmpipe-egl", "driver", 1000)).exit_code(), ExitCode::pass);
+}
+TEST_F(CostGateTest, TheDriverMayNotDifferByMore) {
+  const auto wrong = with(judge(changed("gl:llvmpipe-egl", "driver", 1001)), Verdict::regression);
+  ASSERT_EQ(wrong.size(), 1U);
+  EXPECT_THAT(wrong[0].message, HasSubstr("driver 1000000 → 1001001 (+0.1 %)"));
+}
+
+TEST_F(CostGateTest, PoclsDriverMayDifferByMore) {
+  EXPECT_EQ(judge(changed("opencl:pocl", "driver", 7000)).exit_code(), ExitCode::pass);
+}
+TEST_F(CostGateTest, PoclsDriverMayNotDifferByAnything) {
+  EXPECT_EQ(judge(changed("opencl:pocl", "driver", 7001)).exit_code(), ExitCode::regression);
+}
+
+TEST_F(CostGateTest, AtomicsMayOrderTheWorkOtherwise) {
+  const auto tiles = [](std::uint64_t more) {
+    return counted([more](record::Record& record) {
+      record.technique = "tiles";
+      if (record.device == "opencl:pocl") record.cost["device_code"] += more;
+    });
+  };
+  accept_first(tiles(0));
+  add_run("within", tiles(20));
+  EXPECT_EQ(gate("within").exit_code(), ExitCode::pass) << text(gate("within"));
+  add_run("beyond", tiles(21));
+  EXPECT_EQ(gate("beyond").exit_code(), ExitCode::regression);
+}
+
+TEST_F(CostGateTest, WhatRestsOnTheHeapDecidesNothing) {
+  const GateResult result = judge(counted([](record::Record& record) {
+    record.cost["libc"] *= 3;
+    record.cost["program"] = 77;
+    record.cost["allocations"] += record.configuration == plain_ ? 10U : 1U;
+  }));
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_EQ(advice.size(), 3U) << text(result);
+  EXPECT_THAT(advice[0].message,
+              AllOf(HasSubstr("allocations of a frame changed in 4 configurations"),
+                    HasSubstr(plain_ + ": allocations 40 → 50 (+25 %)")));
+}
+
+TEST_F(CostGateTest, AllocationsAreNamedWhereAFrameCostsMore) {
+  const GateResult result = judge(counted([](record::Record& record) {
+    record.cost["driver"] += 10'000;
+    record.cost["allocations"] += 10;
+  }));
+  EXPECT_THAT(with(result, Verdict::regression).at(0).message,
+              HasSubstr("allocations 40 → 50 (+25 %)"));
+}
+
+TEST_F(CostGateTest, PreparingIsShown) {
+  const GateResult result = judge(counted([](record::Record& record) {
+    if (record.device == "opencl:pocl") record.prepare_cost["driver"] = 1'200'000;
+  }));
+  EXPECT_EQ(result.exit_code(), ExitCode::pass);
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_EQ(advice.size(), 1U) << text(result);
+  EXPECT_THAT(advice[0].message, AllOf(HasSubstr("while preparing changed in 4 configurations"),
+                                       HasSubstr("driver 1000000 → 1200000 (+20 %)")));
+}
+
+// One line a device, with what is known of the other.
+TEST_F(CostGateTest, AnotherDriverVersionIsAdvice) {
+  accept_first(counted());
+  driver_versions_["vulkan:lavapipe"] = "23.0";
+  add_run("b", counted([](record::Record& record) {
+            if (record.device == "vulkan:lavapipe") record.cost["device_code"] += 200'000;
+          }));
+  const auto advice = with(gate("b"), Verdict::advisory);
+  ASSERT_EQ(advice.size(), 1U) << text(gate("b"));
+  EXPECT_THAT(advice[0].message, AllOf(HasSubstr("this is 23.0 counted by an emulator 1"),
+                                       HasSubstr("stored is 22.3.6 counted by an emulator 1"),
+                                       HasSubstr("median of 4 configurations +10 %")));
+  EXPECT_TRUE(with(gate("b"), Verdict::regression).empty());
+}
+
+TEST_F(CostGateTest, AnotherEmulatorIsAdvice) {
+  const GateResult result = judge(counted([](record::Record& record) {
+    record.counted_by = "an emulator 2";
+    record.cost["device_code"] *= 2;
+  }));
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_EQ(advice.size(), 3U) << text(result);
+  EXPECT_THAT(advice[0].message,
+              AllOf(HasSubstr("counted by an emulator 2"), HasSubstr("counted by an emulator 1")));
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);  // nothing else was asked for
+}
+
+TEST_F(CostGateTest, ADeviceWithoutStoredCostIsAdvice) {
+  accept_first([](record::Record& record, core::Image& image) {
+    if (record.device != "opencl:pocl") counted()(record, image);
+  });
+  add_run("b", counted());
+  const auto advice = with(gate("b"), Verdict::advisory);
+  ASSERT_EQ(advice.size(), 1U) << text(gate("b"));
+  EXPECT_EQ(advice[0].device, "opencl:pocl");
+  EXPECT_THAT(advice[0].message, HasSubstr("no cost is stored of this device"));
+}
+
+TEST_F(CostGateTest, AConfigurationThatAnAcceptedDriverLacksCannotBeJudged) {
+  add_run("a", counted());
+  (void)accept_run("a", {.only = plain_});
+  const auto missing = with(gate("a"), Verdict::cannot_judge, Check::cost);
+  ASSERT_EQ(missing.size(), 3U) << text(gate("a"));
+  EXPECT_THAT(missing[0].message, HasSubstr("no stored cost for 3 configurations ("));
+}
+
+TEST_F(CostGateTest, WhatIsNotCountedIsSkippedUnlessItWasAccepted) {
+  accept_first([](record::Record& record, core::Image& image) {
+    if (record.device != "opencl:pocl") counted()(record, image);
+  });
+  EXPECT_EQ(with(gate("accepted"), Verdict::skipped, Check::cost).size(), 1U);
+  add_run("none");
+  const auto lost = with(gate("none"), Verdict::cannot_judge, Check::cost);
+  ASSERT_EQ(lost.size(), 2U) << text(gate("none"));
+  EXPECT_THAT(lost[0].message, HasSubstr("were not counted, though"));
+  add_run("part", [](record::Record& record, core::Image& image) {
+    if (record.configuration != plain_) counted()(record, image);
+  });
+  const auto part = with(gate("part"), Verdict::cannot_judge, Check::cost);
+  ASSERT_EQ(part.size(), 2U) << text(gate("part"));
+  EXPECT_THAT(part[0].message, HasSubstr("1 configuration (" + plain_ + ")"));
+}
+
+}  // namespace
+}  // namespace triptych::judge

@@ -1,0 +1,78 @@
+// What the gate says of bytes allocated on a device.
+
+#include <gmock/gmock.h>
+
+#include "fixture.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using core::ExitCode;
+using testing::HasSubstr;
+
+class MemoryGateTest : public JudgeTest {
+ protected:
+  MemoryGateTest() { request_.checks = {Check::memory}; }
+
+  static Tweak taking(std::uint64_t buffers, const std::string& but = {}) {
+    return [=](record::Record& record, core::Image&) {
+      if (record.device != but) record.memory = {{"buffers", buffers}, {"images", 100}};
+    };
+  }
+};
+
+TEST_F(MemoryGateTest, TheSameBytesPass) {
+  accept_first(taking(4096));
+  const GateResult result = gate("accepted");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  EXPECT_EQ(with(result, Verdict::pass, Check::memory).size(), 12U);
+}
+
+TEST_F(MemoryGateTest, OneByteMoreIsARegression) {
+  accept_first(taking(4096));
+  add_run("b", taking(4097));
+  const auto wrong = with(gate("b"), Verdict::regression);
+  ASSERT_EQ(wrong.size(), 12U);
+  EXPECT_EQ(wrong[0].message, "buffers 4096 → 4097 bytes");
+}
+
+TEST_F(MemoryGateTest, ANewKindIsMore) {
+  accept_first(taking(4096));
+  add_run("b", [](record::Record& record, core::Image& image) {
+    taking(4096)(record, image);
+    record.memory["staging"] = 1;
+  });
+  EXPECT_THAT(with(gate("b"), Verdict::regression).at(0).message, HasSubstr("staging 0 → 1 bytes"));
+}
+
+TEST_F(MemoryGateTest, OneByteLessIsAnImprovement) {
+  accept_first(taking(4096));
+  add_run("b", taking(4095));
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);
+  EXPECT_EQ(with(gate("b"), Verdict::improved).size(), 12U);
+}
+
+TEST_F(MemoryGateTest, ANewDeviceIsOneLineOfAdvice) {
+  accept_first(taking(4096, "opencl:pocl"));
+  add_run("b", taking(4096));
+  const auto advice = with(gate("b"), Verdict::advisory);
+  ASSERT_EQ(advice.size(), 1U) << text(gate("b"));
+  EXPECT_EQ(advice[0].device, "opencl:pocl");
+  EXPECT_EQ(with(gate("accepted"), Verdict::skipped).size(), 1U);  // it tells nothing
+}
+
+TEST_F(MemoryGateTest, WhatAnAcceptedDeviceLacksCannotBeJudged) {
+  add_run("a", taking(4096));
+  (void)accept_run("a", {.only = plain_});
+  const auto missing = with(gate("a"), Verdict::cannot_judge, Check::memory);
+  ASSERT_EQ(missing.size(), 3U) << text(gate("a"));
+  EXPECT_THAT(missing[0].message, HasSubstr("no stored memory for 3 configurations ("));
+  (void)accept_run("a");
+  add_run("b", taking(4096, "gl:llvmpipe-egl"));
+  const auto lost = with(gate("b"), Verdict::cannot_judge, Check::memory);
+  ASSERT_EQ(lost.size(), 1U) << text(gate("b"));
+  EXPECT_THAT(lost[0].message, HasSubstr("the memory of 4 configurations ("));
+}
+
+}  // namespace
+}  // namespace triptych::judge

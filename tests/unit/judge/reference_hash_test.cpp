@@ -1,0 +1,75 @@
+#include "judge/baselines/reference_hash.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/random.hpp"
+
+namespace triptych::judge {
+namespace {
+
+core::Image picture(std::uint64_t seed) {
+  core::Random random(seed);
+  core::Image image(64, 64);
+  for (float& value : image.rgba) value = static_cast<float>(random.uniform());
+  return image;
+}
+
+// Each colour moved by the last bit of a float, which is 10⁵ times what another libm does.
+TEST(ReferenceHash, LastBitsAreTheSamePicture) {
+  int same = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const core::Image image = picture(seed);
+    core::Image other = image;
+    core::Random random(1000 + seed);
+    // As libm does: of a few thousand values one rounds to another float.
+    for (float& value : other.rgba) {
+      if (random.uniform() < 1e-3) value = std::nextafter(value, 2.0F);
+    }
+    same += is_same_reference(reference_hash(image), reference_hash(other)) ? 1 : 0;
+  }
+  EXPECT_EQ(same, 100);
+}
+
+TEST(ReferenceHash, OnePixelThatAnyoneCouldSeeIsAnother) {
+  const core::Image image = picture(1);
+  for (const std::size_t at : {0UL, 77UL, image.rgba.size() - 1}) {
+    core::Image other = image;
+    other.rgba[at] += 1.0F / 4000;
+    EXPECT_FALSE(is_same_reference(reference_hash(image), reference_hash(other))) << at;
+  }
+}
+
+TEST(ReferenceHash, AllOfAPictureALittleOffIsAnother) {
+  const core::Image image = picture(1);
+  core::Image other = image;
+  for (float& value : other.rgba) value += 1e-6F;
+  EXPECT_FALSE(is_same_reference(reference_hash(image), reference_hash(other)));
+}
+
+TEST(ReferenceHash, SizeCountsAndStrangeNumbersAreNoTrouble) {
+  core::Image image(2, 3);
+  EXPECT_FALSE(is_same_reference(reference_hash(image), reference_hash(core::Image(3, 2))));
+  const ReferenceHash plain = reference_hash(image);
+  image.rgba[0] = std::numeric_limits<float>::quiet_NaN();
+  image.rgba[1] = std::numeric_limits<float>::infinity();
+  image.rgba[2] = -1e30F;
+  EXPECT_FALSE(is_same_reference(plain, reference_hash(image)));
+  EXPECT_TRUE(is_same_reference(reference_hash(image), reference_hash(image)));
+}
+
+// Colours that scenes are made of lie on no edge of either grid.
+TEST(ReferenceHash, RoundNumbersMayMoveByALastBit) {
+  for (const float value : {0.0F, 0.25F, 0.5F, 1.0F, 1.0F / 4096, 1.0F / 8192}) {
+    core::Image image(1, 1);
+    image.rgba.assign(4, value);
+    core::Image other = image;
+    other.rgba.assign(4, std::nextafter(value, -1.0F));
+    EXPECT_EQ(reference_hash(image), reference_hash(other)) << value;
+  }
+}
+
+}  // namespace
+}  // namespace triptych::judge

@@ -1,0 +1,154 @@
+// What the gate says of times: shown, and decided by on request.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fixture.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using core::ExitCode;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class TimingGateTest : public JudgeTest {
+ protected:
+  TimingGateTest() { request_.checks = {Check::timing}; }
+
+  // Every time by a factor, of one configuration or of all.
+  static Tweak times(double factor, const std::string& configuration = {}) {
+    return [=](record::Record& record, core::Image&) {
+      if (!configuration.empty() && record.configuration != configuration) return;
+      for (double& ns : record.wall_ns) ns *= factor;
+    };
+  }
+  static Tweak by_the_device(const Tweak& tweak) {
+    return [tweak](record::Record& record, core::Image& image) {
+      tweak(record, image);
+      record.device_ns = record.wall_ns;
+      record.device_clock_trusted = true;
+    };
+  }
+};
+
+TEST_F(TimingGateTest, TwiceAsSlowIsShownAndDecidesNothing) {
+  accept_first();
+  add_run("b", times(2, bricks_));
+  const GateResult result = gate("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  EXPECT_EQ(with(result, Verdict::pass, Check::timing).size(), 12U);
+  const auto advice = with(result, Verdict::advisory);
+  ASSERT_EQ(advice.size(), 3U) << text(result);  // one a device
+  EXPECT_THAT(advice[0].message, AllOf(HasSubstr("median of 4 configurations"),
+                                       HasSubstr(" in " + bricks_), HasSubstr("--times")));
+  EXPECT_NEAR(advice[0].numbers.at("ratio"), 1, 0.02);
+  EXPECT_NEAR(advice[0].numbers.at("worst_ratio"), 2, 0.05);
+}
+
+TEST_F(TimingGateTest, EveryRatioIsAmongTheNumbers) {
+  accept_first();
+  add_run("b", times(1.5));
+  for (const Finding& each : with(gate("b"), Verdict::pass, Check::timing)) {
+    EXPECT_NEAR(each.numbers.at("ratio"), 1.5, 0.04);
+    // Of two runs with 0.5 % scatter at least.
+    EXPECT_GE(each.numbers.at("half_width"), 1.96 * std::hypot(0.005, 0.005) - 1e-9);
+    EXPECT_LT(each.numbers.at("half_width"), 0.06);
+    EXPECT_NEAR(each.numbers.at("median_ns") / each.numbers.at("baseline_ns"), 1.5, 0.04);
+  }
+}
+
+TEST_F(TimingGateTest, OnRequestASlowerConfigurationIsARegression) {
+  accept_first();
+  request_.times_decide = true;
+  add_run("b", times(1.2, bricks_));
+  const GateResult result = gate("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::regression);
+  const auto slower = with(result, Verdict::regression);
+  ASSERT_EQ(slower.size(), 3U) << text(result);
+  EXPECT_EQ(slower[0].configuration, bricks_);
+  EXPECT_THAT(slower[0].message, HasSubstr("work (samples) +0.0 %, time per unit of work +"));
+  add_run("c", times(0.8, bricks_));
+  EXPECT_EQ(gate("c").exit_code(), ExitCode::pass);
+  EXPECT_EQ(with(gate("c"), Verdict::improved).size(), 3U);
+}
+
+// Exactly at the bound: the ratio less its interval has to exceed 2 %.
+TEST_F(TimingGateTest, WhatTheIntervalLeavesOpenIsNoRegression) {
+  const auto steady = [](double factor) {
+    return
+        [factor](record::Record& record, core::Image&) { record.wall_ns.assign(9, 1e6 * factor); };
+  };
+  const double half_width = 1.96 * std::hypot(0.005, 0.005);
+  accept_first(steady(1));
+  request_.times_decide = true;
+  add_run("within", steady(std::exp(std::log(1.02) + half_width - 1e-6)));
+  EXPECT_EQ(gate("within").exit_code(), ExitCode::pass) << text(gate("within"));
+  add_run("beyond", steady(std::exp(std::log(1.02) + half_width + 1e-6)));
+  EXPECT_EQ(gate("beyond").exit_code(), ExitCode::regression);
+}
+
+TEST_F(TimingGateTest, SpreadIsOfTheFramesAndOfTheClock) {
+  EXPECT_DOUBLE_EQ(log_spread({100, 100, 100}), 0.005);
+  EXPECT_NEAR(log_spread({90, 95, 100, 105, 110}), 1.4826 * std::log(105.0 / 100), 1e-2);
+  // A coarse clock: all but one frame take the same number of its steps.
+  EXPECT_NEAR(log_spread({10, 10, 10, 10, 11}), std::log(1.1), 1e-12);
+}
+
+TEST_F(TimingGateTest, ClocksAreNotMixed) {
+  accept_first(by_the_device(times(1)));
+  add_run("wall", times(1));
+  EXPECT_TRUE(with(gate("wall"), Verdict::pass, Check::timing).empty());
+  const auto advice = with(gate("wall"), Verdict::advisory);
+  ASSERT_EQ(advice.size(), 3U) << text(gate("wall"));
+  EXPECT_THAT(advice[0].message, HasSubstr("4 configurations"));
+  EXPECT_THAT(advice[0].message, HasSubstr("by another clock"));
+  request_.times_decide = true;
+  EXPECT_EQ(gate("wall").exit_code(), ExitCode::cannot_judge);
+}
+
+// By the wall clock everything is timed.
+TEST_F(TimingGateTest, AStoredWallTimeIsComparedByTheWall) {
+  accept_first();
+  add_run("b", [](record::Record& record, core::Image& image) {
+    by_the_device(times(1))(record, image);
+    for (double& ns : record.device_ns) ns /= 3;
+  });
+  for (const Finding& each : with(gate("b"), Verdict::pass, Check::timing)) {
+    EXPECT_NEAR(each.numbers.at("ratio"), 1, 0.03);
+  }
+  EXPECT_EQ(with(gate("b"), Verdict::pass, Check::timing).size(), 12U);
+}
+
+TEST_F(TimingGateTest, ADeviceWithoutStoredTimesIsOneLine) {
+  accept_first();
+  driver_versions_["vulkan:lavapipe"] = "23.0";
+  add_run("b");
+  const auto unknown = [](const std::vector<Finding>& findings) {
+    return std::ranges::count_if(findings, [](const Finding& finding) {
+      return finding.message.starts_with("no stored times of this device");
+    });
+  };
+  EXPECT_EQ(unknown(with(gate("b"), Verdict::advisory)), 1) << text(gate("b"));
+  request_.times_decide = true;
+  EXPECT_EQ(unknown(with(gate("b"), Verdict::cannot_judge)), 1) << text(gate("b"));
+}
+
+TEST_F(TimingGateTest, NewDeviceCodeIsNamed) {
+  accept_first();
+  add_run("b", [](record::Record& record, core::Image&) { record.kernel_hash = "new"; });
+  EXPECT_THAT(with(gate("b"), Verdict::pass, Check::timing).at(0).message,
+              HasSubstr("the device code changed"));
+}
+
+TEST_F(TimingGateTest, NoTimeIsNoPass) {
+  accept_first();
+  add_run("b", [](record::Record& record, core::Image&) { record.wall_ns.clear(); });
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge);
+}
+
+}  // namespace
+}  // namespace triptych::judge
