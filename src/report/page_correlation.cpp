@@ -1,13 +1,9 @@
-// How the run's devices keep step with others: a scatter plot per pair, the line, what stands out.
+// How the run's devices keep step with others: a scatter plot per pair and its line.
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
-#include <set>
 
-#include "judge/gate/correlation_pairs.hpp"
 #include "report/correlation_chart.hpp"
 #include "report/html.hpp"
 #include "report/page_frame.hpp"
@@ -16,165 +12,37 @@
 namespace triptych::report {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
 using judge::CorrelationPair;
 
-constexpr std::size_t shown_levels = 12;
-
-std::string percent(double effect) {
-  return fmt::format("{:+.1f} %", 100 * std::expm1(effect));
-}
-
-std::string p_value(double p) {
-  return fmt::format("{:.2g}", p);
-}
-
-std::string fit_table(const CorrelationPair& pair) {
-  const judge::Correlation& result = pair.result;
-  Rows rows{{"configurations", "anchors", "Pearson’s r of times", "of ln t", "α", "β", "residuals",
-             "one configuration shows from"}};
-  rows.push_back({fmt::format("{}", result.configurations), fmt::format("{}", result.anchors),
-                  fmt::format("{:.4f}", result.r), fmt::format("{:.4f}", result.rho),
-                  fmt::format("{:.3f} ± {:.3f}", result.line.intercept, result.intercept_error),
-                  fmt::format("{:.3f} ± {:.3f}", result.line.slope, result.slope_error),
-                  percent(result.scale), result.admitted() ? percent(result.smallest_effect) : ""});
-  return table(rows);
-}
-
-std::string admission(const CorrelationPair& pair) {
-  if (pair.result.admitted()) {
-    const std::string beside =
-        pair.result.line_beside.empty()
-            ? ""
-            : fmt::format(" The line is beside an offset of {}.", escape(pair.result.line_beside));
-    std::string_view role = "<b class=\"pass\">Admitted</b>: this baseline judges the device.";
-    if (!pair.decides) {
-      role =
-          "<b class=\"pass\">Admitted</b>, but another stored device correlates better and "
-          "decides.";
-    }
-    if (pair.within_run) role = "The two are alike enough that one could judge the other.";
-    return fmt::format("<p>{}{}</p>", role, beside);
-  }
-  std::string text = fmt::format("<p><b class=\"cannot_judge\">Refused</b>: {}",
-                                 escape(fmt::format("{}", fmt::join(pair.result.refusals, "; "))));
-  if (pair.unlike_clocks + pair.unlike_anchors > 0) {
-    text += fmt::format("; {} configurations and {} anchors were timed by other kinds of clocks",
-                        pair.unlike_clocks, pair.unlike_anchors);
-  }
-  return text + ".</p>";
-}
-
-std::string work_text(const judge::CorrelationCase& each, double residual) {
-  if (!each.work) return "";
-  return fmt::format("{} {}, time per unit {}", escape(each.work->unit),
-                     percent(each.work->log_ratio), percent(residual - each.work->log_ratio));
-}
-
-std::string outlier_table(const CorrelationPair& pair) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < pair.cases.size(); ++i) {
-    const auto& judgement = pair.result.judgements[i];
-    if (judgement.slower || judgement.faster) order.push_back(i);
-  }
-  if (order.empty()) return {};
-  std::ranges::stable_sort(order, std::greater{},
-                           [&](std::size_t i) { return pair.result.judgements[i].residual; });
-  Rows rows{
-      {"configuration", "time", "deviation", "z", "q", "share of all deviation", "more work?", ""}};
-  for (const std::size_t i : order) {
-    const auto& each = pair.cases[i];
-    const auto& judgement = pair.result.judgements[i];
-    rows.push_back({escape(each.configuration), duration(std::exp(each.log_time_b)),
-                    percent(judgement.residual), fmt::format("{:.1f}", judgement.z),
-                    judgement.slower ? p_value(judgement.q) : "",
-                    fmt::format("{:.0f} %", 100 * judgement.share),
-                    work_text(each, judgement.residual),
-                    judgement.standing ? "as when accepted" : ""});
-  }
-  return "<h5>Off the line</h5>" + table(rows);
-}
-
-std::string level_table(const CorrelationPair& pair) {
-  if (pair.result.levels.empty()) return {};
-  Rows rows{{"factor level", "configurations", "against the others", "standard error", "q",
-             "share of all deviation", "would have shown from", ""}};
-  for (const judge::LevelEffect& level : pair.result.levels) {
-    if (rows.size() > shown_levels) break;
-    std::string name = fmt::format("{}={}", level.factor, level.level);
-    for (const std::string& alias : level.aliases) name += ", " + alias;
-    rows.push_back({escape(name), fmt::format("{}", level.size), percent(level.effect),
-                    fmt::format("{:.1f} %", 100 * level.standard_error), p_value(level.q),
-                    fmt::format("{:.0f} %", 100 * level.share), percent(level.smallest_effect),
-                    level.standing ? "as when accepted"
-                    : level.slower ? "<b class=\"regression\">slower</b>"
-                                   : ""});
-  }
-  return "<h5>Factor levels</h5>" + table(rows);
-}
-
-std::string global_text(const CorrelationPair& pair) {
-  const judge::GlobalShift& global = pair.result.global;
-  if (global.groups < 2 || !pair.result.admitted()) return {};
-  const std::string what =
-      global.since_acceptance
-          ? fmt::format(
-                "changed by {} ± {:.1f} % since the device was accepted (the lower quartile of its "
-                "configurations), beside {} anchors",
-                percent(global.delta), 100 * std::expm1(global.standard_error), global.groups)
-          : fmt::format("lies {} ± {:.1f} % from the line of {} groups of anchors",
-                        percent(global.delta), 100 * std::expm1(global.standard_error),
-                        global.groups);
-  return fmt::format(
-      "<p>The program as a whole {} (p = {}); a slowdown of everything would have shown from {} "
-      "on.</p>",
-      what, p_value(global.p), percent(global.smallest_effect));
+std::string line_table(const judge::CorrelationLine& line) {
+  return table(
+      {{"configurations", "Pearson’s r", "of logarithms", "α", "β", "residuals"},
+       {fmt::format("{}", line.configurations), fmt::format("{:.4f}", line.pearson),
+        fmt::format("{:.4f}", line.rho), fmt::format("{:.3f}", line.intercept),
+        fmt::format("{:.3f}", line.slope), fmt::format("{:.1f} %", 100 * std::expm1(line.scale))}});
 }
 
 std::string pair_part(const PlanData& plan, const CorrelationPair& pair, std::size_t index) {
-  std::string text =
-      fmt::format("<h4>{} against {}{}</h4><p class=\"system\">{}</p>", escape(pair.device),
-                  pair.of_itself ? "its own history" : escape(pair.other),
-                  pair.within_run ? ", of the same run" : "", escape(pair.other_key));
-  text += admission(pair);
-  if (pair.cases.empty()) return text;
-  const std::string id = fmt::format("{}-correlation{}", plan.anchor, index);
-  text += chart(id, correlation_chart(pair));
-  return text + fit_table(pair) + global_text(pair) + outlier_table(pair) + level_table(pair);
+  std::string text = fmt::format("<h4>{} of {} against {}</h4>", pair.signal, escape(pair.device_b),
+                                 escape(pair.device_a));
+  if (!pair.line.admitted()) text += fmt::format("<p>{}.</p>", escape(pair.line.refusal));
+  if (pair.points.empty()) return text;
+  text += chart(fmt::format("{}-correlation{}", plan.anchor, index), correlation_chart(pair));
+  return text + line_table(pair.line);
 }
 
 }  // namespace
 
 std::string correlation_section(const PlanData& plan) {
-  std::string stored;
-  std::string farther;
-  std::string consistency;
+  std::string text;
   std::size_t index = 0;
-  const std::set<std::string> decided = judge::decided_devices(plan.verdict->correlations);
   for (const CorrelationPair& pair : plan.verdict->correlations) {
-    const bool aside = judge::is_beside_what_decides(pair, decided);
-    (pair.within_run ? consistency : aside ? farther : stored) += pair_part(plan, pair, index++);
+    text += pair_part(plan, pair, index++);
   }
   if (index == 0) return {};
-  std::string text =
-      "<h3>Other devices</h3><p>Each point is a configuration: its time on another device across, "
-      "on this one upwards. A triangle is an anchor, frozen work that tells a slower device from a "
-      "slower program; the dashed line is the anchors’ own. Beside it what is left of each beyond "
-      "the line, without anchors that lie outside; above the dotted rule one configuration alone "
-      "would show.</p>" +
-      stored;
-  if (!farther.empty()) {
-    text += fmt::format(
-        "<details><summary>What stored devices that do not decide say</summary>{}</details>\n",
-        farther);
-  }
-  if (!consistency.empty()) {
-    text += fmt::format(
-        "<details><summary>The devices of this run among each other: shown, not "
-        "judged</summary>{}</details>\n",
-        consistency);
-  }
-  return text;
+  return "<h3>Other devices</h3><p>Each point is a configuration: on one device across, on the "
+         "other upwards.</p>" +
+         text;
 }
 
 }  // namespace triptych::report

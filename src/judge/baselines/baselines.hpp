@@ -72,6 +72,19 @@ struct StoredBits {
   std::string kernel_hash;
 };
 
+struct StoredCost {
+  record::Counts frame;
+  record::Counts prepare;
+};
+
+// All that is stored of a driver version's cost.
+struct DriverCost {
+  std::string device;          // id
+  std::string driver_version;  // as the driver gives it
+  std::string counted_by;
+  std::map<std::string, StoredCost> configurations;
+};
+
 // Counter → device id → value.
 using StoredCounters = std::map<std::string, std::map<std::string, std::uint64_t>>;
 
@@ -114,6 +127,8 @@ class Baselines {
   // looked.
   [[nodiscard]] std::map<std::string, std::string> statistics_dialect(
       const std::string& driver) const;
+  // By Device::statistics_key(). Nothing is read yet.
+  [[nodiscard]] std::map<std::string, DriverCost> cost_of_all_drivers() const { return {}; }
   [[nodiscard]] std::vector<StoredTiming> timings(const record::Device& device,
                                                   const std::string& configuration) const;
   // Of every device that was ever accepted, by key.

@@ -3,339 +3,290 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
-#include <string>
 
-#include "judge/gate/correlation_pairs.hpp"
+#include "judge/correlation/line.hpp"
+#include "judge/gate/cost_by_device.hpp"
 #include "judge/gate/run_view.hpp"
-#include "judge/timing/anchor.hpp"
-#include "judge/timing/model.hpp"
 
 namespace triptych::judge {
 namespace {
 
-using Model = CorrelationModel;
+constexpr double rounded = 1e-5;  // of ln, in texts
 
-double percent(double effect) {
-  return 100 * std::expm1(effect);
+std::string percent(double log_ratio) {
+  return fmt::format("{:+.3g} %", 100 * std::expm1(log_ratio));
 }
 
-std::string level_name(const LevelEffect& level) {
-  std::string name = fmt::format("{}={}", level.factor, level.level);
-  if (!level.aliases.empty()) name += fmt::format(" (= {})", fmt::join(level.aliases, ", "));
-  return name;
+const record::Record& any_record(const DeviceCost& device) {
+  return *device.configurations.begin()->second.record;
 }
 
-// Id and driver, of a key that goes on with what else times depend on.
-std::string id_and_driver(const std::string& key) {
-  return key.substr(0, key.find("; API "));
+Finding about_device(const DeviceCost& device, Verdict verdict, std::string message) {
+  Finding finding =
+      finding_about(any_record(device), Check::correlation, verdict, std::move(message));
+  finding.configuration.clear();
+  return finding;
 }
 
-bool is_of_another_processor(const CorrelationPair& pair, const RunView& view) {
-  const auto processor = [](const std::string& key) {
-    const auto at = std::min(key.find("; CPU "), key.find("; GPU "));
-    return at == std::string::npos ? std::string() : key.substr(at, key.find(';', at + 1) - at);
+// --- accepted devices: stored residuals ----------------------------------------------------------
+
+// A device's configurations that were held against some other device, and what of them moved.
+struct Moved {
+  const DeviceCost* device = nullptr;
+  std::vector<const record::Record*> records;
+  std::vector<double> by;        // of each; 0: it did not, or no pair's residual shows it
+  std::set<std::string> held;    // names of the devices that it was held against
+  std::set<std::string> beside;  // of those whose residual with this one moved
+};
+
+Repeatability repeatability_of(const record::Record& record) {
+  return repeatability(record.device, record.technique);
+}
+
+CostChange change_of(const ConfigurationCost& cost) {
+  return change_of(*cost.stored, cost.now);
+}
+
+// Accepted devices that were counted by the same: those of the run, or what is stored of others
+// where the run has none.
+std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
+                                           const std::vector<DeviceCost>& devices) {
+  std::vector<const DeviceCost*> here;
+  std::vector<const DeviceCost*> stored;
+  for (const DeviceCost& other : devices) {
+    if (&other == &device || other.counted_by != device.counted_by || !other.accepted()) continue;
+    (other.measured ? here : stored).push_back(&other);
+  }
+  return here.empty() ? stored : here;
+}
+
+// The residual r of the two left r0. What is not in the run is what was stored of it, exactly.
+bool left_residual(const ConfigurationCost& own, const ConfigurationCost& other) {
+  const Repeatability none{0, 0};
+  return residual_moved(change_of(other), other.record ? repeatability_of(*other.record) : none,
+                        change_of(own), repeatability_of(*own.record));
+}
+
+// A device is named for what itself changed since it was accepted.
+Moved movements_of(const DeviceCost& device, const std::vector<DeviceCost>& devices) {
+  Moved moved{&device, {}, {}, {}, {}};
+  const std::vector<const DeviceCost*> partners = partners_of(device, devices);
+  for (const auto& [configuration, own] : device.configurations) {
+    if (!own.stored) continue;
+    const double change = moved_by(change_of(own), repeatability_of(*own.record));
+    double shown = 0;
+    bool common = false;
+    for (const DeviceCost* other : partners) {
+      const auto there = other->configurations.find(configuration);
+      if (there == other->configurations.end() || !there->second.stored) continue;
+      common = true;
+      moved.held.insert(other->name);
+      if (change == 0 || !left_residual(own, there->second)) continue;
+      shown = change;
+      moved.beside.insert(other->name);
+    }
+    if (!common) continue;
+    moved.records.push_back(own.record);
+    moved.by.push_back(shown);
+  }
+  return moved;
+}
+
+std::string subject_text(const Movement& movement) {
+  const std::size_t n = movement.members.size();
+  if (movement.of == Movement::Of::everything) return fmt::format("everything ({}) by ", n);
+  if (movement.of == Movement::Of::level) return fmt::format("{} ({}) by ", movement.level, n);
+  return {};
+}
+
+std::string range_text(const Movement& movement) {
+  if (std::abs(movement.most - movement.least) <= rounded) return {};
+  return fmt::format(", {} to {}", percent(movement.least), percent(movement.most));
+}
+
+Finding finding_of(const Moved& moved, const Movement& movement) {
+  const bool dearer = movement.log_ratio > 0;
+  std::string message =
+      fmt::format("{}{} instructions against what was accepted{}; off the stored residuals with {}",
+                  subject_text(movement), percent(movement.log_ratio), range_text(movement),
+                  fmt::join(moved.beside, ", "));
+  const record::Record& first = *moved.records[movement.members.front()];
+  Finding finding =
+      finding_about(first, Check::correlation, dearer ? Verdict::regression : Verdict::improved,
+                    std::move(message));
+  if (movement.of != Movement::Of::configuration) {
+    finding.configuration.clear();
+    finding.subject = movement.of == Movement::Of::level ? movement.level : "everything";
+  }
+  set_number(finding, "ratio", std::exp(movement.log_ratio));
+  set_number(finding, "configurations", static_cast<double>(movement.members.size()));
+  return finding;
+}
+
+void judge_accepted(const Moved& moved, std::vector<Finding>& findings) {
+  std::vector<Factors> factors;
+  for (const record::Record* record : moved.records) factors.push_back(factors_of(*record));
+  const std::vector<Movement> movements = explain(moved.by, factors);
+  for (const Movement& movement : movements) findings.push_back(finding_of(moved, movement));
+  if (!movements.empty()) return;
+  findings.push_back(
+      about_device(*moved.device, Verdict::pass,
+                   fmt::format("the residuals of {} configurations with {} are as stored",
+                               moved.records.size(), fmt::join(moved.held, ", "))));
+}
+
+// --- new devices: the line of an accepted one ----------------------------------------------------
+
+std::string fit_text(const CorrelationPair& pair) {
+  const CorrelationLine& line = pair.line;
+  return fmt::format(
+      "{} configurations, ln cost = {:.3f} + {:.3f} ln cost there, scatter {:.2g} %, r = {:.3f}",
+      line.configurations, line.intercept, line.slope, 100 * std::expm1(line.scale), line.pearson);
+}
+
+// Of a new device, which accepted one can judge it: the line with the least scatter, the admitted
+// before the others; nullptr: none is stored.
+const CorrelationPair* nearest(const DeviceCost& device,
+                               const std::vector<CorrelationPair>& pairs) {
+  const CorrelationPair* best = nullptr;
+  const auto is_nearer = [](const CorrelationPair& a, const CorrelationPair& b) {
+    if (a.line.admitted() != b.line.admitted()) return a.line.admitted();
+    return a.line.scale < b.line.scale;
   };
-  return processor(pair.other_key) != processor(view.devices.at(pair.device).key());
+  for (const CorrelationPair& pair : pairs) {
+    if (!pair.new_device || pair.device_b != device.name) continue;
+    if (best == nullptr || is_nearer(pair, *best)) best = &pair;
+  }
+  return best;
 }
 
-// What a person calls the other device.
-std::string name_of_other(const CorrelationPair& pair, const RunView& view) {
-  if (pair.of_itself) return "its own history";
-  return id_and_driver(pair.other_key) +
-         (is_of_another_processor(pair, view) ? " on another processor" : "");
+Finding finding_of(const DeviceCost& device, const CorrelationPair& pair, const OffTheLine& off) {
+  const std::string by =
+      fmt::format("{} ± {:.2g} % instructions off the line of {}, q = {:.2g}", percent(off.effect),
+                  100 * std::expm1(off.error), pair.device_a, off.q);
+  Finding finding = about_device(device, Verdict::advisory, {});
+  if (off.level.empty()) {
+    finding.configuration = pair.points[off.members.front()].configuration;
+    finding.message = by;
+  } else {
+    finding.subject = off.level;
+    finding.message =
+        fmt::format("{} ({}): {} against the rest", off.level, off.members.size(), by);
+  }
+  finding.message += "; this device was never accepted: its character, or a slower program";
+  set_number(finding, "ratio", std::exp(off.effect));
+  set_number(finding, "standard_error", off.error);
+  set_number(finding, "q", off.q);
+  set_number(finding, "scale", pair.line.scale);
+  return finding;
 }
 
-// The same among several: the driver only where it is not that of this run.
-std::string short_name_of_other(const CorrelationPair& pair, const RunView& view) {
-  const auto here = view.devices.find(pair.other);
-  const std::string name = id_and_driver(pair.other_key);
-  const bool same = here != view.devices.end() && id_and_driver(here->second.key()) == name;
-  return fmt::format("{} ({}ρ = {:.4f})", same ? pair.other : name,
-                     is_of_another_processor(pair, view) ? "another processor, " : "",
-                     pair.result.rho);
+std::vector<OffTheLine> off_the_line_of(const DeviceCost& device, const CorrelationPair& pair) {
+  std::vector<Factors> factors;
+  for (const CorrelationPoint& point : pair.points) {
+    factors.push_back(factors_of(*device.configurations.at(point.configuration).record));
+  }
+  return off_the_line(pair.points, factors);
 }
 
-// What is slower by another device, in a few words; empty where nothing is.
-std::string slower_text(const Correlation& result) {
-  std::vector<std::string> slower;
-  for (const LevelEffect& level : result.levels) {
-    if (!level.slower || level.standing) continue;
-    slower.push_back(fmt::format("{} {:+.1f} %", level_name(level), percent(level.effect)));
+void judge_new(const DeviceCost& device, std::vector<CorrelationPair>& pairs,
+               std::vector<Finding>& findings) {
+  const CorrelationPair* found = nearest(device, pairs);
+  if (found == nullptr || !found->line.admitted()) {
+    const std::string reason =
+        found == nullptr ? fmt::format("no other device's cost by {} is stored", device.counted_by)
+                         : fmt::format("{}: {}", found->device_a, found->line.refusal);
+    findings.push_back(
+        about_device(device, Verdict::advisory, fmt::format("cannot correlate: {}", reason)));
+    return;
   }
-  const auto configurations = std::ranges::count_if(
-      result.judgements,
-      [](const ConfigurationJudgement& each) { return each.slower && !each.standing; });
-  if (configurations > 0) {
-    slower.push_back(
-        fmt::format("{} configuration{}", configurations, configurations == 1 ? "" : "s"));
+  CorrelationPair& pair = pairs[static_cast<std::size_t>(found - pairs.data())];
+  const std::vector<OffTheLine> all = off_the_line_of(device, pair);
+  for (const OffTheLine& off : all) {
+    findings.push_back(finding_of(device, pair, off));
+    if (off.level.empty()) pair.points[off.members.front()].outlier = true;
   }
-  if (result.global.slower) slower.emplace_back("the program as a whole");
-  return fmt::format("{}", fmt::join(slower, ", "));
+  if (!all.empty()) return;
+  findings.push_back(
+      about_device(device, Verdict::advisory,
+                   fmt::format("as {} lets expect: {}", pair.device_a, fit_text(pair))));
 }
 
-// Of one device, what all stored ones say that do not decide, in one line: their own character is
-// in it as well. Where nothing is slower by any of them there is nothing to say.
-class AsideReport {
- public:
-  void add(const CorrelationPair& pair, const std::string& other) {
-    if (!pair.result.admitted()) {
-      refused_.push_back(other);
-      return;
-    }
-    const std::string slower = slower_text(pair.result);
-    if (slower.empty()) {
-      expected_.push_back(other);
-    } else {
-      slower_.push_back(fmt::format("by {}: {}", other, slower));
-    }
-  }
+// --- pairs ---------------------------------------------------------------------------------------
 
-  [[nodiscard]] bool has_news() const { return !slower_.empty(); }
-
-  [[nodiscard]] std::string message() const {
-    std::vector<std::string> parts{fmt::format("slower {}", fmt::join(slower_, "; "))};
-    if (!expected_.empty())
-      parts.push_back(fmt::format("as {} let expect", fmt::join(expected_, ", ")));
-    if (!refused_.empty())
-      parts.push_back(fmt::format("cannot be judged by {}", fmt::join(refused_, ", ")));
-    return fmt::format("beside what decides: {}", fmt::join(parts, "; "));
-  }
-
- private:
-  std::vector<std::string> slower_;
-  std::vector<std::string> expected_;
-  std::vector<std::string> refused_;
-};
-
-// A pair that decides, or one that would if it could.
-class PairReport {
- public:
-  PairReport(const RunView& view, const CorrelationPair& pair, std::vector<Finding>& findings)
-      : view_(view),
-        pair_(pair),
-        result_(pair.result),
-        other_(name_of_other(pair, view)),
-        findings_(findings) {}
-
-  void run() {
-    if (!result_.admitted()) {
-      add(Verdict::advisory, fmt::format("cannot be judged by {}: {}; {}", other_,
-                                         fmt::join(result_.refusals, "; "), remedy()));
-      add_numbers();
-      return;
-    }
-    for (std::size_t i = 0; i < pair_.cases.size(); ++i) report_configuration(i);
-    for (const LevelEffect& level : result_.levels) report_level(level);
-    report_global();
-    if (slower_) return;
-    add(is_few() ? Verdict::advisory : Verdict::pass,
-        fmt::format("as {} lets expect: {}{}", other_, fit_text(), few_text()));
-    add_numbers();
-  }
-
- private:
-  void add(Verdict verdict, std::string message) {
-    findings_.push_back(finding_about(view_, view_.devices.at(pair_.device), Check::correlation,
-                                      verdict, std::move(message)));
-  }
-
-  // As with a device's own history, few stored runs advise only, whatever they say: they do not
-  // tell how the other device's times scatter from day to day.
-  [[nodiscard]] bool is_few() const { return pair_.stored_runs < TimingModel::least_runs; }
-
-  [[nodiscard]] std::string few_text() const {
-    if (!is_few()) return {};
-    return fmt::format("; advice only: {} of {} stored runs that a verdict needs",
-                       pair_.stored_runs, TimingModel::least_runs);
-  }
-
-  // What is slower; `what` of the device, with a blank behind it, or nothing.
-  void add_slower(const std::string& what, bool decides, std::string message) {
-    slower_ = slower_ || decides;
-    if (decides) message += few_text();
-    add(decides && !is_few() ? Verdict::regression : Verdict::advisory, std::move(message));
-    findings_.back().subject = what + "by " + pair_.other_key;
-  }
-
-  [[nodiscard]] std::string fit_text() const {
-    return fmt::format(
-        "{} configurations, {} anchors, r = {:.3f}, ln t_B = {:.3f} + {:.3f} ln t_A{}, residuals "
-        "{:.1f} %; one configuration shows from {:+.0f} % on",
-        result_.configurations, result_.anchors, result_.r, result_.line.intercept,
-        result_.line.slope, which_line(), percent(result_.scale), percent(result_.smallest_effect));
-  }
-
-  [[nodiscard]] std::string which_line() const {
-    if (result_.line_of_acceptance)
-      return " (when this device was accepted; today there is no line)";
-    return result_.line_beside.empty() ? "" : fmt::format(" (beside {})", result_.line_beside);
-  }
-
-  // What would help depends on what is missing.
-  [[nodiscard]] std::string remedy() const {
-    if (result_.anchors < Model::least_anchors && pair_.unlike_anchors > 0) {
-      return fmt::format(
-          "{} more anchors were timed by other kinds of clocks there; accept this device's own "
-          "baseline with {}",
-          pair_.unlike_anchors, view_.accept_command());
-    }
-    if (result_.anchors < Model::least_anchors) {
-      return fmt::format(
-          "measure anchors into the same store with triptych run {0}, and accept them{1} with "
-          "triptych accept {0} --reason TEXT",
-          anchors_plan, pair_.of_itself ? "" : " on the other device");
-    }
-    if (result_.configurations < Model::least_configurations) {
-      return pair_.unlike_clocks > 0
-                 ? fmt::format(
-                       "{} more were timed by other kinds of clocks; accept this device's "
-                       "own baseline with {}",
-                       pair_.unlike_clocks, view_.accept_command())
-                 : fmt::format("use a plan with more configurations, or {}",
-                               view_.accept_command());
-    }
-    if (pair_.of_itself) {
-      return "compare builds here with " + view_.compare_command();
-    }
-    return fmt::format(
-        "the devices are too unlike; accept this device's own baseline with {}, or "
-        "compare builds here with {}",
-        view_.accept_command(), view_.compare_command());
-  }
-
-  void report_configuration(std::size_t index) {
-    const ConfigurationJudgement& judgement = result_.judgements[index];
-    if (!judgement.slower) return;
-    const CorrelationCase& each = pair_.cases[index];
-    add_slower(
-        {}, !judgement.standing,
-        fmt::format("{:.4g} ms, {:+.1f} % against what {} lets expect, z = {:.1f}, q = {:.2g}, "
-                    "{:.0f} % of all deviation; {}",
-                    1e-6 * std::exp(each.log_time_b), percent(judgement.residual), other_,
-                    judgement.z, judgement.q, 100 * judgement.share,
-                    why_text(each.work, judgement.residual)));
-    Finding& finding = findings_.back();
-    finding.configuration = each.configuration;
-    if (judgement.standing) finding.message += "; as when this device was accepted";
-    set_number(finding, "median_ns", std::exp(each.log_time_b));
-    set_number(finding, "ratio", std::exp(judgement.residual));
-    set_number(finding, "z", judgement.z);
-    set_number(finding, "p", judgement.p);
-    set_number(finding, "q", judgement.q);
-    set_number(finding, "share", judgement.share);
-    if (each.work) set_number(finding, "work_ratio", std::exp(each.work->log_ratio));
-  }
-
-  // A few percent on a level may be how the other device is made: only what is also large decides.
-  void report_level(const LevelEffect& level) {
-    if (!level.slower) return;
-    const bool decides = !level.standing && Model::is_worth_telling(level.effect);
-    std::string message = fmt::format(
-        "{}: {} configurations {:+.1f} % ± {:.1f} % against the others, as {} lets expect, q = "
-        "{:.2g}, {:.0f} % of all deviation",
-        level_name(level), level.size, percent(level.effect), percent(level.standard_error), other_,
-        level.q, 100 * level.share);
-    // A level that holds more than half has the line itself.
-    if (result_.line_beside == level.factor + "=" + level.level &&
-        2 * level.size <= result_.configurations) {
-      message += "; the line is that of the others";
-    }
-    if (level.standing) {
-      message += "; as when this device was accepted";
-    } else if (!decides) {
-      message +=
-          fmt::format("; less than {:.0f} % may be the devices' character: settle it with {}",
-                      100 * (Model::least_effect - 1), view_.compare_command());
-    }
-    add_slower(fmt::format("{}={} ", level.factor, level.level), decides, std::move(message));
-    set_number(findings_.back(), "ratio", std::exp(level.effect));
-    set_number(findings_.back(), "standard_error", level.standard_error);
-    set_number(findings_.back(), "q", level.q);
-    set_number(findings_.back(), "share", level.share);
-    set_number(findings_.back(), "smallest_effect", level.smallest_effect);
-  }
-
-  void report_global() {
-    const GlobalShift& global = result_.global;
-    if (!global.slower) return;
-    const std::string message =
-        global.since_acceptance
-            ? fmt::format(
-                  "the whole program became {:+.1f} % ± {:.1f} % slower since this device "
-                  "was accepted (three quarters of its configurations that much or more), beside "
-                  "{} anchors",
-                  percent(global.delta), percent(global.standard_error), global.groups)
-            : fmt::format(
-                  "the whole program is {:+.1f} % ± {:.1f} % slower than {} lets expect, "
-                  "by {} groups of anchors",
-                  percent(global.delta), percent(global.standard_error), other_, global.groups);
-    add_slower("program ", true,
-               fmt::format("{}, p = {:.2g}: the program, not the device", message, global.p));
-    add_numbers();
-  }
-
-  void add_numbers() {
-    Finding& finding = findings_.back();
-    set_number(finding, "configurations", static_cast<double>(result_.configurations));
-    set_number(finding, "anchors", static_cast<double>(result_.anchors));
-    set_number(finding, "r", result_.r);
-    set_number(finding, "rho", result_.rho);
-    set_number(finding, "intercept", result_.line.intercept);
-    set_number(finding, "slope", result_.line.slope);
-    set_number(finding, "scale", result_.scale);
-    set_number(finding, "anchor_intercept", result_.anchor_intercept);
-    set_number(finding, "smallest_effect", result_.smallest_effect);
-    if (result_.global.groups > 1) {
-      set_number(finding, "global_delta", result_.global.delta);
-      set_number(finding, "global_standard_error", result_.global.standard_error);
-      set_number(finding, "global_p", result_.global.p);
-      set_number(finding, "global_smallest_effect", result_.global.smallest_effect);
+// Two accepted devices of the run, or one of the run with what is accepted. Two new ones are shown.
+std::vector<CorrelationPair> pairs_by_cost(const std::vector<DeviceCost>& devices) {
+  std::vector<CorrelationPair> pairs;
+  for (std::size_t a = 0; a < devices.size(); ++a) {
+    for (std::size_t b = a + 1; b < devices.size(); ++b) {
+      if (devices[a].counted_by != devices[b].counted_by) continue;
+      const bool b_is_known = devices[b].accepted() && !devices[a].accepted();
+      if (!devices[a].measured) continue;  // then neither is b
+      // What is not in the run is seen beside a new device only.
+      if (!devices[b].measured && !b_is_known) continue;
+      pairs.push_back(b_is_known ? pair_of(devices[b], devices[a])
+                                 : pair_of(devices[a], devices[b]));
     }
   }
+  return pairs;
+}
 
-  const RunView& view_;
-  const CorrelationPair& pair_;
-  const Correlation& result_;
-  std::string other_;
-  std::vector<Finding>& findings_;
-  bool slower_ = false;
-};
+void mark_outliers(const Moved& moved, std::vector<CorrelationPair>& pairs) {
+  std::set<std::string_view> named;
+  for (std::size_t i = 0; i < moved.records.size(); ++i) {
+    if (moved.by[i] != 0) named.insert(moved.records[i]->configuration);
+  }
+  for (CorrelationPair& pair : pairs) {
+    const bool first = pair.device_a == moved.device->name;
+    if (!first && pair.device_b != moved.device->name) continue;
+    if (!moved.beside.contains(first ? pair.device_b : pair.device_a)) continue;
+    for (CorrelationPoint& point : pair.points) {
+      point.outlier = point.outlier || named.contains(point.configuration);
+    }
+  }
+}
+
+// Devices of the run without a cost: one line each.
+void report_uncounted(const CorrelationInput& input, const std::vector<DeviceCost>& devices,
+                      std::vector<Finding>& findings) {
+  std::set<std::string> told;
+  for (const DeviceCost& device : devices) told.insert(device.id);
+  for (const record::Record* record : input.records) {
+    if (!told.insert(record->device).second) continue;
+    findings.push_back(finding_about(*record, Check::correlation, Verdict::skipped,
+                                     "no instructions were counted"));
+    findings.back().configuration.clear();
+  }
+}
 
 }  // namespace
 
-CorrelationFindings check_correlations(const RunView& view, const WrongImages& wrong) {
+CorrelationFindings correlate(const CorrelationInput& input) {
   CorrelationFindings result;
-  result.pairs = correlation_pairs(view, wrong);
-  std::set<std::string> held;
-  std::map<std::string, AsideReport> aside;
-  const std::set<std::string> decided = decided_devices(result.pairs);
-  for (const CorrelationPair& pair : result.pairs) {
-    if (pair.within_run) continue;
-    held.insert(pair.device);
-    if (is_beside_what_decides(pair, decided)) {
-      aside[pair.device].add(pair, short_name_of_other(pair, view));
+  const std::vector<DeviceCost> devices = cost_by_device(input);
+  result.pairs = pairs_by_cost(devices);
+  for (const DeviceCost& device : devices) {
+    if (!device.measured) continue;
+    const Moved moved = movements_of(device, devices);
+    if (moved.held.empty()) {
+      judge_new(device, result.pairs, result.findings);
     } else {
-      PairReport(view, pair, result.findings).run();
+      judge_accepted(moved, result.findings);
+      mark_outliers(moved, result.pairs);
     }
   }
-  for (const auto& [id, report] : aside) {
-    if (!report.has_news()) continue;
-    result.findings.push_back(finding_about(view, view.devices.at(id), Check::correlation,
-                                            Verdict::advisory, report.message()));
-    result.findings.back().subject = "by others";
-  }
-  for (const auto& [id, device] : view.devices) {
-    const bool measured = std::ranges::any_of(
-        view.measured, [&](const record::Record* record) { return record->device == id; });
-    if (!measured || held.contains(id)) continue;
-    result.findings.push_back(finding_about(
-        view, device, Check::correlation, Verdict::advisory,
-        fmt::format("no other device is stored in {}; accept this plan's run of one: {}",
-                    view.baselines.folder().string(), view.accept_command())));
-  }
+  report_uncounted(input, devices, result.findings);
+  std::ranges::move(pairs_by_time(input), std::back_inserter(result.pairs));
   return result;
+}
+
+CorrelationFindings check_correlations(const RunView& view, const WrongImages& wrong) {
+  CorrelationInput input{view.devices, {}, view.baselines.cost_of_all_drivers()};
+  for (const record::Record* record : view.measured) {
+    if (!wrong.contains({record->device, record->configuration})) input.records.push_back(record);
+  }
+  return correlate(input);
 }
 
 }  // namespace triptych::judge

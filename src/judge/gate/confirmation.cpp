@@ -5,7 +5,6 @@
 #include <string_view>
 #include <utility>
 
-#include "judge/gate/correlation_pairs.hpp"
 #include "judge/gate/run_view.hpp"
 #include "judge/statistics/statistics.hpp"
 #include "judge/timing/anchor.hpp"
@@ -13,9 +12,6 @@
 
 namespace triptych::judge {
 namespace {
-
-// ŝ up to which a quieter launch may bring it below CorrelationModel::largest_scale.
-constexpr double largest_scale_in_doubt = 1.5 * CorrelationModel::largest_scale;
 
 using Key = std::pair<std::string_view, std::string_view>;  // device, configuration
 
@@ -58,23 +54,6 @@ void join(record::Record& record, const record::Record& again) {
   if (!(median(again.time_ns_by(clock)) < median(record.time_ns_by(clock)))) return;
   record.wall_ns = again.wall_ns;
   record.device_ns = again.device_ns;
-}
-
-template <typename Judgement>
-bool is_suspect(const Judgement& judgement) {
-  return judgement.suspected && !judgement.standing;
-}
-
-// `decided`: some stored device can judge it.
-bool is_in_doubt(const CorrelationPair& pair, bool decided) {
-  const Correlation& result = pair.result;
-  if (pair.within_run || pair.stored_runs < TimingModel::least_runs) return false;
-  if (!result.admitted()) {
-    return !decided && result.refused_for_scatter() && result.scale <= largest_scale_in_doubt;
-  }
-  if (!pair.decides) return false;
-  return std::ranges::any_of(result.judgements, is_suspect<ConfigurationJudgement>) ||
-         std::ranges::any_of(result.levels, is_suspect<LevelEffect>) || result.global.suspected;
 }
 
 // What may be slower – of the timing check's p-values, those of configurations together and each
@@ -140,12 +119,7 @@ void join_launches(std::vector<record::Record>& records, std::span<const record:
 
 std::set<std::string> devices_in_doubt(const GateResult& result) {
   if (result.plan == anchors_plan) return {};  // no program that could be slower
-  std::set<std::string> devices = in_doubt_by_history(result.findings);
-  const std::set<std::string> decided = decided_devices(result.correlations);
-  for (const CorrelationPair& pair : result.correlations) {
-    if (is_in_doubt(pair, decided.contains(pair.device))) devices.insert(pair.device);
-  }
-  return devices;
+  return in_doubt_by_history(result.findings);
 }
 
 void tell_what_was_taken_back(const GateResult& first, GateResult& all) {

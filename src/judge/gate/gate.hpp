@@ -17,7 +17,7 @@
 #include "core/image.hpp"
 #include "judge/accuracy/cases.hpp"
 #include "judge/baselines/baselines.hpp"
-#include "judge/correlation/model.hpp"
+#include "judge/correlation/pair.hpp"
 #include "judge/stress/stress.hpp"
 #include "record/store.hpp"
 
@@ -55,23 +55,6 @@ struct Finding {
   std::string subject = {};
 };
 
-// A device of the run held against another one, for the report. What was found of it is among the
-// findings, but for pairs within the run, which only show how alike the devices are.
-struct CorrelationPair {
-  std::string device;              // B: the one that is judged
-  std::string other;               // A: id of the one that it is held against
-  std::string other_key;           // Device::key() of A
-  bool within_run = false;         // A was measured in the same run; else it is a stored baseline
-  bool of_itself = false;          // A is B: its own stored runs
-  bool decides = false;            // of the stored ones that can judge B the nearest: its own
-                                   // history, else the largest ρ; the others advise
-  std::size_t unlike_clocks = 0;   // configurations left out: other clocks timed them on A
-  std::size_t unlike_anchors = 0;  // and anchors
-  std::size_t stored_runs = 0;     // of A, of the configuration with the fewest
-  std::vector<CorrelationCase> cases;
-  Correlation result;  // judgements in the order of the cases
-};
-
 struct GateResult {
   std::string plan;
   std::string run;
@@ -99,16 +82,16 @@ struct GateResult {
 // "configuration", "message", "numbers"}], "in_doubt": [device], "measured_again": [device],
 // "correlations": [as of the pair], "accuracies": [as of the scene]}
 [[nodiscard]] nlohmann::json to_json(const GateResult& result);
-// {"device", "other", "other_key", "within_run", "of_itself", "decides", "unlike_clocks",
-// "refusals", …, "configurations", "levels", "global"}; what is no number is null.
+// {"device_a", "device_b", "signal", "new_device", "line": {"configurations", "intercept", "slope",
+// "scale", "rho", "pearson", "admitted", "refusal"}, "points": [{"configuration", "x", "y",
+// "residual", "outlier"}]}; what is no number is null.
 [[nodiscard]] nlohmann::json to_json(const CorrelationPair& pair);
 
 struct GateRequest {
   std::string plan;
-  std::set<Check> checks;            // empty: all; the correlation only where a device measured
-                                     // CorrelationModel::least_configurations,
-                                     // accuracy only of a plan SUITE/accuracy; of a plan
-                                     // SUITE/stress counters and stress
+  std::set<Check> checks;  // empty: all; the correlation only of a plan
+                           // SUITE/correlation, accuracy only of a plan SUITE/accuracy; of a plan
+                           // SUITE/stress counters and stress
   std::vector<std::string> devices;  // globs; empty: all in the run
   std::vector<std::string>
       required_devices;  // globs; each must match a device that measured something

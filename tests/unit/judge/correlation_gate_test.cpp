@@ -1,324 +1,271 @@
-// What the gate says of a device that nobody accepted, by another device's baselines.
+// What the correlation finds of planted slowdowns, and what it leaves alone.
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <cmath>
+#include <map>
 
 #include "core/json.hpp"
-#include "correlation_fixture.hpp"
-#include "judge/timing/model.hpp"
+#include "correlation_world.hpp"
 
 namespace triptych::judge {
 namespace {
 
-using core::ExitCode;
-using testing::AllOf;
 using testing::HasSubstr;
 
-TEST_F(CorrelationGateTest, ASlowerDevicePasses) {
-  accept_known();
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new");
-  const GateResult result = judge("b");
-  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
-  const auto passed = with(result, Verdict::pass, Check::correlation);
-  ASSERT_EQ(passed.size(), 1U);
-  EXPECT_EQ(passed[0].device, "b:new");
-  EXPECT_NEAR(passed[0].numbers.at("slope"), 1, 0.02);
-  EXPECT_EQ(passed[0].numbers.at("anchors"), 12);
-  EXPECT_THAT(passed[0].message, HasSubstr("as a:known; driver 1 lets expect"));
-  EXPECT_EQ(passed[0].test, "volume.correlation.correlation.b:new");
-  ASSERT_EQ(result.correlations.size(), 1U);
-  EXPECT_EQ(result.correlations[0].other, "a:known");
-  EXPECT_EQ(result.correlations[0].cases.size(), 60U);
+constexpr const char* lavapipe = "vulkan:lavapipe";
+constexpr const char* llvmpipe = "gl:llvmpipe-egl";
+constexpr const char* pocl = "opencl:pocl";
+const std::string chosen = "camera=c1,data=d2,step=1,technique=t3";
+
+// Without findings of other devices and of how a whole device is.
+std::vector<Finding> named(const CorrelationFindings& result) {
+  std::vector<Finding> findings;
+  for (const Finding& finding : result.findings) {
+    if (!finding.configuration.empty() || !finding.subject.empty()) findings.push_back(finding);
+  }
+  return findings;
 }
 
-TEST_F(CorrelationGateTest, OneConfigurationIsNamedWithItsWork) {
-  accept_known();
-  measure_anchors("anchors", "b:new");
-  const std::string planted = "data=d2,step=3,technique=raycast_fragment";
-  measure("b", "b:new",
-          [&](const record::Record& r) { return r.configuration == planted ? 1.25 : 1; });
-  const GateResult result = judge("b");
-  EXPECT_EQ(result.exit_code(), ExitCode::regression);
-  const auto slower = with(result, Verdict::regression);
-  ASSERT_EQ(slower.size(), 1U) << text(result);
-  EXPECT_EQ(slower[0].configuration, planted);
-  EXPECT_THAT(slower[0].message, HasSubstr("work (samples) +0.0 %, time per unit of work +2"));
+std::size_t count(const CorrelationFindings& result, Verdict verdict) {
+  return static_cast<std::size_t>(std::ranges::count(result.findings, verdict, &Finding::verdict));
 }
 
-// Two of three slow configurations were a slow minute: the quieter launch says what is left, and
-// the others are told as advice.
-TEST_F(CorrelationGateTest, AnotherLaunchTakesBackASlowMinute) {
-  accept_known();
-  const std::string planted = "data=d2,step=3,technique=raycast_fragment";
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new", [&](const record::Record& r) {
-    const bool slow_minute = r.configuration.starts_with("data=d0,step=5");
-    return r.configuration == planted ? 1.25 : slow_minute ? 1.4 : 1;
-  });
-  const GateResult alone = judge("b");
-  EXPECT_EQ(with(alone, Verdict::regression).size(), 3U) << text(alone);
-  EXPECT_EQ(alone.in_doubt, std::set<std::string>{"b:new"});
-  measure("c", "b:new",
-          [&](const record::Record& r) { return r.configuration == planted ? 1.3 : 1; });
-  confirm("b", "c", plan);
-  const GateResult result = judge("b");
-  const auto slower = with(result, Verdict::regression);
-  ASSERT_EQ(slower.size(), 1U) << text(result);
-  EXPECT_EQ(slower[0].configuration, planted);
-  EXPECT_NEAR(slower[0].numbers.at("ratio"), 1.25, 0.04);
-  EXPECT_THAT(slower[0].message, HasSubstr("so too on a fresh launch"));
-  const auto advice = with(result, Verdict::advisory);
-  ASSERT_EQ(advice.size(), 2U) << text(result);
-  EXPECT_THAT(advice[0].message, HasSubstr("not so on a fresh launch"));
+TEST(AcceptedDevices, JitterWithinTheBoundsIsNothing) {
+  for (std::uint64_t trial = 0; trial < 300; ++trial) {
+    CorrelationWorld world(trial);
+    for (const char* id : {lavapipe, llvmpipe, pocl}) world.add_device(id, true);
+    const CorrelationFindings result = world.judge();
+    ASSERT_EQ(count(result, Verdict::pass), 3U) << trial << '\n' << text(result);
+    ASSERT_EQ(result.findings.size(), 3U) << trial << '\n' << text(result);
+  }
 }
 
-// A little more scatter than a line may have is worth another launch; several times as much is not.
-TEST_F(CorrelationGateTest, WhatIsRefusedForNoiseIsInDoubt) {
-  accept_known();
-  measure_anchors("anchors", "b:new");
-  const auto noisy = [](double size) {
-    return [=, i = 0](const record::Record&) mutable {
-      return std::exp(size * std::sin(12.9898 * ++i));
-    };
+// The test of the test before: jitter beyond its bound is told.
+TEST(AcceptedDevices, JitterBeyondTheBoundIsTold) {
+  CorrelationWorld world(1);
+  world.add_device(lavapipe, true);
+  world.add_device(llvmpipe, true, 0.02, {}, on_configuration(chosen, 1.01));
+  EXPECT_EQ(named(world.judge()).size(), 1U) << text(world.judge());
+}
+
+TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsNamedFirst) {
+  for (std::uint64_t trial = 0; trial < 100; ++trial) {
+    for (const char* id : {lavapipe, llvmpipe, pocl}) {
+      CorrelationWorld world(trial);
+      for (const char* each : {lavapipe, llvmpipe, pocl}) {
+        // Half a percent of the frame.
+        const auto planted =
+            id == each ? on_configuration(chosen, 1 + 0.005 / 0.7) : CorrelationWorld::Change{};
+        world.add_device(each, true, 0.1, planted);
+      }
+      const CorrelationFindings result = world.judge();
+      const auto found = named(result);
+      ASSERT_EQ(found.size(), 1U) << text(result);
+      EXPECT_EQ(found[0].verdict, Verdict::regression);
+      EXPECT_EQ(found[0].device, id);
+      EXPECT_EQ(found[0].configuration, chosen);
+      EXPECT_NEAR(found[0].numbers.at("ratio"), 1.005, 1e-5);
+      EXPECT_EQ(count(result, Verdict::pass), 2U) << text(result);
+    }
+  }
+}
+
+// Half a percent of the frame in the driver alone: PoCL's bound and another's are less together.
+TEST(AcceptedDevices, HalfAPercentInTheDriverIsFoundOnPocl) {
+  CorrelationWorld world(3);
+  world.add_device(lavapipe, true);
+  world.add_device(pocl, true, 0.02, {}, on_configuration(chosen, 1 + 0.0075 / 0.3));
+  const auto found = named(world.judge());
+  ASSERT_EQ(found.size(), 1U) << text(world.judge());
+  EXPECT_EQ(found[0].device, pocl);
+}
+
+TEST(AcceptedDevices, AQuarterPercentOfALevelIsOneFinding) {
+  for (std::uint64_t trial = 0; trial < 100; ++trial) {
+    CorrelationWorld world(trial);
+    world.add_device(pocl, true, 0.1, on_level("data", "d2", 1 + 0.0025 / 0.7));
+    world.add_device(lavapipe, true, 0.1);
+    const CorrelationFindings result = world.judge();
+    const auto found = named(result);
+    ASSERT_EQ(found.size(), 1U) << text(result);
+    EXPECT_EQ(found[0].device, pocl);
+    EXPECT_EQ(found[0].subject, "data=d2");
+    EXPECT_EQ(found[0].configuration, "");
+    EXPECT_EQ(found[0].verdict, Verdict::regression);
+  }
+}
+
+TEST(AcceptedDevices, EverythingIsSaidOnceAndWhatStandsOutBeside) {
+  CorrelationWorld world(5);
+  const auto planted = [](const record::Record& r) {
+    return r.configuration == chosen ? 1.2 : 1.02;
   };
-  measure("b", "b:new", noisy(0.12));
-  const GateResult result = judge("b");
-  ASSERT_EQ(result.correlations.size(), 1U);
-  EXPECT_TRUE(result.correlations[0].result.refused_for_scatter()) << text(result);
-  EXPECT_EQ(result.in_doubt, std::set<std::string>{"b:new"});
-  measure("c", "b:new", noisy(0.6));
-  EXPECT_FALSE(judge("c").correlations[0].result.admitted());
-  EXPECT_TRUE(judge("c").in_doubt.empty());
+  world.add_device(lavapipe, true, 0.02, planted);
+  world.add_device(llvmpipe, true);
+  const CorrelationFindings result = world.judge();
+  const auto found = named(result);
+  ASSERT_EQ(found.size(), 2U) << text(result);
+  EXPECT_EQ(found[0].subject, "everything");
+  EXPECT_THAT(found[0].message, HasSubstr("everything (96) by +1.4 %"));
+  EXPECT_EQ(found[1].configuration, chosen);
 }
 
-TEST_F(CorrelationGateTest, FewStoredRunsAdvise) {
-  accept_known(TimingModel::least_runs - 1);
-  measure_anchors("anchors", "b:new");
-  const std::string planted = "data=d2,step=3,technique=raycast_fragment";
-  measure("b", "b:new",
-          [&](const record::Record& r) { return r.configuration == planted ? 1.25 : 1; });
-  const GateResult result = judge("b");
-  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
-  const auto advice = with(result, Verdict::advisory);
-  ASSERT_EQ(advice.size(), 1U) << text(result);
-  EXPECT_EQ(advice[0].configuration, planted);
-  EXPECT_THAT(advice[0].message, HasSubstr("advice only: 4 of 5 stored runs"));
-  EXPECT_TRUE(with(result, Verdict::pass).empty());
+TEST(AcceptedDevices, LessIsAnImprovement) {
+  CorrelationWorld world(6);
+  world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 0.9));
+  world.add_device(llvmpipe, true);
+  const auto found = named(world.judge());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].verdict, Verdict::improved);
 }
 
-// What could not have failed has not passed.
-TEST_F(CorrelationGateTest, FewStoredRunsPassNothing) {
-  accept_known(TimingModel::least_runs - 1);
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new");
-  const GateResult result = judge("b");
-  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
-  EXPECT_THAT(with(result, Verdict::advisory).at(0).message,
-              AllOf(HasSubstr("as a:known; driver 1 lets expect"),
-                    HasSubstr("advice only: 4 of 5 stored runs")));
+// A change of the program alike on both leaves their residual: that is for the check of cost.
+TEST(AcceptedDevices, WhatBothChangedAlikeLeavesTheResidual) {
+  CorrelationWorld world(7);
+  world.add_device(lavapipe, true, 0.02, {}, on_configuration(chosen, 1.5));
+  world.add_device(llvmpipe, true, 0.02, {}, on_configuration(chosen, 1.5));
+  EXPECT_TRUE(named(world.judge()).empty()) << text(world.judge());
 }
 
-TEST_F(CorrelationGateTest, ADeviceThatIsNotThereIsNoCrash) {
-  accept_known();
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new");
-  request_.devices = {"no:such"};
-  EXPECT_EQ(judge("b").exit_code(), ExitCode::cannot_judge);
-  EXPECT_EQ(judge("never measured").exit_code(), ExitCode::cannot_judge);
+// Of one device in the run, the stored costs of others are what it is held against.
+TEST(AcceptedDevices, OneAloneIsHeldAgainstWhatIsStored) {
+  CorrelationWorld world(8);
+  world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));
+  world.add_device(llvmpipe, true);
+  world.input().devices.erase(llvmpipe);
+  std::erase_if(world.input().records,
+                [](const record::Record* r) { return r->device == llvmpipe; });
+  const auto found = named(world.judge());
+  ASSERT_EQ(found.size(), 1U) << text(world.judge());
+  EXPECT_EQ(found[0].configuration, chosen);
 }
 
-TEST_F(CorrelationGateTest, AWholeLevelIsNamed) {
-  accept_known();
-  measure_anchors("anchors", "b:new");
-  const Times slower = [](const record::Record& r) {
-    return r.factors.at("data") == "d1" ? 1.2 : 1;
-  };
-  measure("b", "b:new", slower);
-  const GateResult result = judge("b");
-  EXPECT_EQ(result.exit_code(), ExitCode::regression);
-  bool named = false;
-  for (const Finding& finding : with(result, Verdict::regression)) {
-    named = named || finding.message.starts_with("data=d1: 12 configurations +");
+TEST(AcceptedDevices, CountsByAnotherCounterAreNotCompared) {
+  CorrelationWorld world(9);
+  world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));
+  world.add_device(llvmpipe, true);
+  for (auto& [key, stored] : world.input().stored) stored.counted_by = "another emulator";
+  const CorrelationFindings result = world.judge();
+  EXPECT_EQ(count(result, Verdict::regression), 0U) << text(result);
+  EXPECT_THAT(text(result), HasSubstr("cannot correlate: no other device"));
+}
+
+// What a new device costs: a factor, and 96 configurations that scatter about the line.
+struct Trials {
+  int found = 0;
+  int named = 0;
+  int wrong = 0;
+};
+
+Trials new_devices(const CorrelationWorld::Change& planted, const std::string& configuration,
+                   const std::string& level, double scatter) {
+  Trials trials;
+  for (std::uint64_t trial = 0; trial < 100; ++trial) {
+    CorrelationWorld world(1000 + trial);
+    world.add_device(lavapipe, true, 0);
+    world.add_device(llvmpipe, false, scatter, planted, planted);
+    bool hit = false;
+    for (const Finding& finding : named(world.judge())) {
+      EXPECT_EQ(finding.verdict, Verdict::advisory);
+      const bool right = finding.configuration == configuration && finding.subject == level;
+      hit = hit || right;
+      ++trials.named;
+      if (!right) ++trials.wrong;
+    }
+    if (hit) ++trials.found;
   }
-  EXPECT_TRUE(named) << text(result);
+  return trials;
 }
 
-// Half of all by a quarter leaves no line of all; that of the others names it.
-TEST_F(CorrelationGateTest, HalfOfAllIsNamed) {
-  accept_known();
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new", [](const record::Record& r) {
-    return r.factors.at("technique") == "raycast" ? 1.25 : 1;
-  });
-  const GateResult result = judge("b");
-  EXPECT_EQ(result.exit_code(), ExitCode::regression) << text(result);
-  const auto named = with(result, Verdict::regression);
-  const auto level = std::ranges::find_if(named, [](const Finding& finding) {
-    return finding.message.starts_with("technique=raycast: 24 configurations +25.");
-  });
-  ASSERT_NE(level, named.end()) << text(result);
-  EXPECT_THAT(level->message, HasSubstr("; the line is that of the others"));
-  EXPECT_EQ(named.size(), 25U);
+TEST(NewDevice, TenPercentOfOneConfiguration) {
+  const Trials trials = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.02);
+  std::printf("one: found %d named %d wrong %d\n", trials.found, trials.named, trials.wrong);
+  EXPECT_GE(trials.found, 95);
+  EXPECT_LE(trials.wrong, 1);
 }
 
-TEST_F(CorrelationGateTest, AFewPercentOnALevelOnlyAdvise) {
-  accept_known();
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new",
-          [](const record::Record& r) { return r.factors.at("data") == "d1" ? 1.06 : 1; });
-  const GateResult result = judge("b");
-  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
-  const auto advice = with(result, Verdict::advisory);
-  ASSERT_FALSE(advice.empty());
-  EXPECT_THAT(advice[0].message, HasSubstr("data=d1"));
-  EXPECT_THAT(advice[0].message, HasSubstr("triptych compare"));
+TEST(NewDevice, ThreePercentOfALevel) {
+  const Trials trials = new_devices(on_level("data", "d2", 1.03), "", "data=d2", 0.02);
+  std::printf("level: found %d named %d wrong %d\n", trials.found, trials.named, trials.wrong);
+  EXPECT_GE(trials.found, 95);
+  EXPECT_LE(trials.wrong, 1);
 }
 
-TEST_F(CorrelationGateTest, AnchorsTellAProgramThatIsSlowerAsAWhole) {
-  accept_known();
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new", [](const record::Record&) { return 1.15; });
-  const GateResult result = judge("b");
-  EXPECT_EQ(result.exit_code(), ExitCode::regression);
-  const auto slower = with(result, Verdict::regression);
-  ASSERT_EQ(slower.size(), 1U) << text(result);
-  EXPECT_THAT(slower[0].message, HasSubstr("the whole program"));
-  EXPECT_NEAR(slower[0].numbers.at("global_delta"), std::log(1.15), 0.03);
+TEST(NewDevice, NothingPlanted) {
+  const Trials trials = new_devices({}, "none", "none", 0.02);
+  std::printf("none: found %d named %d wrong %d\n", trials.found, trials.named, trials.wrong);
+  EXPECT_LE(trials.wrong, 1);
 }
 
-TEST_F(CorrelationGateTest, WithoutAnchorsNothingIsJudged) {
-  accept_known();
-  measure("b", "b:new");
-  const GateResult result = judge("b");
-  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
-  const auto advice = with(result, Verdict::advisory);
-  ASSERT_EQ(advice.size(), 1U) << text(result);
-  EXPECT_THAT(advice[0].message, HasSubstr("0 anchors, 6 are needed"));
-  EXPECT_THAT(advice[0].message, HasSubstr("triptych run anchors/frozen"));
+TEST(NewDevice, WhatDoesNotCorrelateIsRefused) {
+  CorrelationWorld world(10);
+  world.add_device(lavapipe, true, 0);
+  world.add_device(llvmpipe, false, 1);
+  const CorrelationFindings result = world.judge();
+  ASSERT_EQ(count(result, Verdict::advisory), 1U) << text(result);
+  EXPECT_THAT(text(result), HasSubstr("cannot correlate: vulkan:lavapipe: the correlation of"));
+  EXPECT_TRUE(named(result).empty());
 }
 
-TEST_F(CorrelationGateTest, AnchorsOfAnotherDriverAreNoAnchors) {
-  accept_known();
-  store_.add_run({"anchors", anchors, "2026-02-01T00:00:00Z", {}});
-  measure_anchors("anchors", "b:new");
-  record::Device updated = device("b:new");
-  updated.driver_version = "2";
-  store_.add_device("anchors", updated, {});
-  measure("b", "b:new");
-  EXPECT_EQ(judge("b").correlations.at(0).result.anchors, 0U);
+// Of two accepted devices the one with the least scatter.
+TEST(NewDevice, TheNearestJudges) {
+  CorrelationWorld world(11);
+  world.add_device(lavapipe, true, 0.1);
+  world.add_device(pocl, true, 0.01);
+  world.add_device(llvmpipe, false, 0, on_configuration(chosen, 1.3));
+  const auto found = named(world.judge());
+  ASSERT_EQ(found.size(), 1U) << text(world.judge());
+  EXPECT_THAT(found[0].message, HasSubstr("off the line of opencl:pocl"));
 }
 
-// The device's clock says something else altogether, so that mixing the two would show.
-TEST_F(CorrelationGateTest, DevicesOfUnlikeClocksAreComparedByTheWall) {
-  accept_known();
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new");
-  for (record::Record record : store_.records("b")) {
-    if (record.technique != "raycast") continue;
-    record.device_ns = record.wall_ns;
-    for (double& ns : record.device_ns) ns /= 5;
-    record.device_clock_trusted = true;
-    store_.add_record(record);
+TEST(NewDevice, StoredCostsOfADeviceThatIsNotInTheRun) {
+  CorrelationWorld world(12);
+  world.add_device(lavapipe, true, 0);
+  world.add_device(llvmpipe, false, 0.01, on_configuration(chosen, 1.3));
+  world.input().devices.erase(lavapipe);
+  std::erase_if(world.input().records,
+                [](const record::Record* r) { return r->device == lavapipe; });
+  const CorrelationFindings result = world.judge();
+  const auto found = named(result);
+  ASSERT_EQ(found.size(), 1U) << text(result);
+  EXPECT_EQ(found[0].configuration, chosen);
+  ASSERT_EQ(result.pairs.size(), 1U);
+  EXPECT_EQ(result.pairs[0].device_a, "vulkan:lavapipe (1)");
+}
+
+TEST(Pairs, ByCostAndByTimeWithTheirOutliers) {
+  CorrelationWorld world(13);
+  world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.1));
+  world.add_device(llvmpipe, true);
+  const CorrelationFindings result = world.judge();
+  ASSERT_EQ(result.pairs.size(), 2U);
+  EXPECT_EQ(result.pairs[0].signal, "cost");
+  EXPECT_EQ(result.pairs[1].signal, "time");
+  for (const CorrelationPair& pair : result.pairs) {
+    EXPECT_EQ(pair.device_a, llvmpipe);
+    EXPECT_EQ(pair.device_b, lavapipe);
+    EXPECT_TRUE(pair.line.admitted()) << pair.line.refusal;
+    EXPECT_NEAR(pair.line.slope, 1, 0.05);
+    EXPECT_EQ(pair.points.size(), 96U);
   }
-  const GateResult result = judge("b");
-  const CorrelationPair& pair = result.correlations.at(0);
-  EXPECT_EQ(pair.unlike_clocks, 0U);
-  EXPECT_TRUE(pair.result.admitted()) << text(result);
-  EXPECT_TRUE(with(result, Verdict::regression).empty()) << text(result);
-}
-
-TEST_F(CorrelationGateTest, WhatHasNoCommonClockIsLeftOut) {
-  accept_known();
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new");
-  for (record::Record record : store_.records("b")) {
-    if (record.technique != "raycast") continue;
-    record.device_ns = std::exchange(record.wall_ns, {});
-    record.device_clock_trusted = true;
-    store_.add_record(record);
+  for (const CorrelationPoint& point : result.pairs[0].points) {
+    EXPECT_EQ(point.outlier, point.configuration == chosen) << point.configuration;
   }
-  const GateResult result = judge("b");
-  EXPECT_EQ(result.correlations.at(0).unlike_clocks, 24U);
-  const auto advice = with(result, Verdict::advisory);
-  ASSERT_EQ(advice.size(), 1U) << text(result);
-  EXPECT_THAT(advice[0].message, HasSubstr("24 configurations with like clocks, 30 are needed"));
+  const core::Json json = to_json(result.pairs[0]);
+  EXPECT_EQ(json.at("line").at("admitted"), true);
+  EXPECT_EQ(json.at("points").size(), 96U);
 }
 
-TEST_F(CorrelationGateTest, WhatWasAcceptedOnThisDeviceIsItsCharacter) {
-  accept_known();
-  const std::string odd = "data=d2,step=3,technique=raycast_fragment";
-  const Times character = [&](const record::Record& r) { return r.configuration == odd ? 1.3 : 1; };
-  measure_anchors("anchors", "b:new");
-  accept_plan("anchors", anchors);
-  measure("b1", "b:new", character);
-  accept_plan("b1", plan);
-  measure("b2", "b:new", character);
-  const GateResult result = judge("b2");
-  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
-  const auto advice = with(result, Verdict::advisory);
-  ASSERT_EQ(advice.size(), 2U) << text(result);
-  EXPECT_THAT(advice[0].message, HasSubstr("cannot be judged by its own history: 0 anchors"));
-  EXPECT_THAT(advice[1].message, HasSubstr("as when this device was accepted"));
-}
-
-// Accepted once, it needs no like device to tell a tenth: its own anchors and times of then do.
-TEST_F(CorrelationGateTest, AProgramThatBecameSlowerSinceAcceptanceIsTold) {
-  accept_known();
-  measure_anchors("anchors1", "b:new");
-  accept_plan("anchors1", anchors);
-  measure("b1", "b:new");
-  accept_plan("b1", plan);
-  measure_anchors("anchors2", "b:new");
-  measure("b2", "b:new", [](const record::Record&) { return 1.10; });
-  const GateResult result = judge("b2");
-  EXPECT_EQ(result.exit_code(), ExitCode::regression) << text(result);
-  const auto slower = with(result, Verdict::regression);
-  ASSERT_EQ(slower.size(), 1U) << text(result);
-  EXPECT_THAT(slower[0].message, HasSubstr("the whole program became +"));
-  EXPECT_THAT(slower[0].message, HasSubstr("slower since this device was accepted"));
-  EXPECT_NEAR(slower[0].numbers.at("global_delta"), std::log(1.10), 0.01);
-}
-
-TEST_F(CorrelationGateTest, TheFirstAcceptedRunHasNobodyToBeHeldAgainst) {
-  accept_known(1);
-  const GateResult result = judge("a:known 1 plan");
-  EXPECT_TRUE(result.correlations.empty());
-  const auto advice = with(result, Verdict::advisory);
-  ASSERT_EQ(advice.size(), 1U);
-  EXPECT_THAT(advice[0].message, HasSubstr("no other device is stored"));
-}
-
-TEST_F(CorrelationGateTest, DevicesOfOneRunAreShownAndNotJudged) {
-  accept_known();
-  measure("b", "b:new");
-  store_.add_device("b", device("a:known"), {});
-  for (record::Record record : store_.records("b")) {
-    record.device = "a:known";
-    store_.add_record(record);
+TEST(Pairs, WithoutCostADeviceIsLeftOut) {
+  CorrelationWorld world(14);
+  world.add_device(lavapipe, true);
+  world.add_device(llvmpipe, true);
+  for (const record::Record* record : world.input().records) {
+    if (record->device == llvmpipe) const_cast<record::Record*>(record)->cost.clear();
   }
-  const GateResult result = judge("b");
-  ASSERT_EQ(result.correlations.size(), 3U);
-  const CorrelationPair& shown = result.correlations[2];
-  EXPECT_TRUE(shown.within_run);
-  EXPECT_FALSE(shown.decides);
-  EXPECT_EQ(shown.device, "b:new");
-  EXPECT_EQ(shown.other, "a:known");
-}
-
-TEST_F(CorrelationGateTest, JsonHoldsTheWholePair) {
-  accept_known();
-  measure_anchors("anchors", "b:new");
-  measure("b", "b:new");
-  const core::Json json = to_json(judge("b"));
-  ASSERT_EQ(json.at("correlations").size(), 1U);
-  const core::Json& pair = json.at("correlations")[0];
-  EXPECT_EQ(pair.at("configurations").size(), 60U);
-  EXPECT_EQ(pair.at("configurations")[0].at("work_unit"), "samples");
-  EXPECT_FALSE(pair.at("levels").empty());
-  EXPECT_EQ(pair.at("global").at("groups"), 4);
+  const CorrelationFindings result = world.judge();
+  EXPECT_THAT(text(result), HasSubstr("skipped gl:llvmpipe-egl  : no instructions were counted"));
+  EXPECT_EQ(result.pairs.size(), 1U) << "by time alone";
 }
 
 }  // namespace
