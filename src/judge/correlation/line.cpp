@@ -146,16 +146,14 @@ std::vector<OffTheLine> configurations_off(const Values& x, const RobustLine& fi
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double error = fit.scale * std::sqrt(1 + fit.leverages[i]);
     all.push_back({{}, {i}, fit.residuals[i], error, 1});
-    p.push_back(two_sided(fit.residuals[i] / error, static_cast<double>(x.size()) - 2));
+    p.push_back(student_t_upper_tail(fit.residuals[i] / error, static_cast<double>(x.size()) - 2));
   }
   const Values q = benjamini_hochberg_adjusted(p);
   for (std::size_t i = 0; i < x.size(); ++i) all[i].q = q[i];
   std::erase_if(all, [](const OffTheLine& each) {
-    return each.q > Model::share_of_false ||
-           std::abs(each.effect) < std::log(Model::configuration_effect);
+    return each.q > Model::share_of_false || each.effect < std::log(Model::configuration_effect);
   });
-  std::ranges::stable_sort(all, std::greater{},
-                           [](const OffTheLine& each) { return std::abs(each.effect); });
+  std::ranges::stable_sort(all, std::greater{}, &OffTheLine::effect);
   return all;
 }
 

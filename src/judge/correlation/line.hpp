@@ -23,11 +23,13 @@ struct LineModel {
   // Costs repeat by so much: a line cannot be known better.
   static constexpr double least_scale = 5e-4;
   // What is named.
-  static constexpr double share_of_false = 0.01;       // Benjamini–Hochberg, expected
-  static constexpr double configuration_effect = 1.1;  // at least, where noise is taken off
-  static constexpr double level_effect = 1.015;        // at least, as measured
-  static constexpr std::size_t least_level = 4;        // configurations inside and outside
-  static constexpr std::size_t most_levels = 4;        // named of one pair
+  // Expected, by Benjamini and Hochberg, of levels and of configurations; 1 % of both together.
+  static constexpr double share_of_false = 0.005;
+  // Half of what is to be found (10 %): what lies there scatters about it.
+  static constexpr double configuration_effect = 1.05;
+  static constexpr double level_effect = 1.015;  // at least, as measured
+  static constexpr std::size_t least_level = 4;  // configurations inside and outside
+  static constexpr std::size_t most_levels = 4;  // named of one pair
 };
 
 // Fits points[i].y along points[i].x and sets their residuals. ln y = a + b·ln x: Theil and Sen's
@@ -42,9 +44,9 @@ struct OffTheLine {
   double q = 1;                      // expected share of false ones among those as clear as this
 };
 
-// Of a pair whose line is admitted: levels, the clearest first, then configurations, the farthest
-// first. A level that is told gets an offset of its own, and everything else is held against the
-// line beside it. `factors`: of each point.
+// Of a pair whose line is admitted: levels, the clearest first, then configurations that cost more
+// than it lets expect, the farthest first. A level that is told gets an offset of its own, and
+// everything else is held against the line beside it. `factors`: of each point.
 [[nodiscard]] std::vector<OffTheLine> off_the_line(std::span<const CorrelationPoint> points,
                                                    std::span<const Factors> factors);
 

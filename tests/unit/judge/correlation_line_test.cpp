@@ -46,7 +46,7 @@ TEST(FitLine, Admission) {
 }
 
 TEST(FitLine, TooFewForALineHaveNone) {
-  for (const std::size_t points : {0, 1, 3}) {
+  for (const std::size_t points : {0U, 1U, 3U}) {
     const CorrelationLine line = line_of(pair_of(points));
     EXPECT_FALSE(line.admitted());
     EXPECT_TRUE(std::isnan(line.slope));

@@ -20,6 +20,8 @@ class CorrelationWorld {
  public:
   explicit CorrelationWorld(std::uint64_t seed) : random_(seed) {}
 
+  bool with_times = false;
+
   // What a configuration's device code and driver are multiplied by today.
   using Change = std::function<double(const record::Record&)>;
 
@@ -60,7 +62,7 @@ class CorrelationWorld {
       record->cost =
           counts(0.7 * frame * (device_code ? device_code(*record) : 1),
                  0.3 * frame * (driver ? driver(*record) : 1) + bound * frame * jitter());
-      record->wall_ns = {frame, 1.01 * frame, 1.02 * frame};
+      if (with_times) record->wall_ns = {frame, 1.01 * frame, 1.02 * frame};
       input_.records.push_back(record.get());
       records_.push_back(std::move(record));
     }
