@@ -38,8 +38,7 @@ TEST_F(Arguments, AWordAfterAnOptionsValueIsAPlan) {
 }
 
 TEST_F(Arguments, EveryGlobMatchesADevice) {
-  for (const std::string command :
-       {"run p.yaml --store s.sqlite", "validate"}) {
+  for (const std::string command : {"run p.yaml --store s.sqlite", "validate"}) {
     const Result result = program.run(command + " --device 'null:*' --device 'vulcan:*'");
     EXPECT_EQ(result.code, 2) << result.output;
     EXPECT_THAT(result.output, HasSubstr("no device matches vulcan:*"));

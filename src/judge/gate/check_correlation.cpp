@@ -1,9 +1,294 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "judge/correlation/line.hpp"
+#include "judge/gate/cost_by_device.hpp"
 #include "judge/gate/run_view.hpp"
 
 namespace triptych::judge {
+namespace {
 
-std::vector<Finding> check_correlations(const RunView& /*view*/, const WrongImages& /*wrong*/) {
+constexpr double rounded = 1e-5;  // of ln, in texts
+
+std::string percent(double log_ratio) {
+  return fmt::format("{:+.3g} %", 100 * std::expm1(log_ratio));
+}
+
+const record::Record& any_record(const DeviceCost& device) {
+  return *device.configurations.begin()->second.record;
+}
+
+Finding about_device(const DeviceCost& device, Verdict verdict, std::string message) {
+  Finding finding =
+      finding_about(any_record(device), Check::correlation, verdict, std::move(message));
+  finding.configuration.clear();
+  return finding;
+}
+
+// --- accepted devices: stored residuals ----------------------------------------------------------
+
+// A device's configurations that were held against some other device, and what of them moved.
+struct Moved {
+  const DeviceCost* device = nullptr;
+  std::vector<const record::Record*> records;
+  std::vector<double> by;        // of each; 0: it did not, or no pair's residual shows it
+  std::set<std::string> held;    // names of the devices that it was held against
+  std::set<std::string> beside;  // of those whose residual with this one moved
+};
+
+Repeatability repeatability_of(const record::Record& record) {
+  return repeatability(record.device, record.technique);
+}
+
+CostChange change_of(const ConfigurationCost& cost) {
+  return change_of(*cost.stored, cost.now);
+}
+
+// Accepted devices that were counted by the same: those of the run, or what is stored of others
+// where the run has none.
+std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
+                                           const std::vector<DeviceCost>& devices) {
+  std::vector<const DeviceCost*> here;
+  std::vector<const DeviceCost*> stored;
+  for (const DeviceCost& other : devices) {
+    if (&other == &device || other.counted_by != device.counted_by || !other.accepted()) continue;
+    (other.measured ? here : stored).push_back(&other);
+  }
+  return here.empty() ? stored : here;
+}
+
+// The residual r of the two left r0. What is not in the run is what was stored of it, exactly.
+bool left_residual(const ConfigurationCost& own, const ConfigurationCost& other) {
+  const Repeatability none{0, 0};
+  return residual_moved(change_of(other), other.record ? repeatability_of(*other.record) : none,
+                        change_of(own), repeatability_of(*own.record));
+}
+
+// A device is named for what itself changed since it was accepted.
+Moved movements_of(const DeviceCost& device, const std::vector<DeviceCost>& devices) {
+  Moved moved{&device, {}, {}, {}, {}};
+  const std::vector<const DeviceCost*> partners = partners_of(device, devices);
+  for (const auto& [configuration, own] : device.configurations) {
+    if (!own.stored) continue;
+    const double change = moved_by(change_of(own), repeatability_of(*own.record));
+    double shown = 0;
+    bool common = false;
+    for (const DeviceCost* other : partners) {
+      const auto there = other->configurations.find(configuration);
+      if (there == other->configurations.end() || !there->second.stored) continue;
+      common = true;
+      moved.held.insert(other->name);
+      if (change == 0 || !left_residual(own, there->second)) continue;
+      shown = change;
+      moved.beside.insert(other->name);
+    }
+    if (!common) continue;
+    moved.records.push_back(own.record);
+    moved.by.push_back(shown);
+  }
+  return moved;
+}
+
+std::string subject_text(const Movement& movement) {
+  const std::size_t n = movement.members.size();
+  if (movement.of == Movement::Of::everything) return fmt::format("everything ({}) by ", n);
+  if (movement.of == Movement::Of::level) return fmt::format("{} ({}) by ", movement.level, n);
   return {};
+}
+
+std::string range_text(const Movement& movement) {
+  if (std::abs(movement.most - movement.least) <= rounded) return {};
+  return fmt::format(", {} to {}", percent(movement.least), percent(movement.most));
+}
+
+Finding finding_of(const Moved& moved, const Movement& movement) {
+  const bool dearer = movement.log_ratio > 0;
+  std::string message =
+      fmt::format("{}{} instructions against what was accepted{}; off the stored residuals with {}",
+                  subject_text(movement), percent(movement.log_ratio), range_text(movement),
+                  fmt::join(moved.beside, ", "));
+  const record::Record& first = *moved.records[movement.members.front()];
+  Finding finding =
+      finding_about(first, Check::correlation, dearer ? Verdict::regression : Verdict::improved,
+                    std::move(message));
+  if (movement.of != Movement::Of::configuration) {
+    finding.configuration.clear();
+    finding.subject = movement.of == Movement::Of::level ? movement.level : "everything";
+  }
+  set_number(finding, "ratio", std::exp(movement.log_ratio));
+  set_number(finding, "configurations", static_cast<double>(movement.members.size()));
+  return finding;
+}
+
+void judge_accepted(const Moved& moved, std::vector<Finding>& findings) {
+  std::vector<Factors> factors;
+  for (const record::Record* record : moved.records) factors.push_back(factors_of(*record));
+  const std::vector<Movement> movements = explain(moved.by, factors);
+  for (const Movement& movement : movements) findings.push_back(finding_of(moved, movement));
+  if (!movements.empty()) return;
+  findings.push_back(
+      about_device(*moved.device, Verdict::pass,
+                   fmt::format("the residuals of {} configurations with {} are as stored",
+                               moved.records.size(), fmt::join(moved.held, ", "))));
+}
+
+// --- new devices: the line of an accepted one ----------------------------------------------------
+
+std::string fit_text(const CorrelationPair& pair) {
+  const CorrelationLine& line = pair.line;
+  return fmt::format(
+      "{} configurations, ln cost = {:.3f} + {:.3f} ln cost there, scatter {:.2g} %, r = {:.3f}",
+      line.configurations, line.intercept, line.slope, 100 * std::expm1(line.scale), line.pearson);
+}
+
+// Of a new device, which accepted one can judge it: the line with the least scatter, the admitted
+// before the others; nullptr: none is stored.
+const CorrelationPair* nearest(const DeviceCost& device,
+                               const std::vector<CorrelationPair>& pairs) {
+  const CorrelationPair* best = nullptr;
+  const auto is_nearer = [](const CorrelationPair& a, const CorrelationPair& b) {
+    if (a.line.admitted() != b.line.admitted()) return a.line.admitted();
+    return a.line.scale < b.line.scale;
+  };
+  for (const CorrelationPair& pair : pairs) {
+    if (!pair.new_device || pair.device_b != device.name) continue;
+    if (best == nullptr || is_nearer(pair, *best)) best = &pair;
+  }
+  return best;
+}
+
+Finding finding_of(const DeviceCost& device, const CorrelationPair& pair, const OffTheLine& off) {
+  const std::string by =
+      fmt::format("{} ± {:.2g} % instructions, off the line of {}, q = {:.2g}", percent(off.effect),
+                  100 * std::expm1(off.error), pair.device_a, off.q);
+  Finding finding = about_device(device, Verdict::advisory, {});
+  if (off.level.empty()) {
+    finding.configuration = pair.points[off.members.front()].configuration;
+    finding.message = by;
+  } else {
+    finding.subject = off.level;
+    finding.message =
+        fmt::format("{} ({}): {} against the rest", off.level, off.members.size(), by);
+  }
+  finding.message += "; this device was never accepted: its character, or a slower program";
+  set_number(finding, "ratio", std::exp(off.effect));
+  set_number(finding, "standard_error", off.error);
+  set_number(finding, "q", off.q);
+  set_number(finding, "scale", pair.line.scale);
+  return finding;
+}
+
+std::vector<OffTheLine> off_the_line_of(const DeviceCost& device, const CorrelationPair& pair) {
+  std::vector<Factors> factors;
+  for (const CorrelationPoint& point : pair.points) {
+    factors.push_back(factors_of(*device.configurations.at(point.configuration).record));
+  }
+  return off_the_line(pair.points, factors);
+}
+
+void judge_new(const DeviceCost& device, std::vector<CorrelationPair>& pairs,
+               std::vector<Finding>& findings) {
+  const CorrelationPair* found = nearest(device, pairs);
+  if (found == nullptr || !found->line.admitted()) {
+    const std::string reason =
+        found == nullptr ? fmt::format("no other device's cost by {} is stored", device.counted_by)
+                         : fmt::format("{}: {}", found->device_a, found->line.refusal);
+    findings.push_back(
+        about_device(device, Verdict::advisory, fmt::format("cannot correlate: {}", reason)));
+    return;
+  }
+  CorrelationPair& pair = pairs[static_cast<std::size_t>(found - pairs.data())];
+  const std::vector<OffTheLine> all = off_the_line_of(device, pair);
+  for (const OffTheLine& off : all) {
+    findings.push_back(finding_of(device, pair, off));
+    if (off.level.empty()) pair.points[off.members.front()].outlier = true;
+  }
+  if (!all.empty()) return;
+  findings.push_back(
+      about_device(device, Verdict::advisory,
+                   fmt::format("as {} lets expect: {}", pair.device_a, fit_text(pair))));
+}
+
+// --- pairs ---------------------------------------------------------------------------------------
+
+// Two accepted devices of the run, or one of the run with what is accepted. Two new ones are shown.
+std::vector<CorrelationPair> pairs_by_cost(const std::vector<DeviceCost>& devices) {
+  std::vector<CorrelationPair> pairs;
+  for (std::size_t a = 0; a < devices.size(); ++a) {
+    for (std::size_t b = a + 1; b < devices.size(); ++b) {
+      if (devices[a].counted_by != devices[b].counted_by) continue;
+      const bool b_is_known = devices[b].accepted() && !devices[a].accepted();
+      if (!devices[a].measured) continue;  // then neither is b
+      // What is not in the run is seen beside a new device only.
+      if (!devices[b].measured && !b_is_known) continue;
+      pairs.push_back(b_is_known ? pair_of(devices[b], devices[a])
+                                 : pair_of(devices[a], devices[b]));
+    }
+  }
+  return pairs;
+}
+
+void mark_outliers(const Moved& moved, std::vector<CorrelationPair>& pairs) {
+  std::set<std::string_view> named;
+  for (std::size_t i = 0; i < moved.records.size(); ++i) {
+    if (moved.by[i] != 0) named.insert(moved.records[i]->configuration);
+  }
+  for (CorrelationPair& pair : pairs) {
+    const bool first = pair.device_a == moved.device->name;
+    if (!first && pair.device_b != moved.device->name) continue;
+    if (!moved.beside.contains(first ? pair.device_b : pair.device_a)) continue;
+    for (CorrelationPoint& point : pair.points) {
+      point.outlier = point.outlier || named.contains(point.configuration);
+    }
+  }
+}
+
+// Devices of the run without a cost: one line each.
+void report_uncounted(const CorrelationInput& input, const std::vector<DeviceCost>& devices,
+                      std::vector<Finding>& findings) {
+  std::set<std::string> told;
+  for (const DeviceCost& device : devices) {
+    if (device.measured) told.insert(device.id);
+  }
+  for (const record::Record* record : input.records) {
+    if (!told.insert(record->device).second) continue;
+    findings.push_back(finding_about(*record, Check::correlation, Verdict::skipped,
+                                     "no instructions were counted"));
+    findings.back().configuration.clear();
+  }
+}
+
+}  // namespace
+
+CorrelationFindings correlate(const CorrelationInput& input) {
+  CorrelationFindings result;
+  const std::vector<DeviceCost> devices = cost_by_device(input);
+  result.pairs = pairs_by_cost(devices);
+  for (const DeviceCost& device : devices) {
+    if (!device.measured) continue;
+    const Moved moved = movements_of(device, devices);
+    if (moved.held.empty()) {
+      judge_new(device, result.pairs, result.findings);
+    } else {
+      judge_accepted(moved, result.findings);
+      mark_outliers(moved, result.pairs);
+    }
+  }
+  report_uncounted(input, devices, result.findings);
+  std::ranges::move(pairs_by_time(input), std::back_inserter(result.pairs));
+  return result;
+}
+
+CorrelationFindings check_correlations(const RunView& view, const WrongImages& wrong) {
+  CorrelationInput input{view.devices, {}, view.baselines.cost_of_all_drivers()};
+  for (const record::Record* record : view.measured) {
+    if (!wrong.contains({record->device, record->configuration})) input.records.push_back(record);
+  }
+  return correlate(input);
 }
 
 }  // namespace triptych::judge

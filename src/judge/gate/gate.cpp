@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <tuple>
@@ -196,16 +197,12 @@ void append(std::vector<Finding>& findings, std::vector<Finding> more) {
   std::ranges::move(more, std::back_inserter(findings));
 }
 
-bool is_of_times(Check check) {
-  return check == Check::timing || check == Check::correlation;
-}
-
 bool judges_times(const RunView& view) {
-  return view.baselines.present() && std::ranges::any_of(view.checks, is_of_times);
+  return view.baselines.present() && view.checks.contains(Check::timing);
 }
 
 // All but times. A wrong picture voids its time, so pictures are judged for those too.
-WrongImages run_checks_but_of_times(const RunView& view, GateResult& result) {
+WrongImages run_exact_checks(const RunView& view, GateResult& result) {
   std::vector<Finding>& findings = result.findings;
   ImageFindings images;
   const bool wants_images = view.checks.contains(Check::image);
@@ -222,6 +219,11 @@ WrongImages run_checks_but_of_times(const RunView& view, GateResult& result) {
   if (view.checks.contains(Check::statistics)) append(findings, check_statistics(view));
   if (view.checks.contains(Check::cost)) append(findings, check_cost(view));
   if (view.checks.contains(Check::memory)) append(findings, check_memory(view));
+  if (view.checks.contains(Check::correlation)) {
+    CorrelationFindings correlations = check_correlations(view, images.wrong);
+    append(findings, std::move(correlations.findings));
+    result.correlations = std::move(correlations.pairs);
+  }
   return std::move(images.wrong);
 }
 
@@ -258,8 +260,13 @@ void report_what_is_there(const RunView& view, GateResult& result) {
 }  // namespace
 
 void sort_findings(std::vector<Finding>& findings) {
-  const auto key = [](const Finding& finding) {
-    return std::tuple(rank(finding.verdict), std::string_view(finding.device),
+  // What changed most is named first; what has no ratio comes by its name.
+  const auto change = [](const Finding& finding) {
+    const auto ratio = finding.numbers.find("ratio");
+    return ratio == finding.numbers.end() ? 0.0 : -std::abs(std::log(ratio->second));
+  };
+  const auto key = [&](const Finding& finding) {
+    return std::tuple(rank(finding.verdict), std::string_view(finding.device), change(finding),
                       std::string_view(finding.configuration), finding.check,
                       std::string_view(finding.message));
   };
@@ -271,13 +278,8 @@ GateResult judge_run(const record::Store& store, const std::string& run, const B
   const RunView view = view_of(store, run, baselines, request);
   GateResult result{.plan = request.plan, .run = run, .findings = {}};
   report_what_is_there(view, result);
-  const WrongImages wrong = run_checks_but_of_times(view, result);
-  if (judges_times(view)) {
-    if (view.checks.contains(Check::timing)) append(result.findings, check_timings(view, wrong));
-    if (view.checks.contains(Check::correlation)) {
-      append(result.findings, check_correlations(view, wrong));
-    }
-  }
+  const WrongImages wrong = run_exact_checks(view, result);
+  if (judges_times(view)) append(result.findings, check_timings(view, wrong));
   apply_waivers(view, result.findings);
   sort_findings(result.findings);
   return result;

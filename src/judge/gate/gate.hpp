@@ -15,6 +15,7 @@
 #include "core/image.hpp"
 #include "judge/accuracy/cases.hpp"
 #include "judge/baselines/baselines.hpp"
+#include "judge/correlation/pair.hpp"
 #include "judge/stress/stress.hpp"
 #include "record/store.hpp"
 
@@ -53,9 +54,10 @@ struct Finding {
 struct GateResult {
   std::string plan;
   std::string run;
-  std::vector<Finding> findings;               // worst first, then by device and configuration
-  std::vector<AccuracyScene> accuracies = {};  // likewise; by device, then as measured
-  std::set<std::string> devices = {};          // that measured something, of those asked for
+  std::vector<Finding> findings;                   // worst first, then by device and configuration
+  std::vector<AccuracyScene> accuracies = {};      // likewise; by device, then as measured
+  std::vector<CorrelationPair> correlations = {};  // those that could be drawn
+  std::set<std::string> devices = {};              // that measured something, of those asked for
   // Of which all findings are advice or reasons for not judging.
   [[nodiscard]] std::vector<std::string> nothing_decided() const;
   [[nodiscard]] core::ExitCode exit_code() const;
@@ -64,8 +66,13 @@ struct GateResult {
 };
 
 // {"plan", "run", "exit_code", "headline", "findings": [{"check", "verdict", "test", "device",
-// "configuration", "message", "numbers"}], "accuracies": [as of the scene]}
+// "configuration", "message", "numbers"}], "correlations": [as of the pair], "accuracies": [as of
+// the scene]}
 [[nodiscard]] nlohmann::json to_json(const GateResult& result);
+// {"device_a", "device_b", "signal", "new_device", "line": {"configurations", "intercept", "slope",
+// "scale", "rho", "pearson", "admitted", "refusal"}, "points": [{"configuration", "x", "y",
+// "residual", "outlier"}]}; what is no number is null.
+[[nodiscard]] nlohmann::json to_json(const CorrelationPair& pair);
 
 struct GateRequest {
   std::string plan;

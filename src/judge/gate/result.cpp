@@ -138,6 +138,8 @@ core::Json to_json(const GateResult& result) {
                         {"message", finding.message},
                         {"numbers", core::Json(finding.numbers)}});
   }
+  core::Json correlations = core::Json::array();
+  for (const CorrelationPair& pair : result.correlations) correlations.push_back(to_json(pair));
   core::Json accuracies = core::Json::array();
   for (const AccuracyScene& scene : result.accuracies) accuracies.push_back(to_json(scene));
   return {{"plan", result.plan},
@@ -145,6 +147,7 @@ core::Json to_json(const GateResult& result) {
           {"exit_code", static_cast<int>(result.exit_code())},
           {"headline", result.headline()},
           {"findings", std::move(findings)},
+          {"correlations", std::move(correlations)},
           {"accuracies", std::move(accuracies)}};
 }
 

@@ -60,8 +60,11 @@ struct ImageFindings {
 [[nodiscard]] std::vector<Finding> check_memory(const RunView& view);
 [[nodiscard]] std::vector<Finding> check_timings(const RunView& view, const WrongImages& wrong);
 
-[[nodiscard]] std::vector<Finding> check_correlations(const RunView& view,
-                                                      const WrongImages& wrong);
+struct CorrelationFindings {
+  std::vector<Finding> findings;
+  std::vector<CorrelationPair> pairs;
+};
+[[nodiscard]] CorrelationFindings check_correlations(const RunView& view, const WrongImages& wrong);
 
 struct AccuracyFindings {
   std::vector<Finding> findings;

@@ -1,5 +1,6 @@
 // What the charts draw.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "report/page_frame.hpp"

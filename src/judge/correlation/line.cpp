@@ -1,0 +1,201 @@
+#include "judge/correlation/line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "judge/statistics/regression.hpp"
+#include "judge/statistics/statistics.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using Model = LineModel;
+using Values = std::vector<double>;
+
+struct Coordinates {
+  Values x;
+  Values y;
+};
+
+Coordinates coordinates_of(std::span<const CorrelationPoint> points) {
+  Coordinates all;
+  for (const CorrelationPoint& point : points) {
+    all.x.push_back(point.x);
+    all.y.push_back(point.y);
+  }
+  return all;
+}
+
+bool can_have_line(const Values& x) {
+  return x.size() >= 4 && std::ranges::any_of(x, [&](double each) { return each != x.front(); });
+}
+
+// Relative to the first, so that no exponential overflows; r knows no units.
+Values plain(Values logarithms) {
+  const double first = logarithms.front();
+  for (double& value : logarithms) value = std::exp(value - first);
+  return logarithms;
+}
+
+// Written so that a number that is none is refused.
+std::string refusal_of(const CorrelationLine& line) {
+  if (line.configurations < Model::least_configurations) {
+    return fmt::format("{} configurations in common, {} are needed", line.configurations,
+                       Model::least_configurations);
+  }
+  if (!(line.rho >= Model::least_rho)) {
+    return fmt::format("the correlation of logarithms is {:.3f}, {} is needed", line.rho,
+                       Model::least_rho);
+  }
+  if (!(line.slope >= Model::least_slope && line.slope <= Model::largest_slope)) {
+    return fmt::format("the slope is {:.3f}, outside {} to {}", line.slope, Model::least_slope,
+                       Model::largest_slope);
+  }
+  if (!(line.scale <= Model::largest_scale)) {
+    return fmt::format("residuals scatter by {:.3f} in ln, at most {} is allowed", line.scale,
+                       Model::largest_scale);
+  }
+  return {};
+}
+
+double two_sided(double z, double degrees) {
+  return 2 * student_t_upper_tail(std::abs(z), degrees);
+}
+
+RobustLine fit_of(const Values& x, const Values& y) {
+  RobustLine fit = robust_line(x, y);
+  fit.scale = std::max(fit.scale, Model::least_scale);
+  return fit;
+}
+
+// One side of a level: weights about its own median, so that a level that lies off as a whole is no
+// outlier to itself.
+void weigh_side(const Values& residuals, const std::vector<std::size_t>& side, double scale,
+                Values& weights, Values& centred) {
+  Values values;
+  for (const std::size_t i : side) values.push_back(residuals[i]);
+  const double centre = median(values);
+  for (const std::size_t i : side) {
+    centred[i] = residuals[i] - centre;
+    weights[i] = bisquare_weight(centred[i], scale);
+  }
+}
+
+// Of Σw·a·b about the weighted means.
+double weighted_product(const Values& weights, const Values& a, const Values& b) {
+  double sum = 0;
+  double sum_a = 0;
+  double sum_b = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    sum += weights[i];
+    sum_a += weights[i] * a[i];
+    sum_b += weights[i] * b[i];
+  }
+  double product = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    product += weights[i] * (a[i] - sum_a / sum) * (b[i] - sum_b / sum);
+  }
+  return product;
+}
+
+// The coefficient g of the level's indicator d in y = a + b·x + g·d, where d's own regression on x
+// is taken out (Frisch and Waugh 1933): a level of expensive configurations does not hide in b.
+OffTheLine level_effect(const Values& x, const RobustLine& fit, const FactorLevel& level) {
+  Values weights(x.size());
+  Values centred(x.size());
+  weigh_side(fit.residuals, level.inside, fit.scale, weights, centred);
+  weigh_side(fit.residuals, level.outside, fit.scale, weights, centred);
+  Values indicator(x.size(), 0.0);
+  for (const std::size_t i : level.inside) indicator[i] = 1;
+  const double along = weighted_product(weights, x, indicator) / weighted_product(weights, x, x);
+  Values own(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) own[i] = indicator[i] - along * x[i];
+  const double squares = weighted_product(weights, own, own);
+  OffTheLine result{level.name, level.inside, 0, 0, 1};
+  result.effect = weighted_product(weights, own, fit.residuals) / squares;
+  const double kappa = robust_variance(centred, fit.scale, 3);
+  result.error = fit.scale * std::sqrt(kappa / squares);
+  return result;
+}
+
+// The clearest level, with its q; `effect` 0 where there is none.
+OffTheLine clearest_level(const Values& x, const RobustLine& fit,
+                          std::span<const FactorLevel> levels) {
+  OffTheLine best;
+  Values p;
+  double least = 2;
+  for (const FactorLevel& level : levels) {
+    const OffTheLine each = level_effect(x, fit, level);
+    // A level that is one with the line, or all wild, has no effect that is a number.
+    if (!std::isfinite(each.effect) || !(each.error > 0)) continue;
+    p.push_back(two_sided(each.effect / each.error, static_cast<double>(x.size()) - 3));
+    if (p.back() >= least) continue;
+    least = p.back();
+    best = each;
+  }
+  if (!p.empty()) best.q = std::ranges::min(benjamini_hochberg_adjusted(p));
+  return best;
+}
+
+std::vector<OffTheLine> configurations_off(const Values& x, const RobustLine& fit) {
+  std::vector<OffTheLine> all;
+  Values p;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double error = fit.scale * std::sqrt(1 + fit.leverages[i]);
+    all.push_back({{}, {i}, fit.residuals[i], error, 1});
+    p.push_back(student_t_upper_tail(fit.residuals[i] / error, static_cast<double>(x.size()) - 2));
+  }
+  const Values q = benjamini_hochberg_adjusted(p);
+  for (std::size_t i = 0; i < x.size(); ++i) all[i].q = q[i];
+  std::erase_if(all, [](const OffTheLine& each) {
+    return each.q > Model::share_of_false || each.effect < std::log(Model::configuration_effect);
+  });
+  std::ranges::stable_sort(all, std::greater{}, &OffTheLine::effect);
+  return all;
+}
+
+}  // namespace
+
+void fit_line(CorrelationPair& pair) {
+  CorrelationLine& line = pair.line;
+  line.configurations = pair.points.size();
+  const auto [x, y] = coordinates_of(pair.points);
+  if (!can_have_line(x)) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    line.intercept = line.slope = line.scale = line.rho = line.pearson = none;
+    for (CorrelationPoint& point : pair.points) point.residual = none;
+  } else {
+    const RobustLine fit = robust_line(x, y);
+    line.intercept = fit.line.intercept;
+    line.slope = fit.line.slope;
+    line.scale = fit.scale;
+    line.rho = pearson_r(x, y);
+    line.pearson = pearson_r(plain(x), plain(y));
+    for (CorrelationPoint& point : pair.points) point.residual = point.y - line.at(point.x);
+  }
+  line.refusal = refusal_of(line);
+}
+
+std::vector<OffTheLine> off_the_line(std::span<const CorrelationPoint> points,
+                                     std::span<const Factors> factors) {
+  auto [x, y] = coordinates_of(points);
+  const std::vector<FactorLevel> levels = factor_levels(factors, Model::least_level);
+  std::vector<OffTheLine> result;
+  RobustLine fit = fit_of(x, y);
+  while (result.size() < Model::most_levels) {
+    OffTheLine level = clearest_level(x, fit, levels);
+    if (level.q > Model::share_of_false || std::abs(level.effect) < std::log(Model::level_effect)) {
+      break;
+    }
+    for (const std::size_t i : level.members) y[i] -= level.effect;
+    fit = fit_of(x, y);
+    result.push_back(std::move(level));
+  }
+  std::ranges::move(configurations_off(x, fit), std::back_inserter(result));
+  return result;
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,161 @@
+#include "judge/correlation/residuals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "judge/baselines/cost_tolerance.hpp"
+#include "judge/statistics/statistics.hpp"
+
+namespace triptych::judge {
+namespace {
+
+// Of a level's configurations, to speak of the level.
+constexpr double least_share_moved = 0.75;
+constexpr std::size_t least_level = 2;
+
+using Indices = std::vector<std::size_t>;
+
+double mean_of(std::span<const double> values, const Indices& indices) {
+  double sum = 0;
+  for (const std::size_t i : indices) sum += values[i];
+  return sum / static_cast<double>(indices.size());
+}
+
+bool same_direction(double a, double b) {
+  return a != 0 && std::signbit(a) == std::signbit(b);
+}
+
+Movement movement(Movement::Of of, std::span<const double> moved, Indices members) {
+  Movement result{of, {}, std::move(members), 0, 0, 0};
+  std::vector<double> values;
+  for (const std::size_t i : result.members) values.push_back(moved[i]);
+  std::ranges::sort(values, {}, [](double value) { return std::abs(value); });
+  result.log_ratio = median(values);
+  result.least = values.front();
+  result.most = values.back();
+  return result;
+}
+
+class Explanation {
+ public:
+  Explanation(std::span<const double> moved, std::span<const Factors> factors)
+      : moved_(moved),
+        left_(moved.begin(), moved.end()),
+        levels_(factor_levels(factors, least_level)) {}
+
+  [[nodiscard]] std::vector<Movement> run() && {
+    find_everything();
+    while (find_level()) {
+    }
+    find_configurations();
+    return std::move(result_);
+  }
+
+ private:
+  void cover(const Indices& members, double effect) {
+    for (const std::size_t i : members) {
+      const bool beyond = std::abs(left_[i] - effect) > std::abs(effect);
+      if (same_direction(left_[i], effect) && !beyond) left_[i] = 0;
+    }
+  }
+
+  void find_everything() {
+    if (moved_.size() < 2) return;
+    if (!std::ranges::all_of(moved_, [&](double m) { return same_direction(m, moved_[0]); })) {
+      return;
+    }
+    Indices all(moved_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    result_.push_back(movement(Movement::Of::everything, moved_, all));
+    cover(all, result_.back().log_ratio);
+  }
+
+  // Of its mean against the rest; nullopt where it did not move as one.
+  [[nodiscard]] std::optional<double> effect_of(const FactorLevel& level) const {
+    const double effect = mean_of(left_, level.inside) - mean_of(left_, level.outside);
+    const auto along = std::ranges::count_if(
+        level.inside, [&](std::size_t i) { return same_direction(left_[i], effect); });
+    const double least = least_share_moved * static_cast<double>(level.inside.size());
+    if (static_cast<double>(along) < least) return std::nullopt;
+    return effect;
+  }
+
+  // The one that explains most of the squares that are left.
+  bool find_level() {
+    const FactorLevel* best = nullptr;
+    double most = 0;
+    double of_best = 0;
+    for (const FactorLevel& level : levels_) {
+      const auto effect = effect_of(level);
+      if (!effect) continue;
+      const auto inside = static_cast<double>(level.inside.size());
+      const auto outside = static_cast<double>(level.outside.size());
+      const double explained = *effect * *effect * inside * outside / (inside + outside);
+      if (explained <= most) continue;
+      best = &level;
+      most = explained;
+      of_best = *effect;
+    }
+    if (best == nullptr) return false;
+    result_.push_back(movement(Movement::Of::level, moved_, best->inside));
+    result_.back().level = best->name;
+    result_.back().log_ratio = of_best;
+    const auto before = std::ranges::count(left_, 0.0);
+    cover(best->inside, of_best);
+    return std::ranges::count(left_, 0.0) > before;  // else it would be found for ever
+  }
+
+  void find_configurations() {
+    Indices order;
+    for (std::size_t i = 0; i < left_.size(); ++i) {
+      if (left_[i] != 0) order.push_back(i);
+    }
+    std::ranges::stable_sort(order, std::greater{},
+                             [&](std::size_t i) { return std::abs(moved_[i]); });
+    for (const std::size_t i : order) {
+      result_.push_back(movement(Movement::Of::configuration, moved_, {i}));
+    }
+  }
+
+  std::span<const double> moved_;
+  std::vector<double> left_;  // 0: did not move, or told
+  std::vector<FactorLevel> levels_;
+  std::vector<Movement> result_;
+};
+
+}  // namespace
+
+Repeatability repeatability(std::string_view device, std::string_view technique) {
+  return {.device_code = cost_tolerance("device_code", device, technique),
+          .driver = cost_tolerance("driver", device, technique)};
+}
+
+Repeatability operator+(const Repeatability& a, const Repeatability& b) {
+  return {a.device_code + b.device_code, a.driver + b.driver};
+}
+
+CostChange change_of(const FrameCost& stored, const FrameCost& now) {
+  return {(now.device_code - stored.device_code) / stored.sum(),
+          (now.driver - stored.driver) / stored.sum()};
+}
+
+double moved_by(const CostChange& change, const Repeatability& bound) {
+  double beyond = 0;
+  if (std::abs(change.device_code) > bound.device_code) beyond += change.device_code;
+  if (std::abs(change.driver) > bound.driver) beyond += change.driver;
+  return std::log1p(beyond);
+}
+
+bool residual_moved(const CostChange& a, const Repeatability& bound_a, const CostChange& b,
+                    const Repeatability& bound_b) {
+  const CostChange apart{b.device_code - a.device_code, b.driver - a.driver};
+  return moved_by(apart, bound_a + bound_b) != 0;
+}
+
+std::vector<Movement> explain(std::span<const double> moved, std::span<const Factors> factors) {
+  return Explanation(moved, factors).run();
+}
+
+}  // namespace triptych::judge

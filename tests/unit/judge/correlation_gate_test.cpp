@@ -1,0 +1,276 @@
+// What the correlation finds of planted slowdowns, and what it leaves alone.
+
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "core/json.hpp"
+#include "correlation_world.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* lavapipe = "vulkan:lavapipe";
+constexpr const char* llvmpipe = "gl:llvmpipe-egl";
+constexpr const char* pocl = "opencl:pocl";
+const std::string chosen = "camera=c1,data=d2,step=1,technique=t3";
+
+// Without findings of other devices and of how a whole device is.
+std::vector<Finding> named(const CorrelationFindings& result) {
+  std::vector<Finding> findings;
+  for (const Finding& finding : result.findings) {
+    if (!finding.configuration.empty() || !finding.subject.empty()) findings.push_back(finding);
+  }
+  return findings;
+}
+
+std::size_t count(const CorrelationFindings& result, Verdict verdict) {
+  return static_cast<std::size_t>(std::ranges::count(result.findings, verdict, &Finding::verdict));
+}
+
+TEST(AcceptedDevices, JitterWithinTheBoundsIsNothing) {
+  for (std::uint64_t trial = 0; trial < 300; ++trial) {
+    CorrelationWorld world(trial);
+    for (const char* id : {lavapipe, llvmpipe, pocl}) world.add_device(id, true);
+    const CorrelationFindings result = world.judge();
+    ASSERT_EQ(count(result, Verdict::pass), 3U) << trial << '\n' << text(result);
+    ASSERT_EQ(result.findings.size(), 3U) << trial << '\n' << text(result);
+  }
+}
+
+// The test of the test before: jitter beyond its bound is told.
+TEST(AcceptedDevices, JitterBeyondTheBoundIsTold) {
+  CorrelationWorld world(1);
+  world.add_device(lavapipe, true);
+  world.add_device(llvmpipe, true, 0.02, {}, on_configuration(chosen, 1.01));
+  EXPECT_EQ(named(world.judge()).size(), 1U) << text(world.judge());
+}
+
+TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsNamedFirst) {
+  for (std::uint64_t trial = 0; trial < 34; ++trial) {
+    for (const char* id : {lavapipe, llvmpipe, pocl}) {
+      CorrelationWorld world(trial);
+      for (const char* each : {lavapipe, llvmpipe, pocl}) {
+        // Half a percent of the frame.
+        const auto planted =
+            id == each ? on_configuration(chosen, 1 + 0.005 / 0.7) : CorrelationWorld::Change{};
+        world.add_device(each, true, 0.1, planted);
+      }
+      const CorrelationFindings result = world.judge();
+      const auto found = named(result);
+      ASSERT_EQ(found.size(), 1U) << text(result);
+      EXPECT_EQ(found[0].verdict, Verdict::regression);
+      EXPECT_EQ(found[0].device, id);
+      EXPECT_EQ(found[0].configuration, chosen);
+      EXPECT_NEAR(found[0].numbers.at("ratio"), 1.005, 1e-5);
+      EXPECT_EQ(count(result, Verdict::pass), 2U) << text(result);
+    }
+  }
+}
+
+// Half a percent of the frame in the driver alone: PoCL's bound and another's are less together.
+TEST(AcceptedDevices, HalfAPercentInTheDriverIsFoundOnPocl) {
+  CorrelationWorld world(3);
+  world.add_device(lavapipe, true);
+  world.add_device(pocl, true, 0.02, {}, on_configuration(chosen, 1 + 0.0075 / 0.3));
+  const auto found = named(world.judge());
+  ASSERT_EQ(found.size(), 1U) << text(world.judge());
+  EXPECT_EQ(found[0].device, pocl);
+}
+
+TEST(AcceptedDevices, AQuarterPercentOfALevelIsOneFinding) {
+  for (std::uint64_t trial = 0; trial < 100; ++trial) {
+    CorrelationWorld world(trial);
+    world.add_device(pocl, true, 0.1, on_level("data", "d2", 1 + 0.0025 / 0.7));
+    world.add_device(lavapipe, true, 0.1);
+    const CorrelationFindings result = world.judge();
+    const auto found = named(result);
+    ASSERT_EQ(found.size(), 1U) << text(result);
+    EXPECT_EQ(found[0].device, pocl);
+    EXPECT_EQ(found[0].subject, "data=d2");
+    EXPECT_EQ(found[0].configuration, "");
+    EXPECT_EQ(found[0].verdict, Verdict::regression);
+  }
+}
+
+TEST(AcceptedDevices, EverythingIsSaidOnceAndWhatStandsOutBeside) {
+  CorrelationWorld world(5);
+  const auto planted = [](const record::Record& r) {
+    return r.configuration == chosen ? 1.2 : 1.02;
+  };
+  world.add_device(lavapipe, true, 0.02, planted);
+  world.add_device(llvmpipe, true);
+  const CorrelationFindings result = world.judge();
+  const auto found = named(result);
+  ASSERT_EQ(found.size(), 2U) << text(result);
+  EXPECT_EQ(found[0].subject, "everything");
+  EXPECT_THAT(found[0].message, HasSubstr("everything (96) by +1.4 %"));
+  EXPECT_EQ(found[1].configuration, chosen);
+}
+
+TEST(AcceptedDevices, LessIsAnImprovement) {
+  CorrelationWorld world(6);
+  world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 0.9));
+  world.add_device(llvmpipe, true);
+  const auto found = named(world.judge());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].verdict, Verdict::improved);
+}
+
+// A change of the program alike on both leaves their residual: that is for the check of cost.
+TEST(AcceptedDevices, WhatBothChangedAlikeLeavesTheResidual) {
+  CorrelationWorld world(7);
+  world.add_device(lavapipe, true, 0.02, {}, on_configuration(chosen, 1.5));
+  world.add_device(llvmpipe, true, 0.02, {}, on_configuration(chosen, 1.5));
+  EXPECT_TRUE(named(world.judge()).empty()) << text(world.judge());
+}
+
+// Of one device in the run, the stored costs of others are what it is held against.
+TEST(AcceptedDevices, OneAloneIsHeldAgainstWhatIsStored) {
+  CorrelationWorld world(8);
+  world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));
+  world.add_device(llvmpipe, true);
+  world.input().devices.erase(llvmpipe);
+  std::erase_if(world.input().records,
+                [](const record::Record* r) { return r->device == llvmpipe; });
+  const auto found = named(world.judge());
+  ASSERT_EQ(found.size(), 1U) << text(world.judge());
+  EXPECT_EQ(found[0].configuration, chosen);
+}
+
+TEST(AcceptedDevices, CountsByAnotherCounterAreNotCompared) {
+  CorrelationWorld world(9);
+  world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));
+  world.add_device(llvmpipe, true);
+  for (auto& [key, stored] : world.input().stored) stored.counted_by = "another emulator";
+  const CorrelationFindings result = world.judge();
+  EXPECT_EQ(count(result, Verdict::regression), 0U) << text(result);
+  EXPECT_THAT(text(result), HasSubstr("cannot correlate: no other device"));
+}
+
+// What a new device costs: a factor, and 96 configurations that scatter about the line.
+struct Trials {
+  int found = 0;
+  int wrong = 0;
+};
+
+Trials new_devices(const CorrelationWorld::Change& planted, const std::string& configuration,
+                   const std::string& level, double scatter, std::uint64_t runs = 100) {
+  Trials trials;
+  for (std::uint64_t trial = 0; trial < runs; ++trial) {
+    CorrelationWorld world(1000 + trial);
+    world.add_device(lavapipe, true, 0);
+    world.add_device(llvmpipe, false, scatter, planted, planted);
+    bool hit = false;
+    for (const Finding& finding : named(world.judge())) {
+      EXPECT_EQ(finding.verdict, Verdict::advisory);
+      const bool right = finding.configuration == configuration && finding.subject == level;
+      hit = hit || right;
+      if (!right) ++trials.wrong;
+    }
+    if (hit) ++trials.found;
+  }
+  return trials;
+}
+
+// Of 100 trials one false name is what q lets expect; four would be another q. Normal scatter of 2
+// % and 96 configurations: 10 % are 4.8 standard deviations, 4 are needed to be wrong in 1 % only.
+// At 1.5 % nearly all are found.
+TEST(NewDevice, TenPercentOfOneConfiguration) {
+  const Trials wide = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.02);
+  EXPECT_GE(wide.found, 60);
+  EXPECT_LE(wide.wrong, 3);
+  const Trials narrow = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.015);
+  EXPECT_GE(narrow.found, 95);
+  EXPECT_LE(narrow.wrong, 3);
+}
+
+TEST(NewDevice, ThreePercentOfALevel) {
+  const Trials trials = new_devices(on_level("data", "d2", 1.03), "", "data=d2", 0.02);
+  EXPECT_GE(trials.found, 95);
+  EXPECT_LE(trials.wrong, 3);
+}
+
+// 1 % of them is 5 of 500; of 1,500 once tried it was 14.
+TEST(NewDevice, NothingPlanted) {
+  const Trials trials = new_devices({}, "none", "none", 0.02, 500);
+  EXPECT_LE(trials.wrong, 10);
+}
+
+TEST(NewDevice, WhatDoesNotCorrelateIsRefused) {
+  CorrelationWorld world(10);
+  world.add_device(lavapipe, true, 0);
+  world.add_device(llvmpipe, false, 1);
+  const CorrelationFindings result = world.judge();
+  ASSERT_EQ(result.findings.size(), 2U) << text(result);
+  EXPECT_THAT(text(result), HasSubstr("cannot correlate: vulkan:lavapipe: the correlation of"));
+  EXPECT_TRUE(named(result).empty());
+}
+
+// Of two accepted devices the one with the least scatter.
+TEST(NewDevice, TheNearestJudges) {
+  CorrelationWorld world(11);
+  world.add_device(lavapipe, true, 0.1);
+  world.add_device(pocl, true, 0.01);
+  world.add_device(llvmpipe, false, 0, on_configuration(chosen, 1.3));
+  const auto found = named(world.judge());
+  ASSERT_EQ(found.size(), 1U) << text(world.judge());
+  EXPECT_THAT(found[0].message, HasSubstr("off the line of opencl:pocl"));
+}
+
+TEST(NewDevice, StoredCostsOfADeviceThatIsNotInTheRun) {
+  CorrelationWorld world(12);
+  world.add_device(lavapipe, true, 0);
+  world.add_device(llvmpipe, false, 0.01, on_configuration(chosen, 1.3));
+  world.input().devices.erase(lavapipe);
+  std::erase_if(world.input().records,
+                [](const record::Record* r) { return r->device == lavapipe; });
+  const CorrelationFindings result = world.judge();
+  const auto found = named(result);
+  ASSERT_EQ(found.size(), 1U) << text(result);
+  EXPECT_EQ(found[0].configuration, chosen);
+  ASSERT_EQ(result.pairs.size(), 1U);
+  EXPECT_EQ(result.pairs[0].device_a, "vulkan:lavapipe (1)");
+}
+
+TEST(Pairs, ByCostAndByTimeWithTheirOutliers) {
+  CorrelationWorld world(13);
+  world.with_times = true;
+  world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.1));
+  world.add_device(llvmpipe, true);
+  const CorrelationFindings result = world.judge();
+  ASSERT_EQ(result.pairs.size(), 2U);
+  EXPECT_EQ(result.pairs[0].signal, "cost");
+  EXPECT_EQ(result.pairs[1].signal, "time");
+  for (const CorrelationPair& pair : result.pairs) {
+    EXPECT_EQ(pair.device_a, llvmpipe);
+    EXPECT_EQ(pair.device_b, lavapipe);
+    EXPECT_TRUE(pair.line.admitted()) << pair.line.refusal;
+    EXPECT_NEAR(pair.line.slope, 1, 0.05);
+    EXPECT_EQ(pair.points.size(), 96U);
+  }
+  for (const CorrelationPoint& point : result.pairs[0].points) {
+    EXPECT_EQ(point.outlier, point.configuration == chosen) << point.configuration;
+  }
+  const core::Json json = to_json(result.pairs[0]);
+  EXPECT_EQ(json.at("line").at("admitted"), true);
+  EXPECT_EQ(json.at("points").size(), 96U);
+}
+
+TEST(Pairs, WithoutCostADeviceIsLeftOut) {
+  CorrelationWorld world(14);
+  world.with_times = true;
+  world.add_device(lavapipe, true);
+  world.add_device(llvmpipe, true);
+  for (const record::Record* record : world.input().records) {
+    if (record->device == llvmpipe) const_cast<record::Record*>(record)->cost.clear();
+  }
+  const CorrelationFindings result = world.judge();
+  EXPECT_THAT(text(result), HasSubstr("skipped gl:llvmpipe-egl  : no instructions were counted"));
+  EXPECT_EQ(result.pairs.size(), 1U) << "by time alone";
+}
+
+}  // namespace
+}  // namespace triptych::judge

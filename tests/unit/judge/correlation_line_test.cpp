@@ -1,0 +1,88 @@
+// The line of one device along another, and when it may tell something.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "judge/correlation/line.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using testing::HasSubstr;
+
+// y = 0.7 + slope·x with a wave of this size on it.
+CorrelationPair pair_of(std::size_t points, double slope = 1, double wave = 0.02) {
+  CorrelationPair pair{.device_a = "a", .device_b = "b", .signal = "cost"};
+  for (std::size_t i = 0; i < points; ++i) {
+    const double x = 14 + 0.05 * static_cast<double>(i);
+    const double y = 0.7 + slope * x + wave * std::sin(1.7 * static_cast<double>(i));
+    pair.points.push_back({.configuration = std::to_string(i), .x = x, .y = y});
+  }
+  return pair;
+}
+
+CorrelationLine line_of(CorrelationPair pair) {
+  fit_line(pair);
+  return pair.line;
+}
+
+TEST(FitLine, IsWhatItIsFittedTo) {
+  CorrelationPair pair = pair_of(40, 1.1, 0);
+  pair.points[3].y += 5;
+  fit_line(pair);
+  EXPECT_NEAR(pair.line.slope, 1.1, 1e-9);
+  EXPECT_NEAR(pair.line.intercept, 0.7, 1e-7);
+  EXPECT_NEAR(pair.points[3].residual, 5, 1e-7);
+}
+
+TEST(FitLine, Admission) {
+  EXPECT_TRUE(line_of(pair_of(20)).admitted()) << line_of(pair_of(20)).refusal;
+  EXPECT_THAT(line_of(pair_of(19)).refusal, HasSubstr("19 configurations in common, 20"));
+  EXPECT_THAT(line_of(pair_of(40, 1.4)).refusal, HasSubstr("the slope is 1.4"));
+  EXPECT_THAT(line_of(pair_of(40, 0.6)).refusal, HasSubstr("the slope is 0.6"));
+  EXPECT_THAT(line_of(pair_of(40, 1, 2)).refusal, HasSubstr("the correlation of logarithms"));
+  EXPECT_THAT(line_of(pair_of(80, 1, 0.5)).refusal, HasSubstr("residuals scatter by"));
+}
+
+TEST(FitLine, TooFewForALineHaveNone) {
+  for (const std::size_t points : {0U, 1U, 3U}) {
+    const CorrelationLine line = line_of(pair_of(points));
+    EXPECT_FALSE(line.admitted());
+    EXPECT_TRUE(std::isnan(line.slope));
+  }
+  CorrelationPair alike = pair_of(30);
+  for (CorrelationPoint& point : alike.points) point.x = 14;
+  EXPECT_FALSE(line_of(alike).admitted());
+}
+
+// A level that lies off by far more than the scatter is no outlier to itself, and what is not in it
+// is held against the line beside it.
+TEST(OffTheLine, ALevelAndOneConfiguration) {
+  CorrelationPair pair = pair_of(60);
+  std::vector<Factors> factors;
+  for (std::size_t i = 0; i < pair.points.size(); ++i) {
+    factors.push_back({{"data", std::to_string(i % 3)}, {"step", std::to_string(i / 30)}});
+    if (i % 3 == 1) pair.points[i].y += 0.4;
+  }
+  pair.points[5].y += 0.3;
+  const auto off = off_the_line(pair.points, factors);
+  ASSERT_EQ(off.size(), 2U);
+  EXPECT_EQ(off[0].level, "data=1");
+  EXPECT_NEAR(off[0].effect, 0.4, 0.01);
+  EXPECT_LT(off[0].error, 0.01);
+  EXPECT_EQ(off[1].level, "");
+  EXPECT_EQ(off[1].members, std::vector<std::size_t>{5});
+  EXPECT_NEAR(off[1].effect, 0.3, 0.03);
+}
+
+TEST(OffTheLine, AnExactLineTellsWhatIsOffIt) {
+  CorrelationPair pair = pair_of(40, 1, 0);
+  pair.points[7].y += 0.11;
+  const auto off = off_the_line(pair.points, std::vector<Factors>(40));
+  ASSERT_EQ(off.size(), 1U);
+  EXPECT_EQ(off[0].members, std::vector<std::size_t>{7});
+}
+
+}  // namespace
+}  // namespace triptych::judge
