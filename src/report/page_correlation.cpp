@@ -8,10 +8,10 @@
 #include <set>
 
 #include "judge/gate/correlation_pairs.hpp"
-#include "report/correlation_chart.hpp"
 #include "report/html.hpp"
 #include "report/page_frame.hpp"
 #include "report/page_sections.hpp"
+#include "report/scatter_figure.hpp"
 
 namespace triptych::report {
 namespace {
@@ -131,15 +131,43 @@ std::string global_text(const CorrelationPair& pair) {
       what, p_value(global.p), percent(global.smallest_effect));
 }
 
-std::string pair_part(const PlanData& plan, const CorrelationPair& pair, std::size_t index) {
+// The one place that knows how a pair is kept.
+ScatterFigure scatter_of(const CorrelationPair& pair) {
+  const auto milliseconds = [](double log_ns) { return 1e-6 * std::exp(log_ns); };
+  ScatterFigure scatter{.across = (pair.of_itself ? "its stored runs" : pair.other) + ", ms",
+                        .up = pair.device + ", ms",
+                        .points = {}};
+  for (std::size_t i = 0; i < pair.cases.size(); ++i) {
+    const judge::CorrelationCase& each = pair.cases[i];
+    const judge::ConfigurationJudgement& judgement = pair.result.judgements[i];
+    if (each.anchor) continue;
+    scatter.points.push_back({.name = each.configuration,
+                              .technique = each.factors.at("technique"),
+                              .across = milliseconds(each.log_time_a),
+                              .up = milliseconds(each.log_time_b),
+                              .deviation = std::expm1(judgement.residual),
+                              .flag = judgement.slower   ? "slower"
+                                      : judgement.faster ? "faster"
+                                                         : ""});
+  }
+  if (pair.result.line.slope != 0) {
+    // ln ms from ln ns on both axes
+    const double unit = std::log(1e-6);
+    scatter.line = {pair.result.line.intercept + unit - pair.result.line.slope * unit,
+                    pair.result.line.slope};
+    if (pair.result.admitted()) scatter.shows_from = std::expm1(pair.result.smallest_effect);
+  }
+  return scatter;
+}
+
+std::string pair_part(const CorrelationPair& pair) {
   std::string text =
       fmt::format("<h4>{} against {}{}</h4><p class=\"system\">{}</p>", escape(pair.device),
                   pair.of_itself ? "its own history" : escape(pair.other),
                   pair.within_run ? ", of the same run" : "", escape(pair.other_key));
   text += admission(pair);
   if (pair.cases.empty()) return text;
-  const std::string id = fmt::format("{}-correlation{}", plan.anchor, index);
-  text += chart(id, correlation_chart(pair));
+  text += scatter_chart(scatter_of(pair));
   return text + fit_table(pair) + global_text(pair) + outlier_table(pair) + level_table(pair);
 }
 
@@ -149,19 +177,16 @@ std::string correlation_section(const PlanData& plan) {
   std::string stored;
   std::string farther;
   std::string consistency;
-  std::size_t index = 0;
   const std::set<std::string> decided = judge::decided_devices(plan.verdict->correlations);
   for (const CorrelationPair& pair : plan.verdict->correlations) {
     const bool aside = judge::is_beside_what_decides(pair, decided);
-    (pair.within_run ? consistency : aside ? farther : stored) += pair_part(plan, pair, index++);
+    (pair.within_run ? consistency : aside ? farther : stored) += pair_part(pair);
   }
-  if (index == 0) return {};
+  if (plan.verdict->correlations.empty()) return {};
   std::string text =
       "<h3>Other devices</h3><p>Each point is a configuration: its time on another device across, "
-      "on this one upwards. A triangle is an anchor, frozen work that tells a slower device from a "
-      "slower program; the dashed line is the anchors’ own. Beside it what is left of each beyond "
-      "the line, without anchors that lie outside; above the dotted rule one configuration alone "
-      "would show.</p>" +
+      "on this one upwards. Beside it what is left of each beyond the line; above the dashed rule "
+      "one configuration alone would show.</p>" +
       stored;
   if (!farther.empty()) {
     text += fmt::format(
