@@ -335,8 +335,8 @@ class Figure::Drawing {
   }
 
   [[nodiscard]] std::string box_element(const Shape& shape) const {
-    const auto [x0, x1] = std::minmax(x_of(shape.places[0].x), x_of(shape.places[1].x));
-    const auto [y0, y1] = std::minmax(y_of(shape.places[0].y), y_of(shape.places[1].y));
+    const auto [x0, x1] = std::minmax({x_of(shape.places[0].x), x_of(shape.places[1].x)});
+    const auto [y0, y1] = std::minmax({y_of(shape.places[0].y), y_of(shape.places[1].y)});
     return fmt::format(
         "<rect class=\"fill {}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
         "opacity=\"{:.2f}\">{}</rect>",

@@ -143,13 +143,14 @@ std::string titled(const PlanData& plan, const SameBits& group,
 
 std::string verdict_text(const judge::ImageComparison& result) {
   const bool right = result.within_bound();
-  return fmt::format(
-      "<b class=\"{}\">{}</b><br>largest error {:.2e}, RMSE {:.2e}", right ? "pass" : "regression",
-      right ? fmt::format("within the bound, {:.0f} % of it used", 100 * result.worst.ratio)
-            : fmt::format("{} pixels over the bound, {} of another particle or at another depth",
-                          result.over_bound + result.non_finite,
-                          result.wrong_ids + result.wrong_depths),
-      result.largest.error, result.rmse);
+  std::string text = fmt::format("within the bound, {:.0f} % of it used", 100 * result.worst.ratio);
+  if (!right)
+    text = fmt::format("{} pixels beyond the bound", result.over_bound + result.non_finite);
+  if (const std::size_t other = result.wrong_ids + result.wrong_depths; other > 0) {
+    text += fmt::format(", {} of another particle or at another depth", other);
+  }
+  return fmt::format("<b class=\"{}\">{}</b><br>largest error {:.2e}, RMSE {:.2e}",
+                     right ? "pass" : "regression", text, result.largest.error, result.rmse);
 }
 
 Panel panel_of(const record::Store& store, const PlanData& plan, const SameBits& group,

@@ -78,6 +78,12 @@ TEST(Figure, DrawsNothingAtNoNumber) {
   EXPECT_THAT(svg, Not(HasSubstr("inf")));
 }
 
+TEST(Figure, ABoxLiesWhereItsCornersAre) {
+  Figure figure("f", {.low = 0, .high = 10}, {.low = 0, .high = 10}, 100, 100);
+  figure.box({2, 8}, {4, 3}, {});
+  EXPECT_THAT(figure.svg(), HasSubstr("width=\"20.0\" height=\"50.0\""));
+}
+
 // Of one value, of many that are the same: an axis has a length all the same.
 TEST(Figure, OfOneValueHasAxes) {
   for (const bool logarithmic : {false, true}) {

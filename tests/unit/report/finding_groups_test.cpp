@@ -71,8 +71,9 @@ TEST(FindingGroups, WorstFirstAndCausesBeforeConsequences) {
       finding(regression, "gl:x", "step=5")};
   std::vector<std::string> order;
   for (const FindingGroup& group : grouped(findings)) {
-    order.push_back(fmt::format("{} {}", group.first->device,
-                                group.first->message.substr(0, message.find(" pixels"))));
+    order.push_back(
+        fmt::format("{} {}", group.first->device,
+                    group.first->message.substr(0, group.first->message.find(" pixels"))));
   }
   EXPECT_THAT(order, ElementsAre("gl:x crashed: signal 11", "gl:x 3 of 64", "gl:y 3 of 64",
                                  "gl:x samples 3 → 4", "gl:x 3 of 64", "gl:x 3 of 64"));
