@@ -1,17 +1,17 @@
 #include "report/accuracy_chart.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <vector>
 
-#include "core/json.hpp"
-#include "core/json_text.hpp"
+#include "report/figure.hpp"
 
 namespace triptych::report {
 namespace {
-
-using core::Json;
 
 std::optional<double> cost_of(const judge::AccuracyCase& each, Cost cost) {
   if (cost == Cost::time && each.time_ns) return *each.time_ns / 1e6;
@@ -21,7 +21,7 @@ std::optional<double> cost_of(const judge::AccuracyCase& each, Cost cost) {
 
 // What the colour tells: of configurations that stand alone the technique, else there would be as
 // many colours as points.
-std::string colour_of(const judge::AccuracyFamily& family, const judge::AccuracyCase& each) {
+std::string colour_name(const judge::AccuracyFamily& family, const judge::AccuracyCase& each) {
   const auto technique = each.factors.find("technique");
   const bool alone = family.members.size() == 1 && technique != each.factors.end();
   return alone ? technique->second : family.name;
@@ -34,79 +34,75 @@ std::vector<std::string> factors_of(const judge::AccuracyScene& scene) {
   return factors;
 }
 
-void append_scene(Json& values, const std::string& title, const judge::AccuracyScene& scene,
-                  Cost cost) {
-  for (const judge::AccuracyFamily& family : scene.families) {
+// One scene on one device: a line per family, the front in ink, the goals dashed.
+class Diagram {
+ public:
+  Diagram(const judge::AccuracyScene& scene, const std::string& title, Cost cost)
+      : scene_(scene),
+        cost_(cost),
+        figure_(title + " on " + scene.device,
+                {.title = "RMSE against the limit", .logarithmic = true},
+                {.title = cost == Cost::time ? "time of a frame, ms" : "samples taken",
+                 .logarithmic = true},
+                230, 150) {}
+
+  [[nodiscard]] std::string svg() {
+    for (const judge::AccuracyFamily& family : scene_.families) add_family(family);
+    if (figure_.empty()) return {};
+    add_front();
+    add_goals();
+    return figure_.svg();
+  }
+
+ private:
+  // What has no error or no cost has no place on such axes.
+  [[nodiscard]] std::optional<Figure::Place> place_of(std::size_t i) const {
+    const judge::AccuracyCase& each = scene_.cases[i];
+    const auto paid = cost_of(each, cost_);
+    if (!paid || !(*paid > 0) || !(each.rmse > 0)) return std::nullopt;
+    return Figure::Place{each.rmse, *paid};
+  }
+  std::string_view colour(const std::string& name) {
+    const auto [found, added] = colours_.try_emplace(name, colour_of(colours_.size()));
+    if (added) figure_.legend(name, {.colour = found->second});
+    return found->second;
+  }
+  void add_family(const judge::AccuracyFamily& family) {
+    std::vector<Figure::Place> places;
     for (const std::size_t i : family.members) {
-      const judge::AccuracyCase& each = scene.cases[i];
-      const auto paid = cost_of(each, cost);
-      if (!paid || !(*paid > 0) || !(each.rmse > 0)) continue;
-      const auto step = each.factors.find("step");
-      values.push_back({{"data", title},
-                        {"device", scene.device},
-                        {"family", family.name},
-                        {"colour", colour_of(family, each)},
-                        {"step", step == each.factors.end() ? "" : step->second},
-                        {"error", each.rmse},
-                        {"cost", *paid},
-                        {"front", std::ranges::find(scene.front, i) != scene.front.end()},
-                        {"configuration", each.configuration}});
+      const auto place = place_of(i);
+      if (!place) continue;
+      const judge::AccuracyCase& each = scene_.cases[i];
+      places.push_back(*place);
+      figure_.point(*place, {.colour = colour(colour_name(family, each)), .opacity = 0.8},
+                    fmt::format("{}: RMSE {:.3g}, {:.3g}{}", each.configuration, place->x, place->y,
+                                cost_ == Cost::time ? " ms" : " samples"));
+    }
+    if (places.size() > 1) {
+      const std::string name = colour_name(family, scene_.cases[family.members.front()]);
+      figure_.line(places, {.colour = colour(name)}, family.name);
     }
   }
-}
+  void add_front() {
+    std::vector<Figure::Place> places;
+    for (const std::size_t i : scene_.front) {
+      if (const auto place = place_of(i)) places.push_back(*place);
+    }
+    std::ranges::sort(places, {}, &Figure::Place::x);
+    if (places.empty()) return;
+    figure_.line(places, {.colour = "ink", .width = 1.6}, "the front");
+    for (const auto& place : places) figure_.point(place, {.colour = "ink", .hollow = true});
+    figure_.legend("the front", {.colour = "ink"}, true);
+  }
+  void add_goals() {
+    for (const double goal : judge::accuracy_goals) figure_.upright(goal);
+  }
 
-Json axis(const char* field, const char* title, const char* format) {
-  return {{"field", field},
-          {"type", "quantitative"},
-          {"title", title},
-          {"scale", {{"type", "log"}, {"nice", false}, {"padding", 6}}},
-          {"axis", {{"format", format}, {"tickCount", 5}, {"labelFlush", false}}}};
-}
-
-Json facet(const char* field) {
-  return {
-      {"field", field},
-      {"type", "nominal"},
-      {"title", nullptr},
-      {"sort", nullptr},
-      // A line for the data, one for each factor: together they are longer than a row is high.
-      {"header",
-       {{"labelLimit", 200}, {"labelFontSize", 11}, {"labelExpr", "split(datum.label, ', ')"}}}};
-}
-
-// The cases are in the order of their steps already.
-Json line_layer(const Json& position) {
-  Json encoding = position;
-  encoding["color"] = {{"field", "colour"}, {"type", "nominal"}, {"title", nullptr}};
-  encoding["detail"] = {{"field", "family"}, {"type", "nominal"}};
-  encoding["order"] = {{"field", "error"}, {"type", "quantitative"}};
-  encoding["tooltip"] = Json::array({{{"field", "configuration"}},
-                                     {{"field", "error"}, {"format", ".3g"}},
-                                     {{"field", "cost"}, {"format", ".3g"}}});
-  return {{"mark", {{"type", "line"}, {"strokeWidth", 1}, {"point", {{"size", 14}}}}},
-          {"encoding", encoding}};
-}
-
-Json front_layer(const Json& position) {
-  Json encoding = position;
-  encoding["order"] = {{"field", "error"}, {"type", "quantitative"}};
-  return {{"transform", Json::array({{{"filter", "datum.front"}}})},
-          {"mark",
-           {{"type", "line"},
-            {"color", "black"},
-            {"strokeWidth", 1.5},
-            {"interpolate", "linear"},
-            {"point", {{"size", 40}, {"filled", false}, {"color", "black"}}}}},
-          {"encoding", encoding}};
-}
-
-Json goal_layer() {
-  Json goals = Json::array();
-  for (const double goal : judge::accuracy_goals) goals.push_back({{"error", goal}});
-  return {{"data", {{"values", goals}}},
-          {"mark", {{"type", "rule"}, {"color", "#bbb"}, {"strokeDash", Json::array({3, 3})}}},
-          {"encoding", {{"x", {{"field", "error"}, {"type", "quantitative"}}}}}};
-}
+  const judge::AccuracyScene& scene_;
+  Cost cost_;
+  Figure figure_;
+  std::map<std::string, std::string_view> colours_;
+};
 
 }  // namespace
 
@@ -124,25 +120,13 @@ std::string accuracy_title(std::span<const judge::AccuracyScene> scenes,
 }
 
 std::string accuracy_chart(std::span<const judge::AccuracyScene> scenes, Cost cost) {
-  Json values = Json::array();
+  std::vector<Titled> all;
   for (const judge::AccuracyScene& scene : scenes) {
-    append_scene(values, accuracy_title(scenes, scene), scene, cost);
+    const std::string title = accuracy_title(scenes, scene);
+    std::string svg = Diagram(scene, title, cost).svg();
+    if (!svg.empty()) all.push_back({title + " on " + scene.device, std::move(svg)});
   }
-  const Json position{{"x", axis("error", "RMSE against the limit", ".0e")},
-                      {"y", cost == Cost::time ? axis("cost", "time of a frame, ms", "~g")
-                                               : axis("cost", "samples taken", ".0e")}};
-  const Json spec{
-      {"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
-      {"data", {{"values", values}}},
-      {"facet", {{"row", facet("data")}, {"column", facet("device")}}},
-      {"spec",
-       {{"width", 210},
-        {"height", 150},
-        {"layer", Json::array({goal_layer(), line_layer(position), front_layer(position)})}}},
-      {"config",
-       {{"view", {{"stroke", "#ddd"}}},
-        {"legend", {{"labelLimit", 320}, {"orient", "top"}, {"columns", 4}}}}}};
-  return core::json_text(spec);
+  return all.empty() ? std::string() : figures(all);
 }
 
 }  // namespace triptych::report

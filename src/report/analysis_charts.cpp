@@ -1,147 +1,173 @@
 #include "report/analysis_charts.hpp"
 
-#include "core/json_text.hpp"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "record/record.hpp"
+#include "report/figure.hpp"
 
 namespace triptych::report {
 namespace {
 
 using core::Json;
 
-Json field(const char* name, const char* type, Json title) {
-  return {{"field", name}, {"type", type}, {"title", std::move(title)}};
+// Not a number for null, which a figure leaves out.
+double number(const Json& row, const char* name) {
+  const Json& cell = row.at(name);
+  return cell.is_number() ? cell.get<double>() : std::nan("");
 }
 
-// Levels in the order of the rows, which is their natural one.
-Json level_field(const char* name, Json title) {
-  Json result = field(name, "nominal", std::move(title));
-  result["sort"] = nullptr;
-  return result;
+std::string text(const Json& row, const char* name) {
+  const Json& cell = row.at(name);
+  return cell.is_string() ? cell.get<std::string>() : cell.dump();
 }
 
-Json specification(const Json& rows) {
-  return {{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
-          {"data", {{"values", rows}}},
-          {"config", {{"view", {{"stroke", "#ddd"}}}, {"axis", {{"labelLimit", 260}}}}}};
+std::size_t index_in(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) names.push_back(name);
+  return static_cast<std::size_t>(found - names.begin());
 }
 
-Json tooltip(std::initializer_list<const char*> fields) {
-  Json result = Json::array();
-  for (const char* each : fields) result.push_back({{"field", each}});
-  return result;
-}
+// Levels in the order in which they are met, which is their natural one.
+struct Cell {
+  std::string column, row;
+  double value;
+  std::string tooltip;
+};
 
-// Coloured cells with their number in them.
-std::string heat_map(const Json& rows, const Json& x, const Json& y, Json value, const char* format,
-                     const Json& details) {
-  Json spec = specification(rows);
-  spec["width"] = {{"step", 54}};
-  spec["height"] = {{"step", 24}};
-  Json number = value;
-  number["format"] = format;
-  number.erase("scale");
-  value["legend"] = {{"format", format}};
-  // Light enough for a black number on either end of the scale.
-  const Json cell{{"mark", {{"type", "rect"}, {"opacity", 0.7}}},
-                  {"encoding", {{"color", value}, {"tooltip", details}}}};
-  const Json text{{"mark", {{"type", "text"}, {"fontSize", 10}}}, {"encoding", {{"text", number}}}};
-  spec["encoding"] = {{"x", x}, {"y", y}};
-  spec["layer"] = Json::array({cell, text});
-  return core::json_text(spec);
+// Cells coloured by how far up they lie between the least and the largest, their number in them.
+std::string heat_map(const std::string& description, const std::vector<Cell>& cells, double low,
+                     double high, bool logarithmic, int decimals) {
+  Axis across;
+  Axis up;
+  for (const Cell& cell : cells) {
+    index_in(across.names, cell.column);
+    index_in(up.names, cell.row);
+  }
+  const double columns = static_cast<double>(across.names.size());
+  Figure figure(description, across, up, 56 * columns, 24 * static_cast<double>(up.names.size()));
+  for (const Cell& cell : cells) {
+    if (!std::isfinite(cell.value)) continue;
+    const auto x = static_cast<double>(index_in(across.names, cell.column));
+    const auto y = static_cast<double>(index_in(up.names, cell.row));
+    const double share = logarithmic ? std::log(cell.value / low) / std::log(high / low)
+                                     : (cell.value - low) / (high - low);
+    const double shade = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.5;
+    figure.box({x - 0.48, y - 0.46}, {x + 0.48, y + 0.46},
+               {.colour = "c0", .opacity = 0.06 + 0.5 * shade}, cell.tooltip);
+    figure.number({x, y}, decimals < 0 ? short_number(std::stod(fmt::format("{:.3g}", cell.value)))
+                                       : fmt::format("{:.{}f}", cell.value, decimals));
+  }
+  return figure.empty() ? std::string() : figure.svg();
 }
 
 }  // namespace
 
 std::string histogram_chart(const Json& bins, bool logarithmic) {
-  Json spec = specification(bins);
-  spec["width"] = 460;
-  spec["height"] = 220;
-  Json x = field("from_ms", "quantitative", "time of a frame, ms");
-  if (logarithmic) x["scale"] = {{"type", "log"}};
-  // The fit belongs to the middle of a bin, on the bins' own scale.
-  spec["transform"] =
-      Json::array({{{"calculate", logarithmic ? "sqrt(datum.from_ms * datum.to_ms)"
-                                              : "(datum.from_ms + datum.to_ms) / 2"},
-                    {"as", "middle"}}});
-  Json middle = field("middle", "quantitative", x.at("title"));
-  if (logarithmic) middle["scale"] = {{"type", "log"}};
-  const Json bars{{"mark", {{"type", "bar"}, {"binSpacing", 1}}},
-                  {"encoding",
-                   {{"x", x},
-                    {"x2", {{"field", "to_ms"}}},
-                    {"y", field("count", "quantitative", "configurations")},
-                    {"y2", {{"datum", 0}}},
-                    {"tooltip", tooltip({"from_ms", "to_ms", "count", "expected"})}}}};
-  const Json curve{
-      {"mark", {{"type", "line"}, {"color", "#222"}, {"interpolate", "monotone"}}},
-      {"encoding", {{"x", middle}, {"y", field("expected", "quantitative", "configurations")}}}};
-  spec["layer"] = Json::array({bars, curve});
-  return core::json_text(spec);
+  Figure figure("Histogram of times with the fit's expectation",
+                {.title = "time of a frame, ms", .logarithmic = logarithmic},
+                {.title = "configurations"}, 400, 200);
+  std::vector<Figure::Place> curve;
+  for (const Json& bin : bins) {
+    const double from = number(bin, "from_ms");
+    const double to = number(bin, "to_ms");
+    figure.box({from, 0}, {to, number(bin, "count")}, {.colour = "c0", .opacity = 0.6},
+               fmt::format("{:.3g} to {:.3g} ms: {}, expected {:.3g}", from, to, text(bin, "count"),
+                           number(bin, "expected")));
+    // The fit belongs to the middle of a bin, on the bins' own scale.
+    curve.push_back(
+        {logarithmic ? std::sqrt(from * to) : (from + to) / 2, number(bin, "expected")});
+  }
+  figure.line(curve, {.colour = "ink", .width = 1.5}, "log-normal fit");
+  return figure.empty() ? std::string() : figure.svg();
 }
 
 std::string correlation_boxes_chart(const Json& cells) {
-  Json known = Json::array();
+  Axis up;
+  std::map<std::size_t, std::vector<double>> of_factor;
   for (const Json& each : cells) {
-    if (!each.at("r").is_null()) known.push_back(each);
+    const double r = number(each, "r");
+    if (std::isfinite(r)) of_factor[index_in(up.names, text(each, "factor"))].push_back(r);
   }
-  Json spec = specification(known);
-  spec["width"] = 560;
-  spec["height"] = {{"step", 26}};
-  Json x = field("r", "quantitative", "Pearson's r");
-  x["scale"] = {{"zero", false}};
-  // A factor of two levels has one r, of which a box shows nothing.
-  const Json box{{"mark", {{"type", "boxplot"}, {"extent", "min-max"}, {"size", 14}}}};
-  const Json ticks{{"mark", {{"type", "tick"}, {"color", "#222"}, {"thickness", 1}}},
-                   {"encoding", {{"tooltip", tooltip({"factor", "a", "b", "r", "pairs"})}}}};
-  spec["encoding"] = {{"x", x}, {"y", field("factor", "nominal", nullptr)}};
-  spec["layer"] = Json::array({box, ticks});
-  return core::json_text(spec);
+  Figure figure("Pearson's r of all pairs of levels, by factor", {.title = "Pearson's r"}, up, 460,
+                24 * static_cast<double>(std::max<std::size_t>(up.names.size(), 1)));
+  for (const auto& [index, all] : of_factor) {
+    const auto row = static_cast<double>(index);
+    const record::Summary summary = *record::summarise(all);
+    if (all.size() >= 3) {  // of fewer a box says nothing that the strokes do not
+      figure.box(
+          {summary.lower_quartile, row - 0.3}, {summary.upper_quartile, row + 0.3},
+          {.colour = "c0", .opacity = 0.4},
+          fmt::format("{}: median {:.3f} of {}", up.names[index], summary.median, all.size()));
+    }
+    figure.strokes(all, row, 0.3, {.colour = "ink", .opacity = 0.8, .width = 1});
+  }
+  return figure.empty() ? std::string() : figure.svg();
 }
 
 std::string correlation_matrix_chart(const Json& cells) {
-  // Every level in its natural order: the first one and all that it is paired with.
-  Json order = Json::array();
-  Json both = Json::array();
+  std::vector<Cell> both;
   for (const Json& each : cells) {
-    if (order.empty()) order.push_back(each.at("a"));
-    if (each.at("a") == order.front()) order.push_back(each.at("b"));
-    both.push_back(each);
-    both.push_back(each);
-    both.back()["a"] = each.at("b");
-    both.back()["b"] = each.at("a");
+    const std::string a = text(each, "a");
+    const std::string b = text(each, "b");
+    const double r = number(each, "r");
+    const std::string tooltip =
+        fmt::format("{} and {}: r {:.3f} of {} pairs", a, b, r, text(each, "pairs"));
+    both.push_back({a, b, r, tooltip});
+    both.push_back({b, a, r, tooltip});
   }
-  Json r = field("r", "quantitative", "r");
-  r["scale"] = {{"scheme", "redyellowgreen"}, {"domain", {0, 1}}, {"clamp", true}};
-  Json x = level_field("a", nullptr);
-  Json y = level_field("b", nullptr);
-  x["sort"] = order;
-  y["sort"] = order;
-  return heat_map(both, x, y, r, ".2f", tooltip({"a", "b", "r", "pairs"}));
+  // Both axes in one order: the first level, then those that it is paired with.
+  std::vector<std::string> order;
+  for (const Json& each : cells) {
+    index_in(order, text(each, "a"));
+    index_in(order, text(each, "b"));
+  }
+  std::ranges::stable_sort(both, {}, [&](const Cell& cell) {
+    return std::pair(index_in(order, cell.row), index_in(order, cell.column));
+  });
+  if (!both.empty()) {
+    both.insert(both.begin(), {order.front(), order.front(), std::nan(""), ""});
+  }
+  return heat_map("Pearson's r between levels", both, 0, 1, false, 2);
 }
 
 std::string mean_times_chart(const Json& cells) {
-  Json ms = field("mean_ms", "quantitative", "mean, ms");
-  ms["scale"] = {{"scheme", "yelloworangered"}, {"type", "log"}};
-  return heat_map(cells, level_field("column", nullptr), level_field("row", nullptr), ms, ".3~g",
-                  tooltip({"row", "column", "mean_ms", "samples"}));
+  std::vector<Cell> all;
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0;
+  for (const Json& each : cells) {
+    const double ms = number(each, "mean_ms");
+    if (ms > 0) {
+      low = std::min(low, ms);
+      high = std::max(high, ms);
+    }
+    all.push_back({text(each, "column"), text(each, "row"), ms,
+                   fmt::format("{}, {}: {:.4g} ms, {} samples", text(each, "row"),
+                               text(each, "column"), ms, text(each, "samples"))});
+  }
+  return heat_map("Mean times, ms", all, low, high, true, -1);
 }
 
 std::string speed_ups_chart(const Json& rows) {
-  Json spec = specification(rows);
-  spec["width"] = 460;
-  spec["height"] = {{"step", 24}};
-  const Json y = level_field("level", nullptr);
-  const Json bar{{"mark", {{"type", "bar"}, {"opacity", 0.75}}},
-                 {"encoding",
-                  {{"x", field("speed_up", "quantitative", "speed-up")},
-                   {"y", y},
-                   {"tooltip", tooltip({"level", "reference", "speed_up", "error", "r", "pairs",
-                                        "mean_ratio"})}}}};
-  const Json error{
-      {"mark", {{"type", "rule"}, {"strokeWidth", 2}}},
-      {"encoding",
-       {{"x", field("low", "quantitative", "speed-up")}, {"x2", {{"field", "high"}}}, {"y", y}}}};
-  spec["layer"] = Json::array({bar, error});
-  return core::json_text(spec);
+  Axis up;
+  for (const Json& row : rows) index_in(up.names, text(row, "level"));
+  Figure figure("Speed-ups by level", {.title = "speed-up"}, up, 400,
+                24 * static_cast<double>(std::max<std::size_t>(up.names.size(), 1)));
+  for (const Json& row : rows) {
+    const auto y = static_cast<double>(index_in(up.names, text(row, "level")));
+    figure.box({0, y - 0.35}, {number(row, "speed_up"), y + 0.35}, {.colour = "c0", .opacity = 0.6},
+               fmt::format("{} against {}: {:.3g} ± {:.2g}, r {:.3f}", text(row, "level"),
+                           text(row, "reference"), number(row, "speed_up"), number(row, "error"),
+                           number(row, "r")));
+    figure.line(
+        std::array{Figure::Place{number(row, "low"), y}, Figure::Place{number(row, "high"), y}},
+        {.colour = "ink", .width = 2});
+  }
+  return figure.empty() ? std::string() : figure.svg();
 }
 
 }  // namespace triptych::report

@@ -1,6 +1,6 @@
 #pragma once
-// Vega-Lite specifications (JSON text) of the analysis' figures. Each takes rows of the tables in
-// analysis/tables.hpp.
+// The analysis' figures, SVG. Each takes rows of the tables in analysis/tables.hpp; what is
+// null in them is not drawn. Empty where nothing is left.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -11,7 +11,8 @@ namespace triptych::report {
 
 // Bars of one histogram and the fit's expectation as a line; rows of `histograms`.
 [[nodiscard]] std::string histogram_chart(const core::Json& bins, bool logarithmic);
-// One box per factor from the r of all cells; rows of `correlations`.
+// Every r as a stroke, a box of the quartiles where a factor has three or more; rows of
+// `correlations`.
 [[nodiscard]] std::string correlation_boxes_chart(const core::Json& cells);
 // One factor's matrix as a heat map; rows of `correlations`.
 [[nodiscard]] std::string correlation_matrix_chart(const core::Json& cells);

@@ -49,7 +49,7 @@ std::string html_table(const Table& table_of) {
   return "<p>" + escape(table_of.title) + ".</p>" + all + table(rows);
 }
 
-// The sections of one suite; figures are numbered for their element ids.
+// The sections of one suite.
 class SuitePage {
  public:
   explicit SuitePage(const SuiteAnalysis& analysis)
@@ -75,10 +75,10 @@ class SuitePage {
   }
 
  private:
-  void add_figure(const std::string& title, const std::string& label, const std::string& spec) {
-    text_ += fmt::format("<div class=\"figure\"><h4>{}</h4><p class=\"system\">{}</p>{}</div>",
-                         escape(title), escape(label),
-                         chart(fmt::format("{}-{}", analysis_.dataset.suite, ++figures_), spec));
+  void add_figure(const std::string& title, const std::string& label, const std::string& svg) {
+    if (svg.empty()) return;
+    text_ += fmt::format("<div class=\"plot\"><h4>{}</h4><p class=\"system\">{}</p>{}</div>",
+                         escape(title), escape(label), svg);
   }
   [[nodiscard]] const Table* table_named(std::string_view name) const {
     for (const Table& each : tables_) {
@@ -173,16 +173,16 @@ class SuitePage {
   const SuiteAnalysis& analysis_;
   std::vector<Table> tables_;
   std::string text_;
-  int figures_ = 0;
 };
 
 }  // namespace
 
 std::string analysis_page(const std::vector<SuiteAnalysis>& analyses) {
-  std::string text = page_begin(
-      "Triptych analysis", "Triptych: analysis",
-      "Distributions, correlations between the levels of every factor, speed-ups, predictions and "
-      "what a camera path stands for, after Bruder, Müller, Frey and Ertl.");
+  std::string text =
+      page_begin("Triptych analysis") +
+      "<header><h1>Triptych: analysis</h1><p>Distributions, correlations between the levels of "
+      "every factor, speed-ups, predictions and what a camera path stands for, after Bruder, "
+      "Müller, Frey and Ertl.</p></header>\n";
   for (const SuiteAnalysis& each : analyses) text += SuitePage(each).html();
   return text + page_end();
 }

@@ -1,61 +1,78 @@
 #include "report/charts.hpp"
 
-#include "core/json.hpp"
-#include "core/json_text.hpp"
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "report/figure.hpp"
+#include "report/html.hpp"
 
 namespace triptych::report {
 namespace {
 
-using core::Json;
+struct Row {
+  std::string device;
+  std::string technique;
+  std::vector<double> ms;
+};
 
-Json samples(const PlanData& plan) {
-  Json values = Json::array();
+struct Scene {
+  std::string title;
+  std::vector<Row> rows;
+};
+
+// Scenes as first met; configurations that differ in what no title tells share a row.
+std::vector<Scene> scenes_of(const PlanData& plan) {
+  std::vector<Scene> scenes;
   for (const record::Record& record : plan.records) {
-    if (!record.same_as.empty()) continue;
-    for (const double ns : record.time_ns()) {
-      values.push_back({{"ms", ns / 1e6},
-                        {"device", record.device},
-                        {"technique", record.technique},
-                        {"scene", scene_title(plan, record)}});
+    if (!record.same_as.empty() || record.time_ns().empty()) continue;
+    const std::string title = scene_title(plan, record);
+    auto scene = std::ranges::find(scenes, title, &Scene::title);
+    if (scene == scenes.end()) scene = scenes.insert(scenes.end(), {title, {}});
+    auto row = std::ranges::find_if(scene->rows, [&](const Row& each) {
+      return each.device == record.device && each.technique == record.technique;
+    });
+    if (row == scene->rows.end()) {
+      row = scene->rows.insert(scene->rows.end(), {record.device, record.technique, {}});
     }
+    for (const double ns : record.time_ns()) row->ms.push_back(ns / 1e6);
   }
-  return values;
+  return scenes;
+}
+
+std::string figure_of(const Scene& scene, const std::vector<std::string>& techniques) {
+  Axis up;
+  for (const Row& row : scene.rows) up.names.push_back(row.device + " " + row.technique);
+  Figure figure("Times of frames: " + scene.title,
+                {.title = "time of a frame, ms", .logarithmic = true}, up, 320,
+                18 * static_cast<double>(scene.rows.size()));
+  for (std::size_t i = 0; i < scene.rows.size(); ++i) {
+    const Row& row = scene.rows[i];
+    const auto place = static_cast<double>(i);
+    const auto technique = std::ranges::find(techniques, row.technique) - techniques.begin();
+    const std::string_view colour = colour_of(static_cast<std::size_t>(technique));
+    const record::Summary summary = *record::summarise(row.ms);
+    figure.box({summary.lower_quartile, place - 0.32}, {summary.upper_quartile, place + 0.32},
+               {.colour = colour, .opacity = 0.35},
+               row.device + " " + row.technique + ": median " + duration(1e6 * summary.median));
+    figure.strokes(row.ms, place, 0.25, {.colour = colour, .opacity = 0.7, .width = 1});
+    figure.strokes(std::vector{summary.median}, place, 0.4, {.colour = "ink", .width = 2});
+  }
+  return figure.svg();
 }
 
 }  // namespace
 
 std::string time_chart(const PlanData& plan) {
-  const Json y{{"field", "device"}, {"type", "nominal"}, {"title", nullptr}};
-  const Json x{{"field", "ms"},
-               {"type", "quantitative"},
-               {"title", "time of a frame, ms"},
-               {"scale", {{"type", "log"}}}};
-  const Json colour{{"field", "technique"}, {"type", "nominal"}};
-  const Json offset{{"field", "technique"}};
-  const Json box{
-      {"mark", {{"type", "boxplot"}, {"extent", "min-max"}, {"size", 8}, {"opacity", 0.5}}},
-      {"encoding", {{"x", x}, {"y", y}, {"yOffset", offset}, {"color", colour}}}};
-  const Json points{
-      {"mark", {{"type", "tick"}, {"thickness", 1}, {"size", 10}}},
-      {"encoding",
-       {{"x", x},
-        {"y", y},
-        {"yOffset", offset},
-        {"color", colour},
-        {"tooltip",
-         Json::array({{{"field", "device"}}, {{"field", "technique"}}, {{"field", "ms"}}})}}}};
-  const Json spec{{"$schema", "https://vega.github.io/schema/vega-lite/v5.json"},
-                  {"data", {{"values", samples(plan)}}},
-                  {"facet",
-                   {{"field", "scene"},
-                    {"type", "nominal"},
-                    {"title", nullptr},
-                    {"header", {{"labelLimit", 420}, {"labelFontSize", 11}}}}},
-                  {"columns", 2},
-                  {"resolve", {{"axis", {{"x", "independent"}}}}},
-                  {"spec", {{"width", 380}, {"layer", Json::array({box, points})}}},
-                  {"config", {{"view", {{"stroke", "#ddd"}}}, {"axis", {{"labelLimit", 200}}}}}};
-  return core::json_text(spec);
+  const std::vector<Scene> scenes = scenes_of(plan);
+  std::set<std::string> names;
+  for (const Scene& scene : scenes) {
+    for (const Row& row : scene.rows) names.insert(row.technique);
+  }
+  const std::vector<std::string> techniques(names.begin(), names.end());
+  std::vector<Titled> all;
+  for (const Scene& scene : scenes) all.push_back({scene.title, figure_of(scene, techniques)});
+  return all.empty() ? std::string() : figures(all);
 }
 
 }  // namespace triptych::report

@@ -5,8 +5,8 @@
 
 namespace triptych::report {
 
-// Vega-Lite specification (JSON text) of the time distributions: every timed frame as a point,
-// quartiles as a box, one facet per scene, logarithmic milliseconds.
+// The distributions of times, HTML: a figure per scene, a row per device and technique; every timed
+// frame as a stroke, quartiles as a box, logarithmic milliseconds.
 [[nodiscard]] std::string time_chart(const PlanData& plan);
 
 }  // namespace triptych::report

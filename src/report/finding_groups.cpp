@@ -2,18 +2,177 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
 #include <string_view>
 #include <tuple>
+
+#include "core/quoting.hpp"
+#include "record/factor_list.hpp"
 
 namespace triptych::report {
 namespace {
 
-bool stands_alone(const judge::Finding& finding) {
-  using judge::Verdict;
-  return finding.configuration.empty() || finding.verdict == Verdict::regression ||
-         finding.verdict == Verdict::waived || finding.verdict == Verdict::cannot_judge;
+using judge::Check;
+using judge::Finding;
+using judge::Verdict;
+using Factors = std::map<std::string, std::string>;
+
+// The message with every word that has a digit taken out: "# of # pixels are over the bound".
+std::string shape_of(std::string_view message) {
+  constexpr std::string_view between = " ,;:()[]";
+  std::string shape;
+  while (!message.empty()) {
+    const std::size_t length = std::min(message.find_first_of(between), message.size());
+    const std::string_view word = message.substr(0, length);
+    const bool number = std::ranges::any_of(
+        word, [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
+    if (number) {
+      shape += '#';
+    } else {
+      shape += word;
+    }
+    const std::size_t after = std::min(length + 1, message.size());
+    shape += message.substr(length, after - length);
+    message.remove_prefix(after);
+  }
+  return shape;
 }
+
+Factors factors_of(const Finding& finding) {
+  return record::parse_factor_list(finding.configuration);
+}
+
+std::string technique_of(const Finding& finding) {
+  const Factors factors = factors_of(finding);
+  const auto found = factors.find("technique");
+  return found == factors.end() ? std::string() : found->second;
+}
+
+// "128x96" → 12288, "generate:ball:64" → 64; 1 where it has no number.
+double size_in(std::string_view value) {
+  double product = 1;
+  double number = 0;
+  bool any = false;
+  for (const char c : value) {
+    if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
+      number = 10 * number + (c - '0');
+      any = true;
+    } else if (any) {
+      product *= std::max(number, 1.0);
+      number = 0;
+      any = false;
+    }
+  }
+  return any ? product * std::max(number, 1.0) : product;
+}
+
+double size_of(const Finding& finding) {
+  const Factors factors = factors_of(finding);
+  double size = 1;
+  for (const char* factor : {"viewport", "data"}) {
+    if (const auto found = factors.find(factor); found != factors.end()) {
+      size *= size_in(found->second);
+    }
+  }
+  return size;
+}
+
+bool ended_a_program(const Finding& finding) {
+  static constexpr std::array<std::string_view, 4> ends{"crashed:", "hung:", "lost:", "failed:"};
+  return std::ranges::any_of(
+      ends, [&](std::string_view end) { return finding.message.starts_with(end); });
+}
+
+using Members = std::vector<const Finding*>;
+
+bool is_smaller(const Finding* a, const Finding* b) {
+  const auto key = [](const Finding* each) {
+    return std::tuple(size_of(*each), each->configuration.size());
+  };
+  return key(a) < key(b);
+}
+
+// What is known of all findings while groups are made.
+class Grouping {
+ public:
+  explicit Grouping(std::span<const Finding> findings) {
+    for (const Finding& finding : findings) {
+      const auto place = std::pair(finding.check, std::string_view(finding.device));
+      if (finding.verdict == Verdict::pass) {
+        passes_[{finding.check, finding.configuration}].push_back(finding.device);
+      }
+      if (finding.configuration.empty()) continue;
+      for (const auto& [factor, level] : factors_of(finding)) levels_[place][factor].insert(level);
+    }
+    for (const Finding& finding : findings) {
+      by_shape_[{finding.verdict, finding.check, finding.device, shape_of(finding.message)}]
+          .push_back(&finding);
+    }
+  }
+
+  [[nodiscard]] std::vector<FindingGroup> groups() const {
+    std::vector<FindingGroup> all;
+    for (const auto& [key, members] : by_shape_) {
+      std::map<std::string, Members> by_technique;
+      for (const Finding* each : members) by_technique[technique_of(*each)].push_back(each);
+      const auto& known = levels_of(*members.front());
+      const auto techniques = known.find("technique");
+      const bool all_say_it =
+          techniques == known.end() || techniques->second.size() == by_technique.size();
+      if (all_say_it) by_technique = {{"", members}};
+      for (const auto& [technique, same] : by_technique) all.push_back(group_of(same));
+    }
+    std::ranges::stable_sort(all, {}, [](const FindingGroup& group) {
+      const Finding& first = *group.first;
+      return std::tuple(-static_cast<int>(first.verdict), !ended_a_program(first), first.check,
+                        -static_cast<double>(group.configurations), std::string_view(first.device));
+    });
+    return all;
+  }
+
+ private:
+  using Levels = std::map<std::string, std::set<std::string>>;
+
+  [[nodiscard]] const Levels& levels_of(const Finding& finding) const {
+    static const Levels none;
+    const auto found = levels_.find({finding.check, std::string_view(finding.device)});
+    return found == levels_.end() ? none : found->second;
+  }
+
+  [[nodiscard]] FindingGroup group_of(const Members& members) const {
+    const Finding* first = *std::ranges::min_element(members, is_smaller);
+    FindingGroup group{first, members.size(), signature_of(members)};
+    if (const auto found = passes_.find({first->check, first->configuration});
+        found != passes_.end() && !first->configuration.empty()) {
+      group.right_on = found->second;
+    }
+    return group;
+  }
+
+  // Of at most two levels a factor; more tell nothing.
+  [[nodiscard]] std::string signature_of(const Members& members) const {
+    Levels here;
+    for (const Finding* each : members) {
+      for (const auto& [factor, level] : factors_of(*each)) here[factor].insert(level);
+    }
+    std::string text;
+    const Levels& known = levels_of(*members.front());
+    for (const auto& [factor, levels] : here) {
+      const auto found = known.find(factor);
+      const bool tells = found != known.end() && levels.size() < found->second.size();
+      if (!tells || levels.size() > 2) continue;
+      text += fmt::format("{}{}={}", text.empty() ? "" : ", ", factor, fmt::join(levels, "|"));
+    }
+    return text;
+  }
+
+  std::map<std::pair<Check, std::string_view>, Levels> levels_;
+  std::map<std::pair<Check, std::string_view>, std::vector<std::string>> passes_;
+  std::map<std::tuple<Verdict, Check, std::string_view, std::string>, Members> by_shape_;
+};
 
 }  // namespace
 
@@ -22,23 +181,43 @@ std::string FindingGroup::subject() const {
                              : fmt::format("{} configurations", configurations);
 }
 
-std::vector<FindingGroup> grouped(std::span<const judge::Finding> findings) {
-  std::vector<FindingGroup> groups;
-  std::map<std::tuple<judge::Verdict, std::string_view, std::string_view>, std::size_t> places;
-  for (const judge::Finding& finding : findings) {
-    if (stands_alone(finding)) {
-      groups.push_back({&finding});
-      continue;
-    }
-    const auto [place, added] =
-        places.try_emplace({finding.verdict, finding.test, finding.message}, groups.size());
-    if (added) {
-      groups.push_back({&finding});
-    } else {
-      ++groups[place->second].configurations;
-    }
+std::vector<FindingGroup> grouped(std::span<const Finding> findings) {
+  return Grouping(findings).groups();
+}
+
+bool is_open(const Finding& finding) {
+  return finding.verdict == Verdict::regression || finding.verdict == Verdict::cannot_judge;
+}
+
+std::string command_of(const Finding& finding, const std::string& plan,
+                       const Environment& environment) {
+  if (finding.device.empty() || finding.configuration.empty()) return {};
+  std::vector<std::string> words;
+  switch (finding.check) {
+    case Check::image:
+    case Check::counters:
+    case Check::statistics:
+    case Check::stress:
+    case Check::accuracy:
+      words = {"triptych", "render", finding.test.substr(0, finding.test.find('.'))};
+      break;
+    case Check::cost:
+    case Check::memory:
+      words = {"triptych", "run", record::plan_argument(plan)};
+      break;
+    default:
+      return {};  // one run of a time shows nothing
   }
-  return groups;
+  words.insert(words.end(), {"--device", finding.device});
+  for (const auto& [factor, level] : factors_of(finding)) {
+    words.insert(words.end(), {"--set", record::factor_list({{factor, level}})});
+  }
+  if (words[1] == "render") words.insert(words.end(), {"--out", "repro"});
+  std::string text;
+  for (const auto& [name, value] : environment) {
+    text += name + "=" + core::shell_quoted(value) + " ";
+  }
+  return text + core::shell_command(words);
 }
 
 }  // namespace triptych::report

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "report/finding_groups.hpp"
 #include "report/html.hpp"
 
 namespace triptych::report {
@@ -17,7 +18,7 @@ bool is_skip(const Finding& finding) {
   return finding.verdict == Verdict::skipped || finding.verdict == Verdict::advisory;
 }
 
-std::string test_case(const Finding& finding) {
+std::string test_case(const Finding& finding, const std::string& plan) {
   const std::string name = finding.configuration.empty() ? "plan" : finding.configuration;
   std::string text = fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n",
                                  escape(finding.test), escape(name));
@@ -29,10 +30,12 @@ std::string test_case(const Finding& finding) {
     text += "      </properties>\n";
   }
   const std::string message = escape(finding.message);
-  if (finding.verdict == Verdict::regression) {
-    text += fmt::format("      <failure message=\"{}\"/>\n", message);
-  } else if (finding.verdict == Verdict::cannot_judge) {
-    text += fmt::format("      <error message=\"{}\"/>\n", message);
+  if (is_open(finding)) {
+    const std::string command = escape(command_of(finding, plan));
+    text +=
+        fmt::format("      <{0} type=\"{1}\" message=\"{2}\">{2}{3}{4}</{0}>\n",
+                    finding.verdict == Verdict::regression ? "failure" : "error",
+                    judge::name_of(finding.check), message, command.empty() ? "" : "\n", command);
   } else if (is_skip(finding)) {
     text += fmt::format("      <skipped message=\"{}\"/>\n", message);
   }
@@ -55,7 +58,7 @@ std::string junit(const judge::GateResult& result) {
         count([](const Finding* f) { return f->verdict == Verdict::regression; }),
         count([](const Finding* f) { return f->verdict == Verdict::cannot_judge; }),
         count([](const Finding* f) { return is_skip(*f); }));
-    for (const Finding* finding : findings) text += test_case(*finding);
+    for (const Finding* finding : findings) text += test_case(*finding, result.plan);
     text += "  </testsuite>\n";
   }
   return text + "</testsuites>\n";

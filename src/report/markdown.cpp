@@ -4,45 +4,101 @@
 
 #include <algorithm>
 
-#include "report/finding_groups.hpp"
+#include "core/quoting.hpp"
+#include "report/overview.hpp"
 
 namespace triptych::report {
 namespace {
 
 constexpr std::size_t shown_openly = 10;
+constexpr std::size_t most_characters = 60000;
+constexpr std::size_t longest_command = 4000;
 
-// Pipes and line ends would break a table's row.
-std::string cell(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  for (auto at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) {
-    text.replace(at, 1, "\\|");
+std::string rows(const Overview& all) {
+  std::string text = "| check | verdict | |\n|---|---|---|\n";
+  for (const KindRow& row : all.rows) {
+    text += fmt::format("| {} | {} | {} |\n", row.kind,
+                        row.worst == judge::Verdict::regression ? "**FAIL**" : row.verdict,
+                        markdown_escaped(row.sentence));
   }
   return text;
 }
 
-std::string table(std::span<const FindingGroup> groups) {
-  std::string text = "| verdict | test | configuration | message |\n|---|---|---|---|\n";
-  for (const FindingGroup& group : groups) {
-    const judge::Finding& finding = *group.first;
-    text += fmt::format("| {} | `{}` | {} | {} |\n", judge::name_of(finding.verdict), finding.test,
-                        cell(group.subject()), cell(finding.message));
-  }
+// A fence longer than any in the command; one that is no line was quoted into one.
+std::string fenced(std::string_view command) {
+  std::string fence = "```";
+  while (command.find(fence) != std::string_view::npos) fence += '`';
+  return fmt::format("\n  {0}sh\n  {1}\n  {0}\n", fence, command);
+}
+
+std::string item(const Cause& cause) {
+  const judge::Finding& first = *cause.group.first;
+  std::string text = fmt::format("- **{}** {}: {}  \n  {}\n", judge::name_of(first.verdict),
+                                 judge::name_of(first.check), markdown_escaped(place_of(cause)),
+                                 markdown_escaped(message_of(cause)));
+  const std::string command = command_of(first, cause.result->plan);
+  if (!command.empty() && command.size() < longest_command) text += fenced(command);
   return text;
 }
 
 }  // namespace
 
-std::string markdown(const judge::GateResult& result) {
-  std::string text = fmt::format("## {}: {}\n\n", result.plan, result.headline());
-  const std::vector<FindingGroup> groups = grouped(result.findings);
-  const std::span<const FindingGroup> all(groups);
-  const std::span<const FindingGroup> worst = all.first(std::min(shown_openly, all.size()));
-  if (!worst.empty()) text += table(worst);
-  if (all.size() > worst.size()) {
-    text += fmt::format("\n<details><summary>{} more</summary>\n\n{}\n</details>\n",
-                        all.size() - worst.size(), table(all.subspan(worst.size())));
+std::string markdown_escaped(std::string_view text, std::size_t limit) {
+  std::string result;
+  for (const char c : core::printable(text, limit)) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '@':  // nobody is to be told of a pattern
+        result += "@\u200B";
+        break;
+      default:
+        if (std::string_view("\\`*_{}[]()#!|~").find(c) != std::string_view::npos) result += '\\';
+        result += c;
+    }
   }
-  return text;
+  return result;
+}
+
+std::string markdown(std::span<const judge::GateResult> results) {
+  const Overview all = overview(results);
+  std::string text = fmt::format("## {} ({})", word_of(all.code), static_cast<int>(all.code));
+  for (const judge::GateResult& result : results) {
+    text +=
+        fmt::format("{} {}", &result == results.data() ? ":" : ",", markdown_escaped(result.plan));
+  }
+  text += "\n\n" + rows(all) + "\n";
+  std::vector<const Cause*> rest;
+  for (std::size_t i = 0; i < all.open.size(); ++i) {
+    if (i < shown_openly) {
+      text += item(all.open[i]);
+    } else {
+      rest.push_back(&all.open[i]);
+    }
+  }
+  for (const Cause& cause : all.aside) rest.push_back(&cause);
+  if (rest.empty()) return text;
+  text += fmt::format("\n<details><summary>{} more</summary>\n\n", rest.size());
+  for (const Cause* cause : rest) {
+    const std::string next = item(*cause);
+    if (text.size() + next.size() > most_characters) {
+      text += "- …\n";
+      break;
+    }
+    text += next;
+  }
+  return text + "\n</details>\n";
+}
+
+std::string markdown(const judge::GateResult& result) {
+  return markdown(std::span(&result, 1));
 }
 
 }  // namespace triptych::report

@@ -1,11 +1,19 @@
 #pragma once
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "judge/gate/gate.hpp"
 
 namespace triptych::report {
 
-// A summary for a pull request: the verdict's line, the worst few, the rest folded.
+// Text for Markdown as GitHub and GitLab read it, in one line: nothing in it is markup, HTML or a
+// control character. At most so many characters.
+[[nodiscard]] std::string markdown_escaped(std::string_view text, std::size_t limit = 500);
+
+// A summary for a pull request: the rows and causes of the last screen, the worst openly, the rest
+// and advice folded. Under 65,000 characters whatever was found.
+[[nodiscard]] std::string markdown(std::span<const judge::GateResult> results);
 [[nodiscard]] std::string markdown(const judge::GateResult& result);
 
 }  // namespace triptych::report

@@ -160,10 +160,6 @@ std::string dominated_table(const std::vector<AccuracyScene>& scenes) {
   return table(rows);
 }
 
-std::string folded(std::string_view summary, const std::string& body) {
-  return fmt::format("<details><summary>{}</summary>{}</details>\n", summary, body);
-}
-
 }  // namespace
 
 std::string accuracy_section(const PlanData& plan) {
@@ -179,17 +175,18 @@ std::string accuracy_section(const PlanData& plan) {
   std::string text =
       "<h3>Run time against error</h3><p>The error is the root mean square over all channels, in "
       "linear float, against the picture that the scene tends to as its sampling is refined. A "
-      "line joins configurations that differ by their step alone; black: the front, which nothing "
+      "line joins configurations that differ by their step alone; the thick line is the front, "
+      "which nothing "
       "beats on both axes; dashed: 1/255, 1/1024 and 1e-4. A time to an error is read off between "
       "two neighbours of a line. The hypervolume is the area between the front and one second by "
       "the error of an empty picture, in natural logarithms; beside it how many times as long the "
       "device with the largest may take on every frame before its area is no larger. It rests on "
       "times of one run and decides nothing.</p>" +
       summary_table(scenes);
-  if (timed) text += chart(plan.anchor + "-accuracy-time", accuracy_chart(scenes, Cost::time));
+  if (timed) text += accuracy_chart(scenes, Cost::time);
   if (counted) {
     text += "<p>The same against the samples taken, which no clock disturbs.</p>" +
-            chart(plan.anchor + "-accuracy-samples", accuracy_chart(scenes, Cost::samples));
+            accuracy_chart(scenes, Cost::samples);
   }
   text += folded("Orders of all families", order_table(scenes)) +
           folded("What an error is made of: each factor switched alone", parts_table(scenes));

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "report/charts.hpp"
-#include "report/finding_groups.hpp"
 #include "report/html.hpp"
 #include "report/page_frame.hpp"
 #include "report/page_sections.hpp"
@@ -16,43 +15,6 @@ namespace triptych::report {
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
-
-constexpr std::size_t openly_listed = 40;
-
-std::string finding_rows(std::span<const FindingGroup> groups) {
-  Rows rows{{"verdict", "test", "configuration", "what was found"}};
-  for (const FindingGroup& group : groups) {
-    const judge::Finding& finding = *group.first;
-    rows.push_back(
-        {fmt::format("<span class=\"verdict {0}\">{0}</span>", judge::name_of(finding.verdict)),
-         breakable(finding.test), breakable(group.subject()), escape(finding.message)});
-  }
-  return table(rows, "findings");
-}
-
-std::string folded(std::string_view summary, const std::string& body) {
-  return fmt::format("<details><summary>{}</summary>{}</details>\n", summary, body);
-}
-
-// check × verdict: how many findings.
-std::string verdict_matrix(const judge::GateResult& result) {
-  std::set<judge::Verdict> verdicts;
-  std::map<judge::Check, std::map<judge::Verdict, int>> counts;
-  for (const judge::Finding& finding : result.findings) {
-    verdicts.insert(finding.verdict);
-    ++counts[finding.check][finding.verdict];
-  }
-  Rows rows{{"check"}};
-  for (const judge::Verdict verdict : verdicts)
-    rows[0].push_back(std::string(judge::name_of(verdict)));
-  for (auto& [check, row] : counts) {
-    rows.push_back({std::string(judge::name_of(check))});
-    for (const judge::Verdict verdict : verdicts) {
-      rows.back().push_back(row.contains(verdict) ? fmt::format("{}", row[verdict]) : "");
-    }
-  }
-  return table(rows);
-}
 
 // The exact ones by number only: what deserves a word is the others.
 std::string dialect_text(const record::Device& device) {
@@ -106,21 +68,6 @@ std::string taken_over(const PlanData& plan) {
 
 }  // namespace
 
-std::string verdict_section(const PlanData& plan) {
-  std::vector<FindingGroup> notable;
-  std::vector<FindingGroup> rest;
-  for (const FindingGroup& group : grouped(plan.verdict->findings)) {
-    const bool quiet = group.first->verdict == judge::Verdict::pass ||
-                       group.first->verdict == judge::Verdict::skipped;
-    (quiet || notable.size() >= openly_listed ? rest : notable).push_back(group);
-  }
-  std::string text = verdict_matrix(*plan.verdict);
-  if (!notable.empty()) text += finding_rows(notable);
-  if (!rest.empty())
-    text += folded(fmt::format("{} more findings", rest.size()), finding_rows(rest));
-  return text;
-}
-
 std::string devices_section(const PlanData& plan) {
   Rows rows{{"device", "name", "driver", "API"}};
   Rows witnesses{{"device", "clock", "driver's statistics", "processor features, environment"}};
@@ -133,9 +80,8 @@ std::string devices_section(const PlanData& plan) {
                     escape(device.driver_version), escape(device.api_version)});
     witnesses.push_back({escape(device.id), clock_text(clocks), dialect_text(device), environment});
   }
-  return "<h3>Devices</h3>" + table(rows) +
-         folded("What their clocks and statistics are worth, and what they ran on",
-                table(witnesses));
+  return folded("Devices: drivers, what their clocks and statistics are worth, what they ran on",
+                table(rows) + table(witnesses));
 }
 
 std::string times_section(const PlanData& plan) {
@@ -154,10 +100,11 @@ std::string times_section(const PlanData& plan) {
          record->loop_frames > 0 ? duration(record->loop_wall_ns / record->loop_frames) : "",
          duration(record->prepare_ns)});
   }
-  return "<h3>Times</h3><p>Every timed frame is a tick, its quartiles a box. “In a loop” is the "
-         "wall clock of frames drawn back to back.</p>" +
-         chart(plan.anchor + "-times", time_chart(plan)) +
-         folded("The numbers", table(rows, "times")) + taken_over(plan);
+  return folded(
+      "Times: shown, not judged",
+      "<p>Every timed frame is a stroke, its quartiles a box. “In a loop” is the wall clock "
+      "of frames drawn back to back.</p>" +
+          time_chart(plan) + folded("The numbers", table(rows, "times")) + taken_over(plan));
 }
 
 std::string speed_of_light_section(const PlanData& plan) {
@@ -179,10 +126,12 @@ std::string speed_of_light_section(const PlanData& plan) {
                     fmt::format("{:.2f}", time / found->second)});
   }
   if (rows.size() == 1) return {};
-  return "<h3>Speed of light</h3><p>The same fetches and transfer-function look-ups alone, with "
-         "the same skipping but without early termination: a picture can be faster than that where "
-         "rays end early, and is hardly faster where they do not.</p>" +
-         folded("The ratios", table(rows));
+  return folded(
+      "Speed of light: times over those of the bare fetches",
+      "<p>The same fetches and transfer-function look-ups alone, with "
+      "the same skipping but without early termination: a picture can be faster than that where "
+      "rays end early, and is hardly faster where they do not.</p>" +
+          table(rows));
 }
 
 std::string counts_section(const PlanData& plan) {
@@ -207,11 +156,15 @@ std::string counts_section(const PlanData& plan) {
     }
     text += folded(title, table(rows, "counts"));
   };
+  section("Cost: instructions of one frame, by whose code they are",
+          [](const record::Record& r) -> const record::Counts& { return r.cost; });
+  section("Memory allocated on the device, bytes",
+          [](const record::Record& r) -> const record::Counts& { return r.memory; });
   section("Counters of our own, from a build that is never timed",
           [](const record::Record& r) -> const record::Counts& { return r.counters; });
   section("Pipeline statistics, as the drivers tell them; an empty cell: it tells nothing",
           [](const record::Record& r) -> const record::Counts& { return r.statistics; });
-  return text.empty() ? text : "<h3>Work</h3>" + text;
+  return text;
 }
 
 }  // namespace triptych::report

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
-#include "report/finding_groups.hpp"
 #include "report/junit.hpp"
 #include "report/markdown.hpp"
+#include "support/well_formed.hpp"
 
 namespace triptych::report {
 namespace {
+
+using testing::HasSubstr;
+using testing::Not;
 
 judge::GateResult some_result() {
   judge::GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
@@ -35,7 +38,6 @@ TEST(Junit, CountsFailuresAndEscapes) {
             std::string::npos)
       << xml;
   EXPECT_NE(xml.find("skipped=\"12\""), std::string::npos);
-  EXPECT_NE(xml.find("<failure message=\"3 &lt; 4 | pixels\"/>"), std::string::npos);
   EXPECT_NE(xml.find("<property name=\"max_error\" value=\"0.5\"/>"), std::string::npos);
 }
 
@@ -45,51 +47,60 @@ TEST(Junit, IsUtf8WhateverADriverSays) {
   EXPECT_EQ(junit(result).find('\xff'), std::string::npos);
 }
 
-TEST(Markdown, ShowsTheWorstAndFoldsTheRest) {
-  const std::string text = markdown(some_result());
-  EXPECT_TRUE(text.starts_with("## volume/quick: FAIL"));
-  EXPECT_NE(text.find("3 < 4 \\| pixels"), std::string::npos) << text;
-  EXPECT_NE(text.find("<summary>3 more</summary>"), std::string::npos);
+TEST(Junit, SaysHowToSeeItAgain) {
+  const std::string xml = junit(some_result());
+  EXPECT_NE(xml.find("<failure type=\"image\" message=\"3 &lt; 4 | pixels\">3 &lt; 4 | pixels\n"
+                     "triptych render volume --device gl:x --set step=1 --out repro</failure>"),
+            std::string::npos)
+      << xml;
 }
 
-judge::Finding finding(judge::Verdict verdict, const std::string& device,
-                       const std::string& configuration) {
-  return {.check = judge::Check::timing,
-          .verdict = verdict,
-          .test = "volume.quick.timing." + device,
-          .device = device,
-          .configuration = configuration,
-          .message = "the same"};
+judge::GateResult hostile(const std::string& name) {
+  judge::GateResult result = some_result();
+  result.plan = name;
+  judge::Finding& finding = result.findings.front();
+  finding.message = finding.device = finding.test = name;
+  finding.configuration = "step=" + name;
+  finding.numbers = {{name, 1}};
+  return result;
 }
 
-TEST(FindingGroups, WhatIsSaidOfManyConfigurationsIsSaidOncePerDevice) {
-  using enum judge::Verdict;
-  const std::vector<judge::Finding> findings{
-      finding(advisory, "gl:x", "step=1"), finding(advisory, "gl:x", "step=2"),
-      finding(advisory, "gl:y", "step=1"), finding(skipped, "gl:x", "step=1"),
-      finding(advisory, "gl:x", "step=4")};
-  const std::vector<FindingGroup> groups = grouped(findings);
-  ASSERT_EQ(groups.size(), 3);
-  EXPECT_EQ(groups[0].subject(), "3 configurations");
-  EXPECT_EQ(groups[0].first, findings.data());
-  EXPECT_EQ(groups[1].subject(), "step=1");
-  EXPECT_EQ(groups[1].first->device, "gl:y");
-  EXPECT_EQ(groups[2].first->verdict, skipped);
-}
-
-TEST(FindingGroups, WhatFailedOrCouldNotBeJudgedStandsAlone) {
-  using enum judge::Verdict;
-  for (const judge::Verdict verdict : {regression, waived, cannot_judge}) {
-    const std::vector<judge::Finding> findings{finding(verdict, "gl:x", "step=1"),
-                                               finding(verdict, "gl:x", "step=2")};
-    EXPECT_EQ(grouped(findings).size(), 2) << judge::name_of(verdict);
+TEST(Junit, IsWellFormedWhateverItIsTold) {
+  for (const std::string& name : test::hostile_strings()) {
+    EXPECT_EQ(test::xml_fault(junit(hostile(name))), "");
   }
 }
 
-TEST(FindingGroups, FindingsAboutADeviceStandAlone) {
-  const std::vector<judge::Finding> findings(2, finding(judge::Verdict::advisory, "gl:x", ""));
-  ASSERT_EQ(grouped(findings).size(), 2);
-  EXPECT_EQ(grouped(findings)[0].subject(), "");
+TEST(Markdown, HasTheRowsAndCausesOfTheLastScreen) {
+  const std::string text = markdown(some_result());
+  EXPECT_TRUE(text.starts_with("## FAIL (1): volume/quick\n")) << text;
+  EXPECT_THAT(text, HasSubstr("| Pictures | **FAIL** | gl:x: 1 of 1 wrong |"));
+  EXPECT_THAT(text, HasSubstr("3 &lt; 4 \\| pixels"));
+  EXPECT_THAT(text, HasSubstr("```sh\n  triptych render volume --device gl:x"));
+  EXPECT_THAT(text, HasSubstr("<summary>1 more</summary>"));
+}
+
+TEST(Markdown, KeepsTextText) {
+  for (const std::string& name : test::hostile_strings()) {
+    const std::string text = markdown(hostile(name));
+    EXPECT_LT(text.size(), 65'000U);
+    EXPECT_THAT(text, Not(HasSubstr("\n<script")));
+    EXPECT_EQ(text.find('\x1b'), std::string::npos);
+    EXPECT_THAT(text, Not(HasSubstr("line\nend")));
+  }
+  EXPECT_EQ(markdown_escaped("<script>`a`|*@me\x1b"),
+            "&lt;script&gt;\\`a\\`\\|\\*@\u200Bme\\\\x1b");
+}
+
+TEST(Markdown, StaysShortWhateverFails) {
+  judge::GateResult result{.plan = "p", .run = "r", .findings = {}};
+  for (int i = 0; i < 3000; ++i) {
+    judge::Finding finding = some_result().findings.front();
+    finding.device = fmt::format("gl:{}", i);
+    finding.message = std::string(2000, '<');
+    result.findings.push_back(finding);
+  }
+  EXPECT_LT(markdown(result).size(), 65'000U);
 }
 
 }  // namespace

@@ -1,0 +1,106 @@
+#pragma once
+// Figures as SVG, drawn when a page is written: marks on two axes. Colours are the style sheet's
+// (classes c0…c7, ink, soft), so that a figure follows the page into the dark.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace triptych::report {
+
+struct Axis {
+  std::string title = {};
+  bool logarithmic = false;
+  bool percent = false;                 // numbers are shares: 0.1 is "+10 %"
+  std::vector<std::string> names = {};  // bands in place of numbers: name i is at i, the first on
+                                        // top or on the left
+  // Ends of the axis; else it fits what is drawn.
+  std::optional<double> low = {};
+  std::optional<double> high = {};
+};
+
+// Whole steps of 1, 2 or 5 times a power of ten within [low, high], about so many; on a logarithmic
+// axis powers of ten, or those and their multiples where that would be too few.
+[[nodiscard]] std::vector<double> ticks(double low, double high, bool logarithmic, int wanted);
+// "0.05", "1e-6", "25k", "3M"
+[[nodiscard]] std::string short_number(double value);
+
+enum class Mark { circle, triangle, cross, diamond, square };
+
+struct Style {
+  // "c0"…"c7", "ink", "soft": of the style sheet.
+  std::string_view colour = "c0";
+  Mark mark = Mark::circle;
+  bool dashed = false;
+  bool hollow = false;
+  double opacity = 1;
+  double width = 1.2;  // of lines
+};
+// For the nth of several; the ninth looks like the first.
+[[nodiscard]] std::string_view colour_of(std::size_t index);
+
+class Figure {
+ public:
+  struct Place {
+    double x, y;
+  };
+  // `description`: what one hears who cannot see it. Width and height: of the frame inside the
+  // axes; the whole grows by what its labels need.
+  Figure(std::string description, Axis across, Axis up, double width, double height);
+
+  // What has no place on an axis – no number, or none above 0 on a logarithmic one – is left out.
+  void point(Place at, const Style& style, std::string_view tooltip = {});
+  void line(std::span<const Place> places, const Style& style, std::string_view tooltip = {});
+  // Between two corners: bars, boxes, cells.
+  void box(Place from, Place to, const Style& style, std::string_view tooltip = {});
+  // Upright strokes of one row, `half` of a band up and down: every sample of a distribution.
+  void strokes(std::span<const double> across, double row, double half, const Style& style);
+  // A dashed rule across the whole frame; no reason to make it wider.
+  void upright(double across);
+  // Beside a point, inside the frame; left out where another stands already.
+  void label(Place at, std::string_view text);
+  // In the middle of a cell.
+  void number(Place at, std::string_view text);
+  void legend(std::string_view text, const Style& style, bool line = false);
+
+  [[nodiscard]] std::string svg() const;
+  // Whether any mark has a place.
+  [[nodiscard]] bool empty() const { return shapes_.empty(); }
+
+ private:
+  enum class Kind { point, line, box, strokes, upright, label, number };
+  struct Shape {
+    Kind kind;
+    std::vector<Place> places;
+    Style style;
+    std::string text;
+    double half = 0;
+  };
+  struct Entry {
+    std::string text;
+    Style style;
+    bool line;
+  };
+  class Drawing;
+
+  void add(Shape shape);
+
+  std::string description_;
+  Axis across_;
+  Axis up_;
+  double width_;
+  double height_;
+  std::vector<Shape> shapes_;
+  std::vector<Entry> entries_;
+};
+
+// Figures beside each other, each with a heading; those that wrap on a narrow screen.
+struct Titled {
+  std::string title;
+  std::string svg;
+};
+[[nodiscard]] std::string figures(std::span<const Titled> all);
+
+}  // namespace triptych::report

@@ -1,0 +1,170 @@
+#include "report/last_screen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/quoting.hpp"
+#include "core/text.hpp"
+#include "report/overview.hpp"
+
+namespace triptych::report {
+namespace {
+
+using judge::Verdict;
+
+constexpr std::size_t most_lines = 40;
+constexpr std::size_t least_width = 40;
+
+std::size_t width_of(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; }));
+}
+
+std::string_view colour_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::regression:
+      return "\x1b[1;31m";
+    case Verdict::cannot_judge:
+    case Verdict::waived:
+      return "\x1b[33m";
+    case Verdict::pass:
+    case Verdict::improved:
+      return "\x1b[32m";
+    default:
+      return "\x1b[2m";
+  }
+}
+
+Verdict verdict_of(core::ExitCode code) {
+  if (code == core::ExitCode::pass) return Verdict::pass;
+  return code == core::ExitCode::regression ? Verdict::regression : Verdict::cannot_judge;
+}
+
+std::string time_text(double seconds) {
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  return fmt::format("{:.0f} min", seconds / 60);
+}
+
+class Screen {
+ public:
+  explicit Screen(const ScreenOptions& options)
+      : options_(options), width_(std::max(options.width, least_width)) {}
+
+  std::string text(const Overview& all, double seconds, std::span<const std::string> files) {
+    head(all, seconds);
+    for (const KindRow& row : all.rows) {
+      const std::string pad(11 - std::min<std::size_t>(11, width_of(row.verdict)), ' ');
+      add(fmt::format("  {:<12}{}{}{}", row.kind, coloured(row.verdict, row.worst), pad,
+                      core::printable(row.sentence, width_ - 25)));
+    }
+    add("");
+    causes(all, files.empty() ? 2 : 4);
+    list(files);
+    add(fmt::format("  exit {}", meaning_of(all.code)));
+    return text_;
+  }
+
+ private:
+  void add(std::string_view line) {
+    text_ += line;
+    text_ += '\n';
+    ++lines_;
+  }
+  [[nodiscard]] std::string coloured(std::string_view text, Verdict verdict) const {
+    if (!options_.colours) return std::string(text);
+    return std::string(colour_of(verdict)) + std::string(text) + "\x1b[0m";
+  }
+
+  void head(const Overview& all, double seconds) {
+    const std::string left =
+        fmt::format("Triptych   {} {} · {}", all.devices, all.devices == 1 ? "device" : "devices",
+                    time_text(seconds));
+    const std::string right = fmt::format("{} ({})", word_of(all.code), static_cast<int>(all.code));
+    const std::size_t used = width_of(left) + width_of(right);
+    add(left + std::string(used + 3 < width_ ? width_ - used : 3, ' ') +
+        coloured(right, verdict_of(all.code)));
+    add("");
+  }
+
+  // As many as fit above the last lines.
+  void causes(const Overview& all, std::size_t below) {
+    std::size_t shown = 0;
+    for (const Cause& cause : all.open) {
+      const std::vector<std::string> lines = lines_of(cause);
+      if (lines_ + lines.size() + 2 + below > most_lines) break;
+      for (const std::string& line : lines) add(line);
+      add("");
+      ++shown;
+    }
+    if (shown < all.open.size()) {
+      add(fmt::format("  {} more causes: in the page and the files below",
+                      all.open.size() - shown));
+    }
+  }
+
+  [[nodiscard]] std::vector<std::string> lines_of(const Cause& cause) const {
+    const judge::Finding& first = *cause.group.first;
+    const std::string_view sign = first.verdict == Verdict::regression ? "✗" : "?";
+    std::vector<std::string> lines{fmt::format(
+        "  {} {}", coloured(sign, first.verdict),
+        core::printable(fmt::format("{}: {}", judge::name_of(first.check), place_of(cause)),
+                        width_ - 4))};
+    append_wrapped(lines, core::printable(message_of(cause), 2 * (width_ - 6)), "");
+    const auto set = options_.environments.find(first.device);
+    const std::string command =
+        command_of(first, cause.result->plan,
+                   set == options_.environments.end() ? Environment{} : set->second);
+    if (!command.empty()) append_wrapped(lines, command, " \\");
+    return lines;
+  }
+
+  // Broken at spaces outside quotes; `end` closes every line but the last.
+  void append_wrapped(std::vector<std::string>& lines, std::string_view text,
+                      std::string_view end) const {
+    std::string line;
+    bool quoted = false;
+    std::string word;
+    const auto put = [&] {
+      if (!line.empty() && width_of(line) + 1 + width_of(word) + 4 + end.size() > width_) {
+        lines.push_back("    " + line + std::string(end));
+        line = end.empty() ? "" : "  ";
+      }
+      line += (line.empty() || line == "  " ? "" : " ") + word;
+      word.clear();
+    };
+    for (const char c : text) {
+      if (c == '\'' && !end.empty()) quoted = !quoted;
+      if (c == ' ' && !quoted) {
+        put();
+      } else {
+        word += c;
+      }
+    }
+    put();
+    lines.push_back("    " + line);
+  }
+
+  void list(std::span<const std::string> files) {
+    if (files.empty()) return;
+    std::string line;
+    for (const std::string& file : files)
+      line += (line.empty() ? "" : "   ") + core::printable(file);
+    add("  " + core::printable(line, 3 * width_));
+    add("");
+  }
+
+  const ScreenOptions& options_;
+  std::size_t width_;
+  std::string text_;
+  std::size_t lines_ = 0;
+};
+
+}  // namespace
+
+std::string last_screen(std::span<const judge::GateResult> results, double seconds,
+                        std::span<const std::string> files, const ScreenOptions& options) {
+  return Screen(options).text(overview(results), seconds, files);
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,202 @@
+#include "report/overview.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+namespace triptych::report {
+namespace {
+
+using judge::Check;
+using judge::Finding;
+using judge::GateResult;
+using judge::Verdict;
+
+struct Kind {
+  Check check;
+  std::string_view name;
+  std::string_view wrong;   // "18 of 66 wrong"
+  std::string_view passed;  // "264 within their bounds"
+  std::string_view none;    // where nothing was decided
+  bool always;              // has its row though it was not checked
+};
+
+constexpr std::array kinds{
+    Kind{Check::image, "Pictures", "wrong", "within their bounds", "not checked", true},
+    Kind{Check::counters, "Counters", "changed", "as stored", "not checked", true},
+    Kind{Check::statistics, "Statistics", "changed", "as stored", "not checked", true},
+    Kind{Check::cost, "Cost", "changed", "as stored", "not checked", true},
+    Kind{Check::memory, "Memory", "changed", "as stored", "not checked", true},
+    Kind{Check::timing, "Times", "slower", "not slower", "shown, not judged", true},
+    Kind{Check::correlation, "Devices", "off the line", "along the line", "shown, not judged",
+         false},
+    Kind{Check::accuracy, "Accuracy", "changed", "as stored", "not checked", false},
+    Kind{Check::stress, "Stress", "below their score", "at their score", "not checked", false},
+};
+
+constexpr std::size_t named_devices = 3;
+
+struct Tally {
+  std::size_t decided = 0;
+  std::map<Verdict, std::size_t> of;
+};
+
+bool decides(Verdict verdict) {
+  return verdict != Verdict::advisory && verdict != Verdict::skipped;
+}
+
+// "vulkan:lavapipe: 18 of 66 wrong; gl:x: 1 of 66 wrong"
+std::string places(const std::map<std::string, Tally>& by_device, Verdict verdict,
+                   std::string_view word) {
+  std::string text;
+  std::size_t shown = 0;
+  std::size_t rest = 0;
+  for (const auto& [device, tally] : by_device) {
+    const auto found = tally.of.find(verdict);
+    if (found == tally.of.end()) continue;
+    if (shown == named_devices) {
+      ++rest;
+      continue;
+    }
+    ++shown;
+    text += fmt::format("{}{}: {} of {} {}", text.empty() ? "" : "; ",
+                        device.empty() ? "the plan" : device, found->second, tally.decided, word);
+  }
+  return rest > 0 ? text + fmt::format("; {} devices more", rest) : text;
+}
+
+KindRow row_of(const Kind& kind, std::span<const GateResult* const> results) {
+  std::map<std::string, Tally> by_device;
+  std::map<Verdict, std::size_t> all;
+  for (const GateResult* result : results) {
+    for (const Finding& finding : result->findings) {
+      if (finding.check != kind.check) continue;
+      Tally& tally = by_device[finding.device];
+      ++tally.of[finding.verdict];
+      ++all[finding.verdict];
+      if (decides(finding.verdict)) ++tally.decided;
+    }
+  }
+  const std::size_t right = all[Verdict::pass] + all[Verdict::improved];
+  KindRow row{kind.name, "–", Verdict::skipped, std::string(kind.none)};
+  if (all[Verdict::regression] > 0) {
+    row = {kind.name, "FAIL", Verdict::regression,
+           places(by_device, Verdict::regression, kind.wrong)};
+  } else if (all[Verdict::cannot_judge] > 0) {
+    row = {kind.name, "no verdict", Verdict::cannot_judge,
+           places(by_device, Verdict::cannot_judge, "not judged")};
+  } else if (right > 0) {
+    row = {kind.name, "pass", Verdict::pass, fmt::format("{} {}", right, kind.passed)};
+  } else if (all[Verdict::waived] > 0) {
+    row = {kind.name, "waived", Verdict::waived, ""};
+  }
+  for (const auto& [verdict, word] : {std::pair(Verdict::waived, "waived"),
+                                      {Verdict::improved, "better"},
+                                      {Verdict::advisory, "with advice"},
+                                      {Verdict::skipped, "skipped"}}) {
+    if (all[verdict] == 0) continue;
+    row.sentence += fmt::format("{}{} {}", row.sentence.empty() ? "" : "; ", all[verdict], word);
+  }
+  return row;
+}
+
+bool was_checked(const Kind& kind, std::span<const GateResult* const> results) {
+  return std::ranges::any_of(results, [&](const GateResult* result) {
+    return std::ranges::any_of(result->findings,
+                               [&](const Finding& each) { return each.check == kind.check; });
+  });
+}
+
+// Usage over regression over could not judge over pass.
+int weight_of(core::ExitCode code) {
+  switch (code) {
+    case core::ExitCode::usage:
+      return 3;
+    case core::ExitCode::regression:
+      return 2;
+    case core::ExitCode::pass:
+      return 0;
+    default:
+      return 1;
+  }
+}
+
+}  // namespace
+
+Overview overview(std::span<const GateResult* const> results) {
+  Overview all;
+  std::set<std::string_view> devices;
+  if (!results.empty()) all.code = core::ExitCode::pass;
+  for (const GateResult* result : results) {
+    if (weight_of(result->exit_code()) > weight_of(all.code)) all.code = result->exit_code();
+    for (const Finding& finding : result->findings) {
+      if (!finding.device.empty()) devices.insert(finding.device);
+    }
+    for (FindingGroup& group : grouped(result->findings)) {
+      if (group.first->verdict == Verdict::pass) continue;
+      (is_open(*group.first) ? all.open : all.aside).push_back({result, std::move(group)});
+    }
+  }
+  all.devices = devices.size();
+  for (std::vector<Cause>* causes : {&all.open, &all.aside}) {
+    std::ranges::stable_sort(*causes, std::greater{},
+                             [](const Cause& cause) { return cause.group.first->verdict; });
+  }
+  for (const Kind& kind : kinds) {
+    if (kind.always || was_checked(kind, results)) all.rows.push_back(row_of(kind, results));
+  }
+  return all;
+}
+
+Overview overview(std::span<const GateResult> results) {
+  std::vector<const GateResult*> all;
+  for (const GateResult& result : results) all.push_back(&result);
+  return overview(std::span<const GateResult* const>(all));
+}
+
+std::string_view word_of(core::ExitCode code) {
+  switch (code) {
+    case core::ExitCode::pass:
+      return "PASS";
+    case core::ExitCode::regression:
+      return "FAIL";
+    default:
+      return "CANNOT JUDGE";
+  }
+}
+
+std::string_view meaning_of(core::ExitCode code) {
+  switch (code) {
+    case core::ExitCode::pass:
+      return "0: all that was asked for is right";
+    case core::ExitCode::regression:
+      return "1: something is wrong or has changed";
+    default:
+      return "2: something could not be judged, which is no pass";
+  }
+}
+
+std::string place_of(const Cause& cause) {
+  const Finding& first = *cause.group.first;
+  std::string text = first.device.empty() ? cause.result->plan : first.device;
+  if (!cause.group.signature.empty()) text += ", " + cause.group.signature;
+  if (cause.group.configurations > 1) {
+    text += fmt::format(" ({})", cause.group.subject());
+  }
+  return text;
+}
+
+std::string message_of(const Cause& cause) {
+  const FindingGroup& group = cause.group;
+  std::string text = group.first->message;
+  if (!group.right_on.empty()) {
+    text += fmt::format("; {} {} right", fmt::join(group.right_on, ", "),
+                        group.right_on.size() == 1 ? "is" : "are");
+  }
+  return text;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,50 @@
+#pragma once
+// The verdict over all plans in a few rows: what the last screen, the page and Markdown begin with.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+#include "judge/gate/gate.hpp"
+#include "report/finding_groups.hpp"
+
+namespace triptych::report {
+
+struct KindRow {
+  std::string_view kind;     // "Pictures"
+  std::string_view verdict;  // "FAIL", "pass", "no verdict", "waived", "–"
+  judge::Verdict worst;      // skipped where there is none
+  std::string sentence;      // text of unknown origin: to be escaped
+};
+
+struct Cause {
+  const judge::GateResult* result;
+  FindingGroup group;
+};
+
+struct Overview {
+  core::ExitCode code = core::ExitCode::cannot_judge;
+  std::size_t devices = 0;
+  std::vector<KindRow> rows;
+  std::vector<Cause> open;   // what somebody has to look at, worst first
+  std::vector<Cause> aside;  // waived, improved, advice, skips; not what passed
+};
+
+// It points into the results. Nothing judged is no pass.
+[[nodiscard]] Overview overview(std::span<const judge::GateResult* const> results);
+[[nodiscard]] Overview overview(std::span<const judge::GateResult> results);
+
+// "FAIL", "PASS", "CANNOT JUDGE"
+[[nodiscard]] std::string_view word_of(core::ExitCode code);
+// "1: something is wrong" for people who meet the number.
+[[nodiscard]] std::string_view meaning_of(core::ExitCode code);
+
+// "vulkan:lavapipe, technique=raycast (12 configurations)"; the plan where neither is known. Text
+// of unknown origin.
+[[nodiscard]] std::string place_of(const Cause& cause);
+// The message; of several configurations the smallest is named. Text of unknown origin.
+[[nodiscard]] std::string message_of(const Cause& cause);
+
+}  // namespace triptych::report

@@ -1,0 +1,89 @@
+// How two devices keep step: a scatter plot per pair with its line, and what is off it.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/html.hpp"
+#include "report/page_frame.hpp"
+#include "report/page_sections.hpp"
+#include "report/scatter_figure.hpp"
+
+namespace triptych::report {
+namespace {
+
+using judge::CorrelationPair;
+
+// Of a configuration's text: "…,technique=raycast,…" → "raycast".
+std::string technique_in(const std::string& configuration) {
+  constexpr std::string_view name = "technique=";
+  const std::size_t at = configuration.find(name);
+  if (at == std::string::npos) return {};
+  return configuration.substr(at + name.size(), configuration.find(',', at) - at - name.size());
+}
+
+std::string fit_text(const CorrelationPair& pair) {
+  const judge::CorrelationLine& line = pair.line;
+  if (!std::isfinite(line.slope)) return "<p>" + escape(line.refusal) + ".</p>\n";
+  return fmt::format(
+      "<p>{} configurations; ln y = {:.3f} + {:.3f} ln x, scatter {:.2g} %; Pearson’s r {:.4f}, of "
+      "the logarithms {:.4f}. {}</p>\n",
+      line.configurations, line.intercept, line.slope, 100 * std::expm1(line.scale), line.pearson,
+      line.rho,
+      line.admitted() ? "" : "<b class=\"cannot_judge\">Refused</b>: " + escape(line.refusal));
+}
+
+// The one place that knows how a pair is kept.
+ScatterFigure scatter_of(const CorrelationPair& pair) {
+  const bool cost = pair.signal == "cost";
+  const double unit = std::log(1e-6);  // instructions in millions, nanoseconds in milliseconds
+  const std::string_view unit_name = cost ? "million instructions" : "ms";
+  ScatterFigure scatter{.across = fmt::format("{}, {}", pair.device_a, unit_name),
+                        .up = fmt::format("{}, {}", pair.device_b, unit_name),
+                        .points = {}};
+  for (const judge::CorrelationPoint& point : pair.points) {
+    scatter.points.push_back(
+        {.name = point.configuration,
+         .technique = technique_in(point.configuration),
+         .across = std::exp(point.x + unit),
+         .up = std::exp(point.y + unit),
+         .deviation = std::isfinite(point.residual) ? std::expm1(point.residual) : 0,
+         .flag = !point.outlier       ? ""
+                 : point.residual < 0 ? "less"
+                                      : "more"});
+  }
+  if (std::isfinite(pair.line.slope)) {
+    scatter.line = {pair.line.intercept + unit - pair.line.slope * unit, pair.line.slope};
+  }
+  return scatter;
+}
+
+std::string pair_part(const CorrelationPair& pair) {
+  return fmt::format("<h4>{} against {}, by {}{}</h4>", escape(pair.device_b),
+                     escape(pair.device_a), pair.signal,
+                     pair.new_device ? ", never accepted" : "") +
+         scatter_chart(scatter_of(pair)) + fit_text(pair);
+}
+
+}  // namespace
+
+std::string correlation_section(const PlanData& plan) {
+  std::string judged;
+  std::string shown;
+  for (const CorrelationPair& pair : plan.verdict->correlations) {
+    if (pair.points.empty()) continue;
+    const bool marked = std::ranges::any_of(pair.points, &judge::CorrelationPoint::outlier);
+    (pair.signal == "cost" && (marked || judged.empty()) ? judged : shown) += pair_part(pair);
+  }
+  if (judged.empty() && shown.empty()) return {};
+  std::string text =
+      "<h3>Devices against each other</h3><p>Each point is a configuration: what it takes on one "
+      "device across, on the other upwards. Beside it what is left of each beyond the line.</p>" +
+      judged;
+  if (!shown.empty())
+    text += "<details><summary>The other pairs</summary>" + shown + "</details>\n";
+  return text;
+}
+
+}  // namespace triptych::report

@@ -1,0 +1,139 @@
+#include "report/figure.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cmath>
+#include <regex>
+
+#include "support/well_formed.hpp"
+
+namespace triptych::report {
+namespace {
+
+using test::xml_fault;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Ticks, AreWholeStepsWithinTheAxis) {
+  EXPECT_THAT(ticks(0, 10, false, 5), ElementsAre(0, 2, 4, 6, 8, 10));
+  EXPECT_THAT(ticks(-0.1, 0.1, false, 4),
+              ElementsAre(testing::DoubleEq(-0.1), testing::DoubleEq(-0.05), 0,
+                          testing::DoubleEq(0.05), testing::DoubleEq(0.1)));
+  EXPECT_THAT(ticks(1, 1000, true, 5), ElementsAre(1, 10, 100, 1000));
+  EXPECT_THAT(ticks(0.9, 6, true, 5), ElementsAre(1, 2, 5));
+  EXPECT_THAT(ticks(1e-9, 1e9, true, 4).size(), testing::Le(5U));
+  EXPECT_THAT(ticks(100, 102, true, 4).size(), testing::Ge(2U));  // within a decade as on a line
+}
+
+TEST(Ticks, OfNoRangeAreOne) {
+  EXPECT_EQ(ticks(3, 3, false, 5).size(), 1U);
+  EXPECT_EQ(ticks(0, INFINITY, false, 5).size(), 1U);
+}
+
+TEST(ShortNumber, IsWhatOneWouldSay) {
+  EXPECT_EQ(short_number(0), "0");
+  EXPECT_EQ(short_number(0.05), "0.05");
+  EXPECT_EQ(short_number(1e-6), "1e-6");
+  EXPECT_EQ(short_number(1234), "1234");
+  EXPECT_EQ(short_number(25000), "25k");
+  EXPECT_EQ(short_number(-3e6), "-3M");
+}
+
+Figure some_figure(const std::string& text) {
+  Figure figure(text, {.title = text, .logarithmic = true}, {.title = text}, 200, 100);
+  figure.point({1, 2}, {}, text);
+  figure.point({10, 4}, {.mark = Mark::cross}, text);
+  figure.line(std::array{Figure::Place{1, 2}, Figure::Place{10, 4}}, {.dashed = true}, text);
+  figure.box({2, 0}, {3, 4}, {.opacity = 0.5}, text);
+  figure.label({10, 4}, text);
+  figure.number({2, 2}, text);
+  figure.upright(5);
+  figure.legend(text, {});
+  return figure;
+}
+
+TEST(Figure, IsWellFormedWhateverItIsTold) {
+  for (const std::string& text : test::hostile_strings()) {
+    const std::string svg = some_figure(text).svg();
+    EXPECT_EQ(xml_fault(svg), "");
+    EXPECT_THAT(svg, Not(HasSubstr("<script")));
+    Figure named(text, {.names = {text, "b"}}, {.names = {"a", text}}, 100, 50);
+    named.box({0, 0}, {1, 1}, {}, text);
+    EXPECT_EQ(xml_fault(named.svg()), "");
+  }
+}
+
+TEST(Figure, DrawsNothingAtNoNumber) {
+  Figure figure("f", {.logarithmic = true}, {}, 100, 50);
+  figure.point({0, 1}, {});  // a logarithm has no 0
+  figure.point({1, NAN}, {});
+  figure.box({1, 1}, {NAN, 2}, {});
+  figure.line(std::array{Figure::Place{-1, 1}}, {});
+  EXPECT_TRUE(figure.empty());
+  const std::string svg = figure.svg();
+  EXPECT_EQ(xml_fault(svg), "");
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg, Not(HasSubstr("inf")));
+}
+
+TEST(Figure, ABoxLiesWhereItsCornersAre) {
+  Figure figure("f", {.low = 0, .high = 10}, {.low = 0, .high = 10}, 100, 100);
+  figure.box({2, 8}, {4, 3}, {});
+  EXPECT_THAT(figure.svg(), HasSubstr("width=\"20.0\" height=\"50.0\""));
+}
+
+// Of one value, of many that are the same: an axis has a length all the same.
+TEST(Figure, OfOneValueHasAxes) {
+  for (const bool logarithmic : {false, true}) {
+    Figure figure("f", {.logarithmic = logarithmic}, {.logarithmic = logarithmic}, 100, 50);
+    figure.point({5, 5}, {});
+    EXPECT_THAT(figure.svg(), Not(HasSubstr("nan")));
+    EXPECT_THAT(figure.svg(), HasSubstr(">5<"));
+  }
+}
+
+// Every text lies within the view box, by the width that is reckoned with.
+TEST(Figure, LabelsStayInside) {
+  Figure figure("f", {.title = "across"}, {.names = {"a device with a long name", "b"}}, 200, 60);
+  figure.box({0, -0.3}, {1'000'000, 0.3}, {});
+  figure.label({1'000'000, 0}, "at the right edge");
+  const std::string svg = figure.svg();
+  std::smatch size;
+  ASSERT_TRUE(std::regex_search(svg, size, std::regex("viewBox=\"0 0 ([0-9]+) ([0-9]+)\"")));
+  const std::regex text(
+      "<text x=\"([0-9.-]+)\" y=\"([0-9.-]+)\" text-anchor=\"(\\w+)\"[^>]*>([^<]*)<");
+  int seen = 0;
+  for (std::sregex_iterator at(svg.begin(), svg.end(), text), end; at != end; ++at) {
+    const double x = std::stod((*at)[1]);
+    const double width = 6.3 * static_cast<double>((*at)[4].length());
+    const double left = (*at)[3] == "end" ? x - width : (*at)[3] == "middle" ? x - width / 2 : x;
+    EXPECT_GE(left, 0) << (*at)[0];
+    EXPECT_LE(left + width, std::stod(size[1]) + 1) << (*at)[0];
+    EXPECT_LE(std::stod((*at)[2]), std::stod(size[2])) << (*at)[0];
+    ++seen;
+  }
+  EXPECT_GE(seen, 5);
+}
+
+TEST(Figure, LabelsDoNotCoverEachOther) {
+  Figure figure("f", {}, {}, 200, 100);
+  figure.point({0, 0}, {});
+  figure.point({1, 1}, {});
+  figure.label({0.2, 0.5}, "first");
+  figure.label({0.2, 0.5}, "second");
+  EXPECT_THAT(figure.svg(), HasSubstr("first"));
+  EXPECT_THAT(figure.svg(), Not(HasSubstr("second")));
+}
+
+TEST(WellFormed, TellsWhatIsNot) {
+  EXPECT_EQ(xml_fault("<a b=\"c\"><d/>x &amp; y</a>"), "");
+  for (const char* bad : {"<a>", "<a></b>", "<a b=c/>", "<a b=\"<\"/>", "<a>&x;</a>", "<a/><a/>",
+                          "<a b=\"1\" b=\"2\"/>", "<a>\x1b</a>", "x", "<a><b></a></b>"}) {
+    EXPECT_NE(xml_fault(bad), "") << bad;
+  }
+}
+
+}  // namespace
+}  // namespace triptych::report

@@ -1,0 +1,98 @@
+#include "report/finding_groups.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "support/well_formed.hpp"
+
+namespace triptych::report {
+namespace {
+
+using judge::Check;
+using judge::Finding;
+using testing::ElementsAre;
+using enum judge::Verdict;
+
+Finding finding(judge::Verdict verdict, const std::string& device, const std::string& configuration,
+                const std::string& message = "3 of 64 pixels are over the bound",
+                Check check = Check::image) {
+  return {.check = check,
+          .verdict = verdict,
+          .test = fmt::format("volume.quick.{}.{}", judge::name_of(check), device),
+          .device = device,
+          .configuration = configuration,
+          .message = message};
+}
+
+TEST(FindingGroups, OneCauseIsSaidOnceWithTheSmallestCase) {
+  const std::vector<Finding> findings{
+      finding(regression, "gl:x", "data=generate:ball:64,technique=raycast,viewport=128",
+              "9 of 16384 pixels are over the bound"),
+      finding(regression, "gl:x", "data=generate:ball:64,technique=raycast,viewport=64",
+              "3 of 4096 pixels are over the bound"),
+      finding(pass, "gl:x", "data=generate:ball:64,technique=slices,viewport=64", "within"),
+      finding(pass, "gl:y", "data=generate:ball:64,technique=raycast,viewport=64", "within")};
+  const std::vector<FindingGroup> groups = grouped(findings);
+  ASSERT_EQ(groups.size(), 3U);
+  EXPECT_EQ(groups[0].configurations, 2U);
+  EXPECT_EQ(groups[0].first, &findings[1]);
+  EXPECT_EQ(groups[0].signature, "technique=raycast");
+  EXPECT_THAT(groups[0].right_on, ElementsAre("gl:y"));
+  EXPECT_EQ(groups[0].subject(), "2 configurations");
+}
+
+TEST(FindingGroups, TechniquesAreCausesOfTheirOwnUnlessAllSayIt) {
+  std::vector<Finding> findings{finding(regression, "gl:x", "technique=a"),
+                                finding(regression, "gl:x", "technique=b")};
+  EXPECT_EQ(grouped(findings).size(), 1U);
+  EXPECT_EQ(grouped(findings)[0].signature, "");
+  findings.push_back(finding(pass, "gl:x", "technique=c"));
+  ASSERT_EQ(grouped(findings).size(), 3U);
+  EXPECT_EQ(grouped(findings)[1].signature, "technique=b");
+}
+
+TEST(FindingGroups, DevicesChecksVerdictsAndMessagesAreCausesOfTheirOwn) {
+  const std::vector<Finding> findings{
+      finding(regression, "gl:x", "step=1"), finding(regression, "gl:y", "step=1"),
+      finding(cannot_judge, "gl:x", "step=2"),
+      finding(regression, "gl:x", "step=2", "samples 3 → 4", Check::counters),
+      finding(regression, "gl:x", "step=3", "4 of 64 pixels are not finite")};
+  EXPECT_EQ(grouped(findings).size(), 5U);
+}
+
+TEST(FindingGroups, WorstFirstAndCausesBeforeConsequences) {
+  const std::vector<Finding> findings{
+      finding(advisory, "gl:x", "step=1"),
+      finding(cannot_judge, "gl:x", "step=1"),
+      finding(regression, "gl:x", "step=1", "samples 3 → 4", Check::counters),
+      finding(regression, "gl:x", "step=2", "crashed: signal 11", Check::counters),
+      finding(regression, "gl:y", "step=1"),
+      finding(regression, "gl:x", "step=4"),
+      finding(regression, "gl:x", "step=5")};
+  std::vector<std::string> order;
+  for (const FindingGroup& group : grouped(findings)) {
+    order.push_back(
+        fmt::format("{} {}", group.first->device,
+                    group.first->message.substr(0, group.first->message.find(" pixels"))));
+  }
+  EXPECT_THAT(order, ElementsAre("gl:x crashed: signal 11", "gl:x 3 of 64", "gl:y 3 of 64",
+                                 "gl:x samples 3 → 4", "gl:x 3 of 64", "gl:x 3 of 64"));
+}
+
+TEST(CommandOf, DrawsTheConfigurationAgain) {
+  const Finding wrong = finding(regression, "gl:x#2", "data=a b%2Cc,step=0.5");
+  EXPECT_EQ(command_of(wrong, "volume/quick", {{"LP_X", "$(x)"}}),
+            "LP_X='$(x)' triptych render volume --device 'gl:x#2' --set 'data=a b%2Cc' --set "
+            "step=0.5 --out repro");
+  const Finding cost = finding(regression, "gl:x", "step=1", "more", Check::cost);
+  EXPECT_EQ(command_of(cost, "volume/quick"),
+            "triptych run volume/quick --device gl:x --set step=1");
+}
+
+TEST(CommandOf, IsNothingWhereNoneShowsIt) {
+  EXPECT_EQ(command_of(finding(regression, "", ""), "volume/quick"), "");
+  EXPECT_EQ(command_of(finding(regression, "gl:x", "step=1", "slower", Check::timing), "p"), "");
+}
+
+}  // namespace
+}  // namespace triptych::report

@@ -1,0 +1,128 @@
+#include "report/last_screen.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "report/overview.hpp"
+#include "support/well_formed.hpp"
+
+namespace triptych::report {
+namespace {
+
+using judge::Check;
+using judge::GateResult;
+using testing::HasSubstr;
+using testing::Not;
+using enum judge::Verdict;
+
+void add(GateResult& result, Check check, judge::Verdict verdict, const std::string& device,
+         const std::string& configuration, const std::string& message) {
+  result.findings.push_back({.check = check,
+                             .verdict = verdict,
+                             .test = "volume.quick.x",
+                             .device = device,
+                             .configuration = configuration,
+                             .message = message});
+  result.devices.insert(device);
+}
+
+GateResult failing() {
+  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
+  for (const char* technique : {"raycast", "slices"}) {
+    for (int step = 1; step <= 6; ++step) {
+      const bool wrong = std::string_view(technique) == "raycast";
+      const std::string configuration = fmt::format("step={},technique={}", step, technique);
+      add(result, Check::image, wrong ? regression : pass, "vulkan:lavapipe", configuration,
+          wrong ? fmt::format("{} of 36864 pixels are over the bound", 11138 + step) : "within");
+      add(result, Check::image, pass, "opencl:pocl", configuration, "within");
+      add(result, Check::counters, pass, "opencl:pocl", configuration, "as stored");
+      add(result, Check::timing, advisory, "opencl:pocl", configuration, "no stored time");
+    }
+  }
+  return result;
+}
+
+TEST(LastScreen, TellsWhatWhereAndWhatToType) {
+  const std::vector<GateResult> results{failing()};
+  const std::vector<std::string> files{"out/report.html", "out/gate.log"};
+  EXPECT_EQ(last_screen(results, 88, files, {.width = 80}),
+            R"(Triptych   2 devices · 88 s                                             FAIL (1)
+
+  Pictures    FAIL       vulkan:lavapipe: 6 of 12 wrong
+  Counters    pass       12 as stored
+  Statistics  –          not checked
+  Cost        –          not checked
+  Memory      –          not checked
+  Times       –          shown, not judged; 12 with advice
+
+  ✗ image: vulkan:lavapipe, technique=raycast (6 configurations)
+    11139 of 36864 pixels are over the bound; opencl:pocl is right
+    triptych render volume --device vulkan:lavapipe --set step=1 --set \
+      technique=raycast --out repro
+
+  out/report.html   out/gate.log
+
+  exit 1: something is wrong or has changed
+)");
+}
+
+TEST(LastScreen, OfAPassIsShort) {
+  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
+  add(result, Check::image, pass, "gl:x", "step=1", "within");
+  const std::string text = last_screen(std::vector{result}, 3, {});
+  EXPECT_THAT(text, HasSubstr("PASS (0)"));
+  EXPECT_LE(std::ranges::count(text, '\n'), 10);
+}
+
+TEST(LastScreen, OfNothingIsNoPass) {
+  EXPECT_THAT(last_screen({}, 0, {}), HasSubstr("CANNOT JUDGE (2)"));
+}
+
+TEST(LastScreen, OfAllPlansTheWorstCounts) {
+  GateResult good{.plan = "particles/quick", .run = "r", .findings = {}};
+  add(good, Check::image, pass, "gl:x", "step=1", "within");
+  const std::string text = last_screen(std::vector{good, failing(), good}, 3, {});
+  EXPECT_THAT(text, HasSubstr("FAIL (1)"));
+  EXPECT_THAT(text, HasSubstr("3 devices"));
+}
+
+TEST(LastScreen, HasAtMostFortyLinesAndSaysWhatIsLeftOut) {
+  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
+  for (int i = 0; i < 60; ++i) {
+    add(result, Check::image, regression, fmt::format("gl:x#{}", i), "step=1", "wrong");
+  }
+  const std::string text = last_screen(std::vector{result}, 3, std::vector<std::string>{"page"});
+  EXPECT_LE(std::ranges::count(text, '\n'), 40);
+  EXPECT_THAT(text, HasSubstr("more causes"));
+  EXPECT_THAT(text, HasSubstr("; 57 devices more"));
+}
+
+TEST(LastScreen, ColoursOnlyWhenAsked) {
+  const std::vector<GateResult> results{failing()};
+  EXPECT_EQ(last_screen(results, 3, {}).find('\x1b'), std::string::npos);
+  EXPECT_THAT(last_screen(results, 3, {}, {.colours = true}), HasSubstr("\x1b[1;31mFAIL"));
+}
+
+TEST(LastScreen, ObeysNoName) {
+  for (const std::string& name : test::hostile_strings()) {
+    GateResult result{.plan = name, .run = "r", .findings = {}};
+    add(result, Check::image, regression, name, "step=" + name, name);
+    add(result, Check::image, regression, "", "", name);
+    const std::string text = last_screen(std::vector{result}, 3, std::vector{name});
+    EXPECT_EQ(text.find('\x1b'), std::string::npos);
+    EXPECT_THAT(text, Not(HasSubstr("line\nend")));
+    EXPECT_LE(std::ranges::count(text, '\n'), 40);
+    EXPECT_LT(text.size(), 4000U);
+  }
+}
+
+TEST(LastScreen, RepeatsTheEnvironment) {
+  const std::vector<GateResult> results{failing()};
+  const ScreenOptions options{.environments = {{"vulkan:lavapipe", {{"LP_NUM_THREADS", "2"}}}}};
+  EXPECT_THAT(last_screen(results, 3, {}, options), HasSubstr("LP_NUM_THREADS=2 triptych render"));
+}
+
+}  // namespace
+}  // namespace triptych::report

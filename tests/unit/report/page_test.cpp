@@ -1,0 +1,77 @@
+#include "report/page.hpp"
+
+#include <gmock/gmock.h>
+
+#include <regex>
+
+#include "scripted_store.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/well_formed.hpp"
+
+namespace triptych::report {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::string page_of(bool wrong, const std::string& factor = "step") {
+  const test::TemporaryFolder folder;
+  return ScriptedStore(folder.path() / "s.sqlite", wrong, factor).page();
+}
+
+std::string before(const std::string& page, std::string_view what) {
+  return page.substr(0, page.find(what));
+}
+
+TEST(Page, OfAPassShowsVerdictRowsAndPicturesAndFoldsTheRest) {
+  const std::string page = page_of(false);
+  EXPECT_THAT(page, HasSubstr("<header class=\"pass\"><h1>PASS (0)</h1>"));
+  EXPECT_THAT(page, HasSubstr("16 within their bounds"));
+  EXPECT_THAT(page, Not(HasSubstr("id=\"findings\"")));
+  // One of each scene in sight: reference, picture and difference.
+  const std::string open = before(page.substr(page.find("id=\"pictures\"")), "<details>");
+  EXPECT_EQ(std::distance(std::sregex_iterator(open.begin(), open.end(), std::regex("<img ")), {}),
+            6);
+  EXPECT_LT(page.size(), 2'000'000U);
+}
+
+TEST(Page, OfAFailureTellsCausesCommandsAndWrongPicturesFirst) {
+  const std::string page = page_of(true);
+  EXPECT_THAT(page, HasSubstr("<h1>FAIL (1)</h1>"));
+  const std::string findings = before(page.substr(page.find("id=\"findings\"")), "id=\"pictures\"");
+  EXPECT_LT(findings.find("crashed: signal 11 in the driver &lt;x&gt;; opencl:pocl is right"),
+            findings.find("811 of 2304"));
+  EXPECT_THAT(findings, HasSubstr("(3 configurations)"));
+  EXPECT_THAT(findings, HasSubstr("<pre>triptych render volume --device vulkan:lavapipe --set "
+                                  "data=ball"));
+  const std::string open = before(page.substr(page.find("id=\"pictures\"")), "<details>");
+  EXPECT_THAT(open, HasSubstr("<div class=\"tile\">crashed</div>"));
+  EXPECT_THAT(open, Not(HasSubstr("within the bound")));
+}
+
+TEST(Page, EveryLinkLeadsSomewhere) {
+  const std::string page = page_of(true);
+  const std::regex link("href=\"#([^\"]+)\"");
+  int seen = 0;
+  for (std::sregex_iterator at(page.begin(), page.end(), link), end; at != end; ++at, ++seen) {
+    EXPECT_THAT(page, HasSubstr("id=\"" + (*at)[1].str() + "\""));
+  }
+  EXPECT_GE(seen, 3);
+}
+
+TEST(Page, NeedsNoNetworkAndNoScript) {
+  const std::string page = page_of(true);
+  EXPECT_THAT(page, Not(HasSubstr("src=\"http")));
+  EXPECT_THAT(page, Not(HasSubstr("href=\"http")));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+}
+
+// Factors' names come from plans, levels and reasons from anywhere.
+TEST(Page, KeepsTextText) {
+  const std::string page = page_of(true, "<script>\"&\x1b");
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_EQ(page.find('\x1b'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace triptych::report
