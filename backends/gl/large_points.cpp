@@ -4,9 +4,10 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
 #include <ranges>
+
+#include "scene/camera.hpp"
 
 namespace triptych::gl_backend {
 
@@ -23,7 +24,7 @@ std::vector<technique::Cell> cells_with_large_points(const Api& gl,
   // No silhouette is larger than the picture it is cut to.
   const double largest = largest_point(gl);
   const bool all_small = std::max(scene.width, scene.height) + 4 <= largest;
-  const double pixel = 2 * std::tan(glm::radians(scene.camera.fov_y_deg) / 2) / scene.height;
+  const double pixel = 2 * scene::tangent_of_half(scene.camera.fov_y_deg) / scene.height;
   // Between its two tangents a sphere at (a, z) covers 2r√(a² + z² − r²)/(z² − r²) of an axis. A
   // little more stands for the margins of sprites and points, and rounding.
   const auto may_be_large = [&](const std::array<float, 4>& sphere) {

@@ -45,9 +45,9 @@ vk::raii::Instance make_instance(const vk::raii::Context& context) {
 
 }  // namespace
 
-VKAPI_ATTR VkBool32 VKAPI_CALL Instance::keep_message(
-    VkDebugUtilsMessageSeverityFlagBitsEXT /*severity*/, VkDebugUtilsMessageTypeFlagsEXT /*types*/,
-    const VkDebugUtilsMessengerCallbackDataEXT* data, void* report) {
+template <typename Severity, typename Types, typename Data>
+VKAPI_ATTR VkBool32 VKAPI_CALL Instance::keep_message(Severity /*severity*/, Types /*types*/,
+                                                      const Data* data, void* report) {
   auto& kept = *static_cast<Report*>(report);
   const std::lock_guard lock(kept.mutex);
   kept.messages.emplace_back(data->pMessage);

@@ -25,9 +25,11 @@ class Instance {
     std::mutex mutex;  // the layer may report from any thread of the driver
     std::vector<std::string> messages;
   };
-  static VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(
-      VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT types,
-      const VkDebugUtilsMessengerCallbackDataEXT* data, void* report);
+  // Vulkan's callback. Vulkan-Hpp wants it with the C API's types up to 1.3, with its own in 1.4:
+  // they are deduced from what it is assigned to.
+  template <typename Severity, typename Types, typename Data>
+  static VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(Severity severity, Types types,
+                                                     const Data* data, void* report);
 
   std::unique_ptr<Report> report_ = std::make_unique<Report>();
   vk::raii::Context context_;

@@ -3,11 +3,11 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <utility>
 
 #include "backends/vulkan/sprite_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
+#include "scene/camera.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -22,7 +22,7 @@ bool may_be_large(const scene::ParticleScene& scene, const std::array<float, 4>&
   const glm::dvec3 centre = glm::dvec3(sphere[0], sphere[1], sphere[2]) - camera.eye;
   const double d = glm::length(centre);
   const double r = static_cast<double>(sphere[3]);
-  const double pixel = 2 * std::tan(glm::radians(camera.fov_y_deg) / 2) / scene.height;
+  const double pixel = 2 * scene::tangent_of_half(camera.fov_y_deg) / scene.height;
   if (d <= 1.01 * r) return true;
   const double alpha = std::asin(r / d);
   const double phi = std::acos(std::clamp(glm::dot(centre, camera.forward) / d, -1.0, 1.0));

@@ -4,6 +4,7 @@
 // used.
 
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 

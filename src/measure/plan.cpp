@@ -42,7 +42,9 @@ void apply(const Overrides& overrides, const Suite& suite, ValuesByFactor& value
   std::vector<std::string> seen;
   for (const auto& [name, texts] : overrides) {
     const core::FilePlace place{.file = "--set " + name};
-    const Factor& factor = factor_of(suite, {.text = name, .place = place});
+    // A variable of its own: GCC 14 takes the reference for one into what was passed, and warns.
+    const PlacedText placed_name{.text = name, .place = place};
+    const Factor& factor = factor_of(suite, placed_name);
     if (std::ranges::find(seen, name) != seen.end()) {
       throw core::InputError(place, "given twice; put all values into one list: a,b");
     }

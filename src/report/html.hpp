@@ -2,6 +2,7 @@
 // The little HTML that the pages need.
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>

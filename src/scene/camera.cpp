@@ -26,11 +26,6 @@ constexpr std::array<std::string_view, 16> paths{
     "diagonal_xyz", "diagonal_-xyz", "diagonal_x-yz", "diagonal_xy-z", "path_x",   "path_y",
     "path_z",       "path_sin_x",    "path_sin_y",    "path_sin_z"};
 
-double tangent_of_half(double fov_y_deg) {
-  const double turns = fov_y_deg / 720;
-  return sine_turns(turns) / cosine_turns(turns);
-}
-
 // What every path is laid out around.
 struct Stage {
   dvec3 centre;
@@ -238,6 +233,11 @@ void require_usable(const Box& box, double fov_y_deg) {
 }
 
 }  // namespace
+
+double tangent_of_half(double fov_y_deg) {
+  const double turns = fov_y_deg / 720;
+  return sine_turns(turns) / cosine_turns(turns);
+}
 
 Camera looking(const dvec3& eye, const dvec3& target, double fov_y_deg) {
   Camera camera;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 
 namespace triptych::scene {
@@ -98,6 +99,13 @@ double logarithm(double x) {
   }
   const double s = (m - 1) / (m + 1);
   return 2 * s * horner(c, s * s) + e * std::numbers::ln2;
+}
+
+double logarithm_of_1_plus(double x) {
+  if (x <= -1) return -std::numeric_limits<double>::infinity();
+  // What rounding takes from 1 + x, the quotient gives back (Kahan).
+  const double sum = 1 + x;
+  return sum == 1 ? x : logarithm(sum) * (x / (sum - 1));
 }
 
 }  // namespace triptych::scene

@@ -15,4 +15,7 @@ namespace triptych::scene {
 // Natural logarithm of a positive, finite number.
 [[nodiscard]] double logarithm(double x);
 
+// ln(1 + x) of x ≥ −1, also where x is small; −∞ at −1.
+[[nodiscard]] double logarithm_of_1_plus(double x);
+
 }  // namespace triptych::scene

@@ -10,7 +10,8 @@ namespace triptych::scene {
 double depth_scale(const Box& box, const glm::dvec3& eye) {
   const glm::dvec3 outside = eye - glm::clamp(eye, box.lo, box.hi);
   const double extent = glm::length(box.hi - box.lo) + glm::length(outside);
-  return std::exp2(std::floor(std::log2(extent)) - 24);
+  // 2⁻²⁴ of the greatest power of two that is not above it; 0 of nothing.
+  return extent > 0 ? std::ldexp(1.0, std::ilogb(extent) - 24) : 0;
 }
 
 Camera particle_camera(std::string_view spec, const ParticleSet& set, double fov_y_deg) {

@@ -33,13 +33,15 @@ ColourKind colour_kind(std::string_view name) {
 }
 
 std::string particle_hash(const ParticleSet& set) {
-  // The hash of the arrays' hashes: one over their bytes would need a copy of all of them.
-  const auto of = [](const auto& values) {
-    return core::content_hash(std::as_bytes(std::span(values)));
-  };
-  return core::content_hash(fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n", of(set.spheres),
-                                        of(set.ids), name_of(set.colour), of(set.rgba8),
-                                        of(set.rgba32), of(set.intensity), set.dropped));
+  return core::HashBuilder("particles")
+      .add_array(std::span(set.spheres))
+      .add_array(std::span(set.ids))
+      .add(name_of(set.colour))
+      .add_array(std::span(set.rgba8))
+      .add_array(std::span(set.rgba32))
+      .add_array(std::span(set.intensity))
+      .add(set.dropped)
+      .hash();
 }
 
 Box bounding_box(const ParticleSet& set) {

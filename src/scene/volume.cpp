@@ -112,10 +112,11 @@ void encode_from(Volume& volume, VoxelGrid& grid) {
 }
 
 std::string hash_of(const VoxelGrid& grid) {
-  return core::content_hash(fmt::format(
-      "{} {}x{}x{} spacing {:a} {:a} {:a} scale {:a} offset {:a} voxels {}", name_of(grid.format),
-      grid.size[0], grid.size[1], grid.size[2], grid.spacing[0], grid.spacing[1], grid.spacing[2],
-      grid.scale, grid.offset, core::content_hash(grid.data)));
+  core::HashBuilder hash("voxels");
+  hash.add(name_of(grid.format));
+  for (const int size : grid.size) hash.add(size);
+  for (const double spacing : grid.spacing) hash.add(spacing);
+  return hash.add(grid.scale).add(grid.offset).add_array(std::span(grid.data)).hash();
 }
 
 }  // namespace

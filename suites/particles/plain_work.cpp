@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/camera.hpp"
 #include "scene/particles.hpp"
 
 namespace triptych::particles_suite {
@@ -67,7 +68,7 @@ class Claims {
 bool sprites_are_apart(const scene::ParticleScene& scene) {
   // A polygon around a silhouette has at least four corners: they reach √2 as far as it does.
   constexpr double reach = 1.05 * std::numbers::sqrt2;
-  const double tangent = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360);
+  const double tangent = scene::tangent_of_half(scene.camera.fov_y_deg);
   const double aspect = static_cast<double>(scene.width) / scene.height;
   const Axis across{-aspect * tangent, scene.width / (2 * aspect * tangent), scene.width};
   const Axis down{-tangent, scene.height / (2 * tangent), scene.height};

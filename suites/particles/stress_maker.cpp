@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "scene/camera.hpp"
 #include "scene/particle_colours.hpp"
 #include "scene/particle_scene.hpp"
 
@@ -42,7 +43,7 @@ glm::dvec3 StressMaker::place(double x, double y, double depth) const {
 }
 
 double StressMaker::pixel() const {
-  return 2 * std::tan(scene_.camera.fov_y_deg * std::numbers::pi / 360) / scene_.height;
+  return 2 * scene::tangent_of_half(scene_.camera.fov_y_deg) / scene_.height;
 }
 
 StressScene StressMaker::take() {

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 #include "measure/factor.hpp"
 #include "reference/spheres.hpp"
 #include "scene/file_table.hpp"
@@ -195,10 +196,15 @@ std::string ParticleSuite::truth_key(const Configuration& configuration,
   const scene::ParticleScene pictured = scene(configuration);
   const reference::SphereErrorModel model =
       error_model(pictured, technique::computed_at(configuration.at("ray")));
-  return fmt::format("spheres {} data {} model {:a} {:a} {:a} {:a} {:a}{}",
-                     reference::spheres_version, pictured.particles->hash, model.margin_px,
-                     model.lateral_px, model.lateral_relative, model.depth_relative,
-                     model.colour_relative, beside_factors(configuration));
+  const std::string model_hash = core::HashBuilder("sphere error model")
+                                     .add(model.margin_px)
+                                     .add(model.lateral_px)
+                                     .add(model.lateral_relative)
+                                     .add(model.depth_relative)
+                                     .add(model.colour_relative)
+                                     .hash();
+  return fmt::format("spheres {} data {} model {}{}", reference::spheres_version,
+                     pictured.particles->hash, model_hash, beside_factors(configuration));
 }
 
 std::string ParticleSuite::beside_factors(const Configuration& configuration) {
@@ -206,7 +212,7 @@ std::string ParticleSuite::beside_factors(const Configuration& configuration) {
   const std::string table = scene::file_table_hash(scene(configuration).intensity_colours);
   if (!table.empty()) text += " table " + table;
   if (stress_data(configuration.at("data"))) {
-    text += " frame " + core::content_hash(describe(configuration).dump());
+    text += " frame " + core::json_hash(describe(configuration));
   }
   return text;
 }

@@ -8,6 +8,7 @@
 
 #include "core/hash.hpp"
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 #include "measure/factor.hpp"
 #include "reference/volume.hpp"
 #include "scene/denormals.hpp"
@@ -251,16 +252,22 @@ std::string table_text(const Configuration& configuration,
 std::string VolumeSuite::truth_key(const Configuration& configuration,
                                    const std::map<std::string, double>& precision) {
   const auto [pictured, model] = judged(configuration, precision);
-  std::string key =
-      fmt::format("reference {} data {} model {:a} {:a} {:a} {:a} {:a} {:a} {:a}",
-                  reference::volume_version, pictured.grid->hash, model.position_error_voxels,
-                  model.value_error, model.filter_weight_error, model.table_error,
-                  model.opacity_error, model.compositing_error, model.ert);
-  if (model.adapt > 0) key += fmt::format(" adapt {:a}", model.adapt);
-  if (model.output_error > 0) key += fmt::format(" output {:a}", model.output_error);
+  const std::string model_hash = core::HashBuilder("volume error model")
+                                     .add(model.position_error_voxels)
+                                     .add(model.value_error)
+                                     .add(model.filter_weight_error)
+                                     .add(model.table_error)
+                                     .add(model.opacity_error)
+                                     .add(model.compositing_error)
+                                     .add(model.ert)
+                                     .add(model.adapt)
+                                     .add(model.output_error)
+                                     .hash();
+  std::string key = fmt::format("reference {} data {} model {}", reference::volume_version,
+                                pictured.grid->hash, model_hash);
   // What a stress case brings besides is not among the factors.
   if (stress_data(configuration.at("data"))) {
-    key += " frame " + core::content_hash(describe_frame(pictured, model.ert, model.adapt).dump());
+    key += " frame " + core::json_hash(describe_frame(pictured, model.ert, model.adapt));
   }
   return key + table_text(configuration, pictured.transfer_function);
 }

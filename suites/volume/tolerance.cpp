@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
 
+#include "scene/camera.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::volume_suite {
@@ -57,11 +57,17 @@ double position_error(const scene::VolumeScene& scene, double u) {
   const double entry = farthest_entry(box, scene.camera.eye, origin) / voxel;
   double error = glm::length(origin / spacing) + 20 * farthest + 7 * entry + 7 * diagonal;
   if (plane > 0) {
-    const double half = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360);
+    const double half = scene::tangent_of_half(scene.camera.fov_y_deg);
     const double aspect = static_cast<double>(scene.width) / scene.height;
     error += 4 * plane / voxel * half * std::hypot(aspect, 1.0) + 6 * farthest;
   }
   return u * error;
+}
+
+// Of a positive number: the least power of two that is not below it.
+double next_power_of_two(double x) {
+  const double below = std::ldexp(1.0, std::ilogb(x));
+  return below < x ? 2 * below : below;
 }
 
 }  // namespace
@@ -73,7 +79,7 @@ reference::ErrorModel error_model(const scene::VolumeScene& scene, const PathPre
   const double format_range = std::abs(grid.scale) * largest_stored(grid.format);
   const double magnitude = format_range + std::abs(grid.offset);
   const bool preintegrated = scene.quadrature == scene::Quadrature::preintegrated;
-  const double filter = std::exp2(std::ceil(std::log2(std::max(path.filter_weight_error, u))));
+  const double filter = next_power_of_two(std::max(path.filter_weight_error, u));
   return {
       .position_error_voxels = position_error(scene, u),
       .value_error =

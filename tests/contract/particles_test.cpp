@@ -3,6 +3,7 @@
 #include "scene/particles.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/random.hpp"
 #include "data_folder.hpp"

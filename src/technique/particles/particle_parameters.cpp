@@ -1,7 +1,6 @@
 #include "technique/particles/particle_parameters.hpp"
 
-#include <cmath>
-#include <glm/trigonometric.hpp>
+#include "scene/camera.hpp"
 
 namespace triptych::technique {
 namespace {
@@ -30,7 +29,7 @@ ParticleParameters particle_parameters(const scene::ParticleScene& scene,
                                        const ParticleOptions& options, std::size_t particles,
                                        std::size_t cells) {
   const scene::Camera& camera = scene.camera;
-  const double half_y = std::tan(glm::radians(camera.fov_y_deg) / 2);
+  const double half_y = scene::tangent_of_half(camera.fov_y_deg);
   const double half_x = half_y * scene.width / scene.height;
   const float sprite_scale = options.fault == ParticleFault::small_sprite ? 0.99F : 1.0F;
   const float view_scale = options.fault == ParticleFault::culled_visible ? 0.5F : 1.0F;

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
+
+#include "scene/camera.hpp"
 
 namespace triptych::technique {
 namespace {
@@ -20,7 +21,7 @@ class NeedBound {
   explicit NeedBound(const scene::ParticleScene& scene)
       : camera_(scene.camera),
         right_(scene.camera.right()),
-        half_y_(std::tan(glm::radians(scene.camera.fov_y_deg) / 2)),
+        half_y_(scene::tangent_of_half(scene.camera.fov_y_deg)),
         half_x_(half_y_ * scene.width / scene.height),
         pixel_(2 * half_y_ / scene.height),
         columns_(tiles(scene.width)),

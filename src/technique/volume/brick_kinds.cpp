@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <unordered_map>
 
+#include "scene/exact_math.hpp"
+
 namespace triptych::technique {
 namespace {
 
@@ -79,6 +81,12 @@ class FunctionExtremes {
   }
 };
 
+// x^exponent of a power of two. Products: std::pow is left to the C library.
+double power(double x, int exponent) {
+  for (; exponent > 1; exponent /= 2) x *= x;
+  return x;
+}
+
 // Decides of one brick after the other whether it may be merged.
 class Merging {
  public:
@@ -107,8 +115,8 @@ class Merging {
     const double rounding = lo == hi ? 0 : 16 * unit_roundoff * (magnitude + std::abs(offset_));
     const Extremes range = function_.over(lo - rounding, hi + rounding);
     if (!(range.largest[3] < 1)) return false;  // its first sample ends a ray
-    const double a = -std::log1p(-range.least[3]);
-    const double b = -std::log1p(-range.largest[3]);
+    const double a = -scene::logarithm_of_1_plus(-range.least[3]);
+    const double b = -scene::logarithm_of_1_plus(-range.largest[3]);
     // No central difference exceeds half the brick's range of values.
     const double steepness = lo == hi ? 0 : std::min(1.0, steepest_ * (hi - lo + 2 * rounding));
     double colours = 0;
@@ -133,7 +141,7 @@ class Merging {
   [[nodiscard]] double lit(double colour, double cosine) const {
     if (!light_.enabled) return colour;
     return colour * (light_.ambient + light_.diffuse * cosine) +
-           light_.specular * std::pow(cosine, light_.exponent);
+           light_.specular * power(cosine, light_.exponent);
   }
 };
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "scene/exact_math.hpp"
+
 namespace triptych::technique {
 namespace {
 
@@ -33,7 +35,7 @@ struct Moments {
 using Entry = std::array<float, 4>;
 
 double extinction(double alpha) {
-  return std::min(-std::log1p(-alpha), most_extinction);
+  return std::min(-scene::logarithm_of_1_plus(-alpha), most_extinction);
 }
 
 // One cell from entry a to entry b. Extinction −ln(1 − alpha) is smooth over it but where alpha

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 #include <span>
 
 #include "core/error.hpp"
+#include "scene/camera.hpp"
 #include "technique/volume/brick_kinds.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/extra_work.hpp"
@@ -43,7 +42,7 @@ BasicRaycastParameters<Real> parameters_of(const scene::VolumeScene& scene,
                                            const RaycastOptions& options, double stored_maximum) {
   const scene::VoxelGrid& grid = *scene.grid;
   const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
-  const double half = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360);
+  const double half = scene::tangent_of_half(scene.camera.fov_y_deg);
   const double aspect = static_cast<double>(scene.width) / scene.height;
   const BrickLayout layout = brick_layout(scene, options.skip);
   const auto bricks = brick_counts(grid.size, layout);

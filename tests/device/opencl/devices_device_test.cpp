@@ -1,6 +1,7 @@
 // Listing and opening; what a device says of itself.
 #include <gmock/gmock.h>
 
+#include <cstdio>
 #include <set>
 
 #include "backends/opencl/devices.hpp"

@@ -1,6 +1,7 @@
 // The portable maths gives the same as OpenCL C and as C++.
 #include <algorithm>
 #include <bit>
+#include <cstdio>
 #include <cstdlib>
 #include <vector>
 

@@ -7,6 +7,7 @@
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/special_functions/erf.hpp>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>

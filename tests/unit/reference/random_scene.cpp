@@ -1,5 +1,6 @@
 #include "random_scene.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
