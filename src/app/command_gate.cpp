@@ -1,37 +1,57 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <memory>
 
 #include "app/arguments.hpp"
 #include "app/judging.hpp"
+#include "app/measuring.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
+#include "app/saying.hpp"
 #include "app/truth.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "judge/gate/gate.hpp"
 #include "measure/plan.hpp"
+#include "measure/stopwatch.hpp"
+#include "report/benchmark_json.hpp"
 #include "report/junit.hpp"
+#include "report/last_screen.hpp"
 #include "report/markdown.hpp"
 
 namespace triptych::app {
 namespace {
 
+// What a gate without plans judges: pictures, work and times, then instructions.
+const std::vector<std::string> main_job{"volume/quick", "particles/quick", "volume/cost",
+                                        "particles/cost"};
+
 struct GateArguments {
-  std::string plan;  // as it was typed
+  std::vector<std::string> plans;  // as they were typed
+  PlanChoice choice;
   std::string store = "triptych.sqlite";
   std::string baselines = default_baselines().string();
   std::vector<std::string> checks;
+  std::vector<std::string> without;
   std::vector<std::string> devices;
   std::vector<std::string> required;
+  std::vector<std::string> plants;
+  std::string out;
   std::string junit;
   std::string markdown;
+  bool measure = false;
   bool json = false;
   bool times = false;
+  bool bisect = false;
 };
 
 struct AcceptArguments {
-  std::string plan;  // as it was typed
+  std::vector<std::string> plans;  // as they were typed
+  PlanChoice choice;
   std::string store = "triptych.sqlite";
   std::string baselines = default_baselines().string();
   std::string reason;
@@ -39,48 +59,147 @@ struct AcceptArguments {
   bool drop = false;
 };
 
-// The request to judge a plan as it is now: one that cannot be read is judged by nothing.
-judge::GateRequest request_for(const GateArguments& arguments, const Registry& registry,
-                               Truths& truths) {
-  const measure::Plan plan = measure::load_plan(arguments.plan, {}, registry.find_suite());
-  judge::GateRequest request = request_of(truths, plan.name);
+struct JudgedPlan {
+  std::string typed;
+  measure::Plan plan;
+  record::Checks checks;
+};
+
+// The plans as they are now: one that cannot be read is judged by nothing. One that is left without
+// what it is made for goes.
+std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry& registry) {
+  record::Checks asked;
+  for (const std::string& name : arguments.checks) asked.insert(record::check(name));
+  record::Checks without;
+  for (const std::string& name : arguments.without) without.insert(record::check(name));
+  std::vector<JudgedPlan> plans;
+  for (const std::string& typed : arguments.plans.empty() ? main_job : arguments.plans) {
+    JudgedPlan each{typed, arguments.choice.load(typed, registry.find_suite()), asked};
+    if (without.contains(record::Check::cost) && each.plan.counted()) continue;
+    if (each.checks.empty()) each.checks = each.plan.checks;
+    std::erase_if(each.checks, [&](record::Check check) { return without.contains(check); });
+    if (!each.checks.empty()) plans.push_back(std::move(each));
+  }
+  if (plans.empty()) throw core::InputError("--without leaves nothing to judge");
+  return plans;
+}
+
+judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan& judged,
+                               const Registry& registry, Truths& truths) {
+  judge::GateRequest request = request_of(truths, judged.plan.name);
   request.devices = arguments.devices;
   request.required_devices = arguments.required;
-  for (const std::string& name : arguments.checks) request.checks.insert(judge::check(name));
+  request.checks = judged.checks;
   request.times_decide = arguments.times;
-  request.plan_hash = plan.hash;
-  const measure::Suite& suite = registry.suite(plan.suite);
-  for (const measure::Configuration& each : plan.configurations) {
+  request.plan_hash = judged.plan.hash;
+  const measure::Suite& suite = registry.suite(judged.plan.suite);
+  for (const measure::Configuration& each : judged.plan.configurations) {
     request.expected.push_back(measure::configuration_key(suite, each));
   }
   return request;
 }
 
-core::ExitCode gate(const GateArguments& arguments) {
-  refuse_overwriting({{"--store", arguments.store}, {"PLAN", arguments.plan}},
-                     {{"--junit", arguments.junit}, {"--markdown", arguments.markdown}});
-  const Registry registry = make_registry();
-  record::Store store = open_to_judge(arguments.store);
-  Truths truths(registry, store);
-  const judge::GateRequest request = request_for(arguments, registry, truths);
-  const judge::GateResult result =
-      judge::judge_run(store, latest_run_of(store, arguments.plan, arguments.store),
-                       judge::Baselines(arguments.baselines, request.plan), request);
-  if (!arguments.junit.empty()) write_text(arguments.junit, report::junit(result));
-  if (!arguments.markdown.empty()) write_text(arguments.markdown, report::markdown(result));
-  if (arguments.json) {
-    fmt::print("{}\n", core::json_text(judge::to_json(result), 2));
-  } else {
-    print_text(result);
-  }
-  return result.exit_code();
+std::string file_stem(const std::string& plan) {
+  std::string stem = plan;
+  std::ranges::replace(stem, '/', '-');
+  return stem;
 }
 
-core::ExitCode accept(const AcceptArguments& arguments) {
+// Everything that a CI keeps, in one folder; the names of the files.
+std::vector<std::string> write_all(const std::string& folder, const record::Store& store,
+                                   Truths& truths, const std::string& baselines,
+                                   const std::vector<judge::GateResult>& results) {
+  const auto named = [&](const std::string& name) {
+    return (std::filesystem::path(folder) / name).string();
+  };
+  std::string log;
+  for (const judge::GateResult& result : results) {
+    log += text_of(result);
+    write_text(named(file_stem(result.plan) + ".xml"), report::junit(result));
+  }
+  write_text(named("gate.log"), log);
+  write_text(named("summary.md"), report::markdown(results));
+  write_text(named("report.html"), page_of(store, truths, baselines));
+  write_text(named("benchmark.json"), report::benchmark_json(store, latest_runs(store)));
+  return {named("report.html"), named("gate.log"), named("summary.md")};
+}
+
+core::ExitCode exit_code_of(const std::vector<judge::GateResult>& results) {
+  core::ExitCode code = core::ExitCode::pass;
+  for (const judge::GateResult& result : results) code = worse_of(code, result.exit_code());
+  return code;
+}
+
+report::ScreenOptions screen() {
+  report::ScreenOptions options;
+  options.colours = ::isatty(STDOUT_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
+  return options;
+}
+
+core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Stopwatch& since) {
   const Registry registry = make_registry();
+  const std::vector<JudgedPlan> plans = plans_of(arguments, registry);
+  if (arguments.measure) {
+    std::vector<std::string> typed;
+    for (const JudgedPlan& each : plans) typed.push_back(each.typed);
+    static_cast<void>(measure_plans({.plans = typed,
+                                     .choice = arguments.choice,
+                                     .devices = arguments.devices,
+                                     .store = arguments.store,
+                                     .plants = arguments.plants}));
+  }
   record::Store store = open_to_judge(arguments.store);
   Truths truths(registry, store);
-  const std::string plan = measure::plan_name(arguments.plan);
+  std::vector<judge::GateResult> results;
+  for (const JudgedPlan& each : plans) {
+    const judge::GateRequest request = request_for(arguments, each, registry, truths);
+    results.push_back(judge::judge_run(store, latest_run_of(store, each.typed, arguments.store),
+                                       judge::Baselines(arguments.baselines, request.plan),
+                                       request));
+  }
+  if (!arguments.junit.empty()) write_text(arguments.junit, report::junit(results.front()));
+  if (!arguments.markdown.empty()) write_text(arguments.markdown, report::markdown(results));
+  std::vector<std::string> files;
+  if (!arguments.out.empty()) {
+    files = write_all(arguments.out, store, truths, arguments.baselines, results);
+  }
+  if (arguments.json) {
+    core::Json json = core::Json::array();
+    for (const judge::GateResult& result : results) json.push_back(judge::to_json(result));
+    fmt::print("{}\n", core::json_text(results.size() == 1 ? json.front() : json, 2));
+  } else {
+    fmt::print("{}", report::last_screen(results, since.ns() / 1e9, files, screen()));
+  }
+  return exit_code_of(results);
+}
+
+void refuse_bad_files(const GateArguments& arguments) {
+  std::vector<NamedFile> read{{"--store", arguments.store}};
+  for (const std::string& plan : arguments.plans) read.push_back({"PLAN", plan});
+  refuse_overwriting(read, {{"--junit", arguments.junit}, {"--markdown", arguments.markdown}});
+  if (!arguments.junit.empty() && arguments.plans.size() != 1) {
+    throw core::InputError("--junit is a file of one plan; --out FOLDER writes one for each");
+  }
+}
+
+// For `git bisect run`: what is no verdict on a commit is skipped by it.
+core::ExitCode gate(const GateArguments& arguments) {
+  constexpr auto skipped = static_cast<core::ExitCode>(125);
+  const measure::Stopwatch since;
+  refuse_bad_files(arguments);
+  if (!arguments.bisect) return judge_and_tell(arguments, since);
+  try {
+    const core::ExitCode code = judge_and_tell(arguments, since);
+    return code == core::ExitCode::cannot_judge ? skipped : code;
+  } catch (const core::Error& error) {
+    say("triptych: {}\n", error.what());
+    return skipped;
+  }
+}
+
+void accept_one(const AcceptArguments& arguments, const std::string& typed, record::Store& store,
+                Truths& truths) {
+  const std::string plan = measure::plan_name(typed);
   const judge::GateRequest judged = request_of(truths, plan);
   const judge::AcceptRequest request{
       .plan = plan,
@@ -93,16 +212,33 @@ core::ExitCode accept(const AcceptArguments& arguments) {
       .limit = judged.limit,
       .stress = judge::StressTruths{judged.truth, judged.expectations}};
   const std::vector<std::string> changes = judge::accept(
-      store, latest_run_of(store, arguments.plan, arguments.store), arguments.baselines, request);
+      store, latest_run_of(store, typed, arguments.store), arguments.baselines, request);
   for (const std::string& change : changes) fmt::print("{}\n", change);
-  fmt::print("{} changes under {}; review them before you commit\n", changes.size(),
+  fmt::print("{}: {} changes under {}; review them before you commit\n", plan, changes.size(),
              arguments.baselines);
+}
+
+core::ExitCode accept(const AcceptArguments& arguments) {
+  const Registry registry = make_registry();
+  record::Store store = open_to_judge(arguments.store);
+  Truths truths(registry, store);
+  for (const std::string& typed : arguments.plans) accept_one(arguments, typed, store, truths);
   return core::ExitCode::pass;
 }
 
-// Whose latest run is meant.
-void add_run_plan(CLI::App& command, std::string& plan) {
-  command.add_option("PLAN", plan, "SUITE/PLAN or the YAML file, as it was run")->required();
+void add_accept_command(Commands& commands) {
+  auto arguments = std::make_shared<AcceptArguments>();
+  CLI::App* command = commands.add("accept", "Make the latest runs of plans the baselines",
+                                   [arguments] { return accept(*arguments); });
+  command->add_option("PLAN", arguments->plans, "SUITE/PLAN or the YAML file, as it was run")
+      ->required();
+  command->add_option("--reason", arguments->reason, "Why; kept in history.json")->required();
+  command->add_option("--only", arguments->only, "Glob over configurations");
+  command->add_flag("--drop", arguments->drop,
+                    "Drop stored configurations that the run has no record of, and files that are "
+                    "not as they were accepted");
+  command->add_option("--store", arguments->store)->capture_default_str();
+  add_baselines_option(*command, arguments->baselines);
 }
 
 }  // namespace
@@ -110,9 +246,13 @@ void add_run_plan(CLI::App& command, std::string& plan) {
 void add_gate_commands(Commands& commands) {
   auto arguments = std::make_shared<GateArguments>();
   CLI::App* command =
-      commands.add("gate", "Judge a plan's latest run: truth, baselines, statistics",
+      commands.add("gate", "Judge the latest runs of plans, or measure and judge them",
                    [arguments] { return gate(*arguments); });
-  add_run_plan(*command, arguments->plan);
+  command->add_option("PLAN", arguments->plans,
+                      fmt::format("SUITE/PLAN or the YAML file, as it was run (default: {})",
+                                  fmt::join(main_job, " ")));
+  arguments->choice.add_to(*command);
+  command->add_flag("--measure", arguments->measure, "Measure first, into new runs");
   command->add_option("--store", arguments->store)->capture_default_str();
   add_baselines_option(*command, arguments->baselines);
   command
@@ -120,27 +260,27 @@ void add_gate_commands(Commands& commands) {
                    "image,counters,statistics,cost,memory,timing,correlation,accuracy,stress "
                    "(default: those of the plan)")
       ->delimiter(',');
-  command->add_option("--device", arguments->devices, "Glob: judge only these (repeatable)");
+  command
+      ->add_option("--without", arguments->without,
+                   "Leave these checks out; cost: plans that count instructions, too")
+      ->delimiter(',');
+  command->add_option("--device", arguments->devices, "Glob: only these (repeatable)");
   command->add_option("--require", arguments->required,
                       "Glob: a device that must have measured something (repeatable)");
-  command->add_option("--junit", arguments->junit, "Write JUnit XML");
-  command->add_option("--markdown", arguments->markdown, "Write a Markdown summary");
-  command->add_flag("--json", arguments->json, "Print every finding as JSON");
   command->add_flag("--times", arguments->times,
                     "Times decide: for a machine that is kept for measuring; else they advise");
-
-  auto accepted = std::make_shared<AcceptArguments>();
-  CLI::App* accepting = commands.add("accept", "Make a plan's latest run the baseline",
-                                     [accepted] { return accept(*accepted); });
-  add_run_plan(*accepting, accepted->plan);
-  accepting->add_option("--reason", accepted->reason, "Why; kept in history.json")->required();
-  accepting->add_option("--only", accepted->only, "Glob over configurations");
-  accepting->add_flag(
-      "--drop", accepted->drop,
-      "Drop stored configurations that the run has no record of, and files that are "
-      "not as they were accepted");
-  accepting->add_option("--store", accepted->store)->capture_default_str();
-  add_baselines_option(*accepting, accepted->baselines);
+  command->add_option(
+      "--out", arguments->out,
+      "Folder for report.html, gate.log, summary.md, benchmark.json and JUnit XML of "
+      "each plan");
+  command->add_option("--junit", arguments->junit, "Write JUnit XML of one plan");
+  command->add_option("--markdown", arguments->markdown, "Write a Markdown summary");
+  command->add_flag("--json", arguments->json, "Print every finding as JSON");
+  command->add_flag("--bisect", arguments->bisect,
+                    "For `git bisect run`: 125 where nothing could be judged, instead of 2 or 3");
+  command->add_option("--plant", arguments->plants, "As of run, with --measure")
+      ->needs("--measure");
+  add_accept_command(commands);
 }
 
 }  // namespace triptych::app

@@ -29,8 +29,10 @@ struct RunArguments {
   int limit_s = 60;
   bool measure_every = false;
   bool untimed = false;
+  bool timed = false;
   std::vector<std::string> plants;
   std::optional<double> error;
+  std::FILE* told_to = stdout;
 };
 
 std::string outcome_text(const record::Record& record) {
@@ -73,10 +75,11 @@ bool tell_cheapest(const Registry& registry, const measure::Suite& suite, record
   return all;
 }
 
-void tell(const measure::Plan& plan, const measure::RunResult& result, const std::string& store) {
+void tell(const RunArguments& arguments, const measure::Plan& plan,
+          const measure::RunResult& result) {
   std::string text = fmt::format(
       "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
-      plan.name, result.run, store, result.measured, result.skipped, result.failed,
+      plan.name, result.run, arguments.store, result.measured, result.skipped, result.failed,
       result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
   if (result.there_before > 0) {
     text += fmt::format("{} of them were there before\n", result.there_before);
@@ -87,7 +90,7 @@ void tell(const measure::Plan& plan, const measure::RunResult& result, const std
         "apart; --measure-every measures them too\n",
         result.taken_over);
   }
-  fmt::print("{}", text);
+  fmt::print(arguments.told_to, "{}", text);
 }
 
 // A factor belongs to one suite, an error to its scenes.
@@ -108,6 +111,7 @@ std::vector<measure::Plan> load_plans(const RunArguments& arguments, const Regis
       throw core::InputError(
           fmt::format("two plans are called {}: a plan's runs are known by its name", plan.name));
     }
+    if (arguments.timed && !plan.counted()) plan.checks.insert(record::Check::timing);
     plans.push_back(std::move(plan));
     if (!arguments.error) continue;
     plans.back() =
@@ -128,6 +132,7 @@ measure::RunOptions options_of(const RunArguments& arguments) {
 }
 
 struct Told {
+  bool scored = false;                      // some plan's failures are told by its scores
   std::vector<measure::RunResult> results;  // in the order of the plans
   bool error_kept = true;                   // a requested error, by every device in every scene
 };
@@ -147,8 +152,10 @@ Told run_and_tell(const RunArguments& arguments) {
     runs.push_back({plan, registry.suite(plan.suite), options});
   }
   Told told{.results = measure::run_plans(runs, devices, store, show)};
+  told.scored = std::ranges::any_of(
+      plans, [](const measure::Plan& plan) { return plan.checks.contains(record::Check::stress); });
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    tell(plans[i], told.results[i], arguments.store);
+    tell(arguments, plans[i], told.results[i]);
   }
   if (arguments.error) {
     told.error_kept = tell_cheapest(registry, runs.front().suite, store, told.results.front().run,
@@ -176,19 +183,19 @@ bool has_told(const measure::RunResult& result) {
 
 // Where nothing of a plan is measured there is nothing that anybody could judge.
 core::ExitCode run(const RunArguments& arguments) {
-  const auto [results, error_kept] = run_resumably(arguments);
-  const bool measured = std::ranges::all_of(results, has_measured) && error_kept;
+  const Told told = run_resumably(arguments);
+  const bool measured = std::ranges::all_of(told.results, has_measured) && told.error_kept;
   return measured ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
 // As a CTest fixture: a configuration that failed fails the test – but for a stress case, whose
 // score tells of it – and nothing but skips skips it.
 core::ExitCode run_as_test(const RunArguments& arguments) {
-  const auto results = run_and_tell(arguments).results;
-  const bool scored = arguments.plans.back().ends_with("/stress");
+  const Told told = run_and_tell(arguments);
+  const std::vector<measure::RunResult>& results = told.results;
   const bool failed = std::ranges::any_of(
       results, [](const measure::RunResult& result) { return result.failed > 0; });
-  if (failed && !scored) return core::ExitCode::regression;
+  if (failed && !told.scored) return core::ExitCode::regression;
   return std::ranges::all_of(results, has_told) ? core::ExitCode::pass : core::ExitCode::skip;
 }
 
@@ -231,6 +238,10 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       ->check(CLI::Range(1, 86400));
   command.add_flag("--untimed", arguments.untimed,
                    "One frame for the picture and one for the counters: no times, no statistics");
+  command
+      .add_flag("--timed", arguments.timed,
+                "Times too, of plans that are not judged by them, such as SUITE/accuracy")
+      ->excludes("--untimed");
   command.add_flag("--measure-every", arguments.measure_every,
                    "Measure configurations too that their scene cannot tell from one before");
   command.add_option("--plant", arguments.plants,
@@ -240,14 +251,15 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
 
 }  // namespace
 
-std::vector<int> measure_plans(const std::vector<std::string>& plans,
-                               const std::vector<std::string>& devices, const std::string& store,
-                               bool resume) {
+std::vector<int> measure_plans(const Measuring& measuring) {
   RunArguments arguments;
-  arguments.plans = plans;
-  arguments.devices = devices;
-  arguments.store = store;
-  arguments.resume = resume;
+  arguments.plans = measuring.plans;
+  arguments.choice = measuring.choice;
+  arguments.devices = measuring.devices;
+  arguments.store = measuring.store;
+  arguments.resume = measuring.resume;
+  arguments.plants = measuring.plants;
+  arguments.told_to = stderr;
   std::vector<int> told;
   for (const measure::RunResult& result : run_resumably(arguments).results) {
     told.push_back(result.measured + result.failed);

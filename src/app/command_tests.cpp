@@ -18,7 +18,6 @@ namespace triptych::app {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::array<std::string_view, 4> checks{"image", "counters", "statistics", "timing"};
 
 struct Test {
   std::string name;
@@ -59,21 +58,15 @@ struct PlanTests {
   std::string plan;  // "volume/quick"
   std::string stem;  // "volume.quick"
   fs::path store;
+  record::Checks checks;
+  bool timed = true;
 };
 
-// Errors and their orders need no times, whose measuring takes minutes.
-bool is_untimed(const PlanTests& plan) {
-  return plan.plan.ends_with("/accuracy");
-}
+// Held by whatever is timed: nothing else of the tests is then measured.
+constexpr std::string_view all_processors = "processors";
 
-// What is judged of a plan. One for correlation is held against other devices; its pictures and
-// times are of the kinds that the other plans judge.
-std::vector<std::string_view> checks_of(const PlanTests& plan) {
-  if (plan.plan.ends_with("/correlation")) return {"correlation"};
-  // One frame each: no times, no statistics; a stress case's picture is judged by its score.
-  if (plan.plan.ends_with("/stress")) return {"counters", "stress"};
-  if (is_untimed(plan)) return {"image", "counters", "accuracy"};
-  return {checks.begin(), checks.end()};
+bool is_of_all(record::Check check) {
+  return check == record::Check::stress || check == record::Check::correlation;
 }
 
 void add_plan(std::vector<Test>& tests, const PlanTests& plan,
@@ -84,33 +77,32 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
                    .labels = {plan.suite, "device"},
                    .requires_fixtures = {},
                    .sets_up = plan.stem});
-  const std::vector<std::string_view> own_checks = checks_of(plan);
   std::vector<std::string> measured;
   for (const record::Device& device : devices) measured.push_back(plan.stem + "." + device.id);
   for (const record::Device& device : devices) {
     const std::string fixture = plan.stem + "." + device.id;
     std::vector<std::string> measure{"test-measure", plan.plan, "--device",
                                      device.id,      "--store", store};
-    if (is_untimed(plan)) measure.emplace_back("--untimed");
     tests.push_back({.name = plan.stem + ".measure." + device.id,
                      .command = std::move(measure),
                      .labels = {plan.suite, "measure", "device", device.api, device.id},
                      .requires_fixtures = {plan.stem},
                      .sets_up = fixture,
-                     .lock = device.id});
-    for (const std::string_view check : own_checks) {
+                     .lock = plan.timed ? std::string(all_processors) : device.id});
+    for (const record::Check each : plan.checks) {
+      const std::string_view check = record::name_of(each);
       tests.push_back(
           {.name = fmt::format("{}.{}.{}", plan.stem, check, device.id),
            .command = {"test-check", plan.plan, "--check", std::string(check), "--device",
                        device.id, "--store", store},
            .labels = {plan.suite, std::string(check), "device", device.api, device.id},
-           // A score says how a device agrees with the others.
-           .requires_fixtures = check == "stress" ? measured : std::vector<std::string>{fixture},
+           // A score says how a device agrees with the others, and so does a line through both.
+           .requires_fixtures = is_of_all(each) ? measured : std::vector<std::string>{fixture},
            .sets_up = {},
            .lock = {}});
     }
   }
-  if (std::ranges::find(own_checks, "image") == own_checks.end()) return;
+  if (!plan.checks.contains(record::Check::image)) return;
   tests.push_back({.name = plan.stem + ".agreement",
                    .command = {"test-check", plan.plan, "--check", "image", "--store", store},
                    .labels = {plan.suite, "image", "agreement", "device"},
@@ -128,7 +120,9 @@ core::ExitCode register_tests(const fs::path& out, const fs::path& folder,
     const std::string suite = plan.substr(0, plan.find('/'));
     std::string stem = plan;
     stem.replace(plan.find('/'), 1, ".");
-    add_plan(tests, {suite, plan, stem, folder / (stem + ".sqlite")}, listing.devices);
+    const measure::Plan loaded = measure::load_plan(plan, {}, registry.find_suite());
+    add_plan(tests, {suite, plan, stem, folder / (stem + ".sqlite"), loaded.checks, loaded.timed()},
+             listing.devices);
   }
   std::string text = "# Made by asking triptych which devices are here.\n";
   for (const Test& test : tests) text += as_cmake(test);

@@ -28,9 +28,9 @@ struct ValidateArguments {
 
 // Times, bits and statistics are a device's own; what is asked of any device is the right picture
 // from the right amount of work. A stress case's score holds what its picture is worth.
-std::set<judge::Check> checks_of(const std::string& plan) {
-  const auto pictures = plan.ends_with("/stress") ? judge::Check::stress : judge::Check::image;
-  return {pictures, judge::Check::counters};
+record::Checks checks_of(const record::Checks& of_plan) {
+  const bool scored = of_plan.contains(judge::Check::stress);
+  return {scored ? judge::Check::stress : judge::Check::image, judge::Check::counters};
 }
 
 void print_devices(const record::Store& store, const std::string& run) {
@@ -49,8 +49,10 @@ void print_devices(const record::Store& store, const std::string& run) {
 core::ExitCode validate(const ValidateArguments& arguments) {
   require_writable(arguments.out);
   const std::string file = (std::filesystem::path(arguments.out) / "validation.sqlite").string();
-  const std::vector<int> told =
-      measure_plans({plans.begin(), plans.end()}, arguments.devices, file, arguments.resume);
+  const std::vector<int> told = measure_plans({.plans = {plans.begin(), plans.end()},
+                                               .devices = arguments.devices,
+                                               .store = file,
+                                               .resume = arguments.resume});
   for (std::size_t i = 0; i < plans.size(); ++i) {
     if (told[i] > 0) continue;
     throw core::NotSupported(fmt::format("{}: the devices asked for can do none of it", plans[i]));
@@ -62,11 +64,10 @@ core::ExitCode validate(const ValidateArguments& arguments) {
   for (const char* plan : plans) {
     const std::string run = latest_run_of(store, plan, file);
     judge::GateRequest request = request_of(truths, plan);
-    request.checks = checks_of(plan);
+    request.checks = checks_of(measure::load_plan(plan, {}, registry.find_suite()).checks);
     const judge::GateResult result =
         judge::judge_run(store, run, judge::Baselines(arguments.baselines, plan), request);
-    fmt::print("\n{}\n", plan);
-    print_text(result);
+    fmt::print("\n{}\n{}", plan, text_of(result));
     worst = worse_of(worst, result.exit_code());
   }
   fmt::print("\n");

@@ -33,18 +33,21 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
                   name, plan, file));
 }
 
-void print_text(const judge::GateResult& result) {
+std::string text_of(const judge::GateResult& result) {
+  std::string text;
   for (const report::FindingGroup& group : report::grouped(result.findings)) {
     const judge::Finding& finding = *group.first;
     if (finding.verdict == judge::Verdict::pass) continue;
     const std::string subject = group.subject();
-    fmt::print("{:<12} {}{}{}: {}\n", judge::name_of(finding.verdict), finding.test,
-               subject.empty() ? "" : " ", subject, finding.message);
+    text += fmt::format("{:<12} {}{}{}: {}\n", judge::name_of(finding.verdict), finding.test,
+                        subject.empty() ? "" : " ", subject, finding.message);
   }
   std::map<judge::Verdict, int> counts;
   for (const judge::Finding& finding : result.findings) ++counts[finding.verdict];
-  for (const auto& [verdict, count] : counts) fmt::print("{} {}  ", count, judge::name_of(verdict));
-  fmt::print("\n{}\n", result.headline());
+  for (const auto& [verdict, count] : counts) {
+    text += fmt::format("{} {}  ", count, judge::name_of(verdict));
+  }
+  return text + fmt::format("\n{}\n", result.headline());
 }
 
 std::vector<record::Run> latest_runs(const record::Store& store) {

@@ -21,7 +21,7 @@ namespace triptych::app {
 
 // Every finding but those that pass, a line each, then how many there are of each verdict and the
 // headline.
-void print_text(const judge::GateResult& result);
+[[nodiscard]] std::string text_of(const judge::GateResult& result);
 
 // The latest run of each plan in a store, by the plans' names.
 [[nodiscard]] std::vector<record::Run> latest_runs(const record::Store& store);

@@ -4,13 +4,22 @@
 #include <string>
 #include <vector>
 
+#include "app/arguments.hpp"
+
 namespace triptych::app {
 
-// Measures plans on the devices of some globs, each into a new run or, with `resume`, into its
-// latest, as `triptych run` does and tells it. The number of configurations measured or failed of
-// each. Throws as measure::run_plans does; interrupted, an Error that offers --resume.
-[[nodiscard]] std::vector<int> measure_plans(const std::vector<std::string>& plans,
-                                             const std::vector<std::string>& devices,
-                                             const std::string& store, bool resume);
+struct Measuring {
+  std::vector<std::string> plans;    // as they were typed
+  PlanChoice choice = {};            // of the only one
+  std::vector<std::string> devices;  // globs
+  std::string store;
+  bool resume = false;  // into the plans' latest runs, else into new ones
+  std::vector<std::string> plants = {};
+};
+
+// Measures as `triptych run` does and tells it on standard error. The number of configurations
+// measured or failed of each plan. Throws as measure::run_plans does; interrupted, an Error that
+// offers --resume.
+[[nodiscard]] std::vector<int> measure_plans(const Measuring& measuring);
 
 }  // namespace triptych::app

@@ -11,6 +11,7 @@
 #include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge {
+namespace {
 
 const double tolerated = std::log(1.02);  // slower by this is not worth a finding
 
