@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 
 namespace triptych::scene {
 namespace {
@@ -41,6 +42,22 @@ TEST(Camera, RaysFollowTheStatedFormula) {
   camera.fov_y_deg = 60;
   expect_near(camera.ray_direction(0, 0, 1, 2),
               glm::normalize(dvec3(0, 0.5 * std::tan(std::numbers::pi / 6), -1)), 1e-15);
+}
+
+// The bits that every machine must make: what is drawn, and so counted, begins with them.
+TEST(Camera, IsTheSameEverywhere) {
+  const Box box{glm::dvec3(-3, 0.5, 1), glm::dvec3(40, 30.25, 77)};
+  core::HashBuilder bits("cameras");
+  const auto add = [&bits](const glm::dvec3& v) { bits.add(v.x).add(v.y).add(v.z); };
+  for (const char* spec : {"orbit_x:1/7", "orbit_-y:3/8", "diagonal_x-yz:0/3", "path_z:2/5",
+                           "path_sin_x:4/9", "random:7"}) {
+    const Camera camera = camera_at(spec, box, 50);
+    add(camera.eye);
+    add(camera.forward);
+    add(camera.up);
+    bits.add(tangent_of_half(camera.fov_y_deg)).add(camera.near).add(camera.far);
+  }
+  EXPECT_EQ(bits.hash(), "30e6e63cb0b17ea34eecf5568c131f5e");
 }
 
 TEST(Camera, EveryViewIsOrthonormal) {

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+
+#include "core/hash.hpp"
 
 namespace triptych::scene {
 namespace {
@@ -48,6 +51,28 @@ TEST(ExactMath, ExponentialAndLogarithmAgreeWithTheLibrary) {
   EXPECT_EQ(exponential(0), 1);
   EXPECT_EQ(exponential(-701), 0);
   EXPECT_EQ(logarithm(1), 0);
+}
+
+TEST(ExactMath, LogarithmOf1PlusAgreesWithTheLibrary) {
+  for (double x = 1e-300; x < 1e300; x *= 1.3) {
+    EXPECT_NEAR(logarithm_of_1_plus(x) / std::log1p(x), 1, 1e-15) << x;
+    if (x < 1) {
+      EXPECT_NEAR(logarithm_of_1_plus(-x) / std::log1p(-x), 1, 1e-15) << -x;
+    }
+  }
+  EXPECT_EQ(logarithm_of_1_plus(0), 0);
+  EXPECT_EQ(logarithm_of_1_plus(-1), -std::numeric_limits<double>::infinity());
+}
+
+// The bits that every machine must make of them.
+TEST(ExactMath, MakesTheSameBitsEverywhere) {
+  core::HashBuilder bits("exact maths");
+  for (int i = -500; i <= 500; ++i) {
+    const double x = i / 7.0;
+    bits.add(sine_turns(x)).add(cosine_turns(x)).add(exponential(x));
+    if (i > 0) bits.add(logarithm(x)).add(logarithm_of_1_plus(x)).add(logarithm_of_1_plus(-1 / x));
+  }
+  EXPECT_EQ(bits.hash(), "20bf13eb24ffb2533b9cd8fd62dd7c4f");
 }
 
 }  // namespace

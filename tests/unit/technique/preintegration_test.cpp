@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "core/hash.hpp"
 #include "core/random.hpp"
 #include "scene/transfer_function.hpp"
 #include "technique/portable/prelude.hpp"
@@ -114,6 +116,12 @@ TEST(PreintegratedPairs, SteepFunctionsStayWithinTheCutOff) {
     EXPECT_NEAR(static_cast<double>(found.opacity), static_cast<double>(exact.opacity), 2e-6);
     EXPECT_LE(largest_difference(found, exact), std::pow(depth, 4) / 635 + 2e-6) << depth;
   }
+}
+
+// The bits that every machine must make: a device looks them up.
+TEST(PreintegratedPairs, AreTheSameEverywhere) {
+  const auto pairs = preintegrated_pairs(scene::load_transfer_function("surfaces"));
+  EXPECT_EQ(core::HashBuilder("pairs").add_array(std::span(pairs)).hash(), "81bbfa4674ecfbe4d87b7bc27375ea93");
 }
 
 TEST(PreintegratedPairs, WhereNothingIsSeenThereIsNoDepth) {
