@@ -49,10 +49,12 @@ void print_devices(const record::Store& store, const std::string& run) {
 core::ExitCode validate(const ValidateArguments& arguments) {
   require_writable(arguments.out);
   const std::string file = (std::filesystem::path(arguments.out) / "validation.sqlite").string();
-  const std::vector<int> told = measure_plans({.plans = {plans.begin(), plans.end()},
-                                               .devices = arguments.devices,
-                                               .store = file,
-                                               .resume = arguments.resume});
+  Measuring measuring;
+  measuring.plans = {plans.begin(), plans.end()};
+  measuring.devices = arguments.devices;
+  measuring.store = file;
+  measuring.resume = arguments.resume;
+  const std::vector<int> told = measure_plans(measuring);
   for (std::size_t i = 0; i < plans.size(); ++i) {
     if (told[i] > 0) continue;
     throw core::NotSupported(fmt::format("{}: the devices asked for can do none of it", plans[i]));

@@ -29,6 +29,8 @@ struct PlanData {
 [[nodiscard]] std::string devices_section(const PlanData& plan);
 [[nodiscard]] std::string times_section(const PlanData& plan);
 [[nodiscard]] std::string speed_of_light_section(const PlanData& plan);
+// Of each pair of devices, what keeps step and what is off its line.
+[[nodiscard]] std::string correlation_section(const PlanData& plan);
 // Of the scenes whose accuracy the verdict tells.
 [[nodiscard]] std::string accuracy_section(const PlanData& plan);
 [[nodiscard]] std::string counts_section(const PlanData& plan);

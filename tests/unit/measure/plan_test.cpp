@@ -364,11 +364,29 @@ TEST_F(PlanTest, ShardOutOfRange) {
   }
 }
 
-TEST_F(PlanTest, TimedIsTrueOrFalse) {
-  EXPECT_TRUE(load("suite: fake\n").timed);
-  EXPECT_FALSE(load("suite: fake\ntimed: false\n").timed);
-  EXPECT_EQ(refusal("suite: fake\ntimed: no\n"),
-            at(2, 8) + "'timed': expected true or false, found 'no'");
+TEST_F(PlanTest, ChecksSayWhatIsMeasured) {
+  const Plan standard = load("suite: fake\n");
+  EXPECT_TRUE(standard.timed());
+  EXPECT_FALSE(standard.counted());
+  EXPECT_EQ(record::text_of(standard.checks), "image,counters,statistics,memory,timing");
+  const Plan counted = load("suite: fake\nchecks: [memory, cost]\n");
+  EXPECT_FALSE(counted.timed());
+  EXPECT_TRUE(counted.counted());
+}
+
+TEST_F(PlanTest, ChecksThatAreNoneOrExcludeEachOther) {
+  EXPECT_THAT(refusal("suite: fake\nchecks: [image, colour]\n"),
+              testing::StartsWith(at(2, 17) + "'checks': unknown check 'colour'; there are: image"));
+  EXPECT_EQ(refusal("suite: fake\nchecks: [image, image]\n"),
+            at(2, 17) + "'checks': 'image' is given twice");
+  EXPECT_THAT(refusal("suite: fake\nchecks: [timing, cost]\n"),
+              testing::HasSubstr("cost and timing exclude each other"));
+}
+
+TEST_F(PlanTest, TheHashIsOfTextAndOverrides) {
+  const Plan plain = load("suite: fake\n");
+  EXPECT_EQ(plain.hash, load("suite: fake\n").hash);
+  EXPECT_NE(plain.hash, load("suite: fake\n\n").hash);
 }
 
 TEST(PlanName, IsWhatRunsAreStoredUnder) {

@@ -142,7 +142,7 @@ TEST_F(RunTwins, TakeOverPicturesOfAnUntimedRunToo) {
 
 TEST_F(RunTwins, AreDrawnByAPlanForPicturesAlone) {
   Plan what = full();
-  what.timed = false;
+  what.checks = {record::Check::image, record::Check::counters};
   EXPECT_EQ(run(what).taken_over, 0);
 }
 

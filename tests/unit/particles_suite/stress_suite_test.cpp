@@ -70,7 +70,7 @@ TEST(StressCases, ThePlanHasThemAll) {
   const auto suite = make_suite({});
   const measure::Plan plan = measure::load_plan(
       "particles/stress", {}, [&](std::string_view) -> measure::Suite& { return *suite; });
-  EXPECT_FALSE(plan.timed);
+  EXPECT_FALSE(plan.timed());
   std::set<std::string> planned;
   for (const measure::Configuration& each : plan.configurations) planned.insert(each.at("data"));
   planned.insert("stress:pile:10000000");

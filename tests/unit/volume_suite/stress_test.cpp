@@ -77,7 +77,7 @@ TEST(Stress, ThePlanHasEveryCaseOnce) {
   const auto suite = make_suite({});
   const measure::Plan plan = measure::load_plan(
       "volume/stress", {}, [&](std::string_view) -> measure::Suite& { return *suite; });
-  EXPECT_FALSE(plan.timed);
+  EXPECT_FALSE(plan.timed());
   std::set<std::string> planned;
   for (const measure::Configuration& each : plan.configurations) planned.insert(each.at("data"));
   const std::vector<std::string> all = all_data();
