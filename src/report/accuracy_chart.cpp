@@ -64,7 +64,7 @@ class Diagram {
   }
   std::string_view colour(const std::string& name) {
     const auto [found, added] = colours_.try_emplace(name, colour_of(colours_.size()));
-    if (added) figure_.legend(name, {.colour = found->second});
+    if (added && !name.empty()) figure_.legend(name, {.colour = found->second});
     return found->second;
   }
   void add_family(const judge::AccuracyFamily& family) {

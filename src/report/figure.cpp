@@ -453,7 +453,7 @@ std::string figures(std::span<const Titled> all) {
   std::string text = "<div class=\"figures\">";
   for (const Titled& each : all) {
     text += "<div class=\"plot\">";
-    if (!each.title.empty()) text += "<h5>" + breakable(each.title) + "</h5>";
+    if (!each.title.empty()) text += "<h5>" + escape(each.title) + "</h5>";
     text += each.svg + "</div>\n";
   }
   return text + "</div>\n";

@@ -15,6 +15,7 @@ using judge::Verdict;
 
 constexpr std::size_t most_lines = 40;
 constexpr std::size_t least_width = 40;
+constexpr std::size_t longest_command = 600;
 
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
@@ -115,7 +116,12 @@ class Screen {
     const std::string command =
         command_of(first, cause.result->plan,
                    set == options_.environments.end() ? Environment{} : set->second);
-    if (!command.empty()) append_wrapped(lines, command, " \\");
+    // Cut short it would be another command.
+    if (width_of(command) > longest_command) {
+      lines.emplace_back("    (its command is in the page: it is too long for a terminal)");
+    } else if (!command.empty()) {
+      append_wrapped(lines, command, " \\");
+    }
     return lines;
   }
 

@@ -93,7 +93,8 @@ TEST(LastScreen, HasAtMostFortyLinesAndSaysWhatIsLeftOut) {
   for (int i = 0; i < 60; ++i) {
     add(result, Check::image, regression, fmt::format("gl:x#{}", i), "step=1", "wrong");
   }
-  const std::string text = last_screen(std::vector{result}, 3, std::vector<std::string>{"page"});
+  const std::string text =
+      last_screen(std::vector{result}, 3, std::vector<std::string>{"page"}, {.width = 120});
   EXPECT_LE(std::ranges::count(text, '\n'), 40);
   EXPECT_THAT(text, HasSubstr("more causes"));
   EXPECT_THAT(text, HasSubstr("; 57 devices more"));

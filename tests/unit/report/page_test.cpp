@@ -30,8 +30,11 @@ TEST(Page, OfAPassShowsVerdictRowsAndPicturesAndFoldsTheRest) {
   EXPECT_THAT(page, Not(HasSubstr("id=\"findings\"")));
   // One of each scene in sight: reference, picture and difference.
   const std::string open = before(page.substr(page.find("id=\"pictures\"")), "<details>");
-  EXPECT_EQ(std::distance(std::sregex_iterator(open.begin(), open.end(), std::regex("<img ")), {}),
-            6);
+  int pictures = 0;
+  for (auto at = open.find("<img "); at != std::string::npos; at = open.find("<img ", at + 1)) {
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 6);
   EXPECT_LT(page.size(), 2'000'000U);
 }
 
