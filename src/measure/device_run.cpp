@@ -113,6 +113,8 @@ void DeviceRun::remember() {
 
 Protocol DeviceRun::protocol() const {
   Protocol protocol = context_.options.protocol;
+  // Without times a run is for pictures and counters alone, unless its plan asks for more.
+  protocol.statistics = protocol.statistics && protocol.timed;
   protocol.timed = protocol.timed && context_.plan.timed();
   protocol.counted = context_.plan.counted();
   protocol.statistics =

@@ -118,15 +118,6 @@ const Suite& suite_of(const PlanSource& source, const PlanText& text, const Find
   }
 }
 
-std::string hash_of(const std::string& yaml, const Overrides& overrides) {
-  std::string text = yaml;
-  for (const auto& [factor, values] : overrides) {
-    text += '\0' + factor;
-    for (const std::string& value : values) text += '\0' + value;
-  }
-  return core::content_hash(text);
-}
-
 // Of one set of values or more, each with all its combinations; none is there twice.
 Plan make_plan(const std::string& name, const Suite& suite,
                const std::vector<ValuesByFactor>& blocks) {
@@ -180,7 +171,7 @@ Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
   Plan plan = make_plan(source.name, suite, blocks);
   plan.summary = text.summary;
   if (!text.checks.empty()) plan.checks = text.checks;
-  plan.hash = hash_of(source.yaml, overrides);
+  plan.hash = core::content_hash(source.yaml);
   return plan;
 }
 

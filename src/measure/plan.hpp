@@ -22,7 +22,7 @@ struct Plan {
   // What its runs are judged by. Only what they need is measured: no clock is read where timing is
   // not among them, and where cost is, workers run under the emulator and draw for nothing else.
   record::Checks checks = standard_checks();
-  // Of its text and of what was set over it: another plan of the same name has another.
+  // Of its text: another plan of the same name has another. Empty where it has no text.
   std::string hash;
 
   [[nodiscard]] static record::Checks standard_checks();

@@ -144,7 +144,7 @@ struct Run {
   std::map<std::string, std::string>
       system;          // processor, cores, memory, OS, kernel, compiler, version of Triptych
   Checks checks = {};  // those that its plan is for
-  std::string plan_hash = {};        // of the plan's text, and of what was set on the command line
+  std::string plan_hash = {};        // of the plan's text
   std::uint64_t configurations = 0;  // that it was to measure on each device
 };
 

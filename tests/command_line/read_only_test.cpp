@@ -67,7 +67,7 @@ TEST_F(ReadOnly, InAFolderAloneIsJudgedToo) {
 }
 
 TEST_F(ReadOnly, TakesNoNewRun) {
-  const Result measured = run(std::string("run volume/quick --store kept/s.sqlite ") + tiny);
+  const Result measured = run(fmt::format("run volume/quick --store kept/s.sqlite {}", tiny));
   EXPECT_EQ(measured.code, 3) << measured.output;
 }
 

@@ -6,10 +6,8 @@
 
 #include <array>
 #include <cstdint>
-#include <string_view>
 
 #include "core/error.hpp"
-#include "measure/counting/protocol.h"
 
 namespace triptych::measure {
 namespace {
@@ -49,28 +47,25 @@ std::optional<InstructionCounter> InstructionCounter::of_this_process() {
   return counter;
 }
 
-record::Counts InstructionCounter::so_far() const {
-  if (auto counts = ask()) return *counts;
+InstructionCounter::Snapshot InstructionCounter::now() const {
+  if (const auto counts = ask()) return *counts;
   throw core::IoError("the emulator does not tell its instruction counts");
 }
 
-record::Counts InstructionCounter::difference(const record::Counts& before,
-                                              const record::Counts& after) {
-  record::Counts result;
-  for (const auto& [name, count] : after) result[name] = count - before.at(name);
-  return result;
+record::Counts InstructionCounter::between(const Snapshot& before, const Snapshot& after) {
+  record::Counts counts;
+  for (std::size_t i = 0; i < after.size(); ++i) counts[names[i]] = after[i] - before[i];
+  return counts;
 }
 
 // Where the plugin is there it has written before the call returns.
-std::optional<record::Counts> InstructionCounter::ask() const {
+std::optional<InstructionCounter::Snapshot> InstructionCounter::ask() const {
   mark(TRIPTYCH_TELL, static_cast<std::uintptr_t>(write_.get()));
-  std::array<std::uint64_t, TRIPTYCH_COUNTS> told{};
+  Snapshot told{};
   if (::read(read_.get(), told.data(), sizeof told) != static_cast<ssize_t>(sizeof told)) {
     return std::nullopt;
   }
-  record::Counts counts;
-  for (std::size_t i = 0; i < told.size(); ++i) counts[names[i]] = told[i];
-  return counts;
+  return told;
 }
 
 }  // namespace triptych::measure

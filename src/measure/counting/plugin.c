@@ -3,7 +3,8 @@
 // It adds up the instructions that every thread executes, by whose memory they lie in:
 //   device_code  memory without a file (code that a driver writes at run time) and the files of a
 //                driver's kernel cache, which the argument `device=TEXT` tells by a part of their path
-//   libc         the C library and the loader
+//   libc         the C library, the loader, the C++ runtime and compression: what depends on how the
+//                heap lies, or on whether a cache is written
 //   program      the emulated program itself, which the argument `program=PATH` names
 //   driver       every other library
 // and counts the calls of up to eight functions (malloc and its kin) whose addresses it is told.
@@ -100,10 +101,11 @@ static uint32_t kind_of(const char* path) {
   if (device_part[0] != '\0' && strstr(path, device_part) != NULL) return TRIPTYCH_DEVICE_CODE;
   if (strcmp(path, program_path) == 0) return TRIPTYCH_PROGRAM;
   const char* name = strrchr(path, '/') + 1;
-  static const char* const c_library[] = {"libc", "ld-linux-x86-64", "libpthread"};
-  for (size_t i = 0; i < sizeof c_library / sizeof *c_library; ++i) {
-    const size_t length = strlen(c_library[i]);
-    if (strncmp(name, c_library[i], length) == 0 && ends_a_name(name[length])) return TRIPTYCH_LIBC;
+  static const char* const runtime[] = {"libc",    "ld-linux-x86-64", "libpthread", "libstdc++",
+                                        "libgcc_s", "libzstd",         "libz",       "liblzma"};
+  for (size_t i = 0; i < sizeof runtime / sizeof *runtime; ++i) {
+    const size_t length = strlen(runtime[i]);
+    if (strncmp(name, runtime[i], length) == 0 && ends_a_name(name[length])) return TRIPTYCH_LIBC;
   }
   return TRIPTYCH_DRIVER;
 }

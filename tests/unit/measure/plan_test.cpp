@@ -383,12 +383,6 @@ TEST_F(PlanTest, ChecksThatAreNoneOrExcludeEachOther) {
               testing::HasSubstr("cost and timing exclude each other"));
 }
 
-TEST_F(PlanTest, TheHashIsOfTextAndOverrides) {
-  const Plan plain = load("suite: fake\n");
-  EXPECT_EQ(plain.hash, load("suite: fake\n").hash);
-  EXPECT_NE(plain.hash, load("suite: fake\n\n").hash);
-}
-
 TEST(PlanName, IsWhatRunsAreStoredUnder) {
   EXPECT_EQ(plan_name("volume/quick"), "volume/quick");
   EXPECT_EQ(plan_name("some/where/mine.yaml"), "mine");

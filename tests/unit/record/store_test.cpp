@@ -198,27 +198,6 @@ TEST_F(StoreTest, StoresCanBeMoved) {
   EXPECT_THAT(third.runs(), SizeIs(2));
 }
 
-TEST_F(StoreTest, OfDevicesInAnOlderStoreNoDialectIsKnown) {
-  {
-    Store store(file_, Mode::append);
-    store.add_run(sample_run());
-    store.add_device("run-1", sample_device(), {sample_clock()});
-  }
-  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("DROP TABLE dialect");
-  Device plain = sample_device();
-  plain.statistics_dialect.clear();
-  const auto devices = Store(file_, Mode::read).devices("run-1");
-  ASSERT_THAT(devices, SizeIs(1));
-  EXPECT_EQ(devices.front().device, plain);
-
-  Store again(file_, Mode::append);
-  again.add_device("run-1", sample_device("null:scripted#2"), {});
-  const auto both = again.devices("run-1");
-  ASSERT_THAT(both, SizeIs(2));
-  EXPECT_THAT(both.front().device.statistics_dialect, IsEmpty());
-  EXPECT_THAT(both.back().device.statistics_dialect, SizeIs(2));
-}
-
 // docs/store.md promises these columns to people.
 TEST_F(StoreTest, ColumnsForQueriesByHand) {
   {
