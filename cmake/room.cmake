@@ -63,11 +63,16 @@ function(triptych_test name)
   endif()
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 300)
-  # gtest_discover_tests cannot hand on a list, so the labels are set on the tests that it found.
+  # gtest_discover_tests cannot hand on a list, so the labels are set on the tests that it found. Processes that share
+  # PoCL's kernel cache crash, so one of them at a time.
+  set(lock "")
+  if("opencl" IN_LIST arg_LABELS)
+    set(lock " RESOURCE_LOCK pocl_cache")
+  endif()
   set(labels_file ${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake)
   file(WRITE ${labels_file}
     "if(${name}_TESTS)\n"
-    "  set_tests_properties(\${${name}_TESTS} PROPERTIES LABELS \"${arg_LABELS}\")\n"
+    "  set_tests_properties(\${${name}_TESTS} PROPERTIES LABELS \"${arg_LABELS}\"${lock})\n"
     "endif()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${labels_file})
 endfunction()

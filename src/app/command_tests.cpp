@@ -43,7 +43,7 @@ std::string as_cmake(const Test& test) {
                                  quoted(test.command, " "));
   text += fmt::format(
       "set_tests_properties([=[{}]=] PROPERTIES\n  LABELS [=[{}]=] SKIP_RETURN_CODE 77 "
-      "TIMEOUT 900",
+      "TIMEOUT 1800",
       test.name, fmt::join(test.labels, ";"));
   if (!test.requires_fixtures.empty()) {
     text += fmt::format("\n  FIXTURES_REQUIRED [=[{}]=]", fmt::join(test.requires_fixtures, ";"));
@@ -59,11 +59,7 @@ struct PlanTests {
   std::string stem;  // "volume.quick"
   fs::path store;
   record::Checks checks;
-  bool timed = true;
 };
-
-// Held by whatever is timed: nothing else of the tests is then measured.
-constexpr std::string_view all_processors = "processors";
 
 bool is_of_all(record::Check check) {
   return check == record::Check::stress || check == record::Check::correlation;
@@ -88,7 +84,7 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
                      .labels = {plan.suite, "measure", "device", device.api, device.id},
                      .requires_fixtures = {plan.stem},
                      .sets_up = fixture,
-                     .lock = plan.timed ? std::string(all_processors) : device.id});
+                     .lock = device.id});
     for (const record::Check each : plan.checks) {
       const std::string_view check = record::name_of(each);
       tests.push_back(
@@ -121,7 +117,7 @@ core::ExitCode register_tests(const fs::path& out, const fs::path& folder,
     std::string stem = plan;
     stem.replace(plan.find('/'), 1, ".");
     const measure::Plan loaded = measure::load_plan(plan, {}, registry.find_suite());
-    add_plan(tests, {suite, plan, stem, folder / (stem + ".sqlite"), loaded.checks, loaded.timed()},
+    add_plan(tests, {suite, plan, stem, folder / (stem + ".sqlite"), loaded.checks},
              listing.devices);
   }
   std::string text = "# Made by asking triptych which devices are here.\n";
