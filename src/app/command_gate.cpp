@@ -13,6 +13,7 @@
 #include "app/registry.hpp"
 #include "app/saying.hpp"
 #include "app/truth.hpp"
+#include "core/foreign_error.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "core/quoting.hpp"
@@ -189,7 +190,7 @@ core::ExitCode gate(const GateArguments& arguments) {
   refuse_bad_files(arguments);
   if (!arguments.bisect) return judge_and_tell(arguments, since);
   try {
-    const core::ExitCode code = judge_and_tell(arguments, since);
+    const core::ExitCode code = core::naming({}, [&] { return judge_and_tell(arguments, since); });
     return code == core::ExitCode::cannot_judge ? skipped : code;
   } catch (const core::Error& error) {
     say("triptych: {}\n", error.what());

@@ -132,7 +132,8 @@ core::ExitCode register_tests(const fs::path& out, const fs::path& folder,
     const measure::Plan loaded = measure::load_plan(plan, {}, registry.find_suite());
     const std::string stem = stem_of(loaded);
     // CTest works in another folder.
-    const std::string argument = loaded.name == plan ? plan : fs::absolute(plan).string();
+    const std::string argument =
+        loaded.name.find('/') != std::string::npos ? plan : fs::absolute(plan).string();
     add_plan(
         tests,
         {loaded.suite, argument, stem, folder / (stem + ".sqlite"), loaded.checks, loaded.timed()},

@@ -88,7 +88,7 @@ Bytes read_at_most(const std::filesystem::path& file, std::size_t most) {
   const Descriptor in = open_to_read(file, facts);
   refuse_more(static_cast<std::size_t>(facts.st_size));
   // One byte more than the stated size, so that the end is seen without growing the buffer.
-  Bytes bytes(static_cast<std::size_t>(facts.st_size) + 1, {});
+  Bytes bytes(static_cast<std::size_t>(facts.st_size) + 1, typename Bytes::value_type{});
   std::size_t filled = 0;
   for (;;) {
     const ssize_t got = ::read(in.get(), bytes.data() + filled, bytes.size() - filled);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "core/json.hpp"
@@ -125,7 +127,8 @@ const std::filesystem::path& Store::file() const {
 void Store::require_whole() const {
   on_store(state_->file, [&] {
     SQLite::Statement row(state_->database, "PRAGMA quick_check(1)");
-    const std::string answer = row.executeStep() ? row.getColumn(0).getString() : "no answer";
+    std::string answer = row.executeStep() ? row.getColumn(0).getString() : "no answer";
+    std::ranges::replace(answer, '\n', ' ');
     if (answer != "ok") throw_damaged(state_->file, answer);
   });
 }
