@@ -30,6 +30,7 @@ std::vector<analysis::Source> sources_of(const AnalyzeArguments& arguments) {
   for (const std::string& file : arguments.stores) {
     require_store(file);
     const record::Store store(file, record::Store::Mode::read);
+    store.require_whole();
     for (const record::Run& run : store.runs()) {
       plans.insert(run.plan);
       if (!arguments.plan.empty() && run.plan != arguments.plan) continue;

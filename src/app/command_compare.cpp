@@ -16,6 +16,7 @@
 #include "comparison/text.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
+#include "core/quoting.hpp"
 #include "measure/plant.hpp"
 
 namespace triptych::app {
@@ -83,24 +84,25 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
 void show(const comparison::ComparisonProgress& progress) {
   if (progress.loading) return show_loading(*progress.loading);
   static const bool terminal = ::isatty(STDERR_FILENO) == 1;
-  say("{}{}/{} {}: {}, left at most {} s{}", terminal ? "\r\033[K" : "", progress.done,
-      progress.total, progress.stage, progress.configuration, progress.left.count(),
-      terminal ? "" : "\n");
+  if (terminal) say("\r\033[K");
+  say("{}/{} {}: {}, left at most {} s", progress.done, progress.total, progress.stage,
+      progress.configuration, progress.left.count());
+  if (!terminal) say("\n");
 }
 
 comparison::ComparisonCommand command_of(const CompareArguments& arguments,
                                          const measure::Plan& plan) {
   comparison::ComparisonCommand command{
       .plan = arguments.plan.plan,
-      .sides = fmt::format("--a {} --b {}", comparison::shell_word(arguments.a),
-                           comparison::shell_word(arguments.b)),
+      .sides = fmt::format("--a {} --b {}", core::shell_quoted(arguments.a),
+                           core::shell_quoted(arguments.b)),
       .varied = plan.varied};
   if (!arguments.a_program.empty())
-    command.sides += " --a-program " + comparison::shell_word(arguments.a_program);
+    command.sides += " --a-program " + core::shell_quoted(arguments.a_program);
   if (!arguments.b_program.empty())
-    command.sides += " --b-program " + comparison::shell_word(arguments.b_program);
+    command.sides += " --b-program " + core::shell_quoted(arguments.b_program);
   for (const std::string& plant : arguments.plants)
-    command.sides += " --plant " + comparison::shell_word(plant);
+    command.sides += " --plant " + core::shell_quoted(plant);
   // What the command line set to one value is no longer varied, but must be said again.
   for (const auto& [factor, values] : parse_overrides(arguments.plan.choice.set)) {
     if (std::ranges::find(command.varied, factor) == command.varied.end()) {
@@ -124,6 +126,7 @@ core::ExitCode run_comparison(const CompareArguments& arguments) {
   if (arguments.budget_s > 0) options.budget = std::chrono::seconds(arguments.budget_s);
   require_writable(std::filesystem::path(arguments.store).parent_path());
   record::Store store(arguments.store, record::Store::Mode::append);
+  store.require_whole();  // truths come from it
   Truths truths(registry, store);
   const comparison::ComparisonResult result = [&] {
     try {

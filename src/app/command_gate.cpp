@@ -13,8 +13,10 @@
 #include "app/registry.hpp"
 #include "app/saying.hpp"
 #include "app/truth.hpp"
+#include "core/foreign_error.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
+#include "core/quoting.hpp"
 #include "judge/gate/gate.hpp"
 #include "measure/plan.hpp"
 #include "measure/stopwatch.hpp"
@@ -153,9 +155,8 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
   std::vector<judge::GateResult> results;
   for (const JudgedPlan& each : plans) {
     const judge::GateRequest request = request_for(arguments, each, registry, truths);
-    results.push_back(judge::judge_run(store, latest_run_of(store, each.typed, arguments.store),
-                                       judge::Baselines(arguments.baselines, request.plan),
-                                       request));
+    results.push_back(judge_named(store, latest_run_of(store, each.typed, arguments.store),
+                                  arguments.baselines, request));
   }
   if (!arguments.junit.empty()) write_text(arguments.junit, report::junit(results.front()));
   if (!arguments.markdown.empty()) write_text(arguments.markdown, report::markdown(results));
@@ -189,7 +190,7 @@ core::ExitCode gate(const GateArguments& arguments) {
   refuse_bad_files(arguments);
   if (!arguments.bisect) return judge_and_tell(arguments, since);
   try {
-    const core::ExitCode code = judge_and_tell(arguments, since);
+    const core::ExitCode code = core::naming({}, [&] { return judge_and_tell(arguments, since); });
     return code == core::ExitCode::cannot_judge ? skipped : code;
   } catch (const core::Error& error) {
     say("triptych: {}\n", error.what());
@@ -213,9 +214,9 @@ void accept_one(const AcceptArguments& arguments, const std::string& typed, reco
       .stress = judge::StressTruths{judged.truth, judged.expectations}};
   const std::vector<std::string> changes = judge::accept(
       store, latest_run_of(store, typed, arguments.store), arguments.baselines, request);
-  for (const std::string& change : changes) fmt::print("{}\n", change);
-  fmt::print("{}: {} changes under {}; review them before you commit\n", plan, changes.size(),
-             arguments.baselines);
+  for (const std::string& change : changes) fmt::print("{}\n", core::printable(change));
+  fmt::print("{}: {} changes under {}; review them before you commit\n", core::printable(plan),
+             changes.size(), core::printable(arguments.baselines));
 }
 
 core::ExitCode accept(const AcceptArguments& arguments) {

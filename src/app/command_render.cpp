@@ -113,7 +113,7 @@ core::ExitCode render(const RenderArguments& arguments) {
   if (cannot) throw core::NotSupported(record.reason);
   if (record.outcome != record::Outcome::measured) throw core::InputError(record.reason);
   if (record.image.empty()) throw core::InputError(record.technique + " draws no picture");
-  const core::Image image = core::decode_exr(store.image(record.image));
+  const core::Image image = store.picture(record.image);
   core::write_exr(image, out / "image.exr");
   core::write_png(image, out / "image.png");
   write_text(

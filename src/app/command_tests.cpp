@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "app/arguments.hpp"
@@ -107,17 +108,29 @@ void add_plan(std::vector<Test>& tests, const PlanTests& plan,
                    .lock = {}});
 }
 
+// "volume.quick", also of a file quick.yaml: what test names and file names can hold.
+std::string stem_of(const measure::Plan& plan) {
+  std::string stem = plan.suite + "." + plan.name.substr(plan.name.find('/') + 1);
+  const auto is_kept = [](char c) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    return letter || c == '.' || c == '-' || c == '_';
+  };
+  std::ranges::replace_if(stem, std::not_fn(is_kept), '_');
+  return stem;
+}
+
 core::ExitCode register_tests(const fs::path& out, const fs::path& folder,
                               const std::vector<std::string>& plans) {
   const Registry registry = make_registry();
   const measure::Listing listing = list_devices(registry);
   std::vector<Test> tests;
   for (const std::string& plan : plans) {
-    const std::string suite = plan.substr(0, plan.find('/'));
-    std::string stem = plan;
-    stem.replace(plan.find('/'), 1, ".");
     const measure::Plan loaded = measure::load_plan(plan, {}, registry.find_suite());
-    add_plan(tests, {suite, plan, stem, folder / (stem + ".sqlite"), loaded.checks},
+    const std::string stem = stem_of(loaded);
+    // CTest works in another folder.
+    const std::string argument =
+        loaded.name.find('/') != std::string::npos ? plan : fs::absolute(plan).string();
+    add_plan(tests, {loaded.suite, argument, stem, folder / (stem + ".sqlite"), loaded.checks},
              listing.devices);
   }
   std::string text = "# Made by asking triptych which devices are here.\n";

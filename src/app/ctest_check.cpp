@@ -13,8 +13,10 @@
 #include "app/registry.hpp"
 #include "app/truth.hpp"
 #include "core/image_io.hpp"
+#include "core/quoting.hpp"
 #include "judge/gate/gate.hpp"
 #include "judge/images/image_metrics.hpp"
+#include "measure/plan.hpp"
 
 namespace triptych::app {
 namespace {
@@ -38,7 +40,7 @@ void print_pictures(const record::Store& store, const std::string& run, Truths& 
   for (const record::Record& record : store.records(run)) {
     if (record.configuration != worst.configuration || record.device != worst.device) continue;
     if (record.image.empty()) return;
-    const core::Image image = core::decode_exr(store.image(record.image));
+    const core::Image image = store.picture(record.image);
     const judge::TruthPair& truth = truths.of(record);
     const fs::path folder = fs::temp_directory_path();
     std::string stem = worst.test;
@@ -78,13 +80,13 @@ bool has(const judge::GateResult& result, judge::Verdict verdict) {
 
 judge::GateResult judge_store(const CheckArguments& arguments, const record::Store& store,
                               Truths& truths) {
-  const auto run = store.latest_run(arguments.plan);
+  const std::string plan = measure::plan_name(arguments.plan);
+  const auto run = store.latest_run(plan);
   if (!run) throw core::NotSupported("nothing was measured");
-  judge::GateRequest request = request_of(truths, arguments.plan);
+  judge::GateRequest request = request_of(truths, plan);
   request.checks = {judge::check(arguments.check)};
   if (!arguments.device.empty()) request.devices = {arguments.device};
-  return judge::judge_run(store, run->id, judge::Baselines(default_baselines(), arguments.plan),
-                          request);
+  return judge_named(store, run->id, default_baselines().string(), request);
 }
 
 // Files that are not here are no fault of a device or a driver, whatever it measured when they
@@ -120,8 +122,8 @@ void tell(const CheckArguments& arguments, const record::Store& store, Truths& t
           const judge::GateResult& result) {
   for (const judge::Finding& finding : result.findings) {
     if (finding.verdict == judge::Verdict::pass) continue;
-    fmt::print("{} {}: {}\n", judge::name_of(finding.verdict), finding.configuration,
-               finding.message);
+    fmt::print("{} {}: {}\n", judge::name_of(finding.verdict),
+               core::printable(finding.configuration), core::printable(finding.message));
   }
   if (!result.findings.empty()) {
     const judge::Finding& worst = result.findings.front();
@@ -137,8 +139,7 @@ void tell(const CheckArguments& arguments, const record::Store& store, Truths& t
 
 core::ExitCode check_as_test(const CheckArguments& arguments) {
   const Registry registry = make_registry();
-  require_store(arguments.store);
-  record::Store store(arguments.store, record::Store::Mode::append);
+  record::Store store = open_to_judge(arguments.store);
   Truths truths(registry, store);
   judge::GateResult result = judge_store(arguments, store, truths);
   excuse_absent_data(arguments, registry, store, result);

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
+#include <utility>
 
 #include "app/paths.hpp"
+#include "core/foreign_error.hpp"
+#include "core/quoting.hpp"
 #include "measure/plan.hpp"
 #include "report/finding_groups.hpp"
 #include "report/page.hpp"
@@ -16,11 +18,15 @@ namespace triptych::app {
 
 record::Store open_to_judge(const std::string& file) {
   require_store(file);
-  try {
-    return {file, record::Store::Mode::append};
-  } catch (const core::IoError&) {
-    return {file, record::Store::Mode::read};
-  }
+  record::Store store = [&]() -> record::Store {
+    try {
+      return {file, record::Store::Mode::append};
+    } catch (const core::IoError&) {
+      return {file, record::Store::Mode::read};
+    }
+  }();
+  store.require_whole();
+  return store;
 }
 
 std::string latest_run_of(const record::Store& store, const std::string& plan,
@@ -30,7 +36,7 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
   if (run) return run->id;
   throw core::NotSupported(
       fmt::format("{} holds no run of {}: measure first with `triptych run {} --store {}`", file,
-                  name, plan, file));
+                  name, core::shell_quoted(plan), core::shell_quoted(file)));
 }
 
 std::string text_of(const judge::GateResult& result) {
@@ -39,8 +45,9 @@ std::string text_of(const judge::GateResult& result) {
     const judge::Finding& finding = *group.first;
     if (finding.verdict == judge::Verdict::pass) continue;
     const std::string subject = group.subject();
-    text += fmt::format("{:<12} {}{}{}: {}\n", judge::name_of(finding.verdict), finding.test,
-                        subject.empty() ? "" : " ", subject, finding.message);
+    text += fmt::format("{:<12} {}{}{}: {}\n", judge::name_of(finding.verdict),
+                        core::printable(finding.test), subject.empty() ? "" : " ",
+                        core::printable(subject), core::printable(finding.message));
   }
   std::map<judge::Verdict, int> counts;
   for (const judge::Finding& finding : result.findings) ++counts[finding.verdict];
@@ -51,11 +58,18 @@ std::string text_of(const judge::GateResult& result) {
 }
 
 std::vector<record::Run> latest_runs(const record::Store& store) {
-  std::set<std::string> plans;
-  for (const record::Run& run : store.runs()) plans.insert(run.plan);
+  std::map<std::string, record::Run> by_plan;
+  for (record::Run& run : store.runs()) by_plan.insert_or_assign(run.plan, std::move(run));
   std::vector<record::Run> runs;
-  for (const std::string& plan : plans) runs.push_back(*store.latest_run(plan));
+  for (auto& [plan, run] : by_plan) runs.push_back(std::move(run));
   return runs;
+}
+
+judge::GateResult judge_named(const record::Store& store, const std::string& run,
+                              const std::string& baselines, const judge::GateRequest& request) {
+  return core::naming(fmt::format("{}: run {}", store.file().string(), run), [&] {
+    return judge::judge_run(store, run, judge::Baselines(baselines, request.plan), request);
+  });
 }
 
 std::string page_of(const record::Store& store, Truths& truths, const std::string& baselines) {
@@ -64,10 +78,9 @@ std::string page_of(const record::Store& store, Truths& truths, const std::strin
   for (const record::Run& run : latest_runs(store)) {
     request.plans.push_back(
         {.run = run,
-         .verdict = judge::judge_run(store, run.id, judge::Baselines(baselines, run.plan),
-                                     request_of(truths, run.plan))});
+         .verdict = judge_named(store, run.id, baselines, request_of(truths, run.plan))});
   }
-  return report::page(store, request);
+  return core::naming(store.file().string(), [&] { return report::page(store, request); });
 }
 
 core::ExitCode worse_of(core::ExitCode a, core::ExitCode b) {

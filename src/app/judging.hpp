@@ -23,6 +23,12 @@ namespace triptych::app {
 // headline.
 [[nodiscard]] std::string text_of(const judge::GateResult& result);
 
+// judge::judge_run, whatever the store's content makes a library throw being an error that names
+// it.
+[[nodiscard]] judge::GateResult judge_named(const record::Store& store, const std::string& run,
+                                            const std::string& baselines,
+                                            const judge::GateRequest& request);
+
 // The latest run of each plan in a store, by the plans' names.
 [[nodiscard]] std::vector<record::Run> latest_runs(const record::Store& store);
 

@@ -11,7 +11,8 @@ void show_loading(const measure::Loading& loading) {
   const bool over = loading.share >= 1;
   if (terminal) say("\r\033[K");
   if (!over) {
-    say("loading {}: {:.0f} %{}", loading.what, 100 * loading.share, terminal ? "" : "\n");
+    say("loading {}: {:.0f} %", loading.what, 100 * loading.share);
+    if (!terminal) say("\n");
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "app/arguments.hpp"
 #include "app/saying.hpp"
+#include "core/foreign_error.hpp"
 #include "measure/plan_values.hpp"
 
 namespace {
@@ -67,14 +68,19 @@ ExitCode run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? ExitCode::pass : ExitCode::usage;
+    if (error.get_exit_code() == 0) {
+      program.exit(error);
+      return ExitCode::pass;
+    }
+    triptych::app::say("triptych: {}\nRun with --help for more information.\n", error.what());
+    return ExitCode::usage;
   }
   return commands.chosen();
 }
 
 ExitCode run_and_catch(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    return triptych::core::naming({}, [&] { return run(argc, argv); });
   } catch (const triptych::core::NotSupported& error) {
     triptych::app::say("triptych: {}\n", error.what());
     return ExitCode::cannot_judge;

@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/quoting.hpp"
 
 namespace triptych::app {
 namespace fs = std::filesystem;
@@ -78,8 +79,9 @@ void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<Na
 
 void require_store(const fs::path& file) {
   if (file.empty() || fs::exists(file)) return;  // without a name it is refused when it is opened
-  throw core::NotSupported(fmt::format(
-      "there is no store {0}: measure first with `triptych run PLAN --store {0}`", file.string()));
+  throw core::NotSupported(
+      fmt::format("there is no store {}: measure first with `triptych run PLAN --store {}`",
+                  file.string(), core::shell_quoted(file.string())));
 }
 
 void write_text(const fs::path& file, const std::string& text) {

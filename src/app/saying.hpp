@@ -3,15 +3,36 @@
 
 #include <fmt/format.h>
 
+#include <concepts>
 #include <cstdio>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <utility>
+
+#include "core/quoting.hpp"
 
 namespace triptych::app {
 
+// Names and messages may come from anywhere: as a terminal can show them, and cut where they are
+// endless. What moves the cursor or ends a line stands in the format.
+template <typename Arg>
+auto shown(const Arg& arg) {
+  if constexpr (std::convertible_to<const Arg&, std::string_view>) {
+    return core::printable(arg);
+  } else {
+    return arg;
+  }
+}
+
 template <typename... Args>
 void say(fmt::format_string<Args...> format, Args&&... args) {
-  const std::string text = fmt::format(format, std::forward<Args>(args)...);
+  const auto all = std::make_tuple(shown(args)...);
+  const std::string text = std::apply(
+      [&](const auto&... each) {
+        return fmt::vformat(fmt::string_view(format), fmt::make_format_args(each...));
+      },
+      all);
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
 

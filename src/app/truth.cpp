@@ -47,11 +47,17 @@ std::string Truths::data_hash_of(const record::Record& record) {
   return data_hashes_.emplace(key, std::move(hash)).first->second;
 }
 
+std::string Truths::name_of(const record::TruthImage& truth) const {
+  return fmt::format("{}: truth of {}", store_.file().string(), truth.scene);
+}
+
 judge::TruthPair Truths::find_or_render(const record::Record& record) {
   measure::SuiteWithTruth& suite = registry_.suite(record.suite);
   const std::string version = suite.truth_key(record.factors, record.precision);
   if (const auto stored = store_.truth(record.scene, version)) {
-    return {.truth = core::decode_exr(stored->image), .bound = core::decode_exr(stored->bound)};
+    const std::string name = name_of(*stored);
+    return {.truth = core::decode_exr(stored->image, name),
+            .bound = core::decode_exr(stored->bound, name)};
   }
   measure::Truth truth = suite.truth(record.factors, record.precision);
   keep({.scene = record.scene,
@@ -86,8 +92,8 @@ judge::LimitPicture Truths::find_or_render_limit(const record::Record& record,
   // Among the truths: a scene's name of its own, and its uncertainty for a bound.
   const std::string scene = "limit of " + record.suite;
   if (const auto stored = store_.truth(scene, key)) {
-    picture.image = core::decode_exr(stored->image);
-    picture.uncertainty = core::decode_exr(stored->bound);
+    picture.image = core::decode_exr(stored->image, name_of(*stored));
+    picture.uncertainty = core::decode_exr(stored->bound, name_of(*stored));
     return picture;
   }
   measure::Limit limit = suite.limit(record.factors);

@@ -24,7 +24,7 @@ class Truths {
   [[nodiscard]] std::string data_hash_of(const record::Record& record);
   // The picture that a record names.
   [[nodiscard]] core::Image picture_of(const record::Record& record) const {
-    return core::decode_exr(store_.image(record.image));
+    return store_.picture(record.image);
   }
   // nullptr where the record's scene has none.
   [[nodiscard]] const judge::LimitPicture* limit_of(const record::Record& record);
@@ -32,6 +32,8 @@ class Truths {
  private:
   [[nodiscard]] judge::TruthPair find_or_render(const record::Record& record);
   void keep(const record::TruthImage& truth);
+  // What errors call it.
+  [[nodiscard]] std::string name_of(const record::TruthImage& truth) const;
 
   const Registry& registry_;
   record::Store& store_;

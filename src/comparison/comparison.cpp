@@ -139,8 +139,10 @@ class Comparer {
     release();
     const measure::Answer a = measure_one(Side::a, entry);
     const measure::Answer b = measure_one(Side::b, entry);
-    const core::Image image_a = a.exr.empty() ? core::Image() : core::decode_exr(a.exr);
-    const core::Image image_b = b.exr.empty() ? core::Image() : core::decode_exr(b.exr);
+    const core::Image image_a =
+        a.exr.empty() ? core::Image() : core::decode_exr(a.exr, "the picture of a");
+    const core::Image image_b =
+        b.exr.empty() ? core::Image() : core::decode_exr(b.exr, "the picture of b");
     judge::ComparedSide side_a{a.record, result_.a, image_a};
     judge::ComparedSide side_b{b.record, result_.b, image_b};
     find_truth(side_a);

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "core/json.hpp"
+#include "core/quoting.hpp"
 #include "record/factor_list.hpp"
 
 namespace triptych::comparison {
@@ -19,10 +19,11 @@ using judge::DifferenceKind;
 
 // The command that measures this configuration alone, as long as it takes.
 std::string settle(const Compared& compared, const ComparisonCommand& command) {
-  std::string text = fmt::format("triptych compare {} {}", shell_word(command.plan), command.sides);
+  std::string text =
+      fmt::format("triptych compare {} {}", core::shell_quoted(command.plan), command.sides);
   for (const std::string& factor : command.varied) {
     const std::string level = record::factor_list({{factor, compared.configuration.at(factor)}});
-    text += " --set " + shell_word(level);
+    text += " --set " + core::shell_quoted(level);
   }
   return text;
 }
@@ -163,17 +164,6 @@ core::Json to_json(const Compared& compared, const ComparisonCommand& command) {
 }
 
 }  // namespace
-
-std::string shell_word(const std::string& text) {
-  const bool plain = std::ranges::all_of(text, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) ||
-           std::string_view(":,=_./#-%").find(c) != std::string_view::npos;
-  });
-  if (plain && !text.empty()) return text;
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
 
 std::string to_text(const ComparisonResult& result, const ComparisonCommand& command) {
   std::string text = fmt::format("a: {}\nb: {}\nratios are time of b over time of a\n",

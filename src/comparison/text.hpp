@@ -15,9 +15,6 @@ struct ComparisonCommand {
   std::vector<std::string> varied;  // factors that name a configuration of this plan
 };
 
-// The text as one word of a shell.
-[[nodiscard]] std::string shell_word(const std::string& text);
-
 // A line per configuration, then what differs besides time, the worst kind first, then the verdict.
 [[nodiscard]] std::string to_text(const ComparisonResult& result, const ComparisonCommand& command);
 

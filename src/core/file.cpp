@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <limits>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -23,6 +24,7 @@ namespace {
 class Descriptor {
  public:
   explicit Descriptor(int fd) noexcept : fd_(fd) {}
+  Descriptor(Descriptor&& other) noexcept : fd_(other.release()) {}
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor() {
@@ -64,6 +66,43 @@ void write_and_close(Descriptor& out, std::span<const std::byte> bytes,
   if (::close(out.release()) != 0) fail("cannot write", target, errno);
 }
 
+// Without O_NONBLOCK a pipe that nobody writes to would be waited for.
+Descriptor open_to_read(const std::filesystem::path& file, struct stat& facts) {
+  Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (in.get() < 0 || ::fstat(in.get(), &facts) != 0) fail("cannot read", file, errno);
+  if (S_ISDIR(facts.st_mode)) fail("cannot read", file, EISDIR);
+  if (!S_ISREG(facts.st_mode)) {
+    throw IoError(fmt::format("{}: cannot read: is a pipe or a device, not a file", file.string()));
+  }
+  return in;
+}
+
+template <typename Bytes>
+Bytes read_at_most(const std::filesystem::path& file, std::size_t most) {
+  const auto refuse_more = [&](std::size_t size) {
+    if (size <= most) return;
+    throw InputError({.file = file.string()},
+                     fmt::format("is too large: more than {} bytes are not read", most));
+  };
+  struct stat facts {};
+  const Descriptor in = open_to_read(file, facts);
+  refuse_more(static_cast<std::size_t>(facts.st_size));
+  // One byte more than the stated size, so that the end is seen without growing the buffer.
+  Bytes bytes(static_cast<std::size_t>(facts.st_size) + 1, typename Bytes::value_type{});
+  std::size_t filled = 0;
+  for (;;) {
+    const ssize_t got = ::read(in.get(), bytes.data() + filled, bytes.size() - filled);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail("cannot read", file, errno);
+    if (got == 0) break;
+    filled += static_cast<std::size_t>(got);
+    refuse_more(filled);
+    if (filled == bytes.size()) bytes.resize(2 * bytes.size());
+  }
+  bytes.resize(filled);
+  return bytes;
+}
+
 void write_in_place(std::span<const std::byte> bytes, const std::filesystem::path& target) {
   Descriptor out(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
   if (out.get() < 0) fail("cannot write", target, errno);
@@ -73,23 +112,11 @@ void write_in_place(std::span<const std::byte> bytes, const std::filesystem::pat
 }  // namespace
 
 std::vector<std::byte> read_file(const std::filesystem::path& file) {
-  const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat facts {};
-  if (in.get() < 0 || ::fstat(in.get(), &facts) != 0) fail("cannot read", file, errno);
-  if (S_ISDIR(facts.st_mode)) fail("cannot read", file, EISDIR);
-  // One byte more than the stated size, so that the end is seen without growing the buffer.
-  std::vector<std::byte> bytes(static_cast<std::size_t>(facts.st_size) + 1);
-  std::size_t filled = 0;
-  for (;;) {
-    const ssize_t got = ::read(in.get(), bytes.data() + filled, bytes.size() - filled);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail("cannot read", file, errno);
-    if (got == 0) break;
-    filled += static_cast<std::size_t>(got);
-    if (filled == bytes.size()) bytes.resize(2 * bytes.size());
-  }
-  bytes.resize(filled);
-  return bytes;
+  return read_at_most<std::vector<std::byte>>(file, std::numeric_limits<std::size_t>::max());
+}
+
+std::string read_text(const std::filesystem::path& file, std::size_t most) {
+  return read_at_most<std::string>(file, most);
 }
 
 void write_file(std::span<const std::byte> bytes, const std::filesystem::path& file) {

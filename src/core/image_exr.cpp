@@ -199,8 +199,8 @@ Image read_exr(const std::filesystem::path& file) {
   return decode(read_file(file), FilePlace{.file = file.string()});
 }
 
-Image decode_exr(std::span<const std::byte> bytes) {
-  return decode(bytes, FilePlace{});
+Image decode_exr(std::span<const std::byte> bytes, const std::string& name) {
+  return decode(bytes, FilePlace{.file = name});
 }
 
 }  // namespace triptych::core

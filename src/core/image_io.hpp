@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/image.hpp"
@@ -17,7 +18,9 @@ void write_exr(const Image& image, const std::filesystem::path& file);
 
 // Throws IoError (missing, unreadable) or InputError (not an EXR file with R, G, B, A of one size).
 [[nodiscard]] Image read_exr(const std::filesystem::path& file);
-[[nodiscard]] Image decode_exr(std::span<const std::byte> bytes);
+// `name`: what errors call the picture.
+[[nodiscard]] Image decode_exr(std::span<const std::byte> bytes,
+                               const std::string& name = "a picture");
 
 // 8-bit sRGB, opaque: the image over a black background, clamped to [0, 1]; NaN shows as magenta.
 void write_png(const Image& image, const std::filesystem::path& file);

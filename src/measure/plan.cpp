@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "core/hash.hpp"
 #include "measure/plan_combinations.hpp"
 #include "measure/plan_values.hpp"
@@ -69,16 +68,15 @@ PlanSource read_plan_file(const std::filesystem::path& file) {
   if (file.empty()) {
     throw core::InputError("a plan needs a name: of a YAML file, or SUITE/PLAN");
   }
-  std::error_code ignored;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file, ignored)) {
-    throw core::InputError({.file = file.string()},
-                           "cannot be read; a plan is a YAML file or a short name SUITE/PLAN");
+  try {
+    return {.name = plan_name(file.string()),
+            .file = file.string(),
+            .suite = "",
+            .yaml = core::read_text(file)};
+  } catch (const core::IoError& error) {
+    throw core::InputError(
+        fmt::format("{}; a plan is a YAML file or a short name SUITE/PLAN", error.what()));
   }
-  return {.name = plan_name(file.string()),
-          .file = file.string(),
-          .suite = "",
-          .yaml = std::string(std::istreambuf_iterator<char>(stream), {})};
 }
 
 // Short names have one slash and no ending; "./name" is always a file.
@@ -118,9 +116,32 @@ const Suite& suite_of(const PlanSource& source, const PlanText& text, const Find
   }
 }
 
-// Of one set of values or more, each with all its combinations; none is there twice.
-Plan make_plan(const std::string& name, const Suite& suite,
-               const std::vector<ValuesByFactor>& blocks) {
+// Where the factor of the most values got them: what to shorten when there are too many.
+core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& values,
+                              const std::vector<const std::vector<PlanEntry>*>& entries,
+                              const Overrides& overrides) {
+  const auto size = [](const auto& each) { return each.second.size(); };
+  const auto longest = std::ranges::max_element(values, {}, size);
+  if (longest == values.end()) return {.file = source.file};
+  const auto named = [&](const auto& override) { return override.first == longest->first; };
+  if (std::ranges::any_of(overrides, named)) return {.file = "--set " + longest->first};
+  core::FilePlace place{.file = source.file};
+  for (const std::vector<PlanEntry>* block : entries) {
+    for (const PlanEntry& entry : *block) {
+      if (entry.factor.text == longest->first) place = entry.factor.place;
+    }
+  }
+  return place;
+}
+
+// One set of values, each with all its combinations.
+struct Block {
+  ValuesByFactor values;
+  core::FilePlace place;  // of the longest list in it
+};
+
+// Of one block or more; no combination is there twice.
+Plan make_plan(const std::string& name, const Suite& suite, const std::vector<Block>& blocks) {
   Plan plan{.name = name,
             .suite = std::string(suite.name()),
             .summary = {},
@@ -128,8 +149,8 @@ Plan make_plan(const std::string& name, const Suite& suite,
             .varied = {},
             .checks = Plan::standard_checks(),
             .hash = {}};
-  for (const ValuesByFactor& values : blocks) {
-    std::vector<Configuration> all = all_combinations(suite, values, name);
+  for (const auto& [values, place] : blocks) {
+    std::vector<Configuration> all = all_combinations(suite, values, place);
     if (plan.configurations.empty()) {
       plan.configurations = std::move(all);
     } else {
@@ -162,11 +183,14 @@ Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
   const PlanSource source = find_plan(name_or_file, find_suite);
   const PlanText text = parse_plan(source.yaml, source.file);
   const Suite& suite = suite_of(source, text, find_suite);
-  std::vector<ValuesByFactor> blocks(1 + text.also.size());
+  std::vector<Block> blocks(1 + text.also.size());
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    set_values(suite, text.entries, blocks[i]);
-    if (i > 0) set_values(suite, text.also[i - 1], blocks[i]);
-    apply(overrides, suite, blocks[i]);
+    std::vector<const std::vector<PlanEntry>*> entries{&text.entries};
+    if (i > 0) entries.push_back(&text.also[i - 1]);
+    auto& [values, place] = blocks[i];
+    for (const auto* each : entries) set_values(suite, *each, values);
+    apply(overrides, suite, values);
+    place = longest_place(source, values, entries, overrides);
   }
   Plan plan = make_plan(source.name, suite, blocks);
   plan.summary = text.summary;
@@ -178,7 +202,7 @@ Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
 Plan default_plan(const Suite& suite, const Overrides& overrides) {
   ValuesByFactor values;
   apply(overrides, suite, values);
-  return make_plan(std::string(suite.name()) + "/defaults", suite, {values});
+  return make_plan(std::string(suite.name()) + "/defaults", suite, {{values, {.file = "--set"}}});
 }
 
 std::string configuration_key(const Suite& suite, const Configuration& configuration) {

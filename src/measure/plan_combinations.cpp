@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <set>
 
-#include "core/error.hpp"
 #include "measure/plan_values.hpp"
 
 namespace triptych::measure {
@@ -38,14 +37,14 @@ std::vector<Axis> axes_of(const Suite& suite, const ValuesByFactor& values) {
   return axes;
 }
 
-void require_few(const std::vector<Axis>& axes, const std::string& plan) {
+void require_few(const std::vector<Axis>& axes, const core::FilePlace& place) {
   std::size_t count = 1;
   for (const Axis& axis : axes) {
     count *= axis.values.size();
     if (count > most_configurations) {
       throw core::InputError(
-          {.file = plan},
-          fmt::format("more than {} combinations; split the plan", most_configurations));
+          place, fmt::format("more than {} combinations, most of this factor; split the plan",
+                             most_configurations));
     }
   }
 }
@@ -77,9 +76,9 @@ std::vector<const Factor*> slowest_first(const Suite& suite) {
 }
 
 std::vector<Configuration> all_combinations(const Suite& suite, const ValuesByFactor& values,
-                                            const std::string& plan) {
+                                            const core::FilePlace& place) {
   const std::vector<Axis> axes = axes_of(suite, values);
-  require_few(axes, plan);
+  require_few(axes, place);
   return combine(axes);
 }
 

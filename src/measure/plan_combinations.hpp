@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "measure/suite.hpp"
 
 namespace triptych::measure {
@@ -15,10 +16,10 @@ using ValuesByFactor = std::map<std::string, std::vector<std::string>>;
 // The suite's factors; those before vary more slowly.
 [[nodiscard]] std::vector<const Factor*> slowest_first(const Suite& suite);
 
-// Throws InputError, which calls the plan `plan`, where there are too many.
+// Throws InputError at `place` where there are too many.
 [[nodiscard]] std::vector<Configuration> all_combinations(const Suite& suite,
                                                           const ValuesByFactor& values,
-                                                          const std::string& plan);
+                                                          const core::FilePlace& place);
 
 // Adds the combinations that are not there yet, beside others of the same data.
 void add_combinations(const std::vector<Configuration>& more,

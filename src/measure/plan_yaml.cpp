@@ -1,10 +1,12 @@
 #include "measure/plan_yaml.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
-#include <charconv>
+#include <algorithm>
 #include <map>
+#include <sstream>
 
 namespace triptych::measure {
 namespace {
@@ -20,21 +22,60 @@ core::FilePlace place_of(const std::string& file, const YAML::Mark& mark) {
   throw core::InputError(place_of(file, node.Mark()), message);
 }
 
+// Hears where documents begin, and nothing of what they hold.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& mark) override { last_ = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+  [[nodiscard]] const YAML::Mark& last() const { return last_; }
+
+ private:
+  YAML::Mark last_;
+};
+
+// Where yaml-cpp finds a token at the root that begins nothing, such as a comma, it leaves the
+// token where it is and tells of an empty document, again and again: LoadAll fills the memory with
+// them. So the second document is asked for, and no third.
+void refuse_second_document(const std::string& yaml, const std::string& file) {
+  std::istringstream stream(yaml);
+  YAML::Parser parser(stream);
+  DocumentStarts starts;
+  if (!parser.HandleNextDocument(starts) || !parser.HandleNextDocument(starts)) return;
+  const YAML::Mark& mark = starts.last();
+  const auto position = static_cast<std::size_t>(std::max(mark.pos, 0));
+  const bool said = position < yaml.size() && yaml.compare(position, 3, "---") == 0;
+  throw core::InputError(place_of(file, mark), said ? "a second document; a plan is one"
+                                                    : "not valid YAML: nothing can begin so, and "
+                                                      "the plan is over");
+}
+
 YAML::Node load(std::string_view yaml, const std::string& file) {
-  std::vector<YAML::Node> documents;
+  const std::string text(yaml);
+  YAML::Node document;
   try {
-    documents = YAML::LoadAll(std::string(yaml));
+    refuse_second_document(text, file);
+    document = YAML::Load(text);
   } catch (const YAML::Exception& error) {
     throw core::InputError(place_of(file, error.mark), "not valid YAML: " + error.msg);
   }
-  if (documents.empty() || documents.front().IsNull()) {
+  if (document.IsNull()) {
     throw core::InputError({.file = file}, "the plan is empty; expected 'suite:' and factors");
   }
-  if (documents.size() > 1) refuse(file, documents[1], "a second document; a plan is one");
-  if (!documents.front().IsMap()) {
-    refuse(file, documents.front(), "expected 'factor: values' lines, beginning with 'suite:'");
+  if (!document.IsMap()) {
+    refuse(file, document, "expected 'factor: values' lines, beginning with 'suite:'");
   }
-  return documents.front();
+  return document;
 }
 
 PlacedText scalar(const YAML::Node& node, const std::string& file, const std::string& owner) {

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/image.hpp"
 #include "record/record.hpp"
 
 namespace triptych::record {
@@ -47,6 +48,10 @@ class Store {
 
   [[nodiscard]] const std::filesystem::path& file() const;
 
+  // Throws InputError where SQLite finds the file damaged: to be asked before anything is judged by
+  // it. Reads all of the file once.
+  void require_whole() const;
+
   // What is already there under the same key is replaced. Devices and records of a run that was not
   // added are refused with InputError.
   void add_run(const Run& run);
@@ -79,6 +84,8 @@ class Store {
                                 std::string_view device) const;
   [[nodiscard]] std::vector<std::byte> image(
       std::string_view hash) const;  // throws InputError if unknown
+  // The same, decoded; InputError naming store and image where it is no usable EXR.
+  [[nodiscard]] core::Image picture(std::string_view hash) const;
   [[nodiscard]] std::optional<TruthImage> truth(std::string_view scene,
                                                 std::string_view version) const;
 

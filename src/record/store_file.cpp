@@ -316,6 +316,12 @@ void require_file(const std::filesystem::path& file, const SQLite::Database& dat
                   file.string()));
 }
 
+void throw_damaged(const std::filesystem::path& file, std::string_view what) {
+  throw core::InputError(
+      {.file = file.string()},
+      fmt::format("is damaged ({}); 'sqlite3 FILE .recover' may save what is left", what));
+}
+
 void throw_store_error(const std::filesystem::path& file, const SQLite::Exception& error) {
   const std::string name = file.string();
   const std::string_view what = error.what();
@@ -323,9 +329,7 @@ void throw_store_error(const std::filesystem::path& file, const SQLite::Exceptio
     case SQLITE_NOTADB:
       throw core::InputError({.file = name}, "is not an SQLite file, so not a Triptych store");
     case SQLITE_CORRUPT:
-      throw core::InputError(
-          {.file = name},
-          fmt::format("is damaged ({}); 'sqlite3 FILE .recover' may save what is left", what));
+      throw_damaged(file, what);
     case SQLITE_FULL:
       throw core::IoError(fmt::format("{}: the disk is full; what was added before is safe", name));
     case SQLITE_READONLY:

@@ -5,8 +5,11 @@
 
 #include <chrono>
 #include <filesystem>
+#include <stdexcept>
+#include <string_view>
 #include <utility>
 
+#include "core/json.hpp"
 #include "record/store.hpp"
 
 namespace triptych::record {
@@ -23,13 +26,19 @@ void require_file(const std::filesystem::path& file, const SQLite::Database& dat
 [[noreturn]] void throw_store_error(const std::filesystem::path& file,
                                     const SQLite::Exception& error);
 
-// Runs `action`, its SQLite errors turned into ours.
+[[noreturn]] void throw_damaged(const std::filesystem::path& file, std::string_view what);
+
+// Runs `action`, its SQLite errors turned into ours, and those of whatever reads the columns.
 template <typename Action>
 decltype(auto) on_store(const std::filesystem::path& file, Action&& action) {
   try {
     return std::forward<Action>(action)();
   } catch (const SQLite::Exception& error) {
     throw_store_error(file, error);
+  } catch (const core::Json::exception& error) {
+    throw_damaged(file, error.what());
+  } catch (const std::out_of_range& error) {  // rows of a record that an index does not lead to
+    throw_damaged(file, error.what());
   }
 }
 

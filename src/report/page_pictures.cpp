@@ -168,7 +168,7 @@ Panel panel_of(const record::Store& store, const PlanData& plan, const SameBits&
                   "<b class=\"regression\">" + escape(record.reason) + "</b>"),
             true, std::numeric_limits<double>::infinity()};
   }
-  const Image image = core::decode_exr(store.image(record.image));
+  const Image image = store.picture(record.image);
   const std::string drawn = figure(picture(image, record.device), escape(record.device));
   if (pair == nullptr) return {whole(drawn, escape(std::get<std::string>(found)))};
   const judge::ImageComparison result = judge::compare(image, pair->truth, pair->bound);

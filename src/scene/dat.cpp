@@ -25,8 +25,7 @@ struct Entry {
 class Description {
  public:
   explicit Description(const std::filesystem::path& file) : file_(file.string()) {
-    const auto bytes = core::read_file(file);
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string text = core::read_text(file);
     core::FilePlace place{.file = file_};
     for (const std::string_view line : split_lines(text)) {
       ++place.line;

@@ -14,6 +14,15 @@
 
 namespace triptych::scene {
 
+void refuse_unpacked(const std::string& file, std::uint64_t most) {
+  throw core::InputError(
+      {.file = file},
+      fmt::format(
+          "unpacks to more than {} bytes; where that is meant, unpack it and name the plain "
+          "file, which may be larger",
+          most));
+}
+
 struct Inflater::Stream {
   Stream(std::function<std::size_t(std::span<std::byte>)> source_, std::string name_)
       : source(std::move(source_)), name(std::move(name_)) {

@@ -8,6 +8,13 @@
 
 namespace triptych::scene {
 
+// What a gzip stream may hold: a few megabytes can unpack to a thousand times as much. Who means it
+// unpacks the file, as plain files may have any size.
+inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{1} << 30;
+
+// Throws InputError: the file unpacks to more than `most` bytes.
+[[noreturn]] void refuse_unpacked(const std::string& file, std::uint64_t most);
+
 // Decompresses a gzip stream (RFC 1952, one member or several) piece by piece into the caller's
 // memory.
 class Inflater {

@@ -106,6 +106,9 @@ void read_gzip(Volume& volume, const RawVoxels& source, std::uint64_t needed, In
                     "of {} can hold",
                     stated(volume), needed, there, source.file.filename().string()));
   }
+  if (needed > most_unpacked_bytes || skip > most_unpacked_bytes - needed) {
+    refuse_unpacked(source.file.string(), most_unpacked_bytes);
+  }
   file.seek(source.start);
   Inflater inflater([&file](std::span<std::byte> bytes) { return file.read(bytes); },
                     source.file.string());

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -142,8 +143,8 @@ bool starts_a_text(std::string_view bytes) {
 }
 
 Entries from_file(const std::filesystem::path& file) {
-  const std::vector<std::byte> bytes = core::read_file(file);
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string text = core::read_text(file);
+  const auto bytes = std::as_bytes(std::span(text));
   // A text of 256 entries is longer, as four digits, three blanks and a line end each make 2047
   // bytes: but one that was cut off may be of any length.
   const bool is_table = bytes.size() == 4 * std::tuple_size_v<Entries> && !starts_a_text(text);

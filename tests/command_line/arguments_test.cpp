@@ -34,7 +34,7 @@ TEST_F(Arguments, APlanMayFollowAnOption) {
 TEST_F(Arguments, AWordAfterAnOptionsValueIsAPlan) {
   const Result result = program.run("run p.yaml --device 'null:*' extra.yaml --store s.sqlite");
   EXPECT_EQ(result.code, 3) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("extra.yaml: cannot be read"));
+  EXPECT_THAT(result.output, HasSubstr("extra.yaml: cannot read"));
 }
 
 TEST_F(Arguments, EveryGlobMatchesADevice) {

@@ -16,21 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 using test::Result;
 using testing::HasSubstr;
-using testing::Not;
 
-// Told by the environment what to answer. A gate without a store cannot judge.
+// Told by the environment what to answer.
 constexpr const char* program = R"(#!/bin/sh
 echo "$*" >> calls
-case $1 in
-  run) touch out/gate.sqlite; exit ${RUN:-0} ;;
-  report) exit ${REPORT:-0} ;;
-esac
-case " $* " in *' --bogus '*) echo "bogus was not expected" >&2; exit 3 ;; esac
-[ -e out/gate.sqlite ] || exit 2
-case $2 in
-  volume/quick) exit ${VOLUME:-0} ;;
-  *) exit ${PARTICLES:-0} ;;
-esac
+exit ${GATE:-0}
 )";
 
 class Ci : public testing::Test {
@@ -69,44 +59,24 @@ class Ci : public testing::Test {
   }
 };
 
-TEST_F(Ci, TheWorstVerdictCounts) {
-  EXPECT_EQ(gate("VOLUME=0 PARTICLES=0").code, 0);
-  EXPECT_EQ(gate("VOLUME=2 PARTICLES=0").code, 2);
-  EXPECT_EQ(gate("VOLUME=2 PARTICLES=1").code, 1);
-  EXPECT_EQ(gate("VOLUME=1 PARTICLES=2").code, 1);
-  EXPECT_EQ(gate("VOLUME=3 PARTICLES=1").code, 3);
-  EXPECT_EQ(gate("VOLUME=1 PARTICLES=3").code, 3);
-}
-
-TEST_F(Ci, WhatIsNoVerdictIsHiddenByNone) {
-  for (const char* codes :
-       {"VOLUME=139 PARTICLES=0", "VOLUME=139 PARTICLES=1", "VOLUME=139 PARTICLES=2",
-        "VOLUME=2 PARTICLES=139", "REPORT=139", "VOLUME=1 REPORT=3"}) {
-    EXPECT_EQ(gate(codes).code, 3) << codes;
+TEST_F(Ci, TheVerdictIsTheProgramsOwn) {
+  for (const int code : {0, 1, 2, 3}) {
+    EXPECT_EQ(gate("GATE=" + std::to_string(code)).code, code);
   }
 }
 
-// A plan that only crashed is a regression, which the gate tells and `run` does not.
-TEST_F(Ci, JudgesWhatCouldNotBeMeasured) {
-  EXPECT_EQ(gate("RUN=2 VOLUME=1").code, 1);
-  EXPECT_EQ(gate("RUN=2").code, 2);
-  EXPECT_EQ(gate("RUN=3").code, 3);
-  EXPECT_THAT(folder.read("calls"), Not(HasSubstr("report")));
+TEST_F(Ci, MeasuresAndKeepsEverythingInOneFolder) {
+  EXPECT_EQ(gate("TRIPTYCH_OUT=kept", "--require 'vulkan:*'").code, 0);
+  EXPECT_EQ(folder.read("calls"),
+            "gate --measure --store kept/gate.sqlite --out kept --require vulkan:*\n");
 }
 
 TEST_F(Ci, AFolderThatCannotBeMadeIsNoRegression) {
   EXPECT_EQ(gate("TRIPTYCH_OUT=/proc/none").code, 3);
 }
 
-TEST_F(Ci, WrongArgumentsAreRefusedBeforeAnythingIsMeasured) {
-  const Result refused = gate("VOLUME=0", "--bogus");
-  EXPECT_EQ(refused.code, 3);
-  EXPECT_THAT(refused.output, HasSubstr("bogus was not expected"));
-  EXPECT_THAT(folder.read("calls"), Not(HasSubstr("run ")));
-}
-
 TEST_F(Ci, HelpMeasuresNothing) {
-  const Result help = gate("VOLUME=0", "--help");
+  const Result help = gate("GATE=1", "--help");
   EXPECT_EQ(help.code, 0);
   EXPECT_THAT(help.output, HasSubstr("Exit code: 0 pass, 1 regression"));
   EXPECT_EQ(folder.read("calls"), "");

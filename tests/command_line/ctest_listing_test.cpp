@@ -28,7 +28,6 @@ TEST(CTestListing, AccuracyIsMeasuredWithoutTimes) {
     for (const char* test : {".measure.", ".image.", ".counters.", ".accuracy.", ".agreement"}) {
       EXPECT_THAT(tests, HasSubstr("[=[" + stem + test));
     }
-    EXPECT_THAT(tests, HasSubstr("[=[--untimed]=]"));
     EXPECT_THAT(tests, Not(HasSubstr(".timing.")));
     EXPECT_THAT(tests, Not(HasSubstr(".statistics.")));
   }

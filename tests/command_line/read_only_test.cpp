@@ -45,8 +45,9 @@ TEST_F(ReadOnly, IsAccepted) {
   const Result accepted =
       run("accept volume/quick --reason new --store kept/s.sqlite --baselines own/b");
   EXPECT_EQ(accepted.code, 0) << accepted.output;
-  const Result judged =
-      run("gate volume/quick --store kept/s.sqlite --baselines own/b --junit own/j.xml");
+  const Result judged = run(
+      std::string("gate volume/quick --store kept/s.sqlite --baselines own/b --junit own/j.xml ") +
+      tiny);
   EXPECT_EQ(judged.code, 0) << judged.output;
 }
 

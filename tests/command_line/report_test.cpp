@@ -64,7 +64,6 @@ TEST_F(ReportTest, NeedsNoNetwork) {
 }
 
 TEST_F(ReportTest, BeginsWithTheVerdictThenPicturesThenPlans) {
-  measure(std::string("volume/speed") + small);
   measure(std::string("volume/quick") + small);
   measure(std::string("volume/speed") + small);
   const std::string page = report();

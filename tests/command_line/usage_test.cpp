@@ -149,8 +149,9 @@ TEST(Usage, HowToMeasureNamesThePlanAsItWasTyped) {
   const Program program;
   ASSERT_EQ(program.run(std::string("run volume/quick --untimed --store s.sqlite ") + tiny).code,
             0);
-  expect_refused(program.run("gate my/plan.yaml --store s.sqlite"), 2,
-                 "no run of plan: measure first with `triptych run my/plan.yaml --store s.sqlite`");
+  program.write("my.yaml", tiny_plan);
+  expect_refused(program.run("gate my.yaml --store s.sqlite"), 2,
+                 "no run of my: measure first with `triptych run my.yaml --store s.sqlite`");
 }
 
 // The streams are told apart here; the comment ends what would join them again.

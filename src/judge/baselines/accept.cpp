@@ -8,6 +8,7 @@
 #include "core/file.hpp"
 #include "core/glob.hpp"
 #include "core/image_io.hpp"
+#include "core/quoting.hpp"
 #include "judge/baselines/baselines.hpp"
 #include "judge/baselines/json_file.hpp"
 #include "judge/baselines/layout.hpp"
@@ -73,8 +74,8 @@ void update_errors(const record::Store& store, const Accepted& accepted,
   for (const record::Record& record : accepted.measured) {
     const LimitPicture* limit = record.image.empty() ? nullptr : request.limit(record);
     if (limit == nullptr) continue;
-    const auto error = picture_error(core::decode_exr(store.image(record.image)),
-                                     request.truth(record), limit->image);
+    const auto error =
+        picture_error(store.picture(record.image), request.truth(record), limit->image);
     if (!error) continue;
     table[record.configuration][record.device] = {{"rmse", error->rmse},
                                                   {"arithmetic", error->arithmetic}};
@@ -321,7 +322,7 @@ void refuse_part(const Accepted& accepted, const Baselines& stored, const std::s
       "{} --resume, accept what it has with --only GLOB, or drop them with --drop where the plan "
       "has them no longer",
       run, missing.size(), known.size(), missing.front(), missing.size() > 1 ? "; …" : "",
-      record::plan_argument(request.plan)));
+      core::shell_quoted(record::plan_argument(request.plan))));
 }
 
 // Everything that is stored and as it was accepted; nothing where that is to be dropped.

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "core/error.hpp"
@@ -118,11 +120,19 @@ StoredTiming read_timing(const JsonNode& node) {
           node.at("spread").positive_number(), node.at("kernel_hash").text()};
 }
 
+// A day that there is.
 bool is_iso_date(std::string_view text) {
   constexpr std::string_view shape = "dddd-dd-dd";
-  return text.size() == shape.size() && std::ranges::equal(text, shape, [](char c, char s) {
-           return s == 'd' ? c >= '0' && c <= '9' : c == s;
-         });
+  const bool written_so = std::ranges::equal(
+      text, shape, [](char c, char s) { return s == 'd' ? c >= '0' && c <= '9' : c == s; });
+  if (!written_so) return false;
+  const auto number = [&](std::size_t begin, std::size_t length) {
+    return std::stoi(std::string(text.substr(begin, length)));
+  };
+  const std::chrono::year_month_day date{std::chrono::year(number(0, 4)),
+                                         std::chrono::month(static_cast<unsigned>(number(5, 2))),
+                                         std::chrono::day(static_cast<unsigned>(number(8, 2)))};
+  return date.ok();
 }
 
 std::vector<Waiver> read_waivers(const std::filesystem::path& path) {
@@ -135,7 +145,8 @@ std::vector<Waiver> read_waivers(const std::filesystem::path& path) {
     if (waiver.reason.find_first_not_of(" \t") == std::string::npos) {
       entry.at("reason").fail("expected a reason");
     }
-    if (!is_iso_date(waiver.expiry)) entry.at("expiry").fail("expected a date as YYYY-MM-DD");
+    if (!is_iso_date(waiver.expiry))
+      entry.at("expiry").fail("expected a day of the calendar as YYYY-MM-DD");
     result.push_back(std::move(waiver));
   }
   return result;
@@ -287,7 +298,7 @@ std::string Baselines::data_hash(const record::Record& record) const {
 std::optional<core::Image> Baselines::image(const std::string& scene) const {
   const fs::path path = folder_ / Layout::image(scene);
   if (!fs::exists(path)) return std::nullopt;
-  return core::decode_exr(core::read_file(path));
+  return core::read_exr(path);
 }
 
 std::optional<ReferenceHash> Baselines::reference(const std::string& scene) const {

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/foreign_error.hpp"
 #include "core/json_text.hpp"
 
 namespace triptych::judge {
@@ -51,6 +52,13 @@ std::size_t offset_of_key(std::string_view text, const std::string& key, std::si
   return std::min(offset, text.size());
 }
 
+// "… number overflow parsing '1e999'": the library says which, not where.
+std::string quoted_in(std::string_view what) {
+  const auto begin = std::min(what.find('\''), what.size());
+  const auto end = std::min(what.rfind('\''), what.size());
+  return std::string(end > begin ? what.substr(begin + 1, end - begin - 1) : what);
+}
+
 core::Json parse(const std::filesystem::path& file, const std::string& text) {
   std::vector<std::set<std::string>> open_objects;
   std::map<std::string, std::size_t> seen;
@@ -72,6 +80,10 @@ core::Json parse(const std::filesystem::path& file, const std::string& text) {
     const std::size_t offset = error.byte == 0 ? 0 : error.byte - 1;
     throw core::InputError(place_at(file, text, std::min(offset, text.size())),
                            bare_message(error.what()));
+  } catch (const core::Json::out_of_range& error) {
+    const std::string number = quoted_in(error.what());
+    throw core::InputError(place_at(file, text, std::min(text.find(number), text.size())),
+                           fmt::format("the number {} is too large", number));
   }
 }
 
@@ -111,11 +123,9 @@ JsonFile::JsonFile(std::filesystem::path file, std::string text)
     : file_(std::move(file)), text_(std::move(text)), value_(parse(file_, text_)) {}
 
 std::optional<JsonFile> JsonFile::read(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  const std::vector<std::byte> bytes = core::read_file(file);
-  std::string text(bytes.size(), '\0');
-  std::ranges::transform(bytes, text.begin(), [](std::byte b) { return static_cast<char>(b); });
-  return JsonFile(file, std::move(text));
+  const bool there = core::naming(file.string(), [&] { return std::filesystem::exists(file); });
+  if (!there) return std::nullopt;
+  return JsonFile(file, core::read_text(file, core::most_json_bytes));
 }
 
 void JsonFile::fail(const std::vector<std::string>& path, std::string_view message) const {

@@ -127,9 +127,11 @@ class Explanation {
 
 }  // namespace
 
-Repeatability repeatability(std::string_view device, std::string_view technique) {
-  return {.device_code = cost_tolerance("device_code", device, technique),
-          .driver = cost_tolerance("driver", device, technique)};
+Repeatability repeatability(std::string_view device, std::string_view technique,
+                            const FrameCost& stored) {
+  const double sum = std::max(stored.sum(), 1.0);
+  return {.device_code = cost_tolerance("device_code", device, technique, stored.device_code / sum),
+          .driver = cost_tolerance("driver", device, technique, stored.driver / sum)};
 }
 
 Repeatability operator+(const Repeatability& a, const Repeatability& b) {

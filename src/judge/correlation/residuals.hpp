@@ -27,7 +27,8 @@ struct Repeatability {
   double device_code = 0;
   double driver = 5e-4;
 };
-[[nodiscard]] Repeatability repeatability(std::string_view device, std::string_view technique);
+[[nodiscard]] Repeatability repeatability(std::string_view device, std::string_view technique,
+                                          const FrameCost& stored);
 [[nodiscard]] Repeatability operator+(const Repeatability& a, const Repeatability& b);
 
 // Of one configuration on one device since it was accepted, as shares of the stored sum.

@@ -162,7 +162,7 @@ class AccuracyCheck {
       add(record, Verdict::cannot_judge, "the record holds no picture; run the plan again");
       return;
     }
-    const auto error = picture_error(core::decode_exr(view_.store.image(record.image)),
+    const auto error = picture_error(view_.store.picture(record.image),
                                      view_.request.truth(record).truth, limit->image);
     if (!error) {
       add(record, Verdict::regression,

@@ -40,8 +40,8 @@ struct Moved {
   std::set<std::string> beside;  // of those whose residual with this one moved
 };
 
-Repeatability repeatability_of(const record::Record& record) {
-  return repeatability(record.device, record.technique);
+Repeatability repeatability_of(const ConfigurationCost& cost) {
+  return repeatability(cost.record->device, cost.record->technique, *cost.stored);
 }
 
 CostChange change_of(const ConfigurationCost& cost) {
@@ -64,8 +64,8 @@ std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
 // The residual r of the two left r0. What is not in the run is what was stored of it, exactly.
 bool left_residual(const ConfigurationCost& own, const ConfigurationCost& other) {
   const Repeatability none{0, 0};
-  return residual_moved(change_of(other), other.record ? repeatability_of(*other.record) : none,
-                        change_of(own), repeatability_of(*own.record));
+  return residual_moved(change_of(other), other.record ? repeatability_of(other) : none,
+                        change_of(own), repeatability_of(own));
 }
 
 // A device is named for what itself changed since it was accepted.
@@ -74,7 +74,7 @@ Moved movements_of(const DeviceCost& device, const std::vector<DeviceCost>& devi
   const std::vector<const DeviceCost*> partners = partners_of(device, devices);
   for (const auto& [configuration, own] : device.configurations) {
     if (!own.stored) continue;
-    const double change = moved_by(change_of(own), repeatability_of(*own.record));
+    const double change = moved_by(change_of(own), repeatability_of(own));
     double shown = 0;
     bool common = false;
     for (const DeviceCost* other : partners) {

@@ -131,7 +131,8 @@ class DeviceCostCheck {
     for (const auto& [part, name] : parts) {
       const double before = count_of(stored, part).value_or(0);
       const double now = count_of(record.cost, part).value_or(0);
-      const double tolerated = frame * cost_tolerance(part, record.device, record.technique);
+      const double tolerated = frame * cost_tolerance(part, record.device, record.technique,
+                                                      frame > 0 ? before / frame : 0);
       if (std::abs(now - before) <= tolerated) continue;
       (now > before ? more : less) = true;
       changes.push_back(change_text(name, before, now));

@@ -118,7 +118,7 @@ class SceneJudge {
     check_truth(pair);
     core::Image image;
     try {
-      image = core::decode_exr(view_.store.image(record.image));
+      image = view_.store.picture(record.image);
     } catch (const core::Error& error) {
       out_.findings.push_back(
           finding_about(record, Check::image, Verdict::cannot_judge,

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/glob.hpp"
+#include "core/quoting.hpp"
 #include "judge/gate/run_view.hpp"
 #include "record/bad_input.hpp"
 
@@ -133,7 +134,7 @@ void report_missing(const RunView& view, const record::Device& device,
       fmt::format("missing rows: of {} {} configurations there is no record of {}; finish the run "
                   "with triptych run {} --resume",
                   wanted.size(), kind, examples_of(missing),
-                  record::plan_argument(view.request.plan))));
+                  core::shell_quoted(record::plan_argument(view.request.plan)))));
   set_number(findings.back(), "missing", static_cast<double>(missing.size()));
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/json.hpp"
+#include "core/quoting.hpp"
 #include "judge/gate/run_view.hpp"
 
 namespace triptych::judge {
@@ -158,7 +159,7 @@ std::string RunView::plan_test(Check check) const {
 }
 
 std::string RunView::accept_command() const {
-  return fmt::format("triptych accept {} --reason TEXT", request.plan);
+  return fmt::format("triptych accept {} --reason TEXT", core::shell_quoted(request.plan));
 }
 
 Finding finding_about(const record::Record& record, Check check, Verdict verdict,

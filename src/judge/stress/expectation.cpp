@@ -189,8 +189,7 @@ const core::Image* StressRun::picture(const record::Record& record) {
   const auto known = pictures_.find(record.image);
   if (known != pictures_.end()) return &known->second;
   try {
-    return &pictures_.emplace(record.image, core::decode_exr(store_.image(record.image)))
-                .first->second;
+    return &pictures_.emplace(record.image, store_.picture(record.image)).first->second;
   } catch (const core::Error&) {
     return nullptr;
   }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <iterator>
@@ -48,6 +49,27 @@ TEST(File, SaysWhyItCannotBeRead) {
               ThrowsMessage<IoError>(HasSubstr("none: cannot read: No such file")));
   EXPECT_THAT([&] { (void)read_file(folder.path()); },
               ThrowsMessage<IoError>(HasSubstr("Is a directory")));
+}
+
+TEST(File, APipeOrADeviceIsNotWaitedFor) {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::filesystem::path& file : {pipe, std::filesystem::path("/dev/zero")}) {
+    EXPECT_THAT([&] { (void)read_file(file); },
+                ThrowsMessage<IoError>(HasSubstr("is a pipe or a device, not a file")));
+  }
+}
+
+TEST(File, TextsHaveALargestSize) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.txt", std::string(10, 'x'));
+  EXPECT_EQ(read_text(file, 10), std::string(10, 'x'));
+  EXPECT_THAT([&] { (void)read_text(file, 9); },
+              ThrowsMessage<InputError>(HasSubstr("a.txt: is too large: more than 9 bytes")));
+  // What states no size is read no further either.
+  EXPECT_THAT([&] { (void)read_text("/proc/self/status", 100); },
+              ThrowsMessage<InputError>(HasSubstr("is too large")));
 }
 
 TEST(File, SaysWhyItCannotBeWritten) {

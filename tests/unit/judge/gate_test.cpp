@@ -188,8 +188,10 @@ TEST_F(GateTest, AnExpiredWaiverWithoutUseIsReported) {
 TEST_F(GateTest, AWaiverNeedsReasonAndDate) {
   add_run("a");
   (void)accept_run("a");
-  write_waivers("soon");
-  EXPECT_THROW((void)gate("a"), core::InputError);
+  for (const char* no_day : {"soon", "2099-13-45", "2099-02-29", "0000-00-00"}) {
+    write_waivers(no_day);
+    EXPECT_THROW((void)gate("a"), core::InputError) << no_day;
+  }
 }
 
 // --- the verdict on the whole ---

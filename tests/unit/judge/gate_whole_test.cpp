@@ -24,6 +24,14 @@ TEST_F(GateTest, NoBaselinesNamesTheCommandThatMakesThem) {
               HasSubstr("triptych accept volume/quick --reason"));
 }
 
+// Commands are pasted.
+TEST_F(GateTest, CommandsAreQuoted) {
+  add_run("a");
+  GateRequest request = request_;
+  request.plan = "ev$(touch x)";
+  EXPECT_THAT(text(gate("a", request)), HasSubstr("triptych accept 'ev$(touch x)' --reason"));
+}
+
 TEST_F(GateTest, AWrongPictureIsSeenWithoutBaselines) {
   add_run("a", wrong_image_on("vulkan:lavapipe"));
   EXPECT_EQ(gate("a").exit_code(), ExitCode::regression);

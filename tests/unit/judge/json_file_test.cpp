@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <functional>
 
@@ -49,6 +50,19 @@ TEST_F(JsonFileTest, BrokenSyntaxHasLineAndColumn) {
 
 TEST_F(JsonFileTest, TruncatedFileEndsOnItsLastLine) {
   EXPECT_EQ(error_of("{\n \"a\": {\n", [](const JsonNode&) {}).place().line, 3);
+}
+
+TEST_F(JsonFileTest, ANumberThatIsTooLargeHasItsLine) {
+  const auto error = error_of("{\n \"a\": 1,\n \"b\": 1e999\n}\n", [](const JsonNode&) {});
+  EXPECT_EQ(error.place().line, 3);
+  EXPECT_THAT(error.what(), HasSubstr("the number 1e999 is too large"));
+}
+
+TEST_F(JsonFileTest, APipeIsNotWaitedFor) {
+  const auto file = folder_.path() / "pipe.json";
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  EXPECT_THAT([&] { static_cast<void>(JsonFile::read(file)); },
+              testing::ThrowsMessage<core::IoError>(HasSubstr("is a pipe or a device")));
 }
 
 TEST_F(JsonFileTest, KeyTwiceInOneObjectIsAnError) {

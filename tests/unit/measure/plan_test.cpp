@@ -2,12 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
 
+#include "core/file.hpp"
 #include "fake_suite.hpp"
 #include "record/factor_list.hpp"
 
@@ -20,6 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
 
 class PlanTest : public ::testing::Test {
  protected:
@@ -252,6 +255,27 @@ TEST_F(PlanTest, WhatIsNoPlan) {
   EXPECT_THAT(refusal("suite: fake\nname: x\n"), HasSubstr("unknown factor 'name'"));
 }
 
+// yaml-cpp tells of empty documents without end where such a token stands at the root.
+TEST_F(PlanTest, WhatStandsWhereNothingCanBeginIsNoPlan) {
+  EXPECT_THAT(refusal(",\n"), AllOf(StartsWith(at(1, 1)), HasSubstr("not valid YAML")));
+  EXPECT_THAT(refusal("&R, x\n"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(refusal("!x y, z\n"), StartsWith(at(1, 1)));
+  EXPECT_THAT(refusal("!x ,\n"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(refusal("]"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(refusal("{suite: fake} ,\n"), HasSubstr("not valid YAML"));
+}
+
+TEST_F(PlanTest, APipeIsNotWaitedForAndNothingEndlessIsRead) {
+  ASSERT_EQ(::mkfifo(file_.c_str(), 0600), 0);
+  EXPECT_THAT([&] { static_cast<void>(load_plan(file_.string(), {}, find_)); },
+              ThrowsMessage<core::InputError>(HasSubstr("is a pipe or a device")));
+  std::filesystem::remove(file_);
+  EXPECT_THAT([&] { static_cast<void>(load_plan("/dev/zero", {}, find_)); },
+              ThrowsMessage<core::InputError>(HasSubstr("is a pipe or a device")));
+  EXPECT_THAT(refusal("suite: fake\n#" + std::string(core::most_text_bytes, 'x')),
+              HasSubstr("is too large"));
+}
+
 TEST_F(PlanTest, ErrorsInASuitesOwnPlanNameIt) {
   try {
     static_cast<void>(load_plan("fake/broken", {}, find_));
@@ -276,7 +300,7 @@ TEST_F(PlanTest, TooManyCombinations) {
   list += "]\n";
   const std::string yaml =
       "suite: fake\ndata: " + list + "camera: " + list + "viewport: " + list;  // 101³
-  EXPECT_THAT(refusal(yaml), HasSubstr("1000000 combinations"));
+  EXPECT_THAT(refusal(yaml), AllOf(StartsWith(at(3, 1)), HasSubstr("1000000 combinations")));
 }
 
 // --- --set
@@ -375,8 +399,9 @@ TEST_F(PlanTest, ChecksSayWhatIsMeasured) {
 }
 
 TEST_F(PlanTest, ChecksThatAreNoneOrExcludeEachOther) {
-  EXPECT_THAT(refusal("suite: fake\nchecks: [image, colour]\n"),
-              testing::StartsWith(at(2, 17) + "'checks': unknown check 'colour'; there are: image"));
+  EXPECT_THAT(
+      refusal("suite: fake\nchecks: [image, colour]\n"),
+      testing::StartsWith(at(2, 17) + "'checks': unknown check 'colour'; there are: image"));
   EXPECT_EQ(refusal("suite: fake\nchecks: [image, image]\n"),
             at(2, 17) + "'checks': 'image' is given twice");
   EXPECT_THAT(refusal("suite: fake\nchecks: [timing, cost]\n"),

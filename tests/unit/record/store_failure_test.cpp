@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
+#include <span>
 #include <thread>
 
 #include "core/error.hpp"
@@ -27,6 +28,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
 using Mode = Store::Mode;
 using Perms = std::filesystem::perms;
 
@@ -121,6 +123,42 @@ TEST_F(StoreTest, DamagedFile) {
   } catch (const core::InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("damaged"));
   }
+}
+
+// An index that shares the pages of another: every query through it finds nothing, silently.
+TEST_F(StoreTest, DamagedIndex) {
+  make_store(file_);
+  EXPECT_NO_THROW(Store(file_, Mode::read).require_whole());
+  {
+    SQLite::Database database(file_.string(), SQLite::OPEN_READWRITE);
+    database.exec("PRAGMA writable_schema = ON");
+    database.exec(
+        "UPDATE sqlite_schema SET rootpage = (SELECT rootpage FROM sqlite_schema WHERE name = "
+        "'clock_of_device') WHERE name = 'run_of_plan'");
+  }
+  const Store store(file_, Mode::read);
+  EXPECT_FALSE(store.latest_run(sample_run().plan).has_value());
+  EXPECT_THAT([&] { store.require_whole(); },
+              ThrowsMessage<core::InputError>(AllOf(HasSubstr("damaged"), HasSubstr(".recover"))));
+}
+
+TEST_F(StoreTest, DamagedColumn) {
+  make_store(file_);
+  {
+    SQLite::Database database(file_.string(), SQLite::OPEN_READWRITE);
+    database.exec("UPDATE run SET system = '{\"a\": '");
+  }
+  EXPECT_THAT(
+      [&] { static_cast<void>(Store(file_, Mode::read).runs()); },
+      ThrowsMessage<core::InputError>(AllOf(StartsWith(file_.string()), HasSubstr("is damaged"))));
+}
+
+TEST_F(StoreTest, APictureThatIsNoneIsNamed) {
+  Store store(file_, Mode::append);
+  store.add_image("0123", std::as_bytes(std::span("no picture")));
+  EXPECT_THAT([&] { static_cast<void>(store.picture("0123")); },
+              ThrowsMessage<core::InputError>(AllOf(
+                  StartsWith(file_.string()), HasSubstr("image '0123': not a usable EXR image"))));
 }
 
 // --- rights

@@ -289,6 +289,14 @@ TEST(Nrrd, AClaimTakesNoMemoryBeforeTheDataAreThere) {
   EXPECT_LT(peak_memory_bytes() - before, std::uint64_t{300} << 20);
 }
 
+TEST(Nrrd, NoMoreIsUnpackedThanIsAllowed) {
+  std::string header = minimal;
+  header.replace(header.find("raw"), 3, "gzip");
+  header.replace(header.find("2 1 1"), 5, "1024 1024 1025");
+  expect_rejected({{header + "\n" + std::string(std::size_t{2} << 20, 'x'),
+                    "a.nrrd: unpacks to more than 1073741824 bytes"}});
+}
+
 TEST(Nrrd, BrokenGzipStreamsAreBadInput) {
   std::string header = minimal;
   header.replace(header.find("raw"), 3, "gzip");

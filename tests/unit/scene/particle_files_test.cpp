@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "particle_text.hpp"
 #include "raw_files.hpp"
+#include "scene/file_content.hpp"
 #include "scene/particles.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -245,6 +246,15 @@ TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
   EXPECT_THAT([] { static_cast<void>(load_particles("generate:uniform", ColourKind::rgba8)); },
               ThrowsMessage<core::InputError>(HasSubstr("expected generate:NAME:COUNT")));
   EXPECT_THROW(load_particles("generate:uniform:1e3", ColourKind::rgba8), core::InputError);
+}
+
+TEST(ParticleFiles, UnpackNoMoreThanIsAllowed) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.pdb.gz", gzipped(std::string(std::size_t{3} << 20, ' ')));
+  EXPECT_EQ(read_content(file, {}, std::uint64_t{3} << 20).size(), std::size_t{3} << 20);
+  EXPECT_THAT([&] { static_cast<void>(read_content(file, {}, (std::uint64_t{3} << 20) - 1)); },
+              ThrowsMessage<core::InputError>(
+                  HasSubstr("a.pdb.gz: unpacks to more than 3145727 bytes; where that is meant")));
 }
 
 // A message is a line that a terminal can show, whatever the file holds.

@@ -1,0 +1,83 @@
+// What no command was meant to be fed: a line that says so, nothing raw on a terminal, no hang.
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+
+#include "program.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+void expect_one_line(const Result& result, std::string_view says) {
+  EXPECT_EQ(result.code, 3) << result.output;
+  EXPECT_THAT(result.output, HasSubstr(says));
+  EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
+}
+
+TEST(Hostile, APlanOfAFileIsListedForCTest) {
+  const Program program;
+  program.write("p.yaml", tiny_plan);
+  const Result listed = program.run("ctest p.yaml --out tests.cmake --folder .");
+  EXPECT_EQ(listed.code, 0) << listed.output;
+  const std::string tests = program.read("tests.cmake");
+  EXPECT_THAT(tests, HasSubstr("[=[volume.p.start]=]"));
+  // From whatever folder CTest starts it.
+  EXPECT_THAT(tests, HasSubstr("[=[" + (program.folder() / "p.yaml").string() + "]=]"));
+}
+
+TEST(Hostile, AStoreWithADamagedIndexIsNotJudged) {
+  const Program program;
+  ASSERT_EQ(program.run(std::string("run volume/quick --store s.sqlite ") + tiny).code, 0);
+  {
+    SQLite::Database database((program.folder() / "s.sqlite").string(), SQLite::OPEN_READWRITE);
+    database.exec("PRAGMA writable_schema = ON");
+    database.exec(
+        "UPDATE sqlite_schema SET rootpage = (SELECT rootpage FROM sqlite_schema WHERE name = "
+        "'clock_of_device') WHERE name = 'run_of_plan'");
+  }
+  for (const char* command : {"report", "gate volume/quick", "accept volume/quick --reason x"}) {
+    expect_one_line(program.run(std::string(command) + " --store s.sqlite --baselines b"),
+                    "s.sqlite: is damaged");
+  }
+}
+
+TEST(Hostile, APipeOrADeviceIsNoPlan) {
+  const Program program;
+  ASSERT_EQ(::mkfifo((program.folder() / "pipe.yaml").c_str(), 0600), 0);
+  for (const char* plan : {"pipe.yaml", "/dev/zero"}) {
+    expect_one_line(program.run(std::string("list ") + plan, "{}", "timeout 20"),
+                    "is a pipe or a device, not a file; a plan is");
+  }
+}
+
+TEST(Hostile, NamesReachNoTerminalAsTheyAre) {
+  const Program program;
+  program.write("a\x1b[2J\nb.yaml", "suite: volume\nstepp: [1]\n");
+  for (const char* arguments :
+       {"list \"$(printf 'a\\033[2J\\nb.yaml')\"", "list volume/quick \"$(printf '\\033[2J')\"",
+        "\"$(printf '\\033[2J')\""}) {
+    const Result result = program.run(arguments);
+    EXPECT_EQ(result.code, 3);
+    EXPECT_THAT(result.output, Not(HasSubstr("\x1b"))) << arguments;
+    EXPECT_THAT(result.output, HasSubstr("\\x1b[2J")) << arguments;
+  }
+}
+
+TEST(Hostile, AnEndlessValueMakesNoEndlessLine) {
+  const Program program;
+  program.write("p.yaml", "suite: volume\nstep: [" + std::string(1'000'000, 'x') + "]\n");
+  const Result result = program.run("list p.yaml");
+  expect_one_line(result, "p.yaml:2:8");
+  EXPECT_LT(result.output.size(), 9000U);
+  EXPECT_THAT(result.output, HasSubstr("…"));
+}
+
+}  // namespace
+}  // namespace triptych::command_line

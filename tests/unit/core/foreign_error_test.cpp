@@ -1,0 +1,48 @@
+#include "core/foreign_error.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <new>
+#include <stdexcept>
+
+#include "core/error.hpp"
+
+namespace triptych::core {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+using testing::ThrowsMessage;
+
+TEST(ForeignError, OursGoOnAsTheyAre) {
+  EXPECT_EQ(naming("a.txt", [] { return 7; }), 7);
+  EXPECT_THAT([] { naming("a.txt", [] { throw NotSupported("no device"); }); },
+              ThrowsMessage<NotSupported>("no device"));
+}
+
+TEST(ForeignError, OthersBecomeOursAndNameTheFile) {
+  const std::map<int, int> none;
+  EXPECT_THAT([&] { (void)naming("a.txt", [&] { return none.at(1); }); },
+              ThrowsMessage<InputError>(StartsWith("a.txt: cannot be used (map::at")));
+  EXPECT_THAT([] { naming("a.txt", [] { throw std::bad_alloc(); }); },
+              ThrowsMessage<IoError>("a.txt: needs more memory than there is"));
+}
+
+TEST(ForeignError, AFileSystemErrorNamesItsOwnFile) {
+  const auto fails = [] {
+    throw std::filesystem::filesystem_error("status", "b.txt",
+                                            std::make_error_code(std::errc::permission_denied));
+  };
+  EXPECT_THAT([&] { naming("", fails); }, ThrowsMessage<IoError>("b.txt: Permission denied"));
+}
+
+TEST(ForeignError, WithoutAFileItIsTheProgramsOwn) {
+  EXPECT_THAT([] { naming("", [] { throw std::logic_error("basic_string::replace"); }); },
+              ThrowsMessage<Error>(HasSubstr("a fault of the program itself (basic_string")));
+}
+
+}  // namespace
+}  // namespace triptych::core
