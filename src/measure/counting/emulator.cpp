@@ -82,6 +82,11 @@ std::variant<Emulator, std::string> look() {
                        qemu);
   }
   const std::string name = fmt::format("qemu {} {}", short_version(*version), processor_name);
+  // Debian 13 links it statically, and then QEMU has no option for plugins.
+  const auto help = output_of({std::string(qemu), "-h"});
+  if (help && help->find("-plugin") == std::string::npos) {
+    return fmt::format("instructions cannot be counted: {} has no plugins; see docs/ci.md", name);
+  }
   bool any = false;
   for (const fs::path& folder : plugin_folders()) {
     for (const int api : plugin_versions) {
