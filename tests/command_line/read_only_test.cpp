@@ -25,7 +25,8 @@ class ReadOnly : public testing::Test {
     std::filesystem::permissions(program.folder() / "own", perms::all);
     const std::string script = R"({"images": {"*": ")" + right_picture(program).string() + R"("}})";
     ASSERT_EQ(
-        program.run(std::string("run volume/quick --store kept/s.sqlite ") + tiny, script).code, 0);
+        program.run(fmt::format("run volume/quick --store kept/s.sqlite {}", tiny), script).code,
+        0);
     std::filesystem::permissions(program.folder() / "kept/s.sqlite", readable);
     std::filesystem::permissions(program.folder() / "kept", searchable);
   }
@@ -45,9 +46,8 @@ TEST_F(ReadOnly, IsAccepted) {
   const Result accepted =
       run("accept volume/quick --reason new --store kept/s.sqlite --baselines own/b");
   EXPECT_EQ(accepted.code, 0) << accepted.output;
-  const Result judged = run(
-      std::string("gate volume/quick --store kept/s.sqlite --baselines own/b --junit own/j.xml ") +
-      tiny);
+  const Result judged = run(fmt::format(
+      "gate volume/quick --store kept/s.sqlite --baselines own/b --junit own/j.xml {}", tiny));
   EXPECT_EQ(judged.code, 0) << judged.output;
 }
 
