@@ -114,11 +114,10 @@ void DeviceRun::remember() {
 Protocol DeviceRun::protocol() const {
   Protocol protocol = context_.options.protocol;
   // Without times a run is for pictures and counters alone, unless its plan asks for more.
-  protocol.statistics = protocol.statistics && protocol.timed;
+  protocol.statistics = protocol.statistics && protocol.timed &&
+                        context_.plan.checks.contains(record::Check::statistics);
   protocol.timed = protocol.timed && context_.plan.timed();
   protocol.counted = context_.plan.counted();
-  protocol.statistics =
-      protocol.statistics && context_.plan.checks.contains(record::Check::statistics);
   // A plan for pictures alone asks for each of them: that two are alike is what it tests.
   protocol.measure_every = protocol.measure_every || !context_.plan.timed();
   return protocol;

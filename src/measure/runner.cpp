@@ -111,7 +111,6 @@ class JointProgress {
 };
 
 void add(const RunResult& part, RunResult& sum) {
-  sum.run = part.run;
   sum.measured += part.measured;
   sum.taken_over += part.taken_over;
   sum.skipped += part.skipped;
