@@ -39,6 +39,7 @@ WorkerSetup setup_for(const RunContext& context, const std::string& device,
     for (const std::string_view each : counting_environment()) overrides.emplace_back(each);
     if (const auto* emulator = std::get_if<Emulator>(&find_emulator())) {
       setup.command = emulated(*emulator, std::move(setup.command), cache.path().string());
+      overrides.insert(overrides.end(), emulator->environment.begin(), emulator->environment.end());
     }
   }
   setup.environment = worker_environment(device, cache, overrides);

@@ -132,6 +132,7 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
 record::Record count_instructions(Prepared& prepared, const InstructionCounter& counter) {
   constexpr int frames_before = 2;
   for (int i = 0; i < frames_before; ++i) static_cast<void>(prepared.frame(Purpose::timing));
+  counter.wait_until_quiet();
   record::Record record;
   static_cast<void>(counter.counting(record.cost, [&] { return prepared.frame(Purpose::timing); }));
   record.kernel_hash = prepared.kernel_hash();

@@ -107,8 +107,9 @@ struct Record {
   std::uint64_t peak_memory_bytes = 0;  // of the worker so far
 
   // Instructions that the worker executed during one frame of the timed build, by whose memory they
-  // lay in: "device_code", "driver", "libc", "program"; and "allocations", calls for memory. Empty
-  // unless they were counted. `prepare_cost`: the same of preparing.
+  // lay in: "device_code", "driver", "libc", "program"; "allocations", calls for memory; and
+  // "misses" of device code in a simulated cache. Empty unless they were counted. `prepare_cost`:
+  // the same of preparing.
   Counts cost;
   Counts prepare_cost;
   std::string counted_by;   // by what: emulator, its version, the processor it shows

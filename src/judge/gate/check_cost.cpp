@@ -1,6 +1,6 @@
 // Instructions per frame against those stored for the same driver version, counted by the same
-// emulator: device code and the driver decide, each by itself; allocations and what preparing costs
-// are shown.
+// emulator: device code, the driver and cache misses decide, each by itself; allocations and what
+// preparing costs are shown.
 
 #include <fmt/format.h>
 
@@ -137,6 +137,7 @@ class DeviceCostCheck {
       (now > before ? more : less) = true;
       changes.push_back(change_text(name, before, now));
     }
+    judge_misses(record, stored, more, less, changes);
     const auto before = count_of(stored, "allocations");
     const auto now = count_of(record.cost, "allocations");
     if (!changes.empty() && before && now && *before != *now) {
@@ -157,6 +158,15 @@ class DeviceCostCheck {
       set_number(finding, "stored_" + name, static_cast<double>(count));
     }
     return finding;
+  }
+
+  static void judge_misses(const record::Record& record, const record::Counts& stored, bool& more,
+                           bool& less, std::vector<std::string>& changes) {
+    const auto before = count_of(stored, "misses");
+    const auto now = count_of(record.cost, "misses");
+    if (!before || !now || std::abs(*now - *before) <= misses_tolerance(*before)) return;
+    (*now > *before ? more : less) = true;
+    changes.push_back(change_text("cache misses of generated code", *before, *now));
   }
 
   void note(const record::Record& record, const StoredCost& stored) {

@@ -1,7 +1,6 @@
 #include "measure/counting/emulator.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
 #include <unistd.h>
 
 #include <array>
@@ -10,7 +9,7 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "measure/environment.hpp"
+#include "measure/cpu_features.hpp"
 #include "measure/process.hpp"
 
 namespace triptych::measure {
@@ -18,25 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view qemu = "qemu-x86_64";
-
-// AVX2 and FMA, as drivers use them, and the same on every machine. What QEMU does not have of it
-// is taken out, or it would warn.
-constexpr std::string_view processor_name = "Haswell";
-constexpr std::string_view processor = "Haswell-noTSX,-pcid,-x2apic,-tsc-deadline,-invpcid";
-
-// Versions of the plugin interface that a plugin is built for; each emulator takes some of them.
-constexpr std::array<int, 3> plugin_versions{1, 2, 4};
-
 constexpr std::array<std::string_view, 5> environment{
     "LP_NUM_THREADS=0", "POCL_MAX_PTHREAD_COUNT=1", "POCL_CPU_MAX_CU_COUNT=1",
     "POCL_CACHE_DIR={cache}", "MESA_SHADER_CACHE_DIR={cache}"};
 
 // All that a short program prints; nullopt where it cannot be started, fails or takes too long.
-std::optional<std::string> output_of(const std::vector<std::string>& command) {
+std::optional<std::string> output_of(const std::vector<std::string>& command,
+                                     std::vector<std::string> variables = {}) {
   constexpr std::chrono::seconds patience{20};
   try {
-    std::vector<std::string> variables;
     for (char** entry = environ; *entry != nullptr; ++entry) variables.emplace_back(*entry);
     Process process(command, variables);
     const std::optional<Exit> exit = process.wait(patience);
@@ -50,58 +39,51 @@ std::optional<std::string> output_of(const std::vector<std::string>& command) {
   }
 }
 
-// "qemu-x86_64 version 7.2.22 (Debian …)" → "7.2".
+// "valgrind-3.19.0" → "3.19".
 std::string short_version(std::string_view text) {
-  constexpr std::string_view before = "version ";
-  const std::size_t start = text.find(before);
-  if (start == std::string_view::npos) return "of unknown version";
-  text.remove_prefix(start + before.size());
-  const std::size_t major = text.find('.');
-  const std::size_t end = text.find_first_not_of("0123456789", major + 1);
-  return std::string(text.substr(0, end));
+  text.remove_prefix(std::min(text.find_first_of("0123456789"), text.size()));
+  return std::string(text.substr(0, text.find_first_not_of("0123456789", text.find('.') + 1)));
 }
 
-// Beside the program where it was built, or where it was installed.
-std::vector<fs::path> plugin_folders() {
+// Valgrind shows an AVX2 processor where the machine has one, whatever else that can do.
+std::string_view processor_name() {
+  return cpu_features().find("avx2") != std::string::npos ? "AVX2" : "SSE";
+}
+
+// Beside the program where it was built, or where it was installed; empty where it is missing.
+std::string tool_file() {
   std::error_code error;
   const fs::path own = fs::read_symlink("/proc/self/exe", error).parent_path();
-  return {own.parent_path() / "lib" / "triptych", fs::path(TRIPTYCH_PLUGIN_FOLDER)};
-}
-
-// QEMU reads a comma as the end of a value unless it is doubled.
-std::string as_value(std::string_view text) {
-  std::string value;
-  for (const char c : text) value += c == ',' ? ",," : std::string(1, c);
-  return value;
+  for (const fs::path& folder :
+       {own.parent_path() / "lib" / "triptych", fs::path(TRIPTYCH_COUNTER_FOLDER)}) {
+    const fs::path file = folder / "triptych_counter";
+    if (fs::exists(file, error)) return file.string();
+  }
+  return {};
 }
 
 std::variant<Emulator, std::string> look() {
-  const auto version = output_of({std::string(qemu), "--version"});
-  if (!version) {
-    return fmt::format("instructions cannot be counted: {} is not to be started; install qemu-user",
-                       qemu);
+  constexpr std::string_view cannot = "instructions cannot be counted";
+  const auto version = output_of({"valgrind", "--version"});
+  if (!version) return fmt::format("{}: valgrind is not to be started; install valgrind", cannot);
+  const std::string tool = tool_file();
+  if (tool.empty()) {
+    return fmt::format("{}: Valgrind's tool triptych_counter is missing; build it", cannot);
   }
-  const std::string name = fmt::format("qemu {} {}", short_version(*version), processor_name);
-  // Debian 13 links it statically, and then QEMU has no option for plugins.
-  const auto help = output_of({std::string(qemu), "-h"});
-  if (help && help->find("-plugin") == std::string::npos) {
-    return fmt::format("instructions cannot be counted: {} has no plugins; see docs/ci.md", name);
-  }
-  bool any = false;
-  for (const fs::path& folder : plugin_folders()) {
-    for (const int api : plugin_versions) {
-      const fs::path plugin = folder / fmt::format("triptych_counter_{}.so", api);
-      if (!fs::exists(plugin)) continue;
-      any = true;
-      if (output_of({std::string(qemu), "-plugin", as_value(plugin.string()), "/bin/true"})) {
-        return Emulator{.program = std::string(qemu), .plugin = plugin.string(), .name = name};
-      }
-    }
-  }
-  return any ? fmt::format("instructions cannot be counted: {} takes none of the plugin's versions",
-                           name)
-             : std::string(
-                   "instructions cannot be counted: the plugin triptych_counter is missing");
+  Emulator found{
+      .name = fmt::format("valgrind {} {}", short_version(*version), processor_name()),
+      // By a tool's name Valgrind looks for what to preload: nothing, or malloc would be another's.
+      // Drivers write code at run time. Nothing is to be freed for a leak check at the end.
+      .command = {tool, "--tool=none", "--quiet", "--smc-check=all-non-file",
+                  "--run-libc-freeres=no", "--run-cxx-freeres=no"},
+      // A tool is a program of its own, started by a launcher that it looks up here.
+      .environment = {"VALGRIND_LAUNCHER=/usr/bin/valgrind",
+                      "VALGRIND_LIB=" TRIPTYCH_VALGRIND_FOLDER}};
+  std::vector<std::string> trial = found.command;
+  trial.emplace_back("/bin/true");
+  if (!output_of(trial, found.environment))
+    return fmt::format("{}: {} does not start", cannot, tool);
+  return found;
 }
 
 }  // namespace
@@ -113,11 +95,11 @@ const std::variant<Emulator, std::string>& find_emulator() {
 
 std::vector<std::string> emulated(const Emulator& emulator, std::vector<std::string> command,
                                   std::string_view device_files) {
-  const std::string plugin = fmt::format("{},program={},device={}", as_value(emulator.plugin),
-                                         as_value(command.front()), as_value(device_files));
-  command.insert(command.begin(),
-                 {emulator.program, "-cpu", std::string(processor), "-plugin", plugin});
-  return command;
+  std::vector<std::string> whole = emulator.command;
+  whole.push_back(fmt::format("--program={}", command.front()));
+  whole.push_back(fmt::format("--device-files={}", device_files));
+  whole.insert(whole.end(), command.begin(), command.end());
+  return whole;
 }
 
 std::span<const std::string_view> counting_environment() {

@@ -1,6 +1,6 @@
 #pragma once
-// The supervisor's side of counting: QEMU's user-mode emulator with our plugin (counting/plugin.c),
-// in which a worker is started so that its instructions are counted. x86-64 only.
+// The supervisor's side of counting: Valgrind with a tool of ours (counting/tool.c), under which a
+// worker is started so that its instructions are counted. x86-64 only.
 
 #include <span>
 #include <string>
@@ -11,11 +11,11 @@
 namespace triptych::measure {
 
 struct Emulator {
-  std::string program;  // as found in PATH
-  std::string plugin;   // file
-  // Emulator and processor shown, "qemu 7.2 Haswell": counts of one are not compared with
+  // Emulator and processor shown, "valgrind 3.19 AVX2": counts of one are not compared with
   // another's. Patch releases are left out, as they change no count.
   std::string name;
+  std::vector<std::string> command;      // goes before a worker's
+  std::vector<std::string> environment;  // "NAME=VALUE", for the command
 };
 
 // What there is, or in one line why nothing can be counted and what to install. Looked for once in

@@ -5,29 +5,25 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <utility>
 
 #include "measure/counting/protocol.h"
-#include "measure/process.hpp"
 #include "record/record.hpp"
 
 namespace triptych::measure {
 
-// Over all threads. Reading it costs the process a few hundred instructions of its own, which count
-// as its own and libc's.
+// Over all threads. Reading it costs the process a few instructions of its own.
 class InstructionCounter {
  public:
   // Since the process began, in the order of counting/protocol.h.
   using Snapshot = std::array<std::uint64_t, TRIPTYCH_COUNTS>;
 
-  // nullopt where this process runs natively, or under an emulator without our plugin. Throws
-  // IoError when no pipe can be made.
+  // nullopt where this process runs natively, or under another tool than ours.
   [[nodiscard]] static std::optional<InstructionCounter> of_this_process();
 
-  // Throws IoError when the emulator does not answer.
   [[nodiscard]] Snapshot now() const;
 
-  // As record::Record::cost names them: "device_code", "driver", "libc", "program", "allocations".
+  // As record::Record::cost names them: "device_code", "driver", "libc", "program", "allocations",
+  // "misses".
   [[nodiscard]] static record::Counts between(const Snapshot& before, const Snapshot& after);
 
   // Does `act`, keeps what it took and returns its result.
@@ -39,13 +35,12 @@ class InstructionCounter {
     return result;
   }
 
- private:
-  InstructionCounter(FileDescriptor read, FileDescriptor write)
-      : read_(std::move(read)), write_(std::move(write)) {}
-  [[nodiscard]] std::optional<Snapshot> ask() const;
+  // Returns when no other thread executes anything any more, or after two seconds: a driver's
+  // thread that still writes a cache would be counted to the frame that comes next.
+  void wait_until_quiet() const;
 
-  FileDescriptor read_;   // non-blocking
-  FileDescriptor write_;  // the emulator writes to it
+ private:
+  InstructionCounter() = default;
 };
 
 }  // namespace triptych::measure

@@ -22,8 +22,11 @@ class CostGateTest : public JudgeTest {
   // Every frame as counted by one emulator, then changed.
   static Tweak counted(const std::function<void(record::Record&)>& change = {}) {
     return [change](record::Record& record, core::Image&) {
-      record.cost = {
-          {"device_code", device_code}, {"driver", driver}, {"libc", 5000}, {"allocations", 40}};
+      record.cost = {{"device_code", device_code},
+                     {"driver", driver},
+                     {"libc", 5000},
+                     {"allocations", 40},
+                     {"misses", 20'000}};
       record.prepare_cost = {{"driver", 1'000'000}};
       record.counted_by = "an emulator 1";
       if (change) change(record);
@@ -89,6 +92,17 @@ TEST_F(CostGateTest, TheDriverMayNotDifferByMore) {
   const auto wrong = with(judge(changed("gl:llvmpipe-egl", "driver", 1001)), Verdict::regression);
   ASSERT_EQ(wrong.size(), 1U);
   EXPECT_THAT(wrong[0].message, HasSubstr("driver 1000000 → 1001001 (+0.1 %)"));
+}
+
+// 16 and a hundredth of 20,000: a buffer may begin elsewhere within a line.
+TEST_F(CostGateTest, CacheMissesMayDifferByTheirTolerance) {
+  EXPECT_EQ(judge(changed("gl:llvmpipe-egl", "misses", 216)).exit_code(), ExitCode::pass);
+}
+TEST_F(CostGateTest, MoreCacheMissesAreARegressionThoughNoInstructionIsMore) {
+  const auto wrong = with(judge(changed("gl:llvmpipe-egl", "misses", 217)), Verdict::regression);
+  ASSERT_EQ(wrong.size(), 1U);
+  EXPECT_THAT(wrong[0].message,
+              HasSubstr("cache misses of generated code 20000 → 20217 (+1.08 %)"));
 }
 
 TEST_F(CostGateTest, PoclsDriverMayDifferByMore) {

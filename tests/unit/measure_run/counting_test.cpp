@@ -1,4 +1,4 @@
-// The emulator, its plugin and the worker's side of it, together.
+// The emulator, its tool and the worker's side of it, together.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,19 +16,19 @@
 namespace triptych::measure {
 namespace {
 
-// What the helper prints and how it ends.
-std::pair<std::string, Exit> run(const std::vector<std::string>& command) {
-  Process process(command, {"PATH=/usr/bin:/bin"});
+// What the helper prints.
+std::string counted(const std::string& loops, std::string_view device_files = "/nowhere",
+                    const char* how = "count") {
+  const auto& emulator = std::get<Emulator>(find_emulator());
+  std::vector<std::string> variables = emulator.environment;
+  variables.emplace_back("PATH=/usr/bin:/bin");
+  Process process(emulated(emulator, {MEASURE_RUN_HELPER, how, loops}, device_files), variables);
   const auto exit = process.wait(std::chrono::seconds(60));
+  EXPECT_EQ(exit.value_or(Exit{.code = -1}).code, 0);
   std::string text(4096, ' ');
   const ssize_t got = ::read(process.log_fd(), text.data(), text.size());
   text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
-  return {text, exit.value_or(Exit{.code = -1})};
-}
-
-std::vector<std::string> counted(const std::string& loops, std::string_view device_files) {
-  return emulated(std::get<Emulator>(find_emulator()), {MEASURE_RUN_HELPER, "count", loops},
-                  device_files);
+  return text;
 }
 
 class Counting : public testing::Test {
@@ -39,24 +39,33 @@ class Counting : public testing::Test {
 };
 
 TEST_F(Counting, CodeInMemoryIsDeviceCodeToTheInstruction) {
-  const auto [text, exit] = run(counted("1000", "/nowhere"));
-  EXPECT_EQ(exit.code, 0);
-  EXPECT_EQ(text, "2002 0 1\n2002 0 1\n2002 0 1\n");
+  EXPECT_EQ(counted("1000"), "2002 0 1\n2002 0 1\n2002 0 1\n");
 }
 
 TEST_F(Counting, OneInstructionMoreIsSeen) {
-  EXPECT_THAT(run(counted("1001", "/nowhere")).first, testing::StartsWith("2004 0 1\n"));
+  EXPECT_THAT(counted("1001"), testing::StartsWith("2004 0 1\n"));
 }
 
 // PoCL's kernels are files: in its cache they are device code.
 TEST_F(Counting, FilesOfTheKernelCacheAreDeviceCode) {
   const std::string folder = std::string(MEASURE_RUN_HELPER).substr(0, 5);
-  EXPECT_THAT(run(counted("1000", folder)).first, testing::Not(testing::StartsWith("2002 ")));
+  EXPECT_THAT(counted("1000", folder), testing::Not(testing::StartsWith("2002 ")));
+}
+
+TEST_F(Counting, WaitsForWhatAnotherThreadStillDoes) {
+  EXPECT_EQ(counted("1000", "/nowhere", "count-busy"), "2002 0 1\n2002 0 1\n2002 0 1\n");
+}
+
+// The walk's lines and the stack's, where the return address lies: 1,000 loads touch 1,000 lines or
+// 125, more than the cache holds or a part of it.
+TEST_F(Counting, AStrideThatMissesTheCacheCostsMissesAndNoInstruction) {
+  EXPECT_EQ(counted("64", "/nowhere", "count-stride"), "4002 1001\n4002 1001\n4002 1001\n");
+  EXPECT_EQ(counted("8", "/nowhere", "count-stride"), "4002 126\n4002 0\n4002 0\n");
 }
 
 TEST_F(Counting, TheEmulatorIsNamedWithItsProcessor) {
   EXPECT_THAT(std::get<Emulator>(find_emulator()).name,
-              testing::MatchesRegex("qemu [0-9]+\\.[0-9]+ Haswell"));
+              testing::MatchesRegex("valgrind [0-9]+\\.[0-9]+ (AVX2|SSE)"));
 }
 
 TEST(InstructionCounter, IsNotThereNatively) {
@@ -64,7 +73,7 @@ TEST(InstructionCounter, IsNotThereNatively) {
 }
 
 TEST(InstructionCounter, TellsWhatWasTakenSince) {
-  const record::Counts taken = InstructionCounter::between({1, 5, 0, 0, 2}, {1, 12, 0, 0, 3});
+  const record::Counts taken = InstructionCounter::between({1, 5, 0, 0, 2, 0}, {1, 12, 0, 0, 3, 0});
   EXPECT_EQ(taken.at("driver"), 7U);
   EXPECT_EQ(taken.at("device_code"), 0U);
   EXPECT_EQ(taken.at("allocations"), 1U);

@@ -4,6 +4,10 @@
 // measure_run_helper count LOOPS         three times: what a loop in memory without a file takes
 // that
 //                                        often, and one allocation; a line of counts each
+//                                        often, and one allocation; a line of counts each
+// measure_run_helper count-stride BYTES  three times: instructions and cache misses of 1,000 loads,
+//                                        each so far behind the last
+// measure_run_helper count-busy LOOPS    the same beside a thread that has much to do first
 //
 // TRIPTYCH_TEST_STARTS names a file to which each worker appends its process id;
 // TRIPTYCH_TEST_FAILING_STARTS says how many of the first workers leave at once with code 7.
@@ -19,6 +23,7 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "backends/null/backend.hpp"
 #include "measure/counting/instruction_counter.hpp"
@@ -72,27 +77,56 @@ int supervise(const std::string& program, const std::string& file) {
   return 0;
 }
 
-// mov eax, LOOPS; again: sub eax, 1; jnz again; ret — 2·LOOPS + 2 instructions, as a driver's
-// compiler would leave them in memory.
-void (*loop_in_memory(std::uint32_t loops))() {
-  std::array<unsigned char, 11> code{0xb8, 0, 0, 0, 0, 0x83, 0xe8, 0x01, 0x75, 0xfb, 0xc3};
-  std::memcpy(&code[1], &loops, sizeof loops);
+// Code as a driver's compiler would leave it in memory.
+template <typename Function>
+Function* in_memory(std::span<const unsigned char> code) {
   void* memory = ::mmap(nullptr, code.size(), PROT_READ | PROT_WRITE | PROT_EXEC,
                         MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   std::memcpy(memory, code.data(), code.size());
-  return reinterpret_cast<void (*)()>(memory);
+  return reinterpret_cast<Function*>(memory);
 }
 
-int count_loop(std::uint32_t loops) {
+// mov eax, LOOPS; again: sub eax, 1; jnz again; ret — 2·LOOPS + 2 instructions.
+void (*loop_in_memory(std::uint32_t loops))() {
+  std::array<unsigned char, 11> code{0xb8, 0, 0, 0, 0, 0x83, 0xe8, 0x01, 0x75, 0xfb, 0xc3};
+  std::memcpy(&code[1], &loops, sizeof loops);
+  return in_memory<void()>(code);
+}
+
+// mov ecx, 1000; again: mov rax, [rdi]; add rdi, STRIDE; sub ecx, 1; jnz again; ret
+int count_stride(unsigned char stride) {
+  const auto counter = measure::InstructionCounter::of_this_process();
+  if (!counter) return 2;
+  const std::array<unsigned char, 18> code{0xb9, 0xe8, 0x03,   0,    0,    0x48, 0x8b, 0x07, 0x48,
+                                           0x83, 0xc7, stride, 0x83, 0xe9, 0x01, 0x75, 0xf4, 0xc3};
+  const auto walk = in_memory<void(const void*)>(code);
+  void* const data = ::mmap(nullptr, 1 << 17, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  for (int i = 0; i < 3; ++i) {
+    record::Counts counts;
+    static_cast<void>(counter->counting(counts, [&] {
+      walk(data);
+      return 0;
+    }));
+    fmt::print("{} {}\n", counts.at("device_code"), counts.at("misses"));
+  }
+  return 0;
+}
+
+// `busy`: beside a thread that has much to do first, as a driver's that writes a cache.
+int count_loop(std::uint32_t loops, bool busy) {
   const auto counter = measure::InstructionCounter::of_this_process();
   if (!counter) return 2;
   const auto loop = loop_in_memory(loops);
+  std::jthread other;
+  if (busy) other = std::jthread(loop_in_memory(30'000'000));
+  counter->wait_until_quiet();
   for (int i = 0; i < 3; ++i) {
     record::Counts counts;
     static_cast<void>(counter->counting(counts, [&] {
       loop();
       void* volatile memory = std::malloc(100);
       std::free(memory);
+      if (busy) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // lets others run
       return 0;
     }));
     fmt::print("{} {} {}\n", counts.at("device_code"), counts.at("driver"),
@@ -106,6 +140,11 @@ int count_loop(std::uint32_t loops) {
 int main(int count, char** arguments) {
   if (count != 3) return 64;
   const std::string_view part = arguments[1];
-  if (part == "count") return count_loop(static_cast<std::uint32_t>(std::stoul(arguments[2])));
+  if (part == "count" || part == "count-busy") {
+    return count_loop(static_cast<std::uint32_t>(std::stoul(arguments[2])), part == "count-busy");
+  }
+  if (part == "count-stride") {
+    return count_stride(static_cast<unsigned char>(std::stoul(arguments[2])));
+  }
   return part == "worker" ? work(arguments[2]) : supervise(arguments[0], arguments[2]);
 }
