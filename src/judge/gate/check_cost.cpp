@@ -164,7 +164,9 @@ class DeviceCostCheck {
                            bool& less, std::vector<std::string>& changes) {
     const auto before = count_of(stored, "misses");
     const auto now = count_of(record.cost, "misses");
-    if (!before || !now || std::abs(*now - *before) <= misses_tolerance(*before)) return;
+    if (!before || !now) return;
+    const auto tolerated = misses_tolerance(record.technique, *before);
+    if (!tolerated || std::abs(*now - *before) <= *tolerated) return;
     (*now > *before ? more : less) = true;
     changes.push_back(change_text("cache misses of generated code", *before, *now));
   }

@@ -104,6 +104,17 @@ TEST_F(CostGateTest, MoreCacheMissesAreARegressionThoughNoInstructionIsMore) {
   EXPECT_THAT(wrong[0].message,
               HasSubstr("cache misses of generated code 20000 → 20217 (+1.08 %)"));
 }
+// Those of sprites do not repeat.
+TEST_F(CostGateTest, CacheMissesOfAnythingButRaycastingAreShown) {
+  accept_first(counted());
+  add_run("b", counted([](record::Record& record) {
+            record.technique = "quad_ray";
+            record.cost["misses"] *= 2;
+          }));
+  const GateResult result = gate("b");
+  EXPECT_TRUE(with(result, Verdict::regression).empty()) << text(result);
+  EXPECT_EQ(with(result, Verdict::pass, Check::cost).size(), 12U);
+}
 
 TEST_F(CostGateTest, PoclsDriverMayDifferByMore) {
   EXPECT_EQ(judge(changed("opencl:pocl", "driver", 7000)).exit_code(), ExitCode::pass);
