@@ -38,6 +38,19 @@ std::string change_text(std::string_view name, double before, double now) {
   return fmt::format("{} {:.0f} → {:.0f} ({})", name, before, now, share);
 }
 
+// What differs by more than it may, in words, and which way.
+struct Changes {
+  bool more = false;
+  bool less = false;
+  std::vector<std::string> texts;
+
+  void compare(std::string_view name, double before, double now, double tolerated) {
+    if (std::abs(now - before) <= tolerated) return;
+    (now > before ? more : less) = true;
+    texts.push_back(change_text(name, before, now));
+  }
+};
+
 // What is worth a line, yet decides nothing: the configuration that it changed most in.
 struct Note {
   std::size_t changed = 0;
@@ -125,31 +138,29 @@ class DeviceCostCheck {
 
   static Finding judge(const record::Record& record, const record::Counts& stored) {
     const double frame = frame_of(stored);
-    bool more = false;
-    bool less = false;
-    std::vector<std::string> changes;
+    Changes changes;
     for (const auto& [part, name] : parts) {
       const double before = count_of(stored, part).value_or(0);
-      const double now = count_of(record.cost, part).value_or(0);
-      const double tolerated = frame * cost_tolerance(part, record.device, record.technique,
-                                                      frame > 0 ? before / frame : 0);
-      if (std::abs(now - before) <= tolerated) continue;
-      (now > before ? more : less) = true;
-      changes.push_back(change_text(name, before, now));
+      changes.compare(name, before, count_of(record.cost, part).value_or(0),
+                      frame * cost_tolerance(part, record.device, record.technique,
+                                             frame > 0 ? before / frame : 0));
     }
-    judge_misses(record, stored, more, less, changes);
+    compare_misses(record, stored, changes);
     const auto before = count_of(stored, "allocations");
     const auto now = count_of(record.cost, "allocations");
-    if (!changes.empty() && before && now && *before != *now) {
-      changes.push_back(change_text("allocations", *before, *now));
+    if (!changes.texts.empty() && before && now && *before != *now) {
+      changes.texts.push_back(change_text("allocations", *before, *now));
     }
-    const Verdict verdict = more ? Verdict::regression : less ? Verdict::improved : Verdict::pass;
+    const Verdict verdict = changes.more   ? Verdict::regression
+                            : changes.less ? Verdict::improved
+                                           : Verdict::pass;
     const double all = frame_of(record.cost);
-    Finding finding = finding_about(
-        record, Check::cost, verdict,
-        changes.empty() ? fmt::format("{:.0f} instructions, as stored", all)
-                        : fmt::format("{} in all; {}", change_text("instructions", frame, all),
-                                      fmt::join(changes, "; ")));
+    Finding finding =
+        finding_about(record, Check::cost, verdict,
+                      changes.texts.empty()
+                          ? fmt::format("{:.0f} instructions, as stored", all)
+                          : fmt::format("{} in all; {}", change_text("instructions", frame, all),
+                                        fmt::join(changes.texts, "; ")));
     if (frame > 0) set_number(finding, "ratio", all / frame);
     for (const auto& [name, count] : record.cost) {
       set_number(finding, name, static_cast<double>(count));
@@ -160,15 +171,13 @@ class DeviceCostCheck {
     return finding;
   }
 
-  static void judge_misses(const record::Record& record, const record::Counts& stored, bool& more,
-                           bool& less, std::vector<std::string>& changes) {
+  static void compare_misses(const record::Record& record, const record::Counts& stored,
+                             Changes& changes) {
     const auto before = count_of(stored, "misses");
     const auto now = count_of(record.cost, "misses");
     if (!before || !now) return;
     const auto tolerated = misses_tolerance(record.technique, *before);
-    if (!tolerated || std::abs(*now - *before) <= *tolerated) return;
-    (*now > *before ? more : less) = true;
-    changes.push_back(change_text("cache misses of generated code", *before, *now));
+    if (tolerated) changes.compare("cache misses of generated code", *before, *now, *tolerated);
   }
 
   void note(const record::Record& record, const StoredCost& stored) {

@@ -1,13 +1,13 @@
 // measure_run_helper worker DEVICE       serves the null backend's device with the fake suite
 // measure_run_helper supervise STORE     runs the fake suite's quick plan on null:scripted, or goes
 //                                        on with its latest run there
-// measure_run_helper count LOOPS         three times: what a loop in memory without a file takes
-// that
-//                                        often, and one allocation; a line of counts each
-//                                        often, and one allocation; a line of counts each
-// measure_run_helper count-stride BYTES  three times: instructions and cache misses of 1,000 loads,
-//                                        each so far behind the last
+// measure_run_helper count LOOPS         what a loop in memory without a file takes that often, and
+//                                        one allocation
 // measure_run_helper count-busy LOOPS    the same beside a thread that has much to do first
+// measure_run_helper count-stride BYTES  instructions and cache misses of 1,000 loads, each so far
+//                                        behind the last
+//
+// What counts does so three times, a line each.
 //
 // TRIPTYCH_TEST_STARTS names a file to which each worker appends its process id;
 // TRIPTYCH_TEST_FAILING_STARTS says how many of the first workers leave at once with code 7.
@@ -17,13 +17,16 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "backends/null/backend.hpp"
 #include "measure/counting/instruction_counter.hpp"
@@ -93,6 +96,22 @@ void (*loop_in_memory(std::uint32_t loops))() {
   return in_memory<void()>(code);
 }
 
+// Three times what `act` takes of these, a line each.
+template <typename Act>
+void print_counts(const measure::InstructionCounter& counter, const std::vector<std::string>& names,
+                  Act act) {
+  for (int i = 0; i < 3; ++i) {
+    record::Counts counts;
+    static_cast<void>(counter.counting(counts, [&] {
+      act();
+      return 0;
+    }));
+    std::vector<std::uint64_t> line;
+    for (const std::string& name : names) line.push_back(counts.at(name));
+    fmt::print("{}\n", fmt::join(line, " "));
+  }
+}
+
 // mov ecx, 1000; again: mov rax, [rdi]; add rdi, STRIDE; sub ecx, 1; jnz again; ret
 int count_stride(unsigned char stride) {
   const auto counter = measure::InstructionCounter::of_this_process();
@@ -101,14 +120,7 @@ int count_stride(unsigned char stride) {
                                            0x83, 0xc7, stride, 0x83, 0xe9, 0x01, 0x75, 0xf4, 0xc3};
   const auto walk = in_memory<void(const void*)>(code);
   void* const data = ::mmap(nullptr, 1 << 17, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  for (int i = 0; i < 3; ++i) {
-    record::Counts counts;
-    static_cast<void>(counter->counting(counts, [&] {
-      walk(data);
-      return 0;
-    }));
-    fmt::print("{} {}\n", counts.at("device_code"), counts.at("misses"));
-  }
+  print_counts(*counter, {"device_code", "misses"}, [&] { walk(data); });
   return 0;
 }
 
@@ -120,18 +132,12 @@ int count_loop(std::uint32_t loops, bool busy) {
   std::jthread other;
   if (busy) other = std::jthread(loop_in_memory(30'000'000));
   counter->wait_until_quiet();
-  for (int i = 0; i < 3; ++i) {
-    record::Counts counts;
-    static_cast<void>(counter->counting(counts, [&] {
-      loop();
-      void* volatile memory = std::malloc(100);
-      std::free(memory);
-      if (busy) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // lets others run
-      return 0;
-    }));
-    fmt::print("{} {} {}\n", counts.at("device_code"), counts.at("driver"),
-               counts.at("allocations"));
-  }
+  print_counts(*counter, {"device_code", "driver", "allocations"}, [&] {
+    loop();
+    void* volatile memory = std::malloc(100);
+    std::free(memory);
+    if (busy) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // lets others run
+  });
   return 0;
 }
 
