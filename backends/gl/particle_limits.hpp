@@ -13,4 +13,9 @@ namespace triptych::gl_backend {
                                                                const measure::ParticleWork& work,
                                                                bool storage);
 
+// Whether there are tessellation shaders.
+[[nodiscard]] inline bool has_tessellation(const Api& gl) {
+  return gl.VERSION_4_0 != 0 || gl.ARB_tessellation_shader != 0;
+}
+
 }  // namespace triptych::gl_backend

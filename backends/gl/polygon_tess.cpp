@@ -1,6 +1,7 @@
 // Polygons with a given number of corners, made by a tessellation shader.
 #include <fmt/format.h>
 
+#include "backends/gl/particle_limits.hpp"
 #include "backends/gl/sprites.hpp"
 #include "backends/gl/techniques.hpp"
 
@@ -15,7 +16,7 @@ std::optional<std::string> unsupported(const Api& gl, const measure::ParticleWor
   const int corners = work.options.corners;
   // Of the outline's four edges the longest has a quarter of the corners, rounded up.
   const std::int64_t most =
-      gl.VERSION_4_0 != 0 ? 4 * gl.limit(GL_MAX_TESS_GEN_LEVEL) : std::int64_t{corners};
+      has_tessellation(gl) ? 4 * gl.limit(GL_MAX_TESS_GEN_LEVEL) : std::int64_t{corners};
   if (corners > most) {
     return fmt::format("polygons of {} corners, GL_MAX_TESS_GEN_LEVEL allows {}", corners, most);
   }

@@ -19,7 +19,7 @@ std::string version_lines(const Api& gl) {
   std::string lines = "#version 330 core\n";
   for (const char* extension :
        {"GL_ARB_shading_language_420pack", "GL_ARB_shader_storage_buffer_object",
-        "GL_ARB_compute_shader", "GL_ARB_gpu_shader5"}) {
+        "GL_ARB_compute_shader", "GL_ARB_gpu_shader5", "GL_ARB_tessellation_shader"}) {
     lines += fmt::format("#extension {} : enable\n", extension);
   }
   // Without GLSL 4.00 or the extension there is no such qualifier.

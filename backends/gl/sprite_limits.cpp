@@ -38,8 +38,8 @@ std::optional<std::string> too_few_blocks(const Api& gl, GLenum type, std::int64
 }
 
 std::optional<std::string> stage_unsupported(const Api& gl, const ParticleStage& stage) {
-  if (stage.type == GL_TESS_CONTROL_SHADER && gl.VERSION_4_0 == 0) {
-    return "tessellation shaders need OpenGL 4.0";
+  if (stage.type == GL_TESS_CONTROL_SHADER && !has_tessellation(gl)) {
+    return "tessellation shaders need OpenGL 4.0 or GL_ARB_tessellation_shader";
   }
   const bool storage = std::ranges::find(stage.files, "storage.glsl") != stage.files.end();
   return too_few_blocks(gl, stage.type, storage ? 4 : 1);

@@ -108,7 +108,10 @@ Leap leap(Leaps leaps, Ray ray, int i, int end) {
   ivec3 brick = clamp(ivec3(p * leaps.inverse_edge), ivec3(0), leaps.size - 1);
   int signed_reach = brick_visible[brick.x + leaps.size.x * (brick.y + leaps.size.y * brick.z)];
   int reach = abs(signed_reach);
-  ivec3 face = brick + mix(ivec3(reach), ivec3(1 - reach), lessThan(leaps.inverse_g, real3(0.0)));
+  // Axis by axis: integer mix() came with GLSL 4.50.
+  int back = 1 - reach;
+  ivec3 face = brick + ivec3(leaps.inverse_g.x < 0.0 ? back : reach, leaps.inverse_g.y < 0.0 ? back : reach,
+                             leaps.inverse_g.z < 0.0 ? back : reach);
   real3 at = (real3(face) * leaps.edge - leaps.p0) * leaps.inverse_g;
   real leave = min(at.x, min(at.y, at.z));
   // No brick has reach 0: it is what a fragment that is drawn for its neighbours' sake reads on llvmpipe
