@@ -5,11 +5,13 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "core/image_io.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "record/store_file.hpp"
 #include "record/store_records.hpp"
+#include "record/store_seal.hpp"
 #include "record/store_values.hpp"
 
 namespace triptych::record {
@@ -31,17 +33,20 @@ Run read_run(SQLite::Statement& row) {
   Run run;
   std::string system;
   std::string checks;
+  std::string seal;
   Reader(row) >> run.id >> run.plan >> run.started_at >> system >> checks >> run.plan_hash >>
-      run.configurations;
+      run.configurations >> seal;
   run.system = map_of(system);
   run.checks = checks_of(checks);
+  require_seal(seal, seal_of(run), fmt::format("run '{}'", run.id));
   return run;
 }
 
 // Runs in the order of read_run.
 std::string select_runs(std::string_view rest) {
   return fmt::format(
-      "SELECT id, plan, started_at, system, checks, plan_hash, configurations FROM run {}", rest);
+      "SELECT id, plan, started_at, system, checks, plan_hash, configurations, seal FROM run {}",
+      rest);
 }
 
 std::vector<ClockTrust> read_clocks(const SQLite::Database& database, std::uint64_t device) {
@@ -137,14 +142,14 @@ void Store::add_run(const Run& run) {
   const std::string system = text_of(run.system, "system", run);
   state_->write([&] {
     execute(state_->database,
-            "INSERT INTO run (id, plan, started_at, system, checks, plan_hash, configurations) "
-            "VALUES (?, ?, ?, ?, ?, ?, ?) "
+            "INSERT INTO run (id, plan, started_at, system, checks, plan_hash, configurations, "
+            "seal) VALUES (?, ?, ?, ?, ?, ?, ?, ?) "
             "ON CONFLICT (id) DO UPDATE SET plan = excluded.plan, "
             "started_at = excluded.started_at, system = excluded.system, "
             "checks = excluded.checks, plan_hash = excluded.plan_hash, "
-            "configurations = excluded.configurations",
+            "configurations = excluded.configurations, seal = excluded.seal",
             run.id, run.plan, run.started_at, system, text_of(run.checks), run.plan_hash,
-            run.configurations);
+            run.configurations, seal_of(run));
   });
 }
 
@@ -157,11 +162,11 @@ void Store::add_device(const std::string& run, const Device& d,
     execute(database, "DELETE FROM device WHERE run = ? AND id = ?", run, d.id);
     execute(database,
             "INSERT INTO device (run, id, api, name, vendor, driver, driver_version, api_version, "
-            "cpu_features, key, key_hash, environment, limits) "
-            "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            "cpu_features, key, key_hash, environment, limits, seal) "
+            "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
             run, d.id, d.api, d.name, d.vendor, d.driver, d.driver_version, d.api_version,
             d.cpu_features, d.key(), d.key_hash(), text_of(d.environment, "environment", json),
-            text_of(d.limits, "limits", json));
+            text_of(d.limits, "limits", json), seal_of(d, clocks));
     const std::int64_t device = database.getLastInsertRowid();
     for (const ClockTrust& c : clocks) {
       execute(database,
@@ -175,8 +180,8 @@ void Store::add_device(const std::string& run, const Device& d,
 
 void Store::add_image(std::string_view hash, std::span<const std::byte> exr) {
   state_->write([&] {
-    execute(state_->database, "INSERT INTO image VALUES (?, ?) ON CONFLICT (hash) DO NOTHING", hash,
-            exr);
+    execute(state_->database, "INSERT INTO image VALUES (?, ?, ?) ON CONFLICT (hash) DO NOTHING",
+            hash, exr, core::content_hash(exr));
   });
 }
 
@@ -222,8 +227,8 @@ void Store::unbegin_record(const std::string& run, const std::string& configurat
 
 void Store::set_truth(const TruthImage& truth) {
   state_->write([&] {
-    execute(state_->database, "INSERT OR REPLACE INTO truth VALUES (?, ?, ?, ?)", truth.scene,
-            truth.version, truth.image, truth.bound);
+    execute(state_->database, "INSERT OR REPLACE INTO truth VALUES (?, ?, ?, ?, ?)", truth.scene,
+            truth.version, truth.image, truth.bound, seal_of(truth));
   });
 }
 
@@ -251,19 +256,22 @@ std::vector<Store::DeviceEntry> Store::devices(std::string_view run) const {
     SQLite::Statement rows =
         prepared(state_->database,
                  "SELECT seq, id, api, name, vendor, driver, driver_version, api_version, "
-                 "cpu_features, environment, limits FROM device WHERE run = ? ORDER BY seq",
+                 "cpu_features, environment, limits, seal FROM device WHERE run = ? ORDER BY seq",
                  run);
     while (rows.executeStep()) {
       std::uint64_t seq = 0;
       std::string environment;
       std::string limits;
+      std::string seal;
       Device d;
       Reader(rows) >> seq >> d.id >> d.api >> d.name >> d.vendor >> d.driver >> d.driver_version >>
-          d.api_version >> d.cpu_features >> environment >> limits;
+          d.api_version >> d.cpu_features >> environment >> limits >> seal;
       d.environment = map_of(environment);
       d.limits = map_of(limits);
       d.statistics_dialect = read_dialect(state_->database, seq);
-      entries.push_back({std::move(d), read_clocks(state_->database, seq)});
+      std::vector<ClockTrust> clocks = read_clocks(state_->database, seq);
+      require_seal(seal, seal_of(d, clocks), fmt::format("device '{}'", d.id));
+      entries.push_back({std::move(d), std::move(clocks)});
     }
     return entries;
   });
@@ -290,13 +298,15 @@ bool Store::has_record(std::string_view run, std::string_view configuration,
 std::vector<std::byte> Store::image(std::string_view hash) const {
   return on_store(state_->file, [&] {
     SQLite::Statement row =
-        prepared(state_->database, "SELECT exr FROM image WHERE hash = ?", hash);
+        prepared(state_->database, "SELECT exr, seal FROM image WHERE hash = ?", hash);
     if (!row.executeStep()) {
       throw core::InputError({.file = state_->file.string()},
                              fmt::format("there is no image '{}' in the store", hash));
     }
     std::vector<std::byte> exr;
-    Reader(row) >> exr;
+    std::string seal;
+    Reader(row) >> exr >> seal;
+    require_seal(seal, core::content_hash(exr), fmt::format("image '{}'", hash));
     return exr;
   });
 }
@@ -307,13 +317,15 @@ core::Image Store::picture(std::string_view hash) const {
 
 std::optional<TruthImage> Store::truth(std::string_view scene, std::string_view version) const {
   return on_store(state_->file, [&]() -> std::optional<TruthImage> {
-    SQLite::Statement row =
-        prepared(state_->database,
-                 "SELECT scene, version, image, bound FROM truth WHERE scene = ? AND version = ?",
-                 scene, version);
+    SQLite::Statement row = prepared(
+        state_->database,
+        "SELECT scene, version, image, bound, seal FROM truth WHERE scene = ? AND version = ?",
+        scene, version);
     if (!row.executeStep()) return std::nullopt;
     TruthImage truth;
-    Reader(row) >> truth.scene >> truth.version >> truth.image >> truth.bound;
+    std::string seal;
+    Reader(row) >> truth.scene >> truth.version >> truth.image >> truth.bound >> seal;
+    require_seal(seal, seal_of(truth), fmt::format("the truth of {}", scene));
     return truth;
   });
 }

@@ -25,7 +25,8 @@ CREATE TABLE run (
   system TEXT NOT NULL,
   checks TEXT NOT NULL,
   plan_hash TEXT NOT NULL,
-  configurations INTEGER NOT NULL
+  configurations INTEGER NOT NULL,
+  seal TEXT NOT NULL
 ) STRICT;
 CREATE INDEX run_of_plan ON run (plan, seq);
 
@@ -44,6 +45,7 @@ CREATE TABLE device (
   key_hash TEXT NOT NULL,
   environment TEXT NOT NULL,
   limits TEXT NOT NULL,
+  seal TEXT NOT NULL,
   UNIQUE (run, id)
 ) STRICT;
 
@@ -90,6 +92,7 @@ CREATE TABLE record (
   kernel_hash TEXT NOT NULL,
   counted_by TEXT NOT NULL,
   benchmark_json TEXT NOT NULL,
+  seal TEXT NOT NULL,
   UNIQUE (run, configuration, device)
 ) STRICT;
 
@@ -145,13 +148,15 @@ CREATE TABLE precision (
 
 CREATE TABLE image (
   hash TEXT PRIMARY KEY,
-  exr BLOB NOT NULL
+  exr BLOB NOT NULL,
+  seal TEXT NOT NULL
 ) STRICT;
 CREATE TABLE truth (
   scene TEXT NOT NULL,
   version TEXT NOT NULL,
   image BLOB NOT NULL,
   bound BLOB NOT NULL,
+  seal TEXT NOT NULL,
   PRIMARY KEY (scene, version)
 ) STRICT;
 
@@ -319,7 +324,8 @@ void require_file(const std::filesystem::path& file, const SQLite::Database& dat
 void throw_damaged(const std::filesystem::path& file, std::string_view what) {
   throw core::InputError(
       {.file = file.string()},
-      fmt::format("is damaged ({}); 'sqlite3 FILE .recover' may save what is left", what));
+      fmt::format("is damaged ({}): measure again; 'sqlite3 FILE .recover' may save what is left",
+                  what));
 }
 
 void throw_store_error(const std::filesystem::path& file, const SQLite::Exception& error) {

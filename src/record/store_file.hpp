@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/error.hpp"
 #include "core/json.hpp"
 #include "record/store.hpp"
 
@@ -38,6 +39,9 @@ decltype(auto) on_store(const std::filesystem::path& file, Action&& action) {
   } catch (const core::Json::exception& error) {
     throw_damaged(file, error.what());
   } catch (const std::out_of_range& error) {  // rows of a record that an index does not lead to
+    throw_damaged(file, error.what());
+  } catch (const core::InputError& error) {  // what a row says, which knows no file
+    if (!error.place().file.empty()) throw;
     throw_damaged(file, error.what());
   }
 }

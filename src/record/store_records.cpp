@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "core/error.hpp"
+#include "record/store_seal.hpp"
 #include "record/store_values.hpp"
 
 namespace triptych::record {
@@ -21,7 +22,7 @@ constexpr std::string_view record_columns =
     "run, suite, plan, configuration, scene, technique, device, outcome, reason, planted, "
     "device_clock_trusted, warm_up_frames, frames_per_100ms, loop_wall_ns, loop_frames, "
     "prepare_ns, overhead_ns, peak_memory_bytes, image, data_hash, kernel_hash, counted_by, "
-    "benchmark_json";
+    "benchmark_json, seal";
 constexpr std::string_view derived_columns =
     "clock, frames, median_ns, median_wall_ns, median_device_ns";
 
@@ -36,20 +37,25 @@ std::int64_t insert_row(const SQLite::Database& database, const Record& r) {
   const auto derived = std::ranges::count(derived_columns, ',') + 1;
   std::string places = "?";
   for (auto i = columns + derived; i > 1; --i) places += ", ?";
-  execute(database,
-          fmt::format("INSERT INTO record ({}, {}) VALUES ({})", record_columns, derived_columns,
-                      places),
-          r.run, r.suite, r.plan, r.configuration, r.scene, r.technique, r.device,
-          name_of(r.outcome), r.reason, r.planted, r.device_clock_trusted, r.warm_up_frames,
-          r.frames_per_100ms, r.loop_wall_ns, r.loop_frames, r.prepare_ns, r.overhead_ns,
-          r.peak_memory_bytes, r.image, r.data_hash, r.kernel_hash, r.counted_by,
-          r.benchmark_json,  //
-          r.clock(), r.time_ns().size(), median(r.time_ns()), median(r.wall_ns),
-          median(r.device_ns));
+  execute(
+      database,
+      fmt::format("INSERT INTO record ({}, {}) VALUES ({})", record_columns, derived_columns,
+                  places),
+      r.run, r.suite, r.plan, r.configuration, r.scene, r.technique, r.device, name_of(r.outcome),
+      r.reason, r.planted, r.device_clock_trusted, r.warm_up_frames, r.frames_per_100ms,
+      r.loop_wall_ns, r.loop_frames, r.prepare_ns, r.overhead_ns, r.peak_memory_bytes, r.image,
+      r.data_hash, r.kernel_hash, r.counted_by, r.benchmark_json, seal_of(r),  //
+      r.clock(), r.time_ns().size(), median(r.time_ns()), median(r.wall_ns), median(r.device_ns));
   return database.getLastInsertRowid();
 }
 
-void read_row(SQLite::Statement& row, std::int64_t& seq, Record& r) {
+// A record as its row has it, which is not yet all.
+struct Row {
+  std::int64_t seq = 0;
+  std::string seal;
+};
+
+void read_row(SQLite::Statement& row, Row& of, Record& r) {
   std::uint64_t number = 0;
   std::string outcome_name;
   Reader reader(row);
@@ -57,8 +63,8 @@ void read_row(SQLite::Statement& row, std::int64_t& seq, Record& r) {
       r.device >> outcome_name >> r.reason >> r.planted >> r.device_clock_trusted >>
       r.warm_up_frames >> r.frames_per_100ms >> r.loop_wall_ns >> r.loop_frames >> r.prepare_ns >>
       r.overhead_ns >> r.peak_memory_bytes >> r.image >> r.data_hash >> r.kernel_hash >>
-      r.counted_by >> r.benchmark_json;
-  seq = static_cast<std::int64_t>(number);
+      r.counted_by >> r.benchmark_json >> of.seal;
+  of.seq = static_cast<std::int64_t>(number);
   r.outcome = outcome(outcome_name);
 }
 
@@ -134,14 +140,14 @@ void insert_record(const SQLite::Database& database, const Record& r) {
 
 std::vector<Record> read_records(const SQLite::Database& database, std::string_view run) {
   std::vector<Record> records;
-  std::vector<std::int64_t> seqs;
+  std::vector<Row> of;
   SQLite::Statement rows = prepared(
       database,
       fmt::format("SELECT seq, {} FROM record WHERE run = ? ORDER BY device, seq", record_columns),
       run);
-  while (rows.executeStep()) read_row(rows, seqs.emplace_back(), records.emplace_back());
+  while (rows.executeStep()) read_row(rows, of.emplace_back(), records.emplace_back());
   RecordsBySeq by_seq;
-  for (std::size_t i = 0; i < records.size(); ++i) by_seq[seqs[i]] = &records[i];
+  for (std::size_t i = 0; i < records.size(); ++i) by_seq[of[i].seq] = &records[i];
   read_times(database, run, by_seq);
   read_map(database, "factor", run, by_seq, &Record::factors);
   read_map(database, "counter", run, by_seq, &Record::counters);
@@ -152,6 +158,11 @@ std::vector<Record> read_records(const SQLite::Database& database, std::string_v
   read_map(database, "precision", run, by_seq, &Record::precision);
   read_rows(database, "same_as", "t.configuration", "t.record", run, by_seq,
             [](Record& record, Reader& row) { row >> record.same_as; });
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    require_seal(
+        of[i].seal, seal_of(records[i]),
+        fmt::format("the record of {} on {}", records[i].configuration, records[i].device));
+  }
   return records;
 }
 

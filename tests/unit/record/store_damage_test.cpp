@@ -1,0 +1,89 @@
+// Pages that SQLite finds whole, with another value in them: nothing is judged by it.
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <span>
+
+#include "core/error.hpp"
+#include "record/store.hpp"
+#include "samples.hpp"
+#include "store_fixture.hpp"
+
+namespace triptych::record {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using ::testing::ThrowsMessage;
+using Mode = Store::Mode;
+
+constexpr std::string_view picture = "an image";
+
+class StoreDamage : public StoreTest {
+ protected:
+  StoreDamage() {
+    const auto bytes = std::as_bytes(std::span(picture));
+    Store store(file_, Mode::append);
+    store.add_run(sample_run());
+    store.add_device("run-1", sample_device(), {sample_clock()});
+    store.add_record(sample_record());
+    store.add_image("0123", bytes);
+    store.set_truth({"scene", "1", {bytes.begin(), bytes.end()}, {bytes.begin(), bytes.end()}});
+  }
+
+  void change(const std::string& sql) const {
+    SQLite::Database database(file_.string(), SQLite::OPEN_READWRITE);
+    ASSERT_GT(database.exec(sql), 0) << sql << " changes nothing";
+  }
+
+  // What gate, accept and report read of it.
+  void read_all() const {
+    const Store store(file_, Mode::read);
+    store.require_whole();
+    static_cast<void>(store.latest_run("fake/quick"));
+    static_cast<void>(store.devices("run-1"));
+    static_cast<void>(store.records("run-1"));
+    static_cast<void>(store.image("0123"));
+    static_cast<void>(store.truth("scene", "1"));
+  }
+};
+
+TEST_F(StoreDamage, NoneIsNone) {
+  EXPECT_NO_THROW(read_all());
+}
+
+TEST_F(StoreDamage, AChangedValueIsFoundWhereverItIs) {
+  for (const char* sql :
+       {"UPDATE run SET plan_hash = 'x'", "UPDATE run SET configurations = 2",
+        "UPDATE device SET driver_version = 'x'", "UPDATE device SET limits = '{}'",
+        "UPDATE clock SET trusted = 0", "UPDATE dialect SET verdict = 'x'",
+        "UPDATE record SET outcome = 'skipped'", "UPDATE record SET planted = ''",
+        "UPDATE sample SET ns = -ns", "DELETE FROM sample WHERE frame = 3", "DELETE FROM factor",
+        "UPDATE counter SET value = 1 WHERE name = 'rays_hit'", "DELETE FROM statistic",
+        "UPDATE cost SET value = value + 1", "UPDATE memory SET name = 'x'",
+        "UPDATE precision SET value = NULL", "UPDATE same_as SET configuration = 'x'",
+        "UPDATE image SET exr = x'00'", "UPDATE truth SET bound = x'00'"}) {
+    std::filesystem::copy_file(file_, folder_ / "kept",
+                               std::filesystem::copy_options::overwrite_existing);
+    change(sql);
+    EXPECT_THAT([&] { read_all(); },
+                ThrowsMessage<core::InputError>(
+                    AllOf(StartsWith(file_.string()), HasSubstr("not as it was written"))))
+        << sql;
+    std::filesystem::copy_file(folder_ / "kept", file_,
+                               std::filesystem::copy_options::overwrite_existing);
+  }
+}
+
+TEST_F(StoreDamage, AWordThatIsNoneNamesTheFile) {
+  change("UPDATE record SET outcome = 'passed'");
+  EXPECT_THAT([&] { read_all(); },
+              ThrowsMessage<core::InputError>(
+                  AllOf(StartsWith(file_.string()), HasSubstr("unknown outcome 'passed'"))));
+}
+
+}  // namespace
+}  // namespace triptych::record
