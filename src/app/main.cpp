@@ -11,6 +11,7 @@
 
 #include "app/arguments.hpp"
 #include "app/saying.hpp"
+#include "app/version.hpp"
 #include "core/foreign_error.hpp"
 #include "measure/plan_values.hpp"
 
@@ -49,7 +50,7 @@ ExitCode run(int argc, char** argv) {
       "Cross-API portability tests: the same scenes through OpenCL, Vulkan and OpenGL, "
       "judged against the truth and against stored baselines",
       "triptych"};
-  program.set_version_flag("--version", TRIPTYCH_VERSION);
+  program.set_version_flag("--version", "triptych " + triptych::app::version());
   program.require_subcommand(1);
   program.footer(footer);
   triptych::app::Commands commands{.program = program, .chosen = {}};
@@ -63,6 +64,7 @@ ExitCode run(int argc, char** argv) {
   triptych::app::add_validate_command(commands);
   triptych::app::add_analyze_command(commands);
   triptych::app::add_test_commands(commands);
+  triptych::app::add_document_commands(commands);
   give_options_one_value(program);
   if (argc > 1) refuse_unknown_command(program, argv[1]);
   try {

@@ -27,6 +27,8 @@ std::vector<fs::path> data_folders() {
 fs::path default_baselines() {
   std::error_code ignored;  // a folder that may not be searched has none
   if (fs::is_directory("baselines", ignored)) return "baselines";
+  const fs::path installed = fs::path(own_program()).parent_path() / TRIPTYCH_TO_DATA / "baselines";
+  if (fs::is_directory(installed, ignored)) return installed.lexically_normal();
   return fs::path(TRIPTYCH_SOURCE_FOLDER) / "baselines";
 }
 

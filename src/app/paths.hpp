@@ -9,8 +9,8 @@ namespace triptych::app {
 // Folders in which data files are looked for: $TRIPTYCH_DATA and its volumes/ and particles/.
 [[nodiscard]] std::vector<std::filesystem::path> data_folders();
 
-// Where baselines are unless told otherwise: ./baselines if it is there, else the one of the source
-// tree.
+// Where baselines are unless told otherwise: ./baselines if it is there, else those installed with
+// the program, else those of the source tree.
 [[nodiscard]] std::filesystem::path default_baselines();
 
 // This program's own file, to start workers with.

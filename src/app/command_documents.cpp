@@ -1,0 +1,140 @@
+// The manual page and the shell's completion, made of the commands themselves: neither can lack an
+// option. The build writes both beside the program; `cmake --install` takes them along.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/arguments.hpp"
+#include "app/registry.hpp"
+#include "app/version.hpp"
+
+namespace triptych::app {
+namespace {
+
+// In a manual page a backslash and a hyphen mean something, and so does a line's first mark.
+std::string roff(std::string_view text) {
+  std::string escaped = "\\&";
+  for (const char each : text) {
+    if (each == '\\') {
+      escaped += "\\e";
+    } else if (each == '-') {
+      escaped += "\\-";
+    } else if (each == '\n') {
+      escaped += "\n.br\n\\&";
+    } else {
+      escaped += each;
+    }
+  }
+  return escaped;
+}
+
+// Those that --help shows.
+std::vector<const CLI::App*> shown_commands(const CLI::App& program) {
+  return program.get_subcommands(
+      [](const CLI::App* each) { return !each->get_group().empty() && !each->get_name().empty(); });
+}
+
+std::vector<const CLI::Option*> shown_options(const CLI::App& command) {
+  return command.get_options([](const CLI::Option* each) { return !each->get_group().empty(); });
+}
+
+bool takes_a_value(const CLI::Option& option) {
+  return !option.get_positional() && option.get_items_expected_max() > 0;
+}
+
+std::string entry(const CLI::Option& option) {
+  const std::string name =
+      option.get_positional() ? option.get_name(true) : option.get_name(false, true);
+  const std::string_view value = takes_a_value(option) ? " VALUE" : "";
+  const std::string standard = option.get_default_str();
+  return fmt::format(".TP\n.B {}{}\n{}{}\n", roff(name), value, roff(option.get_description()),
+                     standard.empty() ? "" : roff(" [" + standard + "]"));
+}
+
+std::string section(const CLI::App& command) {
+  std::string text =
+      fmt::format(".SS {}\n{}\n", roff(command.get_name()), roff(command.get_description()));
+  for (const CLI::Option* option : shown_options(command)) text += entry(*option);
+  return text;
+}
+
+constexpr std::string_view environment = R"(.SH ENVIRONMENT
+.TP
+.B TRIPTYCH_DATA
+Folder with volumes/ and particles/ in which plans find files.
+.TP
+.B XDG_CACHE_HOME
+Drivers' compiled code is kept in its folder triptych/; ~/.cache where it is not set.
+.PP
+Drivers' own variables are part of a device's key.
+.B triptych devices
+shows them.
+)";
+
+std::string manual(const CLI::App& program) {
+  std::string text = fmt::format(
+      ".TH TRIPTYCH 1 \"\" \"triptych {}\"\n.SH NAME\ntriptych \\- pictures, work and cost of GPU "
+      "drivers, judged\n.SH SYNOPSIS\n.B triptych\nCOMMAND [OPTION]... [PLAN]...\n.SH DESCRIPTION\n"
+      "{}.\n.PP\n.B triptych gate \\-\\-measure\nmeasures and judges every device found.\n.SH "
+      "COMMANDS\n",
+      roff(version()), roff(program.get_description()));
+  for (const CLI::App* command : shown_commands(program)) text += section(*command);
+  text += fmt::format(".SH EXIT STATUS\n{}\n", roff(program.get_footer()));
+  return text.append(environment);
+}
+
+// What may stand after a command: its options, and the plans that come with the suites.
+std::string words_after(const CLI::App& command, const std::vector<std::string>& plans) {
+  std::string words;
+  bool takes_plans = false;
+  for (const CLI::Option* option : shown_options(command)) {
+    takes_plans |= option->get_positional() && option->get_name(true) == "PLAN";
+    for (const std::string& name : option->get_lnames()) words += " --" + name;
+  }
+  return takes_plans ? fmt::format("{} {}", words, fmt::join(plans, " ")) : words;
+}
+
+std::string completion(const CLI::App& program) {
+  std::vector<std::string> plans;
+  for (const auto& suite : make_registry().suites) {
+    for (const std::string_view plan : suite->plan_names()) {
+      plans.push_back(fmt::format("{}/{}", suite->name(), plan));
+    }
+  }
+  std::string names;
+  std::string cases;
+  for (const CLI::App* command : shown_commands(program)) {
+    names += " " + command->get_name();
+    cases +=
+        fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), words_after(*command, plans));
+  }
+  return fmt::format(
+      "# Completion of triptych for bash; what it does not know are files.\n_triptych() {{\n"
+      "  local words=\"{} --help --version\"\n"
+      "  [ \"$COMP_CWORD\" -eq 1 ] || case ${{COMP_WORDS[1]}} in\n{}    *) words= ;;\n  esac\n"
+      "  COMPREPLY=($(compgen -W \"$words\" -- \"$2\"))\n}}\n"
+      "complete -o default -F _triptych triptych\n",
+      names, cases);
+}
+
+void add(Commands& commands, const std::string& name, const std::string& summary,
+         std::string (*text)(const CLI::App&)) {
+  CLI::App* command = commands.add(name, summary, [&program = commands.program, text] {
+    fmt::print("{}", text(program));
+    return core::ExitCode::pass;
+  });
+  command->group("");  // not shown: the build calls it
+}
+
+}  // namespace
+
+void add_document_commands(Commands& commands) {
+  add(commands, "manual", "Print the manual page", manual);
+  add(commands, "completion", "Print the completion for bash", completion);
+}
+
+}  // namespace triptych::app
