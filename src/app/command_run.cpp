@@ -1,8 +1,11 @@
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -27,6 +30,7 @@ struct RunArguments {
   std::string store = "triptych.sqlite";
   bool resume = false;
   int limit_s = 60;
+  std::optional<std::uint64_t> memory;  // bytes
   bool measure_every = false;
   bool untimed = false;
   bool timed = false;
@@ -121,13 +125,22 @@ std::vector<measure::Plan> load_plans(const RunArguments& arguments, const Regis
   return plans;
 }
 
+std::vector<std::string> worker_command(const RunArguments& arguments) {
+  std::vector<std::string> command{own_program(), "worker"};
+  if (arguments.memory) {
+    command.insert(command.end(), {"--memory", fmt::to_string(*arguments.memory)});
+  }
+  command.emplace_back("--device");
+  return command;
+}
+
 measure::RunOptions options_of(const RunArguments& arguments) {
   return {
       .protocol = {.timed = !arguments.untimed, .measure_every = arguments.measure_every},
       .limit = std::chrono::seconds(arguments.limit_s),
       .resume = arguments.resume,
       .plants = parse_plants(arguments.plants),
-      .worker_command = {own_program(), "worker", "--device"},
+      .worker_command = worker_command(arguments),
   };
 }
 
@@ -199,7 +212,16 @@ core::ExitCode run_as_test(const RunArguments& arguments) {
   return std::ranges::all_of(results, has_told) ? core::ExitCode::pass : core::ExitCode::skip;
 }
 
-core::ExitCode serve(const std::string& device) {
+// From here on. Valgrind holds nobody to it.
+void limit_own_memory(std::uint64_t bytes) {
+  const rlimit limit{bytes, bytes};
+  if (::setrlimit(RLIMIT_DATA, &limit) != 0) {
+    throw core::InputError(fmt::format("--memory {}: more than this user may allocate", bytes));
+  }
+}
+
+core::ExitCode serve(const std::string& device, const std::optional<std::uint64_t>& memory) {
+  if (memory) limit_own_memory(*memory);
   const Registry registry = make_registry();
   const std::string api = device.substr(0, device.find(':'));
   return static_cast<core::ExitCode>(
@@ -209,9 +231,11 @@ core::ExitCode serve(const std::string& device) {
 
 void add_worker_command(Commands& commands) {
   auto device = std::make_shared<std::string>();
+  auto memory = std::make_shared<std::optional<std::uint64_t>>();
   CLI::App* worker = commands.add("worker", "Serve one device (started by run)",
-                                  [device] { return serve(*device); });
+                                  [device, memory] { return serve(*device, *memory); });
   worker->add_option("--device", *device)->required();
+  worker->add_option("--memory", *memory);
   worker->group("");  // not shown: only `run` starts it
   auto api = std::make_shared<std::string>();
   CLI::App* listing =
@@ -236,6 +260,13 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                   "Seconds after which a configuration counts as hung")
       ->capture_default_str()
       ->check(CLI::Range(1, 86400));
+  constexpr std::uint64_t least_memory = std::uint64_t{64} << 20;
+  command
+      .add_option("--memory", arguments.memory,
+                  "What a worker may allocate, such as 4G: data that need more fail their "
+                  "configurations (default: no limit; Valgrind holds no worker to it)")
+      ->transform(CLI::AsSizeValue(false))
+      ->check(CLI::Range(least_memory, std::numeric_limits<std::uint64_t>::max()));
   command.add_flag("--untimed", arguments.untimed,
                    "One frame for the picture and one for the counters: no times, no statistics");
   command

@@ -56,6 +56,13 @@ void describe_work(const Work& work, const Device& device, record::Record& recor
   }
 }
 
+// "", or what a worker is held to by --memory or its user's limits.
+std::string memory_limit() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return {};
+  return fmt::format("; this worker may allocate {} MiB", limit.rlim_cur >> 20);
+}
+
 // Every typed error ends here, as the outcome of one configuration. `data`: what may have taken
 // too much memory.
 template <typename Act, typename OnFailure>
@@ -67,7 +74,7 @@ void outcome_of(const Act& act, const std::string& data, const OnFailure& on_fai
   } catch (const core::DeviceLost& error) {
     on_failure(record::Outcome::lost, error.what());
   } catch (const std::bad_alloc&) {
-    on_failure(record::Outcome::failed, "out of host memory with data " + data);
+    on_failure(record::Outcome::failed, "out of host memory with data " + data + memory_limit());
   } catch (const std::exception& error) {
     on_failure(record::Outcome::failed, error.what());
   }

@@ -344,6 +344,9 @@ void throw_store_error(const std::filesystem::path& file, const SQLite::Exceptio
     case SQLITE_CANTOPEN:
       throw core::IoError(fmt::format(
           "{}: cannot be opened ({}); is its folder there, and can it be written?", name, what));
+    case SQLITE_IOERR:
+      throw core::IoError(fmt::format(
+          "{}: cannot be read or written ({}): is the disk full, or broken?", name, what));
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw core::IoError(

@@ -1,0 +1,102 @@
+// What a worker may allocate, and disks that are full.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+#include "right_picture.hpp"
+#include "tree.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using testing::HasSubstr;
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool sanitized = true;  // whose own memory is far over any limit
+#else
+constexpr bool sanitized = false;
+#endif
+
+const std::string any_size =
+    "run volume/quick --device null:scripted --set technique=raycast --set transfer_function=haze "
+    "--set camera=orbit_y:1/8 --set step=1 --store s.sqlite ";
+const std::string small = any_size + "--set viewport=16 ";
+
+TEST(Memory, DataThatNeedMoreFailTheirConfigurationAlone) {
+  if (sanitized) GTEST_SKIP() << "built with a sanitizer";
+  const Program program;
+  const std::string data = "--set data=generate:gaussian_blob:16,generate:gaussian_blob:700 ";
+  const Result result = program.run(small + data + "--memory 300M");
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("out of host memory with data generate:gaussian_blob:700; "
+                                       "this worker may allocate 300 MiB"));
+  EXPECT_THAT(result.output, HasSubstr("1 measured, 0 skipped, 1 failed"));
+}
+
+TEST(Memory, ASizeIsANumberOfBytes) {
+  const Program program;
+  for (const char* size : {"12x", "-1G", "1M", "99999999999G"}) {
+    const Result result =
+        program.run(small + "--set data=generate:gaussian_blob:16 --memory " + size);
+    EXPECT_EQ(result.code, 3) << size << result.output;
+    EXPECT_THAT(result.output, HasSubstr("--memory"));
+  }
+}
+
+// No file may be longer than so many blocks of 512 bytes.
+std::string files_up_to(int blocks) {
+  return "sh -c 'trap \"\" XFSZ; ulimit -f " + std::to_string(blocks) + "; exec \"$@\"' sh";
+}
+
+TEST(FullDisk, ARunSaysSoAndGoesOnLater) {
+  const std::string run = small + "--set data=generate:gaussian_blob:16 ";
+  for (const int blocks : {1, 100, 250, 350}) {
+    const Program program;
+    const Result result = program.run(run, "{}", files_up_to(blocks));
+    if (result.code != 0) {
+      EXPECT_EQ(result.code, 3) << result.output;
+      EXPECT_THAT(result.output, HasSubstr("triptych: s.sqlite: "));
+    }
+    const Result resumed = program.run(run + "--resume");
+    EXPECT_EQ(resumed.code, 0) << resumed.output;
+    EXPECT_EQ(program.run("report --store s.sqlite --out r.html").code, 0);
+  }
+}
+
+TEST(FullDisk, AReportThatDoesNotFitLeavesTheOldOne) {
+  const Program program;
+  ASSERT_EQ(program.run(any_size + "--set viewport=256 --set data=generate:gaussian_blob:16").code,
+            0);
+  program.write("r.html", "old");
+  const Result result = program.run("report --store s.sqlite --out r.html", "{}", files_up_to(66));
+  EXPECT_EQ(result.code, 3) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("r.html: cannot write"));
+  EXPECT_EQ(program.read("r.html"), "old");
+}
+
+TEST(FullDisk, AnAcceptThatDoesNotFitChangesNothing) {
+  const Program program;
+  if (test::run_command("unshare -rm true").code != 0) {
+    GTEST_SKIP() << "this machine lets no user mount a small disk";
+  }
+  const std::string accept = "accept volume/quick --reason x --store s.sqlite --baselines ";
+  ASSERT_EQ(program.run(small + "--set data=generate:gaussian_blob:16").code, 0);
+  ASSERT_EQ(program.run(accept + "kept").code, 0);
+  std::filesystem::create_directory(program.folder() / "small");
+  const auto before = tree(program.folder() / "kept/volume/quick");
+  // What is kept fills about 30 KiB of it.
+  for (const char* size : {"36k", "48k"}) {
+    const Result result =
+        program.run(accept + "small/b", "{}",
+                    std::string("unshare -rm sh -c 'mount -t tmpfs -o size=") + size +
+                        " none small && cp -r kept small/b && \"$@\"; code=$?; rm -rf left; "
+                        "cp -r small/b left; exit $code' sh");
+    EXPECT_EQ(result.code, 3) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("No space left on device"));
+    EXPECT_TRUE(tree(program.folder() / "left/volume/quick") == before);
+  }
+}
+
+}  // namespace
+}  // namespace triptych::command_line
