@@ -6,8 +6,9 @@
 #include <cstdlib>
 #include <memory>
 
-#include "app/arguments.hpp"
+#include "app/comparing.hpp"
 #include "app/judging.hpp"
+#include "app/listing.hpp"
 #include "app/measuring.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
@@ -28,10 +29,6 @@
 namespace triptych::app {
 namespace {
 
-// What a gate without plans judges: pictures, work and times, then instructions.
-const std::vector<std::string> main_job{"volume/quick", "particles/quick", "volume/cost",
-                                        "particles/cost"};
-
 struct GateArguments {
   std::vector<std::string> plans;  // as they were typed
   PlanChoice choice;
@@ -42,6 +39,7 @@ struct GateArguments {
   std::vector<std::string> devices;
   std::vector<std::string> required;
   std::vector<std::string> plants;
+  std::string base;
   std::string out;
   std::string junit;
   std::string markdown;
@@ -138,7 +136,21 @@ report::ScreenOptions screen() {
   return options;
 }
 
+// Nothing is stored and nothing is held against what is: each device against itself by the base.
+core::ExitCode judge_by_base(const GateArguments& arguments) {
+  std::vector<Comparing> comparisons = against_base(
+      arguments.base, choose_devices(list_devices(make_registry()), arguments.devices));
+  for (Comparing& each : comparisons) {
+    each.plans = arguments.plans;
+    each.choice = arguments.choice;
+    each.plants = arguments.plants;
+    each.times = arguments.times;
+  }
+  return compare_and_tell(comparisons, arguments.json);
+}
+
 core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Stopwatch& since) {
+  if (!arguments.base.empty()) return judge_by_base(arguments);
   const Registry registry = make_registry();
   const std::vector<JudgedPlan> plans = plans_of(arguments, registry);
   if (arguments.measure) {
@@ -175,6 +187,10 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
 }
 
 void refuse_bad_files(const GateArguments& arguments) {
+  if (!arguments.plants.empty() && !arguments.measure && arguments.base.empty()) {
+    throw core::InputError(
+        "--plant needs --measure or --base: it is planted into what is measured");
+  }
   std::vector<NamedFile> read{{"--store", arguments.store}};
   for (const std::string& plan : arguments.plans) read.push_back({"PLAN", plan});
   refuse_overwriting(read, {{"--junit", arguments.junit}, {"--markdown", arguments.markdown}});
@@ -270,6 +286,10 @@ void add_gate_commands(Commands& commands) {
                       "Glob: a device that must have measured something (repeatable)");
   command->add_flag("--times", arguments->times,
                     "Times decide: for a machine that is kept for measuring; else they advise");
+  CLI::Option* base = command->add_option(
+      "--base", arguments->base,
+      "Another build of triptych, or NAME=VALUE,… of another driver: measure each device by it and "
+      "as it is now, and judge what differs, as compare does");
   command->add_option(
       "--out", arguments->out,
       "Folder for report.html, gate.log, summary.md, benchmark.json and JUnit XML of "
@@ -279,8 +299,11 @@ void add_gate_commands(Commands& commands) {
   command->add_flag("--json", arguments->json, "Print every finding as JSON");
   command->add_flag("--bisect", arguments->bisect,
                     "For `git bisect run`: 125 where nothing could be judged, instead of 2 or 3");
-  command->add_option("--plant", arguments->plants, "As of run, with --measure")
-      ->needs("--measure");
+  for (const char* other : {"--measure", "--store", "--baselines", "--check", "--without",
+                            "--require", "--out", "--junit", "--markdown"}) {
+    base->excludes(other);
+  }
+  command->add_option("--plant", arguments->plants, "As of run, with --measure or --base");
   add_accept_command(commands);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Two sides measured in turns over a plan: which configurations are slower, and what else differs.
+// Two sides over a plan: first what repeats – pictures, counters, statistics, cost, memory – then
+// times, interleaved.
 
 #include <chrono>
 #include <functional>
@@ -7,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "judge/baselines/work.hpp"
-#include "judge/compare/differences.hpp"
+#include "comparison/run_diff.hpp"
 #include "judge/compare/pairwise.hpp"
 #include "measure/plan.hpp"
 #include "measure/runner.hpp"
@@ -26,6 +26,7 @@ struct ComparisonOptions {
   std::optional<std::chrono::seconds> budget;
   std::chrono::seconds limit{60};
   std::uint64_t seed = 1;
+  bool times = true;  // of a plan that is timed
   judge::SequentialDesign design = judge::SequentialDesign::standard();
   judge::ConfirmationDesign confirmation;
 };
@@ -34,7 +35,7 @@ struct ComparisonOptions {
 struct Compared {
   std::string key;
   measure::Configuration configuration;
-  // Set when there is no time to compare, with the reason; skipped: a side cannot do this at all.
+  // How the side ended that did not do its part, with the reason; skipped: it cannot.
   std::optional<record::Outcome> ended;
   judge::PairVerdict verdict = judge::PairVerdict::undecided;
   std::string reason;  // of no verdict, or of one that the confirmation took back
@@ -49,22 +50,24 @@ struct Compared {
   std::vector<judge::Difference> differences;
 
   [[nodiscard]] bool is_regression() const;
-  [[nodiscard]] bool is_doubtful() const;
-  // "slower", …, "skipped", "cannot tell"
+  [[nodiscard]] bool is_doubtful(bool timed) const;
+  // Of its time: "slower", …, "skipped", "cannot tell"
   [[nodiscard]] std::string_view verdict_name() const;
 };
 
 struct ComparisonResult {
   record::Device a;
   record::Device b;
-  std::vector<Compared> configurations;  // in the plan's order
+  bool timed = false;
+  std::vector<judge::Difference> device;  // of the two as such
+  std::vector<Compared> configurations;   // in the plan's order
   double seconds = 0;
 
   [[nodiscard]] core::ExitCode exit_code() const;
 };
 
 struct ComparisonProgress {
-  std::string stage;  // "first look", "more blocks", "fresh launch 2 of 5"
+  std::string stage;  // "what repeats", "first look", "more blocks", "fresh launch 2 of 5"
   std::string configuration;
   int done = 0;
   int total = 0;
@@ -72,13 +75,11 @@ struct ComparisonProgress {
   std::optional<measure::Loading> loading;
 };
 
-// The truth of a record with its bound, for as long as the comparison takes; throws core::Error
-// where there is none.
-using KeptTruth = std::function<const judge::TruthPair&(const record::Record&)>;
+using Tell = std::function<void(const ComparisonProgress&)>;
 
-// Throws as measure::Turns does.
+// Both sides' runs go into the store. Throws as measure::run_sides and measure::Turns do.
 [[nodiscard]] ComparisonResult compare(const ComparisonOptions& options,
-                                       const measure::Suite& suite, const KeptTruth& truth,
-                                       const std::function<void(const ComparisonProgress&)>& tell);
+                                       const measure::Suite& suite, record::Store& store,
+                                       const KeptTruth& truth, const Tell& tell);
 
 }  // namespace triptych::comparison

@@ -19,9 +19,11 @@ bool Compared::is_regression() const {
          has(*this, judge::DifferenceKind::regression);
 }
 
-bool Compared::is_doubtful() const {
+bool Compared::is_doubtful(bool timed) const {
   if (has(*this, judge::DifferenceKind::unjudged)) return true;
-  return ended ? *ended != record::Outcome::skipped : verdict == PairVerdict::undecided;
+  if (has(*this, judge::DifferenceKind::fixed)) return false;
+  if (ended) return *ended != record::Outcome::skipped;
+  return timed && verdict == PairVerdict::undecided;
 }
 
 std::string_view Compared::verdict_name() const {
@@ -30,15 +32,13 @@ std::string_view Compared::verdict_name() const {
 }
 
 core::ExitCode ComparisonResult::exit_code() const {
-  const auto any = [this](auto member) {
-    return std::ranges::any_of(configurations,
-                               [&](const Compared& each) { return (each.*member)(); });
-  };
-  if (any(&Compared::is_regression)) return core::ExitCode::regression;
-  const bool measured =
-      std::ranges::any_of(configurations, [](const Compared& each) { return each.blocks > 0; });
-  return measured && !any(&Compared::is_doubtful) ? core::ExitCode::pass
-                                                  : core::ExitCode::cannot_judge;
+  const auto any = [this](const auto& is) { return std::ranges::any_of(configurations, is); };
+  if (any([](const Compared& each) { return each.is_regression(); })) {
+    return core::ExitCode::regression;
+  }
+  const bool looked = any([](const Compared& each) { return !each.ended; });
+  const bool doubtful = any([this](const Compared& each) { return each.is_doubtful(timed); });
+  return looked && !doubtful ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
 }  // namespace triptych::comparison

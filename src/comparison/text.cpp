@@ -58,31 +58,13 @@ std::string line_of(const Compared& compared, const ComparisonCommand& command) 
   return line + "\n";
 }
 
-// Differences of one kind about one thing stand together: one line for how many configurations.
-struct Group {
-  const Difference* first = nullptr;
-  const Compared* where = nullptr;
-  int count = 0;
-};
-
 std::string differences_text(const ComparisonResult& result) {
-  std::map<std::pair<DifferenceKind, std::string>, Group> groups;
+  DifferenceGroups groups;
+  groups.add(result.device, "");
   for (const Compared& compared : result.configurations) {
-    for (const Difference& difference : compared.differences) {
-      Group& group = groups[{difference.kind, difference.about}];
-      if (group.count++ > 0) continue;
-      group.first = &difference;
-      group.where = &compared;
-    }
+    groups.add(compared.differences, compared.key);
   }
-  std::string text;
-  for (const auto& [key, group] : groups) {
-    const std::string more =
-        group.count > 1 ? fmt::format("; and in {} more", group.count - 1) : "";
-    text += fmt::format("{:<12}{}: {} ({}{})\n", judge::name_of(key.first), key.second,
-                        group.first->text, group.where->key, more);
-  }
-  return text;
+  return groups.empty() ? "nothing differs but time\n" : groups.text();
 }
 
 std::string clocks_text(const ComparisonResult& result) {
@@ -97,42 +79,28 @@ std::string clocks_text(const ComparisonResult& result) {
   return text;
 }
 
-std::string headline(const ComparisonResult& result) {
-  std::map<std::string_view, int> counts;
-  int regressions = 0;
-  for (const Compared& compared : result.configurations) {
-    ++counts[compared.verdict_name()];
-    for (const Difference& difference : compared.differences) {
-      regressions += difference.kind == DifferenceKind::regression ? 1 : 0;
-    }
-  }
-  std::string text;
-  switch (result.exit_code()) {
-    case core::ExitCode::pass:
-      text = "PASS";
-      break;
-    case core::ExitCode::regression:
-      text = "FAIL";
-      break;
-    default:
-      text = "CANNOT TELL";
-  }
-  text += ":";
-  for (const std::string_view verdict : {"slower", "faster", "same", "cannot tell", "skipped"}) {
-    if (const auto found = counts.find(verdict); found != counts.end()) {
-      text += fmt::format(" {} {},", found->second, verdict);
-    }
-  }
-  return fmt::format("{} {} regressions in what is drawn or counted; {:.0f} s", text, regressions,
-                     result.seconds);
+core::Json to_json(const Difference& difference) {
+  core::Json json{{"kind", judge::name_of(difference.kind)},
+                  {"about", difference.about},
+                  {"text", difference.text}};
+  if (difference.ratio) json["ratio"] = *difference.ratio;
+  return json;
 }
 
-core::Json to_json(const Compared& compared, const ComparisonCommand& command) {
-  core::Json json{{"configuration", compared.key},
-                  {"verdict", compared.verdict_name()},
-                  {"blocks", compared.blocks},
-                  {"seconds", compared.seconds}};
+core::Json to_json(const std::vector<Difference>& differences) {
+  core::Json json = core::Json::array();
+  for (const Difference& each : differences) json.push_back(to_json(each));
+  return json;
+}
+
+core::Json to_json(const Compared& compared, bool timed, const ComparisonCommand& command) {
+  core::Json json{{"configuration", compared.key}};
   if (!compared.reason.empty()) json["reason"] = compared.reason;
+  if (timed) {
+    json["verdict"] = compared.verdict_name();
+    json["blocks"] = compared.blocks;
+    json["seconds"] = compared.seconds;
+  }
   if (compared.blocks > 0) {
     json["clock"] = name_of(compared.clock);
     json["frames_per_turn"] = compared.frames_per_turn;
@@ -155,23 +123,51 @@ core::Json to_json(const Compared& compared, const ComparisonCommand& command) {
                     {"ln_work", compared.work->log_ratio},
                     {"ln_time_per_work", compared.shift.estimate - compared.work->log_ratio}};
   }
-  json["differences"] = core::Json::array();
-  for (const Difference& each : compared.differences) {
-    json["differences"].push_back(
-        {{"kind", judge::name_of(each.kind)}, {"about", each.about}, {"text", each.text}});
-  }
+  json["differences"] = to_json(compared.differences);
   return json;
 }
 
 }  // namespace
 
+std::string headline(const ComparisonResult& result) {
+  std::map<std::string_view, int> times;
+  std::map<DifferenceKind, int> differences;
+  for (const Compared& compared : result.configurations) {
+    ++times[compared.verdict_name()];
+    for (const Difference& difference : compared.differences) ++differences[difference.kind];
+  }
+  std::string text;
+  switch (result.exit_code()) {
+    case core::ExitCode::pass:
+      text = "PASS:";
+      break;
+    case core::ExitCode::regression:
+      text = "FAIL:";
+      break;
+    default:
+      text = "CANNOT TELL:";
+  }
+  if (result.timed) {
+    for (const std::string_view verdict : {"slower", "faster", "same", "cannot tell", "skipped"}) {
+      if (const auto found = times.find(verdict); found != times.end()) {
+        text += fmt::format(" {} {},", found->second, verdict);
+      }
+    }
+  }
+  return fmt::format("{} {} regressions in what repeats, {} fixed, {} changed; {:.0f} s", text,
+                     differences[DifferenceKind::regression], differences[DifferenceKind::fixed],
+                     differences[DifferenceKind::changed], result.seconds);
+}
+
 std::string to_text(const ComparisonResult& result, const ComparisonCommand& command) {
-  std::string text = fmt::format("a: {}\nb: {}\nratios are time of b over time of a\n",
-                                 result.a.key(), result.b.key());
-  for (const Compared& compared : result.configurations) text += line_of(compared, command);
-  text += clocks_text(result);
-  const std::string differences = differences_text(result);
-  if (!differences.empty()) text += "besides time:\n" + differences;
+  std::string text =
+      fmt::format("{}\na: {}\nb: {}\n", command.plan, result.a.key(), result.b.key());
+  text += differences_text(result);
+  if (result.timed) {
+    text += "time of b over time of a:\n";
+    for (const Compared& compared : result.configurations) text += line_of(compared, command);
+    text += clocks_text(result);
+  }
   return text + headline(result) + "\n";
 }
 
@@ -183,9 +179,10 @@ core::Json to_json(const ComparisonResult& result, const ComparisonCommand& comm
                   {"seconds", result.seconds},
                   {"exit_code", static_cast<int>(result.exit_code())},
                   {"headline", headline(result)},
+                  {"differences", to_json(result.device)},
                   {"configurations", core::Json::array()}};
   for (const Compared& compared : result.configurations) {
-    json["configurations"].push_back(to_json(compared, command));
+    json["configurations"].push_back(to_json(compared, result.timed, command));
   }
   return json;
 }

@@ -15,13 +15,18 @@ struct ComparisonCommand {
   std::vector<std::string> varied;  // factors that name a configuration of this plan
 };
 
-// A line per configuration, then what differs besides time, the worst kind first, then the verdict.
+// What differs besides time, the worst kind first, then a line per configuration that was timed,
+// then the verdict.
 [[nodiscard]] std::string to_text(const ComparisonResult& result, const ComparisonCommand& command);
 
-// {"plan", "sides", "a", "b" (devices), "seconds", "exit_code", "headline", "configurations":
-// [{"configuration", "verdict", "reason", "ratio", "ratio_low", "ratio_high", "blocks", "launches",
-// "frames_per_turn", "clock", "why_wall", "seconds", "work", "differences", "settle"}]}; what is
-// not known is left out.
+// "FAIL: 18 slower, 2 regressions in what repeats, 0 fixed, 1 changed; 64 s"
+[[nodiscard]] std::string headline(const ComparisonResult& result);
+
+// {"plan", "sides", "a", "b" (devices), "seconds", "exit_code", "headline", "differences" (of the
+// devices), "configurations": [{"configuration", "reason", "differences": [{"kind", "about",
+// "text", "ratio"}], "work"; of times "verdict", "ratio", "ratio_low", "ratio_high", "blocks",
+// "launches", "frames_per_turn", "clock", "why_wall", "seconds", "settle"}]}; what is not known is
+// left out.
 [[nodiscard]] nlohmann::json to_json(const ComparisonResult& result,
                                      const ComparisonCommand& command);
 

@@ -19,41 +19,19 @@ record::Record ended(record::Outcome outcome, std::string reason) {
   return record;
 }
 
-// A worker under the emulator has caches of its own: its code is made for another processor.
-std::string cache_name(const Plan& plan, const std::string& device) {
-  return plan.counted() ? device + "-counted" : device;
-}
-
-// Compiling for the first time takes the emulator minutes where it takes a processor seconds.
-constexpr std::chrono::seconds counted_limit{600};
-
-WorkerSetup setup_for(const RunContext& context, const std::string& device,
-                      const CacheFolder& cache) {
-  WorkerSetup setup{.device = device,
-                    .command = context.options.worker_command,
-                    .environment = {},
-                    .limit = context.options.start_limit};
-  std::vector<std::string> overrides;
-  if (context.plan.counted()) {
-    setup.limit = counted_limit;
-    for (const std::string_view each : counting_environment()) overrides.emplace_back(each);
-    if (const auto* emulator = std::get_if<Emulator>(&find_emulator())) {
-      setup.command = emulated(*emulator, std::move(setup.command), cache.path().string());
-      overrides.insert(overrides.end(), emulator->environment.begin(), emulator->environment.end());
-    }
-  }
-  setup.environment = worker_environment(device, cache, overrides);
-  return setup;
-}
-
 }  // namespace
 
 DeviceRun::DeviceRun(const RunContext& context, std::string device)
     : context_(context),
       device_(std::move(device)),
-      cache_(cache_name(context.plan, device_)),
-      seat_(setup_for(context, device_, cache_), context.interrupts) {
+      cache_(cache_name(side(), context.plan.counted())),
+      seat_(worker_setup(side(), context.plan.counted(), cache_, context.options.start_limit),
+            context.interrupts) {
   remember();
+}
+
+SideOptions DeviceRun::side() const {
+  return {device_, context_.options.worker_command, context_.options.worker_environment};
 }
 
 Done DeviceRun::perform(const Configuration& configuration, const std::string& key,

@@ -12,6 +12,7 @@
 #include "measure/interrupt.hpp"
 #include "measure/runner.hpp"
 #include "measure/worker_seat.hpp"
+#include "measure/worker_setup.hpp"
 
 namespace triptych::measure {
 
@@ -64,6 +65,7 @@ class DeviceRun {
   [[nodiscard]] double opening_ns() const { return seat_.opening_ns(); }
 
  private:
+  [[nodiscard]] SideOptions side() const;
   void remember();
   [[nodiscard]] Protocol protocol() const;
   // As WorkerSeat::open.

@@ -77,24 +77,27 @@ std::string open_run(const PlannedRun& planned, record::Store& store) {
 
 void refuse_bad_options(const RunOptions& options) {
   if (const auto reason = forbids_measuring()) throw core::InputError(*reason);
+  if (const auto reason = forbids_measuring(options.worker_environment)) {
+    throw core::InputError(*reason);
+  }
   for (const Plant& plant : options.plants) check_plant(plant.fault);
 }
 
-// Progress of several devices at once as one: sums, and the longest time left.
+// Progress of several parts at once as one: sums, and the longest time left.
 class JointProgress {
  public:
   explicit JointProgress(const PlanRun::Tell& tell) : tell_(tell) {}
 
-  void operator()(Progress progress) {
+  void add(std::size_t part, Progress progress) {
     const std::scoped_lock lock(mutex_);
     if (!tell_) return;
-    if (!progress.loading) of_[progress.device] = {progress.done, progress.total, progress.left};
+    if (!progress.loading) of_[part] = {progress.done, progress.total, progress.left};
     progress.done = progress.total = 0;
     progress.left = {};
-    for (const auto& [device, part] : of_) {
-      progress.done += part.done;
-      progress.total += part.total;
-      progress.left = std::max(progress.left, part.left);
+    for (const auto& [number, each] : of_) {
+      progress.done += each.done;
+      progress.total += each.total;
+      progress.left = std::max(progress.left, each.left);
     }
     tell_(progress);
   }
@@ -107,7 +110,7 @@ class JointProgress {
   };
   const PlanRun::Tell& tell_;
   std::mutex mutex_;
-  std::map<std::string, Part> of_;
+  std::map<std::size_t, Part> of_;
 };
 
 void add(const RunResult& part, RunResult& sum) {
@@ -119,44 +122,59 @@ void add(const RunResult& part, RunResult& sum) {
   sum.overhead_ns += part.overhead_ns;
 }
 
+// A device of a run.
+struct Part {
+  const RunContext* context;
+  std::string device;
+};
+
 // Where no time is measured devices cannot disturb each other: as many at once as there are
 // processors. Each has a connection of its own to the store. The first error of one is thrown when
 // all have ended.
-RunResult measure_side_by_side(const RunContext& context, const std::vector<std::string>& devices,
-                               const PlanRun::Tell& on_progress) {
-  const Stopwatch stopwatch;
+std::vector<RunResult> measure_side_by_side(const std::vector<Part>& parts,
+                                            const PlanRun::Tell& on_progress) {
   JointProgress joint(on_progress);
-  const PlanRun::Tell tell = std::ref(joint);
-  RunResult sum;
+  std::vector<RunResult> results(parts.size());
   std::mutex mutex;
   std::exception_ptr failure;
   std::size_t next = 0;
   const auto lane = [&] {
     for (;;) {
       std::unique_lock lock(mutex);
-      if (failure || next == devices.size()) return;
-      const std::vector<std::string> one{devices[next++]};
+      if (failure || next == parts.size()) return;
+      const std::size_t number = next++;
       lock.unlock();
+      const auto& [context, device] = parts[number];
+      const PlanRun::Tell tell = [&](const Progress& progress) { joint.add(number, progress); };
       try {
-        record::Store store(context.store.file(), record::Store::Mode::append);
-        RunContext own{context.plan,       context.suite, store,        context.options,
-                       context.interrupts, context.run,   context.kinds};
-        const RunResult part = PlanRun(own, one, tell).measure_all();
-        lock.lock();
-        add(part, sum);
+        record::Store store(context->store.file(), record::Store::Mode::append);
+        const RunContext own{context->plan,       context->suite, store,         context->options,
+                             context->interrupts, context->run,   context->kinds};
+        results[number] = PlanRun(own, {device}, tell).measure_all();
       } catch (...) {
-        if (!lock.owns_lock()) lock.lock();
+        lock.lock();
         if (!failure) failure = std::current_exception();
       }
     }
   };
   const std::size_t lanes =
-      std::min<std::size_t>(devices.size(), std::max(1U, std::thread::hardware_concurrency()));
+      std::min<std::size_t>(parts.size(), std::max(1U, std::thread::hardware_concurrency()));
   {
     std::vector<std::jthread> threads;
     for (std::size_t i = 0; i < lanes; ++i) threads.emplace_back(lane);
   }
   if (failure) std::rethrow_exception(failure);
+  return results;
+}
+
+RunResult measure_devices_side_by_side(const RunContext& context,
+                                       const std::vector<std::string>& devices,
+                                       const PlanRun::Tell& on_progress) {
+  const Stopwatch stopwatch;
+  std::vector<Part> parts;
+  for (const std::string& device : devices) parts.push_back({&context, device});
+  RunResult sum;
+  for (const RunResult& part : measure_side_by_side(parts, on_progress)) add(part, sum);
   sum.run = context.run;
   sum.wall_ns = stopwatch.ns();
   return sum;
@@ -181,8 +199,33 @@ std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
                              open_run(each, store),
                              kinds_of(plan, options.protocol)};
     const bool side_by_side = !context.plan.timed() && devices.size() > 1;
-    results.push_back(side_by_side ? measure_side_by_side(context, devices, on_progress)
+    results.push_back(side_by_side ? measure_devices_side_by_side(context, devices, on_progress)
                                    : PlanRun(context, devices, on_progress).measure_all());
+  }
+  return results;
+}
+
+std::array<RunResult, 2> run_sides(const SidesRun& sides, record::Store& store,
+                                   const std::function<void(const Progress&)>& on_progress) {
+  InterruptGuard interrupts;
+  std::vector<RunContext> contexts;
+  std::vector<Part> parts;
+  contexts.reserve(sides.options.size());
+  for (std::size_t i = 0; i < sides.options.size(); ++i) {
+    const PlannedRun planned{sides.plan, sides.suite, sides.options[i]};
+    refuse_bad_options(planned.options);
+    contexts.push_back({planned.plan, planned.suite, store, planned.options, interrupts,
+                        open_run(planned, store),
+                        kinds_of(planned.plan, planned.options.protocol)});
+    parts.push_back({&contexts.back(), sides.devices[i]});
+  }
+  if (!sides.plan.timed()) {
+    std::vector<RunResult> results = measure_side_by_side(parts, on_progress);
+    return {std::move(results[0]), std::move(results[1])};
+  }
+  std::array<RunResult, 2> results;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    results[i] = PlanRun(contexts[i], {parts[i].device}, on_progress).measure_all();
   }
   return results;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Runs a plan: one worker process per device, supervised; records are stored as they are made.
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -25,9 +26,8 @@ struct RunOptions {
   std::chrono::seconds start_limit{60};  // of opening a device and calibrating its clocks
   bool resume = false;  // continue the plan's latest run: what has a record is left alone
   std::vector<Plant> plants;
-  // Command that starts a worker for a device; the device id is appended. It must call
-  // serve_worker with Process::child_request_fd and child_answer_fd (measure/process.hpp).
-  std::vector<std::string> worker_command;
+  std::vector<std::string> worker_command;           // as SideOptions::command
+  std::vector<std::string> worker_environment = {};  // as SideOptions::environment
 };
 
 // A signal asked the run to stop: its workers are gone, every record made so far is in the store,
@@ -79,6 +79,19 @@ struct PlannedRun {
 // written; Interrupted.
 [[nodiscard]] std::vector<RunResult> run_plans(
     std::span<const PlannedRun> runs, const std::vector<std::string>& devices, record::Store& store,
+    const std::function<void(const Progress&)>& on_progress);
+
+// A plan on two sides, each into a run of its own.
+struct SidesRun {
+  const Plan& plan;
+  const Suite& suite;
+  std::array<std::string, 2> devices;
+  std::array<RunOptions, 2> options;
+};
+
+// Side by side where nothing is timed, else one after the other. Throws as run_plans().
+[[nodiscard]] std::array<RunResult, 2> run_sides(
+    const SidesRun& sides, record::Store& store,
     const std::function<void(const Progress&)>& on_progress);
 
 // One alone.

@@ -1,19 +1,15 @@
 #include "measure/turns.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <utility>
 
-#include "core/hash.hpp"
 #include "measure/clock.hpp"
 #include "measure/count_to_fill.hpp"
-#include "measure/environment.hpp"
 #include "measure/worker_seat.hpp"
 
 namespace triptych::measure {
@@ -21,25 +17,6 @@ namespace {
 
 constexpr std::array<Side, 2> both{Side::a, Side::b};
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-// Sides with other variables or another program must not find each other's compiled code: drivers
-// do not put all that changes it into their caches' keys.
-std::string cache_name(const SideOptions& side) {
-  const std::string setup =
-      fmt::format("{} {}", fmt::join(side.command, " "), fmt::join(side.environment, " "));
-  return fmt::format("{}-{}", side.device, core::content_hash(setup).substr(0, 8));
-}
-
-std::vector<std::string> environment_of(const SideOptions& side, const CacheFolder& cache) {
-  const std::string name = "MESA_SHADER_CACHE_DIR";
-  std::vector<std::string> overrides = side.environment;
-  const bool set = std::getenv(name.c_str()) != nullptr ||
-                   std::ranges::any_of(overrides, [&](const std::string& entry) {
-                     return entry.starts_with(name + "=");
-                   });
-  if (!set) overrides.push_back(name + "=" + (cache.path() / "mesa").string());
-  return worker_environment(side.device, cache, overrides);
-}
 
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -95,12 +72,8 @@ class Turns::Seat {
   Seat(Side side, const SideOptions& of, const TurnOptions& options, InterruptGuard& interrupts)
       : side_(side),
         options_(options),
-        cache_(cache_name(of)),
-        seat_({.device = of.device,
-               .command = of.command,
-               .environment = environment_of(of, cache_),
-               .limit = options.start_limit},
-              interrupts) {}
+        cache_(cache_name(of, false)),
+        seat_(worker_setup(of, false, cache_, options.start_limit), interrupts) {}
 
   [[nodiscard]] const Hello& hello() const { return hello_; }
   [[nodiscard]] const std::string& why_closed() const { return seat_.why_closed(); }
@@ -198,13 +171,6 @@ Turns::~Turns() = default;
 
 const Hello& Turns::hello(Side side) const {
   return seat(side).hello();
-}
-
-Answer Turns::measure(Side side, const Job& job, const OnLoading& on_loading) {
-  Answer answer = seat(side).ask(
-      to_message(job), [](Message&& message) { return as_answer(std::move(message)); }, on_loading);
-  seat(side).require_measured(answer.record.outcome, answer.record.reason);
-  return answer;
 }
 
 void Turns::hold(const Configuration& configuration,

@@ -19,15 +19,9 @@
 #include "measure/interrupt.hpp"
 #include "measure/suite.hpp"
 #include "measure/wire.hpp"
+#include "measure/worker_setup.hpp"
 
 namespace triptych::measure {
-
-struct SideOptions {
-  std::string device;
-  std::vector<std::string> command;  // starts a worker, as RunOptions::worker_command
-  // "NAME=VALUE" each, over what a worker gets anyway; there before any driver is loaded.
-  std::vector<std::string> environment;
-};
 
 enum class Side : std::uint8_t { a, b };
 [[nodiscard]] std::string_view name_of(Side side);
@@ -92,9 +86,6 @@ class Turns {
   [[nodiscard]] const Hello& hello(Side side) const;
 
   // All that follow throw SideEnded, and Interrupted when a signal asks to stop.
-
-  // One configuration on one side alone, by the ordinary protocol.
-  [[nodiscard]] Answer measure(Side side, const Job& job, const OnLoading& on_loading = {});
 
   // Both sides prepare the configuration, keep it and draw a few frames: warm, and for knowing how
   // many make a turn by `clock`, and how many turns a block. What was held before is released.

@@ -81,7 +81,35 @@ TEST_F(Compare, ACrashOfBIsARegressionOfAMerelyADoubt) {
   const Result of_a = program.run(
       fmt::format("compare volume/quick --a null:scripted --b '{}' {}", b_as(1), tiny_plan),
       script(1, 1, R"(, "failures": [{"kind": "crash", "at": "prepare", "only": "*width=16,*"}])"));
-  expect_verdict(of_a, 2, "a crashed");
+  expect_verdict(of_a, 2, "technique=raycast,viewport=16: a crashed: killed by SIGABRT");
+}
+
+TEST_F(Compare, WithoutTimesOnlyWhatRepeatsIsTold) {
+  expect_verdict(compare(b_as(1.05), "--no-times"), 0, "PASS: 0 regressions in what repeats");
+  const std::string wrong = R"(, "failures": [{"kind": "wrong_image", "at": "image"}])";
+  const Result result = compare(b_as(1, wrong), "--no-times");
+  expect_verdict(result, 1, "FAIL: 1 regressions in what repeats");
+  EXPECT_EQ(result.output.find("slower"), std::string::npos) << result.output;
+}
+
+TEST_F(Compare, NothingIsLeftBehindUnlessAStoreIsNamed) {
+  expect_verdict(compare(b_as(1), "--no-times"), 0, "PASS");
+  EXPECT_FALSE(std::filesystem::exists(program.folder() / "triptych.sqlite"));
+  expect_verdict(compare(b_as(1), "--no-times --store kept.sqlite"), 0, "PASS");
+  EXPECT_TRUE(std::filesystem::exists(program.folder() / "kept.sqlite"));
+}
+
+TEST_F(Compare, TheGateJudgesByABase) {
+  const auto gate = [&](const std::string& more) {
+    return program.run(
+        fmt::format("gate volume/quick --device null:scripted {} {}", tiny_plan, more),
+        script(1, 1));
+  };
+  expect_verdict(gate("--base TRIPTYCH_NULL_SCRIPT='" + script(1, 2) + "'"), 0, "PASS");
+  expect_verdict(gate("--base " TRIPTYCH_PROGRAM), 0, "PASS");
+  expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --plant crash"), 1, "b crashed");
+  expect_verdict(gate("--base nothing"), 3, "--base nothing: expected NAME=VALUE");
+  expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --measure"), 3, "excludes");
 }
 
 TEST_F(Compare, AClockThatCannotBeBelievedIsNotUsed) {
@@ -104,7 +132,7 @@ TEST_F(Compare, JsonSaysTheSame) {
 TEST_F(Compare, WrongUsageIsOneLine) {
   EXPECT_EQ(program.run("compare volume/quick --a null:scripted").code, 3);
   expect_verdict(compare("null"), 3, "expected a device such as");
-  expect_verdict(compare("null:scripted,FAST"), 3, "expected NAME=VALUE after the device");
+  expect_verdict(compare("null:scripted,FAST"), 3, "after the device: expected NAME=VALUE");
   expect_verdict(compare(b_as(1), "--plant wings"), 3, "unknown fault 'wings'");
   expect_verdict(compare(b_as(1), "--b-program nothing"), 3, "no program to run");
   expect_verdict(compare("null:scripted,LP_PERF=no_tex"), 3, "LP_PERF=no_tex is set");

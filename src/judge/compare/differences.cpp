@@ -1,11 +1,13 @@
 #include "judge/compare/differences.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "judge/baselines/frame_change.hpp"
 #include "judge/images/agreement.hpp"
 #include "judge/images/image_metrics.hpp"
 
@@ -14,7 +16,14 @@ namespace {
 
 using Kind = DifferenceKind;
 
-std::set<std::string> names_in(const record::Counts& a, const record::Counts& b) {
+// A frame of another driver, or of the same with other settings, may take so many instructions
+// more: as much as a time has to grow to be called slower.
+constexpr double frame_across_setups = 0.01;
+// What is shown of compiling alone: it is not the same from run to run.
+constexpr double of_preparing = 0.05;
+
+template <typename Map>
+std::set<std::string> names_in(const Map& a, const Map& b) {
   std::set<std::string> names;
   for (const auto& [name, value] : a) names.insert(name);
   for (const auto& [name, value] : b) names.insert(name);
@@ -32,6 +41,11 @@ std::string change(std::uint64_t a, std::uint64_t b) {
   std::string text = fmt::format("{} → {}", a, b);
   if (a > 0) text += fmt::format(" ({:+.4g} %)", 100 * (static_cast<double>(b) - before) / before);
   return text;
+}
+
+std::optional<double> ratio_of(std::uint64_t a, std::uint64_t b) {
+  if (a == 0 || b == 0) return std::nullopt;
+  return static_cast<double>(b) / static_cast<double>(a);
 }
 
 // Pixels with any channel, depth or id that differs, and where the colours differ most.
@@ -61,10 +75,15 @@ class Finder {
       : a_(a),
         b_(b),
         same_setup_(same_setup),
-        same_driver_(a.device.statistics_key() == b.device.statistics_key()) {}
+        same_driver_(a.device.statistics_key() == b.device.statistics_key()),
+        same_device_(a.device.key() == b.device.key()),
+        same_id_(a.device.id == b.device.id) {}
 
   Comparison find() && {
+    if (!both_measured()) return std::move(result_);
     image();
+    cost();
+    memory();
     for (const std::string& name : names_in(a_.record.counters, b_.record.counters)) counter(name);
     for (const std::string& name : names_in(a_.record.statistics, b_.record.statistics)) {
       statistic(name);
@@ -74,8 +93,33 @@ class Finder {
   }
 
  private:
-  void add(Kind kind, std::string about, std::string text) {
-    result_.differences.push_back({kind, std::move(about), std::move(text)});
+  void add(Kind kind, std::string about, std::string text, std::optional<double> ratio = {}) {
+    result_.differences.push_back({kind, std::move(about), std::move(text), ratio});
+  }
+
+  // How a side ended that did not measure it.
+  static std::string end_of(std::string_view name, const record::Record& record) {
+    return fmt::format("{} {}: {}", name, record::name_of(record.outcome), record.reason);
+  }
+
+  bool both_measured() {
+    using record::Outcome;
+    const Outcome a = a_.record.outcome;
+    const Outcome b = b_.record.outcome;
+    if (a == Outcome::measured && b == Outcome::measured) return true;
+    result_.void_time = b == Outcome::measured ? end_of("a", a_.record) : end_of("b", b_.record);
+    if (a == b && a == Outcome::skipped) return false;  // neither can, which is no difference
+    if (b == Outcome::measured) {
+      add(a == Outcome::skipped && !same_id_ ? Kind::changed : Kind::fixed, "outcome",
+          end_of("a", a_.record));
+    } else if (b != Outcome::skipped) {
+      const bool new_fault = a == Outcome::measured || a == Outcome::skipped;
+      add(new_fault ? Kind::regression : Kind::unjudged, "outcome",
+          end_of("b", b_.record) + (new_fault ? "" : "; " + end_of("a", a_.record)));
+    } else {
+      add(same_id_ ? Kind::unjudged : Kind::changed, "outcome", end_of("b", b_.record));
+    }
+    return false;
   }
 
   static std::string fault_of(const ComparedSide& side) {
@@ -92,11 +136,12 @@ class Finder {
     }
     const std::string wrong_a = fault_of(a_);
     const std::string wrong_b = fault_of(b_);
-    if (!wrong_b.empty()) {
-      add(Kind::regression, "image",
-          fmt::format("b: {}{}", wrong_b, wrong_a.empty() ? "" : "; a is wrong too: " + wrong_a));
+    if (!wrong_b.empty() && !wrong_a.empty()) {
+      add(Kind::unjudged, "image", fmt::format("both are wrong, b: {}; a: {}", wrong_b, wrong_a));
+    } else if (!wrong_b.empty()) {
+      add(Kind::regression, "image", "b: " + wrong_b);
     } else if (!wrong_a.empty()) {
-      add(Kind::unjudged, "image", fmt::format("b is right, but a: {}", wrong_a));
+      add(b_.truth == nullptr ? Kind::unjudged : Kind::fixed, "image", "a: " + wrong_a);
     }
     if (!wrong_a.empty() || !wrong_b.empty()) {
       result_.void_time = fmt::format("the picture of {} is wrong, so its time means nothing",
@@ -114,8 +159,56 @@ class Finder {
       add(Kind::regression, "image",
           "other bits from the same device and the same device code: " + what);
     } else {
-      add(Kind::expected, "image", "other bits: " + what);
+      add(Kind::changed, "image", "other bits: " + what);
     }
+  }
+
+  // Of one device with one program or another, every instruction counts; else the frame as a whole.
+  void cost() {
+    const record::Counts& before = a_.record.cost;
+    const record::Counts& now = b_.record.cost;
+    if (before.empty() || now.empty()) return;
+    if (a_.record.counted_by != b_.record.counted_by) {
+      return add(
+          Kind::unjudged, "cost",
+          fmt::format("a was counted by {}, b by {}", a_.record.counted_by, b_.record.counted_by));
+    }
+    const FrameChange change = frame_change(b_.record, before);
+    const double frame = frame_of(before);
+    const double ratio = frame > 0 ? frame_of(now) / frame : 1;
+    const bool more = same_device_ ? change.more : same_id_ && ratio > 1 + frame_across_setups;
+    if (!change.texts.empty()) {
+      add(more ? Kind::regression : Kind::changed, "cost",
+          fmt::format("{}", fmt::join(change.texts, "; ")), ratio);
+    }
+    preparing();
+  }
+
+  void preparing() {
+    const double before = frame_of(a_.record.prepare_cost);
+    const double now = frame_of(b_.record.prepare_cost);
+    if (before > 0 && std::abs(now / before - 1) > of_preparing) {
+      add(Kind::changed, "cost of preparing", change_text("instructions", before, now),
+          now / before);
+    }
+  }
+
+  void memory() {
+    double all_a = 0;
+    double all_b = 0;
+    bool more = false;
+    std::vector<std::string> changes;
+    for (const std::string& kind : names_in(a_.record.memory, b_.record.memory)) {
+      const double before = count_of(a_.record.memory, kind).value_or(0);
+      const double now = count_of(b_.record.memory, kind).value_or(0);
+      all_a += before;
+      all_b += now;
+      more = more || now > before;
+      if (now != before) changes.push_back(fmt::format("{} {} → {} bytes", kind, before, now));
+    }
+    if (changes.empty() || all_a == 0 || all_b == 0) return;
+    add(more && same_id_ ? Kind::regression : Kind::changed, "memory",
+        fmt::format("{}", fmt::join(changes, "; ")), all_b / all_a);
   }
 
   void counter(const std::string& name) {
@@ -124,18 +217,19 @@ class Finder {
     if (a == b) return;
     const std::string about = "counter " + name;
     if (!a || !b) {
-      add(!b && same_driver_ ? Kind::regression : Kind::expected, about,
+      add(!b && same_driver_ ? Kind::regression : Kind::changed, about,
           fmt::format("only {} tells it: {}", a ? "a" : "b", a ? *a : *b));
       return;
     }
+    const auto ratio = ratio_of(*a, *b);
     const double reference = std::max(1.0, static_cast<double>(std::max(*a, *b)));
     const double relative = std::abs(static_cast<double>(*b) - static_cast<double>(*a)) / reference;
     if (same_driver_) {
-      add(Kind::regression, about, change(*a, *b) + ", on the same driver");
+      add(Kind::regression, about, change(*a, *b) + ", on the same driver", ratio);
     } else if (relative > counters_across_devices) {
-      add(Kind::regression, about, change(*a, *b) + ", beyond what rounding decides");
+      add(Kind::regression, about, change(*a, *b) + ", beyond what rounding decides", ratio);
     } else {
-      add(Kind::expected, about, change(*a, *b) + ", where rounding decides");
+      add(Kind::changed, about, change(*a, *b) + ", where rounding decides", ratio);
     }
   }
 
@@ -145,23 +239,25 @@ class Finder {
     if (a == b) return;
     const std::string about = "statistic " + name;
     if (!a || !b) {
-      add(!b && same_driver_ ? Kind::regression : Kind::expected, about,
+      add(!b && same_driver_ ? Kind::regression : Kind::changed, about,
           fmt::format("only {} tells it: {}", a ? "a" : "b", a ? *a : *b));
       return;
     }
+    const auto ratio = ratio_of(*a, *b);
     const std::string on_a = statistic_reservation(a_.device.statistics_dialect, name);
     const std::string on_b = statistic_reservation(b_.device.statistics_dialect, name);
     const bool unsteady = on_a.starts_with("unsteady") || on_b.starts_with("unsteady");
     if (same_driver_ && !unsteady) {
-      add(Kind::regression, about, change(*a, *b) + ", on the same driver");
+      add(Kind::regression, about, change(*a, *b) + ", on the same driver", ratio);
     } else if (!on_a.empty() || !on_b.empty()) {
       add(Kind::dialect, about,
           fmt::format("{}; a: {}; b: {}", change(*a, *b), on_a.empty() ? "exact" : on_a,
-                      on_b.empty() ? "exact" : on_b));
+                      on_b.empty() ? "exact" : on_b),
+          ratio);
     } else if (std::ranges::find(portable_statistics, name) != portable_statistics.end()) {
-      add(Kind::regression, about, change(*a, *b) + ", which drivers must agree on");
+      add(Kind::regression, about, change(*a, *b) + ", which drivers must agree on", ratio);
     } else {
-      add(Kind::expected, about, change(*a, *b) + ", which the API leaves to the driver");
+      add(Kind::changed, about, change(*a, *b) + ", which the API leaves to the driver", ratio);
     }
   }
 
@@ -169,6 +265,8 @@ class Finder {
   const ComparedSide& b_;
   bool same_setup_;
   bool same_driver_;
+  bool same_device_;
+  bool same_id_;
   Comparison result_;
 };
 
@@ -179,13 +277,37 @@ std::string_view name_of(DifferenceKind kind) {
     case Kind::regression:
       return "regression";
     case Kind::unjudged:
-      return "unjudged";
+      return "cannot judge";
+    case Kind::fixed:
+      return "fixed";
     case Kind::dialect:
       return "dialect";
-    case Kind::expected:
+    case Kind::changed:
       break;
   }
-  return "expected";
+  return "changed";
+}
+
+std::vector<Difference> find_differences(const record::Device& a, const record::Device& b) {
+  std::vector<Difference> differences;
+  if (a.id != b.id) return differences;
+  const auto look = [&](Kind kind, const char* what, const auto& of_a, const auto& of_b) {
+    for (const std::string& name : names_in(of_a, of_b)) {
+      const auto before = of_a.find(name);
+      const auto now = of_b.find(name);
+      const std::string about = fmt::format("{} {}", what, name);
+      if (before == of_a.end()) {
+        differences.push_back({kind, about, "new: " + now->second});
+      } else if (now == of_b.end()) {
+        differences.push_back({kind, about, "gone, was " + before->second});
+      } else if (before->second != now->second) {
+        differences.push_back({kind, about, fmt::format("{} → {}", before->second, now->second)});
+      }
+    }
+  };
+  look(Kind::changed, "limit", a.limits, b.limits);
+  look(Kind::dialect, "statistic", a.statistics_dialect, b.statistics_dialect);
+  return differences;
 }
 
 Comparison find_differences(const ComparedSide& a, const ComparedSide& b, bool same_setup) {

@@ -14,17 +14,20 @@
 namespace triptych::judge {
 
 enum class DifferenceKind : std::uint8_t {
-  regression,  // b is wrong, or changed what must not change
-  unjudged,    // nothing to judge by: no truth, or a itself is wrong
+  regression,  // b is wrong or does more, or changed what must not change
+  unjudged,    // nothing to judge by: no truth, or b cannot do any more what a can
+  fixed,       // a is wrong, or cannot do it; b is right
   dialect,     // a statistic that at least one of the drivers counts in its own way
-  expected     // two devices may differ so
+  changed      // two devices may differ so, or b does less
 };
 [[nodiscard]] std::string_view name_of(DifferenceKind kind);
 
 struct Difference {
-  DifferenceKind kind = DifferenceKind::expected;
-  std::string about;  // "image", "counter samples", "statistic fragment_invocations"
+  DifferenceKind kind = DifferenceKind::changed;
+  std::string about;  // "image", "counter samples", "cost", "memory", "statistic …", "limit …"
   std::string text;   // one line: both values, and why it is of its kind
+  // b over a, of a number that both tell and that is no nothing.
+  std::optional<double> ratio = {};
 };
 
 // One side of a comparison: what it measured and on what.
@@ -38,7 +41,8 @@ struct ComparedSide {
 
 struct Comparison {
   std::vector<Difference> differences;  // worst first
-  // Why no time of this configuration means anything: a picture is wrong. Empty: none is.
+  // Why no time of this configuration means anything: one side did not measure it, or a picture is
+  // wrong. Empty: none is.
   std::string void_time;
 };
 
@@ -46,5 +50,10 @@ struct Comparison {
 // code on the same device must make the same bits.
 [[nodiscard]] Comparison find_differences(const ComparedSide& a, const ComparedSide& b,
                                           bool same_setup);
+
+// Limits and capabilities gained, lost and changed, and how statistics are counted, of two versions
+// of one device; of two devices nothing.
+[[nodiscard]] std::vector<Difference> find_differences(const record::Device& a,
+                                                       const record::Device& b);
 
 }  // namespace triptych::judge

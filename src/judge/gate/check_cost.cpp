@@ -5,51 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
-#include "judge/baselines/cost_tolerance.hpp"
+#include "judge/baselines/frame_change.hpp"
 #include "judge/gate/run_view.hpp"
 #include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge {
 namespace {
-
-// What decides, and what people call it.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 2> parts{
-    {{"device_code", "generated code"}, {"driver", "driver"}}};
-
-std::optional<double> count_of(const record::Counts& counts, std::string_view name) {
-  const auto found = counts.find(std::string(name));
-  if (found == counts.end()) return std::nullopt;
-  return static_cast<double>(found->second);
-}
-
-double frame_of(const record::Counts& counts) {
-  double sum = 0;
-  for (const auto& [part, name] : parts) sum += count_of(counts, part).value_or(0);
-  return sum;
-}
-
-std::string change_text(std::string_view name, double before, double now) {
-  const std::string share =
-      before > 0 ? fmt::format("{:+.3g} %", 100 * (now - before) / before) : "new";
-  return fmt::format("{} {:.0f} → {:.0f} ({})", name, before, now, share);
-}
-
-// What differs by more than it may, in words, and which way.
-struct Changes {
-  bool more = false;
-  bool less = false;
-  std::vector<std::string> texts;
-
-  void compare(std::string_view name, double before, double now, double tolerated) {
-    if (std::abs(now - before) <= tolerated) return;
-    (now > before ? more : less) = true;
-    texts.push_back(change_text(name, before, now));
-  }
-};
 
 // What is worth a line, yet decides nothing: the configuration that it changed most in.
 struct Note {
@@ -138,19 +101,7 @@ class DeviceCostCheck {
 
   static Finding judge(const record::Record& record, const record::Counts& stored) {
     const double frame = frame_of(stored);
-    Changes changes;
-    for (const auto& [part, name] : parts) {
-      const double before = count_of(stored, part).value_or(0);
-      changes.compare(name, before, count_of(record.cost, part).value_or(0),
-                      frame * cost_tolerance(part, record.device, record.technique,
-                                             frame > 0 ? before / frame : 0));
-    }
-    compare_misses(record, stored, changes);
-    const auto before = count_of(stored, "allocations");
-    const auto now = count_of(record.cost, "allocations");
-    if (!changes.texts.empty() && before && now && *before != *now) {
-      changes.texts.push_back(change_text("allocations", *before, *now));
-    }
+    const FrameChange changes = frame_change(record, stored);
     const Verdict verdict = changes.more   ? Verdict::regression
                             : changes.less ? Verdict::improved
                                            : Verdict::pass;
@@ -169,15 +120,6 @@ class DeviceCostCheck {
       set_number(finding, "stored_" + name, static_cast<double>(count));
     }
     return finding;
-  }
-
-  static void compare_misses(const record::Record& record, const record::Counts& stored,
-                             Changes& changes) {
-    const auto before = count_of(stored, "misses");
-    const auto now = count_of(record.cost, "misses");
-    if (!before || !now) return;
-    const auto tolerated = misses_tolerance(record.technique, *before);
-    if (tolerated) changes.compare("cache misses of generated code", *before, *now, *tolerated);
   }
 
   void note(const record::Record& record, const StoredCost& stored) {

@@ -21,6 +21,9 @@ class Differences : public testing::Test {
                                     {"compute_invocations", "exact"}};
     }
     for (record::Record* record : {&record_a, &record_b}) {
+      record->outcome = record::Outcome::measured;
+      record->device = "vulkan:lavapipe";
+      record->technique = "raycast";
       record->image = "same";
       record->kernel_hash = "code";
       record->counters = {{"samples", 1000000}, {"rays_hit", 64}};
@@ -34,6 +37,13 @@ class Differences : public testing::Test {
   void use_another_driver() {
     device_b.id = "gl:llvmpipe-egl";
     device_b.driver_version = "2";
+  }
+
+  void count(std::uint64_t device_code, std::uint64_t driver) {
+    for (record::Record* record : {&record_a, &record_b}) {
+      record->counted_by = "valgrind";
+      record->cost = {{"device_code", device_code}, {"driver", driver}};
+    }
   }
 
   [[nodiscard]] Comparison find(bool same_setup = true) const {
@@ -67,7 +77,7 @@ TEST_F(Differences, ACounterThatChangesByOneIsARegressionOnTheSameDriver) {
 TEST_F(Differences, RoundingMayDecideAFewSamplesOnAnotherDriver) {
   use_another_driver();
   record_b.counters["samples"] += 1;
-  EXPECT_EQ(only().kind, DifferenceKind::expected);
+  EXPECT_EQ(only().kind, DifferenceKind::changed);
   record_b.counters["samples"] += 1000;
   EXPECT_EQ(only().kind, DifferenceKind::regression);
 }
@@ -76,14 +86,14 @@ TEST_F(Differences, ACounterThatIsLostIsARegressionOnTheSameDriverAlone) {
   record_b.counters.erase("rays_hit");
   EXPECT_EQ(only().kind, DifferenceKind::regression);
   use_another_driver();
-  EXPECT_EQ(only().kind, DifferenceKind::expected);
+  EXPECT_EQ(only().kind, DifferenceKind::changed);
 }
 
 TEST_F(Differences, AStatisticIsHeldToWhatItsDriversCanCount) {
   record_b.statistics["fragment_invocations"] = 160;
   EXPECT_EQ(only().kind, DifferenceKind::regression);  // one driver, two numbers
   use_another_driver();
-  EXPECT_EQ(only().kind, DifferenceKind::expected);  // both exact, but the API leaves it open
+  EXPECT_EQ(only().kind, DifferenceKind::changed);  // both exact, but the API leaves it open
   device_a.statistics_dialect["fragment_invocations"] = "inflated: 1.02 to 3.9";
   EXPECT_EQ(only().kind, DifferenceKind::dialect);
   EXPECT_THAT(only().text, HasSubstr("a: inflated: 1.02 to 3.9; b: exact"));
@@ -98,7 +108,7 @@ TEST_F(Differences, WhatDriversMustAgreeOnIsARegression) {
 TEST_F(Differences, AStatisticThatOnlyOneDriverTellsIsExpected) {
   use_another_driver();
   record_b.statistics["vertex_invocations"] = 6;
-  EXPECT_EQ(only().kind, DifferenceKind::expected);
+  EXPECT_EQ(only().kind, DifferenceKind::changed);
   EXPECT_THAT(only().text, HasSubstr("only b tells it: 6"));
 }
 
@@ -112,7 +122,7 @@ TEST_F(Differences, OtherBitsWithinTheBoundAreExpectedOfOtherCodeOnly) {
   record_b.image = "other";
   image_b.rgba[4 * 5] += 0.005F;
   EXPECT_EQ(only().kind, DifferenceKind::regression);
-  EXPECT_EQ(only(false).kind, DifferenceKind::expected);
+  EXPECT_EQ(only(false).kind, DifferenceKind::changed);
   EXPECT_THAT(only(false).text, HasSubstr("1 of 16 pixels differ, most at (1, 1)"));
   EXPECT_THAT(find(false).void_time, IsEmpty());
 }
@@ -124,8 +134,11 @@ TEST_F(Differences, AWrongPictureIsARegressionAndVoidsTheTime) {
   EXPECT_THAT(find().void_time, HasSubstr("the picture of b is wrong"));
   std::swap(image_a, image_b);
   std::swap(record_a.image, record_b.image);
-  EXPECT_EQ(only(false).kind, DifferenceKind::unjudged);
+  EXPECT_EQ(only(false).kind, DifferenceKind::fixed);
   EXPECT_THAT(find().void_time, HasSubstr("the picture of a is wrong"));
+  image_b = image_a;
+  EXPECT_EQ(only(false).kind, DifferenceKind::unjudged);
+  EXPECT_THAT(only(false).text, HasSubstr("both are wrong"));
 }
 
 TEST_F(Differences, WithoutATruthNothingIsAPass) {
@@ -135,6 +148,77 @@ TEST_F(Differences, WithoutATruthNothingIsAPass) {
   ASSERT_EQ(found.differences.size(), 1U);
   EXPECT_EQ(found.differences[0].kind, DifferenceKind::unjudged);
   EXPECT_THAT(found.differences[0].text, HasSubstr("no memory"));
+}
+
+TEST_F(Differences, OneInstructionMoreIsARegressionOfTheSameDeviceAlone) {
+  count(1000000, 1000);
+  record_b.cost["device_code"] += 1;
+  EXPECT_EQ(only().kind, DifferenceKind::regression);
+  EXPECT_THAT(only().text, HasSubstr("generated code 1000000 → 1000001"));
+  record_b.cost["device_code"] -= 2;
+  EXPECT_EQ(only().kind, DifferenceKind::changed);
+  use_another_driver();
+  EXPECT_EQ(only().kind, DifferenceKind::changed);
+}
+
+TEST_F(Differences, AnotherVersionMayTakeOnePercentMore) {
+  count(1000000, 1000);
+  device_b.driver_version = "2";
+  record_b.cost["device_code"] += 10000;
+  EXPECT_EQ(only().kind, DifferenceKind::changed);
+  record_b.cost["device_code"] += 100;
+  EXPECT_EQ(only().kind, DifferenceKind::regression);
+  EXPECT_NEAR(only().ratio.value(), 1.0101, 1e-4);
+}
+
+TEST_F(Differences, CountsOfTwoCountersAreNotCompared) {
+  count(1000000, 1000);
+  record_b.counted_by = "another";
+  record_b.cost["device_code"] *= 2;
+  EXPECT_EQ(only().kind, DifferenceKind::unjudged);
+}
+
+TEST_F(Differences, OneByteMoreIsARegressionAndOneLessAChange) {
+  record_a.memory = record_b.memory = {{"buffers", 1000}};
+  record_b.memory["buffers"] += 1;
+  EXPECT_EQ(only().kind, DifferenceKind::regression);
+  record_b.memory["buffers"] -= 2;
+  EXPECT_EQ(only().kind, DifferenceKind::changed);
+}
+
+TEST_F(Differences, WhatOnlyOneSideCouldDoIsOneDifference) {
+  const auto ended = [](record::Outcome outcome) {
+    record::Record record;
+    record.outcome = outcome;
+    record.reason = "why";
+    return record;
+  };
+  record_b = ended(record::Outcome::crashed);
+  EXPECT_EQ(only().kind, DifferenceKind::regression);
+  EXPECT_THAT(find().void_time, HasSubstr("b crashed: why"));
+  record_b = ended(record::Outcome::skipped);
+  EXPECT_EQ(only().kind, DifferenceKind::unjudged);
+  std::swap(record_a, record_b);
+  EXPECT_EQ(only().kind, DifferenceKind::fixed);
+  record_b = record_a;
+  EXPECT_THAT(find().differences, IsEmpty());
+}
+
+TEST(DeviceDifferences, LimitsAreGainedLostAndChanged) {
+  record::Device a;
+  a.id = "vulkan:lavapipe";
+  record::Device b = a;
+  a.limits = {{"x", "1"}, {"y", "1"}};
+  b.limits = {{"x", "2"}, {"z", "1"}};
+  b.statistics_dialect = {{"fragment_invocations", "exact"}};
+  const auto found = find_differences(a, b);
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_EQ(found[0].text, "1 → 2");
+  EXPECT_EQ(found[1].text, "gone, was 1");
+  EXPECT_EQ(found[2].text, "new: 1");
+  EXPECT_EQ(found[3].kind, DifferenceKind::dialect);
+  b.id = "gl:llvmpipe-egl";
+  EXPECT_THAT(find_differences(a, b), IsEmpty());
 }
 
 TEST_F(Differences, TheWorstComesFirst) {

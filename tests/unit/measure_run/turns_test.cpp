@@ -191,14 +191,6 @@ TEST_F(TurnsTest, FreshLaunchesAreNewProcesses) {
   EXPECT_EQ(turns.block().a.wall_ns, turns.block().b.wall_ns);
 }
 
-TEST_F(TurnsTest, TheOrdinaryJobIsAnsweredToo) {
-  Turns turns = open();
-  const Answer answer = turns.measure(
-      Side::b, {.name = "b", .configuration = configuration(), .protocol = {}, .plants = {}});
-  EXPECT_FALSE(answer.record.counters.empty());
-  EXPECT_FALSE(answer.exr.empty());
-}
-
 TEST_F(TurnsTest, ADeviceThatIsNotThereIsRefusedAtOnce) {
   b.device = "null:nothing";
   EXPECT_THROW(static_cast<void>(open()), core::NotSupported);

@@ -1,0 +1,296 @@
+// Frame times of two sides, interleaved.
+
+#include "comparison/times.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "measure/plant.hpp"
+#include "measure/stopwatch.hpp"
+
+namespace triptych::comparison {
+namespace {
+
+using judge::PairVerdict;
+using measure::Side;
+using measure::TurnClock;
+
+// A configuration with what it takes to go on measuring it.
+struct Entry {
+  Compared& compared;
+  std::array<std::vector<std::string>, 2> plants;
+  std::vector<measure::Block> blocks;
+};
+
+class Timer {
+ public:
+  Timer(const ComparisonOptions& options, const Tell& tell, std::vector<Compared>& compared)
+      : options_(options),
+        tell_(tell),
+        turns_({.suite = options.plan.suite,
+                .kinds = measure::work_kinds(options.plan),
+                .limit = options.limit,
+                .seed = options.seed},
+               options.a, options.b) {
+    for (Compared& each : compared) {
+      if (!each.reason.empty()) continue;  // no time of it means anything
+      entries_.push_back({each,
+                          {std::vector<std::string>{},
+                           measure::faults_for(options_.plants, each.key, options_.b.device)},
+                          {}});
+    }
+  }
+
+  void run() {
+    first_looks();
+    go_on_with_the_widest();
+    confirm_suspects();
+    for (Entry& entry : entries_) conclude(entry);
+  }
+
+ private:
+  // Does `act` for a configuration: its time is counted, a side's end is its own.
+  template <typename Act>
+  void about(Entry& entry, const Act& act) {
+    const measure::Stopwatch stopwatch;
+    try {
+      act();
+    } catch (const measure::SideEnded& ended) {
+      held_ = nullptr;
+      entry.compared.ended = ended.outcome();
+      entry.compared.reason = ended.what();
+      const bool fault_of_b =
+          ended.side() == Side::b && ended.outcome() != record::Outcome::skipped;
+      if (fault_of_b) {
+        entry.compared.differences.push_back(
+            {.kind = judge::DifferenceKind::regression, .about = "outcome", .text = ended.what()});
+      }
+    }
+    entry.compared.seconds += stopwatch.seconds();
+  }
+
+  void first_looks() {
+    int done = 0;
+    const int total = static_cast<int>(entries_.size());
+    const int first = options_.design.looks.front();
+    for (Entry& entry : entries_) {
+      const double each_s = done > 0 ? since_start_.seconds() / done : 0;
+      say("first look", entry, done, total, each_s * (total - done));
+      about(entry, [&] {
+        draw_until(entry, first);
+        judge_blocks(entry);
+      });
+      ++done;
+    }
+  }
+
+  measure::OnLoading loading_of(const Entry& entry) {
+    return [this, &entry](const measure::Loading& loading) {
+      if (tell_) tell_({.stage = {}, .configuration = entry.compared.key, .loading = loading});
+    };
+  }
+
+  void hold(Entry& entry) {
+    if (held_ == &entry) return;
+    held_ = nullptr;
+    turns_.hold(entry.compared.configuration, entry.plants, entry.compared.clock,
+                loading_of(entry));
+    entry.compared.frames_per_turn = turns_.frames_per_turn();
+    held_ = &entry;
+  }
+
+  void draw_until(Entry& entry, int blocks) {
+    hold(entry);
+    const bool first = entry.blocks.empty();
+    while (static_cast<int>(entry.blocks.size()) < blocks && (first || !over_budget())) {
+      entry.blocks.push_back(turns_.block());
+    }
+  }
+
+  void judge_blocks(Entry& entry) {
+    Compared& compared = entry.compared;
+    if (compared.clock == TurnClock::device && !measure::device_clock_holds(entry.blocks)) {
+      compared.clock = TurnClock::wall;
+      compared.why_wall = "the device times of these turns cannot be true";
+    }
+    const judge::Look look =
+        judge::look_at(measure::differences(entry.blocks, compared.clock), options_.design);
+    compared.verdict = look.verdict;
+    compared.shift = look.shift;
+    compared.blocks = static_cast<int>(entry.blocks.size());
+  }
+
+  [[nodiscard]] bool over_budget() const {
+    return options_.budget && since_start_.elapsed() >= *options_.budget;
+  }
+
+  [[nodiscard]] bool may_go_on(const Entry& entry) const {
+    const Compared& compared = entry.compared;
+    return !compared.ended && compared.reason.empty() &&
+           compared.verdict == PairVerdict::undecided &&
+           options_.design.next_look(compared.blocks) > 0;
+  }
+
+  // At most: every block that could still be asked for, or the budget.
+  [[nodiscard]] double most_left_s() const {
+    double left = 0;
+    for (const Entry& entry : entries_) {
+      if (!may_go_on(entry)) continue;
+      left += entry.compared.seconds / entry.compared.blocks *
+              (options_.design.looks.back() - entry.compared.blocks);
+    }
+    if (!options_.budget) return left;
+    return std::min(
+        left, std::chrono::duration<double>(*options_.budget).count() - since_start_.seconds());
+  }
+
+  void go_on_with_the_widest() {
+    while (!over_budget()) {
+      Entry* widest = nullptr;
+      int open = 0;
+      for (Entry& entry : entries_) {
+        if (!may_go_on(entry)) continue;
+        ++open;
+        const auto width = [](const Entry& each) {
+          return each.compared.shift.interval.half_width();
+        };
+        if (widest == nullptr || width(entry) > width(*widest)) widest = &entry;
+      }
+      if (widest == nullptr) return;
+      const int total = static_cast<int>(entries_.size());
+      say("more blocks", *widest, total - open, total, most_left_s());
+      about(*widest, [&] {
+        // The look at the budget's end is one of those that were planned.
+        draw_until(*widest, options_.design.next_look(widest->compared.blocks));
+        judge_blocks(*widest);
+      });
+    }
+  }
+
+  [[nodiscard]] std::vector<Entry*> suspects() {
+    std::vector<Entry*> result;
+    for (Entry& entry : entries_) {
+      const PairVerdict verdict = entry.compared.verdict;
+      const bool suspected = verdict == PairVerdict::slower || verdict == PairVerdict::faster;
+      if (suspected && !entry.compared.ended) result.push_back(&entry);
+    }
+    return result;
+  }
+
+  void confirm_suspects() {
+    const std::vector<Entry*> suspected = suspects();
+    if (suspected.empty()) return;
+    std::vector<judge::Suspect> launched;
+    for (const Entry* entry : suspected) {
+      launched.push_back({{}, entry->compared.verdict == PairVerdict::slower});
+    }
+    const measure::Stopwatch stopwatch;
+    int done = 0;
+    const auto launch = [&](std::span<const std::size_t> open, std::size_t number,
+                            std::size_t until) {
+      const bool enough = number > judge::least_launches && over_budget();
+      const bool all_ended = std::ranges::all_of(
+          open, [&](std::size_t i) { return suspected[i]->compared.ended.has_value(); });
+      if (enough || all_ended || !relaunched()) return false;
+      const auto left = static_cast<int>((until - number + 1) * open.size());
+      const int total = done + left;
+      for (const std::size_t i : open) {
+        const double each_s = done > 0 ? stopwatch.seconds() / done : 0;
+        say(fmt::format("fresh launch {} of {}", number, until), *suspected[i], done, total,
+            each_s * (total - done));
+        launch_again(*suspected[i], launched[i]);
+        ++done;
+      }
+      return true;
+    };
+    const auto confirmed =
+        judge::confirm_in_looks(launched, options_.confirmation, options_.design, launch);
+    for (std::size_t i = 0; i < suspected.size(); ++i) {
+      if (!suspected[i]->compared.ended) take(confirmed[i], launched[i], suspected[i]->compared);
+    }
+  }
+
+  // What is not confirmed for lack of launches says so.
+  bool relaunched() {
+    held_ = nullptr;
+    try {
+      turns_.relaunch();
+      return true;
+    } catch (const measure::SideEnded&) {
+      return false;
+    }
+  }
+
+  void launch_again(Entry& entry, judge::Suspect& suspect) {
+    if (entry.compared.ended) return;
+    about(entry, [&] {
+      hold(entry);
+      std::vector<measure::Block> blocks;
+      while (blocks.size() < options_.confirmation.blocks_per_launch) {
+        blocks.push_back(turns_.block());
+      }
+      if (entry.compared.clock == TurnClock::device && !measure::device_clock_holds(blocks)) return;
+      const auto differences = measure::differences(blocks, entry.compared.clock);
+      const double level = options_.design.alpha_of_a_look();
+      suspect.launches.push_back(judge::estimate_shift(differences, level).estimate);
+    });
+  }
+
+  static void take(const judge::Confirmation& confirmed, const judge::Suspect& suspect,
+                   Compared& compared) {
+    const auto suspected = std::exchange(compared.verdict, confirmed.verdict);
+    if (suspect.launches.size() < judge::least_launches) {
+      compared.reason = fmt::format("{} at first, but fresh launches could not be measured",
+                                    judge::name_of(suspected));
+      return;
+    }
+    compared.launches = static_cast<int>(suspect.launches.size());
+    if (confirmed.verdict != suspected) {
+      compared.reason = fmt::format("{} in one launch by {:+.2f} %, not so in {} fresh ones",
+                                    judge::name_of(suspected),
+                                    100 * std::expm1(compared.shift.estimate), compared.launches);
+    }
+    compared.shift = confirmed.shift;
+  }
+
+  void conclude(Entry& entry) {
+    Compared& compared = entry.compared;
+    if (compared.blocks == 0) compared.work.reset();
+    const bool unexplained = !compared.ended && compared.reason.empty();
+    if (unexplained && compared.verdict == PairVerdict::undecided) {
+      const bool all = options_.design.next_look(compared.blocks) == 0;
+      compared.reason = fmt::format("{} after {} blocks, the interval is ±{:.2f} % wide",
+                                    all ? "undecided" : "the budget ended", compared.blocks,
+                                    100 * std::expm1(compared.shift.interval.half_width()));
+    }
+  }
+
+  void say(std::string stage, const Entry& entry, int done, int total, double left_s) {
+    if (!tell_) return;
+    tell_({.stage = std::move(stage),
+           .configuration = entry.compared.key,
+           .done = done,
+           .total = total,
+           .left = std::chrono::seconds(static_cast<long>(std::ceil(std::max(0.0, left_s)))),
+           .loading = {}});
+  }
+
+  const ComparisonOptions& options_;
+  const Tell& tell_;
+  measure::Stopwatch since_start_;
+  measure::Turns turns_;
+  std::vector<Entry> entries_;
+  const Entry* held_ = nullptr;  // by both workers
+};
+
+}  // namespace
+
+void measure_times(const ComparisonOptions& options, const Tell& tell,
+                   std::vector<Compared>& compared) {
+  Timer(options, tell, compared).run();
+}
+
+}  // namespace triptych::comparison

@@ -1,0 +1,15 @@
+#pragma once
+// The second half of a comparison: frame times of both sides, interleaved.
+
+#include <vector>
+
+#include "comparison/comparison.hpp"
+
+namespace triptych::comparison {
+
+// Sets the verdict on the time of each configuration that has no reason against it. Throws as
+// measure::Turns does.
+void measure_times(const ComparisonOptions& options, const Tell& tell,
+                   std::vector<Compared>& compared);
+
+}  // namespace triptych::comparison

@@ -1,0 +1,63 @@
+#include "judge/baselines/frame_change.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "judge/baselines/cost_tolerance.hpp"
+
+namespace triptych::judge {
+namespace {
+
+void compare(FrameChange& change, std::string_view name, double before, double now,
+             double tolerated) {
+  if (std::abs(now - before) <= tolerated) return;
+  (now > before ? change.more : change.less) = true;
+  change.texts.push_back(change_text(name, before, now));
+}
+
+}  // namespace
+
+std::optional<double> count_of(const record::Counts& counts, std::string_view name) {
+  const auto found = counts.find(std::string(name));
+  if (found == counts.end()) return std::nullopt;
+  return static_cast<double>(found->second);
+}
+
+double frame_of(const record::Counts& cost) {
+  double sum = 0;
+  for (const auto& [part, name] : cost_parts) sum += count_of(cost, part).value_or(0);
+  return sum;
+}
+
+std::string change_text(std::string_view name, double before, double now) {
+  const std::string share =
+      before > 0 ? fmt::format("{:+.3g} %", 100 * (now - before) / before) : "new";
+  return fmt::format("{} {:.0f} → {:.0f} ({})", name, before, now, share);
+}
+
+FrameChange frame_change(const record::Record& now, const record::Counts& before) {
+  FrameChange change;
+  const double frame = frame_of(before);
+  for (const auto& [part, name] : cost_parts) {
+    const double stored = count_of(before, part).value_or(0);
+    compare(
+        change, name, stored, count_of(now.cost, part).value_or(0),
+        frame * cost_tolerance(part, now.device, now.technique, frame > 0 ? stored / frame : 0));
+  }
+  const auto misses = count_of(before, "misses");
+  const auto misses_now = count_of(now.cost, "misses");
+  if (misses && misses_now) {
+    if (const auto tolerated = misses_tolerance(now.technique, *misses)) {
+      compare(change, "cache misses of generated code", *misses, *misses_now, *tolerated);
+    }
+  }
+  const auto allocations = count_of(before, "allocations");
+  const auto allocations_now = count_of(now.cost, "allocations");
+  if (!change.texts.empty() && allocations && allocations_now && *allocations != *allocations_now) {
+    change.texts.push_back(change_text("allocations", *allocations, *allocations_now));
+  }
+  return change;
+}
+
+}  // namespace triptych::judge
