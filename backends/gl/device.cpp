@@ -26,20 +26,13 @@ struct Entry {
   std::variant<VolumeTechnique, ParticleTechnique> technique;
 };
 
-const Entry* find(std::string_view id) {
-  static const std::array<Entry, 11> entries{{{"raycast", raycast()},
-                                              {"raycast_fragment", raycast_fragment()},
-                                              {"speed_of_light", speed_of_light()},
-                                              {"quad_screen", quad_screen()},
-                                              {"quad_ray", quad_ray()},
-                                              {"quad_instanced", quad_instanced()},
-                                              {"quad_tess", quad_tess()},
-                                              {"polygon_tess", polygon_tess()},
-                                              {"polygon_adaptive", polygon_adaptive()},
-                                              {"point", point()},
-                                              {"tiles", tiles()}}};
+const Entry* find(std::string_view technique) {
+#define ENTRY(id, needs) Entry{#id, id()},
+  static const std::array entries{TRIPTYCH_VOLUME_TECHNIQUES(ENTRY)
+                                      TRIPTYCH_PARTICLE_TECHNIQUES(ENTRY)};
+#undef ENTRY
   for (const Entry& entry : entries) {
-    if (entry.id == id) return &entry;
+    if (entry.id == technique) return &entry;
   }
   return nullptr;
 }

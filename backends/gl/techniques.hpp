@@ -1,6 +1,6 @@
 #pragma once
-// The techniques of this API; each is implemented in the file of its name. All functions
-// are called with the context current.
+// The techniques that the catalogue has for this API; each is implemented in the file of its name.
+// All functions are called with the context current.
 
 #include <memory>
 #include <optional>
@@ -10,6 +10,7 @@
 #include "backends/gl/prepared.hpp"
 #include "backends/gl/timing.hpp"
 #include "measure/backend.hpp"
+#include "technique_list.hpp"
 
 namespace triptych::gl_backend {
 
@@ -20,22 +21,16 @@ struct VolumeTechnique {
                                                 const measure::VolumeWork& work);
 };
 
-[[nodiscard]] VolumeTechnique raycast();
-[[nodiscard]] VolumeTechnique raycast_fragment();
-[[nodiscard]] VolumeTechnique speed_of_light();
-
 struct ParticleTechnique {
   std::optional<std::string> (*unsupported)(const Api& gl, const measure::ParticleWork& work);
   std::unique_ptr<Drawing> (*make)(const Api& gl, const measure::ParticleWork& work);
 };
 
-[[nodiscard]] ParticleTechnique quad_screen();
-[[nodiscard]] ParticleTechnique quad_ray();
-[[nodiscard]] ParticleTechnique quad_instanced();
-[[nodiscard]] ParticleTechnique quad_tess();
-[[nodiscard]] ParticleTechnique polygon_tess();
-[[nodiscard]] ParticleTechnique polygon_adaptive();
-[[nodiscard]] ParticleTechnique point();
-[[nodiscard]] ParticleTechnique tiles();
+#define DECLARE(id, needs) [[nodiscard]] VolumeTechnique id();
+TRIPTYCH_VOLUME_TECHNIQUES(DECLARE)
+#undef DECLARE
+#define DECLARE(id, needs) [[nodiscard]] ParticleTechnique id();
+TRIPTYCH_PARTICLE_TECHNIQUES(DECLARE)
+#undef DECLARE
 
 }  // namespace triptych::gl_backend

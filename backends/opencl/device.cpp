@@ -20,17 +20,12 @@ namespace {
 
 using technique::Sampler;
 
+#define ENTRY(id, needs) {#id, prepare_##id},
 const std::map<std::string_view, decltype(&prepare_raycast)> volume_techniques{
-    {"raycast", prepare_raycast}, {"speed_of_light", prepare_speed_of_light}};
-
+    TRIPTYCH_VOLUME_TECHNIQUES(ENTRY)};
 const std::map<std::string_view, decltype(&prepare_tiles)> particle_techniques{
-    {"quad_screen", prepare_quad_screen},
-    {"quad_ray", prepare_quad_ray},
-    {"quad_instanced", prepare_quad_instanced},
-    {"quad_tess", prepare_quad_tess},
-    {"polygon_tess", prepare_polygon_tess},
-    {"polygon_adaptive", prepare_polygon_adaptive},
-    {"tiles", prepare_tiles}};
+    TRIPTYCH_PARTICLE_TECHNIQUES(ENTRY)};
+#undef ENTRY
 
 Session open_session(const Found& found) {
   return checked([&] {

@@ -1,5 +1,5 @@
 #pragma once
-// One file per technique, named as in the catalogue.
+// One file per technique of the catalogue, of its name.
 
 #include <memory>
 
@@ -7,32 +7,21 @@
 #include "backends/opencl/programs.hpp"
 #include "backends/opencl/volume_data.hpp"
 #include "measure/backend.hpp"
+#include "technique_list.hpp"
 
 namespace triptych::opencl_backend {
 
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_raycast(const Session& session,
-                                                                 Programs& programs,
-                                                                 VolumeCache& volumes,
-                                                                 const measure::VolumeWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_speed_of_light(
-    const Session& session, Programs& programs, VolumeCache& volumes,
-    const measure::VolumeWork& work);
+#define DECLARE(id, needs)                                              \
+  [[nodiscard]] std::unique_ptr<measure::Prepared> prepare_##id(        \
+      const Session& session, Programs& programs, VolumeCache& volumes, \
+      const measure::VolumeWork& work);
+TRIPTYCH_VOLUME_TECHNIQUES(DECLARE)
+#undef DECLARE
 
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_tiles(const Session& session,
-                                                               Programs& programs,
-                                                               const measure::ParticleWork& work);
-
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_screen(
-    const Session& session, Programs& programs, const measure::ParticleWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_ray(
-    const Session& session, Programs& programs, const measure::ParticleWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_instanced(
-    const Session& session, Programs& programs, const measure::ParticleWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_tess(
-    const Session& session, Programs& programs, const measure::ParticleWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_polygon_tess(
-    const Session& session, Programs& programs, const measure::ParticleWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_polygon_adaptive(
-    const Session& session, Programs& programs, const measure::ParticleWork& work);
+#define DECLARE(id, needs)                                       \
+  [[nodiscard]] std::unique_ptr<measure::Prepared> prepare_##id( \
+      const Session& session, Programs& programs, const measure::ParticleWork& work);
+TRIPTYCH_PARTICLE_TECHNIQUES(DECLARE)
+#undef DECLARE
 
 }  // namespace triptych::opencl_backend

@@ -27,19 +27,9 @@ struct Entry {
       prepare;  // in the order of measure::Work
   Needs needs;
 };
-constexpr std::array<Entry, 11> entries{{
-    {"raycast", &prepare_raycast, Needs::nothing},
-    {"raycast_fragment", &prepare_raycast_fragment, Needs::drawing},
-    {"speed_of_light", &prepare_speed_of_light, Needs::nothing},
-    {"quad_screen", &prepare_quad_screen, Needs::geometry},
-    {"quad_ray", &prepare_quad_ray, Needs::geometry},
-    {"quad_instanced", &prepare_quad_instanced, Needs::drawing},
-    {"quad_tess", &prepare_quad_tess, Needs::tessellation},
-    {"polygon_tess", &prepare_polygon_tess, Needs::tessellation},
-    {"polygon_adaptive", &prepare_polygon_adaptive, Needs::tessellation},
-    {"point", &prepare_point, Needs::drawing},
-    {"tiles", &prepare_tiles, Needs::nothing},
-}};
+#define ENTRY(id, needs) Entry{#id, &prepare_##id, Needs::needs},
+constexpr std::array entries{TRIPTYCH_VOLUME_TECHNIQUES(ENTRY) TRIPTYCH_PARTICLE_TECHNIQUES(ENTRY)};
+#undef ENTRY
 
 const Entry* find_entry(std::string_view technique) {
   const auto* found = std::ranges::find(entries, technique, &Entry::technique);

@@ -1,39 +1,24 @@
 #pragma once
-// One file per technique, of its name.
+// One file per technique of the catalogue, of its name.
 
 #include <memory>
 
 #include "backends/vulkan/gpu.hpp"
 #include "backends/vulkan/instance.hpp"
 #include "measure/backend.hpp"
+#include "technique_list.hpp"
 
 namespace triptych::vulkan_backend {
 
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_raycast(const Gpu& gpu,
-                                                                 const Instance& instance,
-                                                                 const measure::VolumeWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_raycast_fragment(
-    const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_speed_of_light(
-    const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work);
-
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_screen(
-    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_ray(
-    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_instanced(
-    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_quad_tess(
-    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_polygon_tess(
-    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_polygon_adaptive(
-    const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_point(const Gpu& gpu,
-                                                               const Instance& instance,
-                                                               const measure::ParticleWork& work);
-[[nodiscard]] std::unique_ptr<measure::Prepared> prepare_tiles(const Gpu& gpu,
-                                                               const Instance& instance,
-                                                               const measure::ParticleWork& work);
+#define DECLARE_FOR(id, SuiteWork)                               \
+  [[nodiscard]] std::unique_ptr<measure::Prepared> prepare_##id( \
+      const Gpu& gpu, const Instance& instance, const measure::SuiteWork& work);
+#define DECLARE(id, needs) DECLARE_FOR(id, VolumeWork)
+TRIPTYCH_VOLUME_TECHNIQUES(DECLARE)
+#undef DECLARE
+#define DECLARE(id, needs) DECLARE_FOR(id, ParticleWork)
+TRIPTYCH_PARTICLE_TECHNIQUES(DECLARE)
+#undef DECLARE
+#undef DECLARE_FOR
 
 }  // namespace triptych::vulkan_backend

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 
 #include "source_tree.hpp"
 #include "technique/catalogue.hpp"
@@ -46,6 +47,18 @@ TEST(Matrix, EveryCellIsImplementedOrExplained) {
                                             : " is missing without a reason");
       EXPECT_EQ(there, std::ranges::count(each.apis, api) == 1)
           << api << "/" << each.id << " differs from its catalogue line";
+    }
+  }
+}
+
+// What no gate draws nobody judges.
+TEST(Matrix, EveryTechniqueIsInTheGatesPlans) {
+  for (const technique::Technique& each : technique::catalogue()) {
+    for (const char* plan : {"quick.yaml", "cost.yaml"}) {
+      const std::string text = read(source_folder / "suites" / each.suite / "plans" / plan);
+      const std::regex named("(^|[^a-z_])" + each.id + "($|[^a-z_])");
+      EXPECT_TRUE(std::regex_search(text, named))
+          << "suites/" << each.suite << "/plans/" << plan << " has no " << each.id;
     }
   }
 }
