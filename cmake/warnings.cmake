@@ -4,7 +4,7 @@
 add_library(triptych_options INTERFACE)
 target_compile_options(triptych_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
-  -Wno-restrict -Wno-missing-field-initializers -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -Wno-missing-field-initializers -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough
   $<$<BOOL:${TRIPTYCH_WARNINGS_AS_ERRORS}>:-Werror>)
 # Contraction of a*b+c is left to the code that asks for it: the same bits on every x86-64 machine.
 target_compile_options(triptych_options INTERFACE -ffp-contract=off)

@@ -214,11 +214,12 @@ void Division::divide(Crowd all) {
     if (static_cast<double>(crowd.places.size()) <= price_) continue;
     const std::optional<Plane> plane = PlaneSearch(scene_, crowd.places).best(price_);
     if (!plane) continue;
-    const auto above = std::ranges::partition(crowd.places, [&](std::uint32_t place) {
-      return scene_.particles->spheres[place][plane->axis] < plane->at;
-    });
-    const std::size_t below = crowd.places.size() - above.size();
-    if (below == 0 || above.empty()) continue;  // by rounding
+    const auto above =
+        std::partition(crowd.places.begin(), crowd.places.end(), [&](std::uint32_t place) {
+          return scene_.particles->spheres[place][plane->axis] < plane->at;
+        });
+    const auto below = static_cast<std::size_t>(above - crowd.places.begin());
+    if (below == 0 || below == crowd.places.size()) continue;  // by rounding
     const auto child = static_cast<std::uint32_t>(nodes_.size());
     nodes_[crowd.node] = {
         .axis = static_cast<std::uint32_t>(plane->axis), .plane = plane->at, .below = child};

@@ -1,0 +1,68 @@
+#pragma once
+// What the fuzz targets share: an input as a file, and what a reader may throw.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/temporary_folder.hpp"
+
+namespace triptych::fuzz {
+
+// libFuzzer's answers: keep the input if it reaches new code, or never.
+inline constexpr int judged = 0;
+inline constexpr int rejected = -1;
+
+inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+// An input whose first line names the kind of file that the rest is: "pdb.gz", then its bytes.
+struct Input {
+  std::string kind;
+  std::string_view content;
+};
+
+inline std::optional<Input> split(const std::uint8_t* data, std::size_t size,
+                                  std::span<const std::string_view> kinds) {
+  const std::string_view text = text_of(data, size);
+  const std::size_t end = text.find('\n');
+  if (end == std::string_view::npos) return std::nullopt;
+  for (const std::string_view kind : kinds) {
+    if (text.substr(0, end) == kind) return Input{std::string(kind), text.substr(end + 1)};
+  }
+  return std::nullopt;
+}
+
+// A folder that lives as long as the process.
+inline const std::filesystem::path& folder() {
+  static const core::TemporaryFolder made;
+  return made.path();
+}
+
+inline std::filesystem::path write(const std::string& name, std::string_view content) {
+  const std::filesystem::path file = folder() / name;
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << content;
+  return file;
+}
+
+// Errors of ours are what a reader is for; whatever else leaves it ends the process.
+template <typename Read>
+void expect_ours(const Read& read) {
+  try {
+    read();
+  } catch (const core::Error&) {
+  }
+}
+
+}  // namespace triptych::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -1,0 +1,17 @@
+#include "scene/particles.hpp"
+
+#include "fuzzed.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace triptych;
+  static constexpr std::array<std::string_view, 10> kinds{
+      "pdb", "cif", "gro", "xyz", "lammpstrj", "dump", "data", "lmp", "mmpld", "xyz.gz"};
+  const auto input = fuzz::split(data, size, kinds);
+  if (!input) return fuzz::rejected;
+  const std::string file = fuzz::write("p." + input->kind, input->content).string();
+  for (const std::string& name : {file, file + "@1"}) {
+    fuzz::expect_ours(
+        [&] { static_cast<void>(scene::load_particles(name, scene::ColourKind::intensity)); });
+  }
+  return fuzz::judged;
+}

@@ -1,0 +1,9 @@
+#include "fuzzed.hpp"
+#include "measure/plan_yaml.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace triptych;
+  fuzz::expect_ours(
+      [&] { static_cast<void>(measure::parse_plan(fuzz::text_of(data, size), "plan")); });
+  return fuzz::judged;
+}

@@ -1,0 +1,19 @@
+#include "fuzzed.hpp"
+#include "record/store.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace triptych;
+  const std::filesystem::path file = fuzz::write("s.sqlite", fuzz::text_of(data, size));
+  fuzz::expect_ours([&] {
+    const record::Store store(file, record::Store::Mode::read);
+    // Not require_whole(), which would keep most of what is damaged from what reads it.
+    for (const record::Run& run : store.runs()) {
+      fuzz::expect_ours([&] { static_cast<void>(store.devices(run.id)); });
+      for (const record::Record& record : store.records(run.id)) {
+        fuzz::expect_ours([&] { static_cast<void>(store.picture(record.image)); });
+        fuzz::expect_ours([&] { static_cast<void>(store.truth(record.scene, "1")); });
+      }
+    }
+  });
+  return fuzz::judged;
+}

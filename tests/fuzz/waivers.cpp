@@ -1,0 +1,9 @@
+#include "fuzzed.hpp"
+#include "judge/baselines/baselines.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace triptych;
+  static_cast<void>(fuzz::write("waivers.json", fuzz::text_of(data, size)));
+  fuzz::expect_ours([&] { static_cast<void>(judge::Baselines(fuzz::folder(), "s/p").waivers()); });
+  return fuzz::judged;
+}
