@@ -160,7 +160,8 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
                                      .choice = arguments.choice,
                                      .devices = arguments.devices,
                                      .store = arguments.store,
-                                     .plants = arguments.plants}));
+                                     .plants = arguments.plants,
+                                     .brief = !arguments.times}));
   }
   record::Store store = open_to_judge(arguments.store);
   Truths truths(registry, store);

@@ -32,6 +32,7 @@ struct RunArguments {
   int limit_s = 60;
   std::optional<std::uint64_t> memory;  // bytes
   bool measure_every = false;
+  bool brief = false;
   bool untimed = false;
   bool timed = false;
   std::vector<std::string> plants;
@@ -135,8 +136,11 @@ std::vector<std::string> worker_command(const RunArguments& arguments) {
 }
 
 measure::RunOptions options_of(const RunArguments& arguments) {
+  measure::Protocol protocol = arguments.brief ? measure::brief_protocol : measure::Protocol{};
+  protocol.timed = !arguments.untimed;
+  protocol.measure_every = arguments.measure_every;
   return {
-      .protocol = {.timed = !arguments.untimed, .measure_every = arguments.measure_every},
+      .protocol = protocol,
       .limit = std::chrono::seconds(arguments.limit_s),
       .resume = arguments.resume,
       .plants = parse_plants(arguments.plants),
@@ -290,6 +294,7 @@ std::vector<int> measure_plans(const Measuring& measuring) {
   arguments.store = measuring.store;
   arguments.resume = measuring.resume;
   arguments.plants = measuring.plants;
+  arguments.brief = measuring.brief;
   arguments.told_to = stderr;
   std::vector<int> told;
   for (const measure::RunResult& result : run_resumably(arguments).results) {
@@ -312,6 +317,7 @@ void add_run_commands(Commands& commands) {
 
   auto tested = std::make_shared<RunArguments>();
   tested->resume = true;  // every device adds its part to the run that test-start began
+  tested->brief = true;
   CLI::App* test = commands.add("test-measure", "Measure one device as a CTest fixture",
                                 [tested] { return run_as_test(*tested); });
   add_run_options(*test, *tested);

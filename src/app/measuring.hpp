@@ -15,6 +15,7 @@ struct Measuring {
   std::string store;
   bool resume = false;  // into the plans' latest runs, else into new ones
   std::vector<std::string> plants = {};
+  bool brief = false;  // times are shown, and decide nothing
 };
 
 // Measures as `triptych run` does and tells it on standard error. The number of configurations

@@ -12,17 +12,9 @@
 namespace triptych::comparison {
 namespace {
 
-// Its few timed frames only tell whether the device's clock can be believed about this work.
-constexpr measure::Protocol looking_protocol{.warm_up_frames = 2,
-                                             .timed_frames = 8,
-                                             .least_loop_ns = 0,
-                                             .most_loop_frames = 1,
-                                             .statistics = true,
-                                             .counters = true};
-
 measure::RunOptions options_for(const measure::SideOptions& side,
                                 const ComparisonOptions& options) {
-  return {.protocol = looking_protocol,
+  return {.protocol = measure::brief_protocol,
           .limit = options.limit,
           .plants = {},
           .worker_command = side.command,

@@ -34,6 +34,11 @@ struct Protocol {
   bool measure_every = false;
 };
 
+// Where times are shown and decide nothing: the third frame on, as in count_instructions(), and no
+// loop. Five frames still tell whether a device's clock can be believed (measure/clock.hpp).
+inline constexpr Protocol brief_protocol{
+    .warm_up_frames = 2, .timed_frames = 5, .least_loop_ns = 0, .most_loop_frames = 1};
+
 struct Measurement {
   record::Record record;  // everything that can be known below the plan: times, counts, hashes
   core::Image image;      // of the last timed frame
