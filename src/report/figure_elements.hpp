@@ -1,0 +1,29 @@
+#pragma once
+// Texts, marks and strokes of figures as SVG elements; places in pixels.
+
+#include <string>
+#include <string_view>
+
+#include "report/figure.hpp"
+
+namespace triptych::report {
+
+// Of a text of the style sheet's size, by the mean advance of its letters.
+[[nodiscard]] double width_of(std::string_view text);
+
+// A name of more than 34 characters without its middle, which says least.
+[[nodiscard]] std::string shortened(std::string_view text);
+
+// What a pointer over the element shows; nothing for no text.
+[[nodiscard]] std::string title_element(std::string_view text);
+
+// `text` is escaped already; `more`: further attributes, each with a blank before it.
+[[nodiscard]] std::string text_element(double x, double y, std::string_view anchor,
+                                       std::string_view text, std::string_view more = {});
+
+[[nodiscard]] std::string mark_element(double x, double y, const Style& style,
+                                       std::string_view tooltip);
+
+[[nodiscard]] std::string line_attributes(const Style& style);
+
+}  // namespace triptych::report
