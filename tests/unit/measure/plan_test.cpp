@@ -2,15 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <set>
 
-#include "core/file.hpp"
-#include "fake_suite.hpp"
+#include "plan_fixture.hpp"
 #include "record/factor_list.hpp"
 
 namespace triptych::measure {
@@ -22,46 +17,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
-using ::testing::ThrowsMessage;
-
-class PlanTest : public ::testing::Test {
- protected:
-  ~PlanTest() override { std::filesystem::remove(file_); }
-
-  Plan load(const std::string& yaml, const Overrides& overrides = {}) {
-    std::ofstream(file_) << yaml;
-    return load_plan(file_.string(), overrides, find_);
-  }
-
-  // What the plan is refused with, without the file's folder: "FILE:LINE:COLUMN: MESSAGE".
-  std::string refusal(const std::string& yaml, const Overrides& overrides = {}) {
-    try {
-      static_cast<void>(load(yaml, overrides));
-    } catch (const core::InputError& error) {
-      std::string text = error.what();
-      const std::string folder = file_.parent_path().string() + "/";
-      if (text.starts_with(folder)) text.erase(0, folder.size());
-      return text;
-    }
-    return "was accepted";
-  }
-
-  std::string at(int line, int column) const {
-    return file_.filename().string() + ":" + std::to_string(line) + ":" + std::to_string(column) +
-           ": ";
-  }
-
-  FakeSuite suite_;
-  FindSuite find_ = [this](std::string_view name) -> Suite& {
-    if (name != suite_.name()) {
-      throw core::InputError("unknown suite '" + std::string(name) + "'; there are: fake");
-    }
-    return suite_;
-  };
-  std::filesystem::path file_ =
-      std::filesystem::path(::testing::TempDir()) /
-      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
-};
 
 std::vector<std::string> values(const Plan& plan, const std::string& factor) {
   std::vector<std::string> result;
@@ -160,151 +115,12 @@ TEST_F(PlanTest, AlsoIsAListOfBlocks) {
               AllOf(StartsWith(at(4, 5)), HasSubstr("twice")));
 }
 
-TEST_F(PlanTest, UnknownFactorNamesTheNearest) {
-  EXPECT_THAT(refusal("suite: fake\ndata: cube\nstepp: 1\n"),
-              AllOf(StartsWith(at(3, 1)), HasSubstr("'stepp'"), HasSubstr("did you mean 'step'")));
-  EXPECT_THAT(refusal("suite: fake\ncompletely_else: 1\n"),
-              HasSubstr("there are: technique, data"));
-}
-
-TEST_F(PlanTest, FactorTwice) {
-  EXPECT_THAT(refusal("suite: fake\nstep: 1\nert: 0\nstep: 2\n"),
-              AllOf(StartsWith(at(4, 1)), HasSubstr("twice"), HasSubstr("line 2")));
-}
-
-TEST_F(PlanTest, WrongType) {
-  EXPECT_THAT(refusal("suite: fake\nstep: [0.5, fast]\n"),
-              AllOf(StartsWith(at(2, 13)), HasSubstr("expected a number, found 'fast'")));
-  for (const char* bad : {".nan", ".inf", "inf", "nan", "1e999", "0.5x", "0x1", "+-1", "true"}) {
-    EXPECT_THAT(refusal("suite: fake\nstep: " + std::string(bad) + "\n"),
-                AllOf(StartsWith(at(2, 7)), HasSubstr("expected a number")))
-        << bad;
-  }
-}
-
-TEST_F(PlanTest, OutOfRange) {
-  EXPECT_THAT(refusal("suite: fake\nstep: 100\n"),
-              AllOf(StartsWith(at(2, 7)), HasSubstr("out of range"), HasSubstr("0.01 to 16")));
-  EXPECT_THAT(refusal("suite: fake\nstep: -1\n"), HasSubstr("out of range"));
-}
-
-TEST_F(PlanTest, UnknownLevel) {
-  EXPECT_THAT(
-      refusal("suite: fake\nskip:\n  - none\n  - brick\n"),
-      AllOf(StartsWith(at(4, 5)), HasSubstr("'brick'"), HasSubstr("did you mean 'bricks'")));
-}
-
-TEST_F(PlanTest, ValueThatTheSuiteRefuses) {
-  EXPECT_THAT(refusal("suite: fake\ndata: [cube, nonsense]\n"),
-              AllOf(StartsWith(at(2, 14)), HasSubstr("'data': expected a file")));
-}
-
-TEST_F(PlanTest, EmptyListAndMissingValue) {
-  EXPECT_THAT(refusal("suite: fake\nstep: []\n"), AllOf(StartsWith(at(2, 7)), HasSubstr("empty")));
-  EXPECT_THAT(refusal("suite: fake\nstep:\n"), HasSubstr("'step' has no value"));
-  EXPECT_THAT(refusal("suite: fake\nstep: [1, ~]\n"), HasSubstr("'step' has no value"));
-  EXPECT_THAT(refusal("suite: fake\ndata: ''\n"), HasSubstr("not empty"));
-}
-
-TEST_F(PlanTest, DuplicateValueAlsoInAnotherSpelling) {
-  EXPECT_THAT(refusal("suite: fake\nstep: [0.5, 1, .5]\n"),
-              AllOf(StartsWith(at(2, 16)), HasSubstr("twice"), HasSubstr("first as 0.5")));
-  EXPECT_THAT(refusal("suite: fake\ndata: [cube, cube]\n"), StartsWith(at(2, 14)));
-}
-
-TEST_F(PlanTest, NestedListsAndMappings) {
-  EXPECT_THAT(refusal("suite: fake\nstep: [[1]]\n"),
-              AllOf(StartsWith(at(2, 8)), HasSubstr("list within a list")));
-  EXPECT_THAT(refusal("suite: fake\nstep: {a: 1}\n"),
-              AllOf(StartsWith(at(2, 7)), HasSubstr("mapping")));
-}
-
-TEST_F(PlanTest, ValueThatIsNoText) {
-  for (const char* const value : {"a\xff", "\xc0\xaf", "\xed\xa0\x80", "\"a\\x00b\"", "\"a\\tb\"",
-                                  "\"a\\x7f\"", "\"\\x1b[2J\""}) {
-    EXPECT_THAT(refusal(std::string("suite: fake\ndata: [ball, ") + value + "]\n"),
-                AllOf(StartsWith(at(2, 14)), HasSubstr("UTF-8 without")));
-  }
-  EXPECT_THAT(load("suite: fake\ndata: [größe, 体積, \U0001F9CA]\n").configurations, SizeIs(3));
-}
-
 TEST_F(PlanTest, TextOfAnotherPlanHasAnotherHash) {
   const std::string hash = load("suite: fake\nstep: [1, 2]\n").hash;
   EXPECT_FALSE(hash.empty());
   EXPECT_EQ(load("suite: fake\nstep: [1, 2]\n", {{"step", {"2"}}}).hash, hash);
   EXPECT_NE(load("suite: fake\nstep: [1, 3]\n").hash, hash);
 }
-
-TEST_F(PlanTest, ValueThatWouldBreakALine) {
-  EXPECT_THAT(refusal("suite: fake\ndata: [\"a\\nb\"]\n"), HasSubstr("without line breaks"));
-}
-
-TEST_F(PlanTest, Suite) {
-  EXPECT_THAT(refusal("data: cube\n"), HasSubstr("no 'suite:'"));
-  EXPECT_THAT(refusal("data: cube\nsuite: fakee\n"),
-              AllOf(StartsWith(at(2, 8)), HasSubstr("unknown suite 'fakee'")));
-  EXPECT_THAT(refusal("suite: [fake]\n"), StartsWith(at(1, 8)));
-}
-
-TEST_F(PlanTest, WhatIsNoPlan) {
-  EXPECT_THAT(refusal(""), HasSubstr("empty"));
-  EXPECT_THAT(refusal("# nothing\n"), HasSubstr("empty"));
-  EXPECT_THAT(refusal("- suite\n"), StartsWith(at(1, 1)));
-  EXPECT_THAT(refusal("suite: fake\n---\nsuite: fake\n"), HasSubstr("second document"));
-  EXPECT_THAT(refusal("suite: fake\nstep: [0.5\n"), HasSubstr("not valid YAML"));
-  EXPECT_THAT(refusal("suite: fake\nname: x\n"), HasSubstr("unknown factor 'name'"));
-}
-
-// yaml-cpp tells of empty documents without end where such a token stands at the root.
-TEST_F(PlanTest, WhatStandsWhereNothingCanBeginIsNoPlan) {
-  EXPECT_THAT(refusal(",\n"), AllOf(StartsWith(at(1, 1)), HasSubstr("not valid YAML")));
-  EXPECT_THAT(refusal("&R, x\n"), HasSubstr("not valid YAML"));
-  EXPECT_THAT(refusal("!x y, z\n"), StartsWith(at(1, 1)));
-  EXPECT_THAT(refusal("!x ,\n"), HasSubstr("not valid YAML"));
-  EXPECT_THAT(refusal("]"), HasSubstr("not valid YAML"));
-  EXPECT_THAT(refusal("{suite: fake} ,\n"), HasSubstr("not valid YAML"));
-}
-
-TEST_F(PlanTest, APipeIsNotWaitedForAndNothingEndlessIsRead) {
-  ASSERT_EQ(::mkfifo(file_.c_str(), 0600), 0);
-  EXPECT_THAT([&] { static_cast<void>(load_plan(file_.string(), {}, find_)); },
-              ThrowsMessage<core::InputError>(HasSubstr("is a pipe or a device")));
-  std::filesystem::remove(file_);
-  EXPECT_THAT([&] { static_cast<void>(load_plan("/dev/zero", {}, find_)); },
-              ThrowsMessage<core::InputError>(HasSubstr("is a pipe or a device")));
-  EXPECT_THAT(refusal("suite: fake\n#" + std::string(core::most_text_bytes, 'x')),
-              HasSubstr("is too large"));
-}
-
-TEST_F(PlanTest, ErrorsInASuitesOwnPlanNameIt) {
-  try {
-    static_cast<void>(load_plan("fake/broken", {}, find_));
-    FAIL();
-  } catch (const core::InputError& error) {
-    EXPECT_EQ(error.place().file, "fake/broken");
-    EXPECT_GT(error.place().line, 0);
-  }
-}
-
-TEST_F(PlanTest, UnknownPlansAndFiles) {
-  EXPECT_THROW(static_cast<void>(load_plan("fake/quik", {}, find_)), core::InputError);
-  EXPECT_THROW(static_cast<void>(load_plan("other/quick", {}, find_)), core::InputError);
-  EXPECT_THROW(static_cast<void>(load_plan("no_such.yaml", {}, find_)), core::InputError);
-  EXPECT_THROW(static_cast<void>(load_plan(::testing::TempDir(), {}, find_)), core::InputError);
-  EXPECT_THROW(static_cast<void>(load_plan("", {}, find_)), core::InputError);
-}
-
-TEST_F(PlanTest, TooManyCombinations) {
-  std::string list = "[1";
-  for (int i = 2; i <= 101; ++i) list += ", " + std::to_string(i);
-  list += "]\n";
-  const std::string yaml =
-      "suite: fake\ndata: " + list + "camera: " + list + "viewport: " + list;  // 101³
-  EXPECT_THAT(refusal(yaml), AllOf(StartsWith(at(3, 1)), HasSubstr("1000000 combinations")));
-}
-
-// --- --set
-// -----------------------------------------------------------------------------------------------
 
 TEST_F(PlanTest, OverridesReplaceAndAdd) {
   const Plan plan =

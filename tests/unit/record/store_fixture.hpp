@@ -12,7 +12,17 @@
 #include <functional>
 #include <string>
 
+#include "record/store.hpp"
+#include "samples.hpp"
+
 namespace triptych::record {
+
+// Of one run with one record.
+inline void make_store(const std::filesystem::path& file) {
+  Store store(file, Store::Mode::append);
+  store.add_run(sample_run());
+  store.add_record(sample_record());
+}
 
 class StoreTest : public ::testing::Test {
  protected:

@@ -1,0 +1,129 @@
+// A store that several processes use.
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include "core/error.hpp"
+#include "record/store.hpp"
+#include "samples.hpp"
+#include "store_fixture.hpp"
+
+namespace triptych::record {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using Mode = Store::Mode;
+
+TEST_F(StoreTest, BusyIsWaitedForThenSaid) {
+  make_store(file_);
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE);
+  other.exec("BEGIN IMMEDIATE");
+  Store store(file_, Mode::append, milliseconds(200));
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    store.add_run(sample_run("x"));
+    FAIL() << "was written";
+  } catch (const core::IoError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("another process"));
+  }
+  EXPECT_GE(std::chrono::steady_clock::now() - start, milliseconds(150));
+  EXPECT_THAT(store.runs(), SizeIs(1)) << "reading needs no lock";
+  other.exec("COMMIT");
+  EXPECT_NO_THROW(store.add_run(sample_run("x")));
+}
+
+TEST_F(StoreTest, BusyForAShortTimeIsNoError) {
+  make_store(file_);
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE);
+  other.exec("BEGIN IMMEDIATE");
+  std::thread release([&] {
+    std::this_thread::sleep_for(milliseconds(200));
+    other.exec("COMMIT");
+  });
+  Store store(file_, Mode::append);
+  EXPECT_NO_THROW(store.add_run(sample_run("x")));
+  release.join();
+}
+
+TEST_F(StoreTest, ReaderBesideAWriter) {
+  Store writer(file_, Mode::append);
+  writer.add_run(sample_run());
+  const Store reader(file_, Mode::read);
+  EXPECT_THAT(reader.records("run-1"), SizeIs(0));
+  writer.add_record(sample_record());
+  EXPECT_THAT(reader.records("run-1"), SizeIs(1));
+}
+
+bool append_ten(const std::filesystem::path& file, const std::string& run) {
+  try {
+    Store store(file, Mode::append);
+    store.add_run(sample_run(run));
+    for (int n = 0; n < 10; ++n) store.add_record(sample_record(std::to_string(n), "d", run));
+    return true;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return false;
+  }
+}
+
+TEST_F(StoreTest, SeveralProcessesCreateOneStore) {
+  constexpr int processes = 6;
+  std::vector<pid_t> children;
+  for (int i = 0; i < processes; ++i) {
+    const pid_t child = fork();
+    if (child == 0) std::_Exit(append_ten(file_, std::to_string(i)) ? 0 : 1);
+    children.push_back(child);
+  }
+  for (const pid_t child : children) {
+    int status = -1;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  const Store store(file_, Mode::read);
+  EXPECT_THAT(store.runs(), SizeIs(processes));
+  for (const record::Run& each : store.runs()) EXPECT_THAT(store.records(each.id), SizeIs(10));
+}
+
+TEST_F(StoreTest, CreatedByAnotherBetweenLookAndLock) {
+  const std::filesystem::path model = folder_ / "model.sqlite";
+  make_store(model);
+  // Forked first: a connection must not cross a fork. One byte lets the child begin.
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    char begin = 0;
+    std::_Exit(read(ends[0], &begin, 1) == 1 && append_ten(file_, "late") ? 0 : 1);
+  }
+  // RESERVED: others still read a blank file, but must wait to write.
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  other.exec("BEGIN IMMEDIATE");
+  ASSERT_EQ(write(ends[1], "x", 1), 1);
+  std::this_thread::sleep_for(milliseconds(300));
+  SQLite::Database from(model.string());
+  SQLite::Statement tables(from, "SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL");
+  while (tables.executeStep()) other.exec(tables.getColumn(0).getString());
+  for (const char* const pragma : {"application_id", "user_version"}) {
+    const std::string name = std::string("PRAGMA ") + pragma;
+    other.exec(name + " = " + from.execAndGet(name).getString());
+  }
+  other.exec("COMMIT");
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  for (const int end : ends) close(end);
+  EXPECT_THAT(Store(file_, Mode::read).records("late"), SizeIs(10));
+}
+
+}  // namespace
+}  // namespace triptych::record
