@@ -86,6 +86,16 @@ bool ended_a_program(const Finding& finding) {
       ends, [&](std::string_view end) { return finding.message.starts_with(end); });
 }
 
+// What left the line because its own instructions grew: the cause is told already.
+bool is_told_by_cost(const Finding& finding, std::span<const Finding> findings) {
+  if (finding.check != Check::correlation || finding.verdict != Verdict::regression) return false;
+  return std::ranges::any_of(findings, [&](const Finding& other) {
+    return other.check == Check::cost && other.verdict == Verdict::regression &&
+           other.device == finding.device &&
+           (finding.configuration.empty() || other.configuration == finding.configuration);
+  });
+}
+
 using Members = std::vector<const Finding*>;
 
 bool is_smaller(const Finding* a, const Finding* b) {
@@ -108,6 +118,7 @@ class Grouping {
       for (const auto& [factor, level] : factors_of(finding)) levels_[place][factor].insert(level);
     }
     for (const Finding& finding : findings) {
+      if (is_told_by_cost(finding, findings)) continue;
       by_shape_[{finding.verdict, finding.check, finding.device, shape_of(finding.message)}]
           .push_back(&finding);
     }

@@ -79,6 +79,19 @@ TEST(FindingGroups, WorstFirstAndCausesBeforeConsequences) {
                                  "gl:x samples 3 → 4", "gl:x 3 of 64", "gl:x 3 of 64"));
 }
 
+TEST(FindingGroups, ADeviceOffTheLineIsNotToldWhereItsCostTellsWhy) {
+  std::vector<Finding> findings{
+      finding(regression, "gl:x", "step=1", "instructions 1 → 2", Check::cost),
+      finding(regression, "gl:x", "step=1", "off the residuals", Check::correlation),
+      finding(regression, "gl:x", "", "everything is off", Check::correlation)};
+  ASSERT_EQ(grouped(findings).size(), 1U);
+  EXPECT_EQ(grouped(findings)[0].first, findings.data());
+  findings.push_back(
+      finding(regression, "gl:x", "step=2", "off the residuals", Check::correlation));
+  findings.push_back(finding(regression, "gl:y", "", "everything is off", Check::correlation));
+  EXPECT_EQ(grouped(findings).size(), 3U);
+}
+
 TEST(CommandOf, DrawsTheConfigurationAgain) {
   const Finding wrong = finding(regression, "gl:x#2", "data=a b%2Cc,step=0.5");
   EXPECT_EQ(command_of(wrong, "volume/quick", {{"LP_X", "$(x)"}}),
