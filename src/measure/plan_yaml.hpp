@@ -31,8 +31,8 @@ struct PlanText {
 };
 
 // `file` is what errors call the text. Throws InputError for what is not YAML, not one mapping, has
-// no `suite`, a key twice, an empty list, a value that is not a scalar or has none, a `timed` that
-// is neither true nor false, an `also` that is not a list of mappings.
+// no `suite`, a key twice, an empty list, a value that is not a scalar or has none, an `also`
+// that is not a list of mappings.
 [[nodiscard]] PlanText parse_plan(std::string_view yaml, const std::string& file);
 
 }  // namespace triptych::measure
