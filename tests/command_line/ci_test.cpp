@@ -82,6 +82,33 @@ TEST_F(Ci, HelpMeasuresNothing) {
   EXPECT_EQ(folder.read("calls"), "");
 }
 
+TEST_F(Ci, AReleaseThatIsTooOldGetsOneLine) {
+  std::string setup = test::run_command("cat '" TRIPTYCH_SOURCE_FOLDER "/ci/setup'").output;
+  const std::string_view facts = "/etc/os-release";
+  ASSERT_NE(setup.find(facts), std::string::npos);
+  setup.replace(setup.find(facts), facts.size(), "./os-release");
+  static_cast<void>(folder.write("ci/setup", setup));
+  static_cast<void>(folder.write("ci/packages.txt", "[run]\n"));
+  static_cast<void>(folder.write("os-release", "ID=debian\nVERSION_ID=\"11\"\n"));
+  const Result old = run("", "ci/setup --run");
+  EXPECT_EQ(old.code, 3);
+  EXPECT_EQ(old.output, "setup: Debian 11 is too old: Debian 12 is the oldest that works\n");
+  // Testing has no number yet.
+  static_cast<void>(folder.write("os-release", "ID=debian\n"));
+  EXPECT_EQ(run("", "ci/setup --run").code, 0);
+}
+
+TEST_F(Ci, ACompilerThatIsTooOldGetsOneLine) {
+  static_cast<void>(folder.write("CMakeLists.txt",
+                                 "cmake_minimum_required(VERSION 3.25)\n"
+                                 "project(old LANGUAGES NONE)\nset(CMAKE_CXX_COMPILER_ID GNU)\n"
+                                 "set(CMAKE_CXX_COMPILER_VERSION 11.4.0)\n"
+                                 "include(" TRIPTYCH_SOURCE_FOLDER "/cmake/oldest.cmake)\n"));
+  const Result old = run("", "cmake -B build");
+  EXPECT_NE(old.code, 0);
+  EXPECT_THAT(old.output, HasSubstr("GNU 11.4.0 is too old"));
+}
+
 TEST_F(Ci, ABuildNeedsAPreset) {
   const Result refused = run("", "ci/build");
   EXPECT_EQ(refused.code, 3);
