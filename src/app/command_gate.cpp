@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 
 #include "app/comparing.hpp"
@@ -15,16 +13,10 @@
 #include "app/saying.hpp"
 #include "app/truth.hpp"
 #include "core/foreign_error.hpp"
-#include "core/json.hpp"
-#include "core/json_text.hpp"
 #include "core/quoting.hpp"
 #include "judge/gate/gate.hpp"
 #include "measure/plan.hpp"
 #include "measure/stopwatch.hpp"
-#include "report/benchmark_json.hpp"
-#include "report/junit.hpp"
-#include "report/last_screen.hpp"
-#include "report/markdown.hpp"
 
 namespace triptych::app {
 namespace {
@@ -86,54 +78,12 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
 
 judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan& judged,
                                const Registry& registry, Truths& truths) {
-  judge::GateRequest request = request_of(truths, judged.plan.name);
+  judge::GateRequest request = request_of(truths, judged.plan, registry.suite(judged.plan.suite));
   request.devices = arguments.devices;
   request.required_devices = arguments.required;
   request.checks = judged.checks;
   request.times_decide = arguments.times;
-  request.plan_hash = judged.plan.hash;
-  const measure::Suite& suite = registry.suite(judged.plan.suite);
-  for (const measure::Configuration& each : judged.plan.configurations) {
-    request.expected.push_back(measure::configuration_key(suite, each));
-  }
   return request;
-}
-
-std::string file_stem(const std::string& plan) {
-  std::string stem = plan;
-  std::ranges::replace(stem, '/', '-');
-  return stem;
-}
-
-// Everything that a CI keeps, in one folder; the names of the files.
-std::vector<std::string> write_all(const std::string& folder, const record::Store& store,
-                                   Truths& truths, const std::string& baselines,
-                                   const std::vector<judge::GateResult>& results) {
-  const auto named = [&](const std::string& name) {
-    return (std::filesystem::path(folder) / name).string();
-  };
-  std::string log;
-  for (const judge::GateResult& result : results) {
-    log += text_of(result);
-    write_text(named(file_stem(result.plan) + ".xml"), report::junit(result));
-  }
-  write_text(named("gate.log"), log);
-  write_text(named("summary.md"), report::markdown(results));
-  write_text(named("report.html"), page_of(store, truths, baselines));
-  write_text(named("benchmark.json"), report::benchmark_json(store, latest_runs(store)));
-  return {named("report.html"), named("gate.log"), named("summary.md")};
-}
-
-core::ExitCode exit_code_of(const std::vector<judge::GateResult>& results) {
-  core::ExitCode code = core::ExitCode::pass;
-  for (const judge::GateResult& result : results) code = worse_of(code, result.exit_code());
-  return code;
-}
-
-report::ScreenOptions screen() {
-  report::ScreenOptions options;
-  options.colours = ::isatty(STDOUT_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
-  return options;
 }
 
 // Nothing is stored and nothing is held against what is: each device against itself by the base.
@@ -156,12 +106,12 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
   if (arguments.measure) {
     std::vector<std::string> typed;
     for (const JudgedPlan& each : plans) typed.push_back(each.typed);
-    static_cast<void>(measure_plans({.plans = typed,
-                                     .choice = arguments.choice,
-                                     .devices = arguments.devices,
-                                     .store = arguments.store,
-                                     .plants = arguments.plants,
-                                     .brief = !arguments.times}));
+    measure_plans({.plans = typed,
+                   .choice = arguments.choice,
+                   .devices = arguments.devices,
+                   .store = arguments.store,
+                   .plants = arguments.plants,
+                   .brief = !arguments.times});
   }
   record::Store store = open_to_judge(arguments.store);
   Truths truths(registry, store);
@@ -171,20 +121,11 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
     results.push_back(judge_named(store, latest_run_of(store, each.typed, arguments.store),
                                   arguments.baselines, request));
   }
-  if (!arguments.junit.empty()) write_text(arguments.junit, report::junit(results.front()));
-  if (!arguments.markdown.empty()) write_text(arguments.markdown, report::markdown(results));
-  std::vector<std::string> files;
-  if (!arguments.out.empty()) {
-    files = write_all(arguments.out, store, truths, arguments.baselines, results);
-  }
-  if (arguments.json) {
-    core::Json json = core::Json::array();
-    for (const judge::GateResult& result : results) json.push_back(judge::to_json(result));
-    fmt::print("{}\n", core::json_text(results.size() == 1 ? json.front() : json, 2));
-  } else {
-    fmt::print("{}", report::last_screen(results, since.ns() / 1e9, files, screen()));
-  }
-  return exit_code_of(results);
+  return tell_verdict(store, truths, arguments.baselines, results, since.seconds(),
+                      {.folder = arguments.out,
+                       .junit = arguments.junit,
+                       .markdown = arguments.markdown,
+                       .json = arguments.json ? "-" : ""});
 }
 
 void refuse_bad_files(const GateArguments& arguments) {
@@ -195,9 +136,6 @@ void refuse_bad_files(const GateArguments& arguments) {
   std::vector<NamedFile> read{{"--store", arguments.store}};
   for (const std::string& plan : arguments.plans) read.push_back({"PLAN", plan});
   refuse_overwriting(read, {{"--junit", arguments.junit}, {"--markdown", arguments.markdown}});
-  if (!arguments.junit.empty() && arguments.plans.size() != 1) {
-    throw core::InputError("--junit is a file of one plan; --out FOLDER writes one for each");
-  }
 }
 
 // For `git bisect run`: what is no verdict on a commit is skipped by it.
@@ -295,7 +233,7 @@ void add_gate_commands(Commands& commands) {
       "--out", arguments->out,
       "Folder for report.html, gate.log, summary.md, benchmark.json and JUnit XML of "
       "each plan");
-  command->add_option("--junit", arguments->junit, "Write JUnit XML of one plan");
+  command->add_option("--junit", arguments->junit, "Write JUnit XML of all plans");
   command->add_option("--markdown", arguments->markdown, "Write a Markdown summary");
   command->add_flag("--json", arguments->json, "Print every finding as JSON");
   command->add_flag("--bisect", arguments->bisect,

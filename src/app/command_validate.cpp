@@ -1,7 +1,7 @@
-#include <fmt/format.h>
-
 #include <array>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "app/arguments.hpp"
@@ -9,6 +9,9 @@
 #include "app/measuring.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
+#include "app/saying.hpp"
+#include "measure/runner.hpp"
+#include "measure/stopwatch.hpp"
 
 namespace triptych::app {
 namespace {
@@ -23,6 +26,8 @@ struct ValidateArguments {
   std::vector<std::string> devices;
   std::string out = "validation";
   std::string baselines = default_baselines().string();
+  std::string junit;
+  std::string json;
   bool resume = false;
 };
 
@@ -33,51 +38,51 @@ record::Checks checks_of(const record::Checks& of_plan) {
   return {scored ? judge::Check::stress : judge::Check::image, judge::Check::counters};
 }
 
-void print_devices(const record::Store& store, const std::string& run) {
-  for (const auto& [device, clocks] : store.devices(run)) {
-    fmt::print("{}\n  {} {}, API {}\n", device.id, device.driver, device.driver_version,
-               device.api_version);
-    for (const record::ClockTrust& clock : clocks) {
-      fmt::print("  clock of {}: {}\n", clock.work, clock.verdict);
-    }
-    for (const auto& [statistic, verdict] : device.statistics_dialect) {
-      fmt::print("  {}: {}\n", statistic, verdict);
-    }
+// What a run that was interrupted has measured is judged like all else.
+void measure_what_is_left(const ValidateArguments& arguments, const std::string& file) {
+  try {
+    measure_plans({.plans = {plans.begin(), plans.end()},
+                   .devices = arguments.devices,
+                   .store = file,
+                   .resume = arguments.resume});
+  } catch (const measure::Interrupted& interrupted) {
+    say("triptych: {}\n", interrupted.what());
   }
 }
 
+// Runs of an earlier validation, which this one does not go on with.
+std::set<std::string> runs_before(const ValidateArguments& arguments, const std::string& file) {
+  std::set<std::string> ids;
+  if (arguments.resume || !std::filesystem::exists(file)) return ids;
+  for (const record::Run& run : record::Store(file, record::Store::Mode::read).runs()) {
+    ids.insert(run.id);
+  }
+  return ids;
+}
+
 core::ExitCode validate(const ValidateArguments& arguments) {
+  const measure::Stopwatch since;
+  refuse_overwriting({}, {{"--junit", arguments.junit}, {"--json", arguments.json}});
   require_writable(arguments.out);
   const std::string file = (std::filesystem::path(arguments.out) / "validation.sqlite").string();
-  Measuring measuring;
-  measuring.plans = {plans.begin(), plans.end()};
-  measuring.devices = arguments.devices;
-  measuring.store = file;
-  measuring.resume = arguments.resume;
-  const std::vector<int> told = measure_plans(measuring);
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    if (told[i] > 0) continue;
-    throw core::NotSupported(fmt::format("{}: the devices asked for can do none of it", plans[i]));
-  }
+  const std::set<std::string> before = runs_before(arguments, file);
+  measure_what_is_left(arguments, file);
   const Registry registry = make_registry();
-  record::Store store(file, record::Store::Mode::append);
+  record::Store store = open_to_judge(file);
   Truths truths(registry, store);
-  core::ExitCode worst = core::ExitCode::pass;
-  for (const char* plan : plans) {
-    const std::string run = latest_run_of(store, plan, file);
-    judge::GateRequest request = request_of(truths, plan);
-    request.checks = checks_of(measure::load_plan(plan, {}, registry.find_suite()).checks);
-    const judge::GateResult result =
-        judge::judge_run(store, run, judge::Baselines(arguments.baselines, plan), request);
-    fmt::print("\n{}\n{}", plan, text_of(result));
-    worst = worse_of(worst, result.exit_code());
+  std::vector<judge::GateResult> results;
+  for (const char* typed : plans) {
+    const measure::Plan plan = measure::load_plan(typed, {}, registry.find_suite());
+    judge::GateRequest request = request_of(truths, plan, registry.suite(plan.suite));
+    request.checks = checks_of(plan.checks);
+    request.devices = arguments.devices;
+    const std::optional<record::Run> run = store.latest_run(plan.name);
+    const std::string id = run && !before.contains(run->id) ? run->id : "";
+    results.push_back(judge_named(store, id, arguments.baselines, request));
   }
-  fmt::print("\n");
-  print_devices(store, latest_run_of(store, plans.front(), file));
-  const std::string page = (std::filesystem::path(arguments.out) / "report.html").string();
-  write_text(page, page_of(store, truths, arguments.baselines));
-  fmt::print("\nreport: {}\n", page);
-  return worst;
+  return tell_verdict(
+      store, truths, arguments.baselines, results, since.seconds(),
+      {.folder = arguments.out, .junit = arguments.junit, .markdown = {}, .json = arguments.json});
 }
 
 }  // namespace
@@ -89,8 +94,12 @@ void add_validate_command(Commands& commands) {
                    [arguments] { return validate(*arguments); });
   command->add_option("--device", arguments->devices, "Glob over device ids (repeatable)")
       ->required();
-  command->add_option("--out", arguments->out, "Folder for the store and the report")
+  command
+      ->add_option("--out", arguments->out,
+                   "Folder for the store and what the gate writes for a CI")
       ->capture_default_str();
+  command->add_option("--junit", arguments->junit, "Write JUnit XML of all plans");
+  command->add_option("--json", arguments->json, "Write every finding as JSON; -: print it");
   command->add_flag(
       "--resume", arguments->resume,
       "Go on with what is in the folder's store, after a kill or a crash of the machine");

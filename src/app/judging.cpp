@@ -1,9 +1,11 @@
 #include "app/judging.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -11,10 +13,24 @@
 #include "core/foreign_error.hpp"
 #include "core/quoting.hpp"
 #include "measure/plan.hpp"
-#include "report/finding_groups.hpp"
+#include "report/benchmark_json.hpp"
+#include "report/folder.hpp"
+#include "report/junit.hpp"
+#include "report/last_screen.hpp"
+#include "report/markdown.hpp"
+#include "report/overview.hpp"
 #include "report/page.hpp"
 
 namespace triptych::app {
+namespace {
+
+report::ScreenOptions screen() {
+  report::ScreenOptions options;
+  options.colours = ::isatty(STDOUT_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
+  return options;
+}
+
+}  // namespace
 
 record::Store open_to_judge(const std::string& file) {
   require_store(file);
@@ -39,24 +55,6 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
                   name, core::shell_quoted(plan), core::shell_quoted(file)));
 }
 
-std::string text_of(const judge::GateResult& result) {
-  std::string text;
-  for (const report::FindingGroup& group : report::grouped(result.findings)) {
-    const judge::Finding& finding = *group.first;
-    if (finding.verdict == judge::Verdict::pass) continue;
-    const std::string subject = group.subject();
-    text += fmt::format("{:<12} {}{}{}: {}\n", judge::name_of(finding.verdict),
-                        core::printable(finding.test), subject.empty() ? "" : " ",
-                        core::printable(subject), core::printable(finding.message));
-  }
-  std::map<judge::Verdict, int> counts;
-  for (const judge::Finding& finding : result.findings) ++counts[finding.verdict];
-  for (const auto& [verdict, count] : counts) {
-    text += fmt::format("{} {}  ", count, judge::name_of(verdict));
-  }
-  return text + fmt::format("\n{}\n", result.headline());
-}
-
 std::vector<record::Run> latest_runs(const record::Store& store) {
   std::map<std::string, record::Run> by_plan;
   for (record::Run& run : store.runs()) by_plan.insert_or_assign(run.plan, std::move(run));
@@ -72,6 +70,16 @@ judge::GateResult judge_named(const record::Store& store, const std::string& run
   });
 }
 
+judge::GateRequest request_of(Truths& truths, const measure::Plan& plan,
+                              const measure::Suite& suite) {
+  judge::GateRequest request = request_of(truths, plan.name);
+  request.plan_hash = plan.hash;
+  for (const measure::Configuration& each : plan.configurations) {
+    request.expected.push_back(measure::configuration_key(suite, each));
+  }
+  return request;
+}
+
 std::string page_of(const record::Store& store, Truths& truths, const std::string& baselines) {
   report::PageRequest request{
       .plans = {}, .truth = [&](const record::Record& record) { return truths.of(record); }};
@@ -81,6 +89,27 @@ std::string page_of(const record::Store& store, Truths& truths, const std::strin
          .verdict = judge_named(store, run.id, baselines, request_of(truths, run.plan))});
   }
   return core::naming(store.file().string(), [&] { return report::page(store, request); });
+}
+
+core::ExitCode tell_verdict(const record::Store& store, Truths& truths,
+                            const std::string& baselines,
+                            const std::vector<judge::GateResult>& results, double seconds,
+                            const VerdictFiles& files) {
+  if (!files.junit.empty()) write_text(files.junit, report::junit(results));
+  if (!files.markdown.empty()) write_text(files.markdown, report::markdown(results));
+  std::vector<std::string> written;
+  if (!files.folder.empty()) {
+    require_writable(files.folder);
+    written = report::write_folder(files.folder, results, page_of(store, truths, baselines),
+                                   report::benchmark_json(store, latest_runs(store)));
+  }
+  if (files.json == "-") {
+    fmt::print("{}", report::json(results));
+  } else {
+    if (!files.json.empty()) write_text(files.json, report::json(results));
+    fmt::print("{}", report::last_screen(results, seconds, written, screen()));
+  }
+  return report::overview(results).code;
 }
 
 core::ExitCode worse_of(core::ExitCode a, core::ExitCode b) {

@@ -6,6 +6,7 @@
 
 #include "app/truth.hpp"
 #include "judge/gate/gate.hpp"
+#include "measure/plan.hpp"
 #include "record/store.hpp"
 
 namespace triptych::app {
@@ -19,10 +20,6 @@ namespace triptych::app {
 [[nodiscard]] std::string latest_run_of(const record::Store& store, const std::string& plan,
                                         const std::string& file);
 
-// Every finding but those that pass, a line each, then how many there are of each verdict and the
-// headline.
-[[nodiscard]] std::string text_of(const judge::GateResult& result);
-
 // judge::judge_run, whatever the store's content makes a library throw being an error that names
 // it.
 [[nodiscard]] judge::GateResult judge_named(const record::Store& store, const std::string& run,
@@ -31,6 +28,25 @@ namespace triptych::app {
 
 // The latest run of each plan in a store, by the plans' names.
 [[nodiscard]] std::vector<record::Run> latest_runs(const record::Store& store);
+
+// What is asked of a plan as it is now, beside request_of(): which configurations it has.
+[[nodiscard]] judge::GateRequest request_of(Truths& truths, const measure::Plan& plan,
+                                            const measure::Suite& suite);
+
+// Where a verdict is written; empty: not there.
+struct VerdictFiles {
+  std::string folder;  // for a CI: report.html, gate.log, summary.md, benchmark.json and JUnit XML
+  std::string junit;
+  std::string markdown;
+  std::string json;  // "-": printed instead of the last screen
+};
+
+// Writes the files and prints the last screen, which names those of the folder; `seconds`: that all
+// took. The exit code that counts over all.
+core::ExitCode tell_verdict(const record::Store& store, Truths& truths,
+                            const std::string& baselines,
+                            const std::vector<judge::GateResult>& results, double seconds,
+                            const VerdictFiles& files);
 
 // The report on the latest run of each plan in a store, which holds one.
 [[nodiscard]] std::string page_of(const record::Store& store, Truths& truths,

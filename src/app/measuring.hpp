@@ -18,9 +18,8 @@ struct Measuring {
   bool brief = false;  // times are shown, and decide nothing
 };
 
-// Measures as `triptych run` does and tells it on standard error. The number of configurations
-// measured or failed of each plan. Throws as measure::run_plans does; interrupted, an Error that
-// offers --resume.
-[[nodiscard]] std::vector<int> measure_plans(const Measuring& measuring);
+// Measures as `triptych run` does and tells it on standard error. Throws as measure::run_plans
+// does; what Interrupted says offers --resume.
+void measure_plans(const Measuring& measuring);
 
 }  // namespace triptych::app

@@ -2,6 +2,7 @@
 // Text of unknown origin: names in files, what drivers and users say.
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace triptych::core {
@@ -16,5 +17,8 @@ inline constexpr std::string_view replacement_character = "\uFFFD";
 // Whether the text is UTF-8 without a control character or a line break: what may stand in a line,
 // in JSON and in XML, and is read back as it was written.
 [[nodiscard]] bool is_line(std::string_view text);
+
+// With a # for every word that has a digit: what differs between messages of one kind.
+[[nodiscard]] std::string without_numbers(std::string_view text);
 
 }  // namespace triptych::core

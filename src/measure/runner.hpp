@@ -34,7 +34,8 @@ struct RunOptions {
 // and `resume` goes on from there. Whoever has a store and a --resume to offer says so.
 class Interrupted : public core::Error {
  public:
-  explicit Interrupted(int signal) : Error("interrupted"), signal_(signal) {}
+  explicit Interrupted(int signal, const std::string& what = "interrupted")
+      : Error(what), signal_(signal) {}
   [[nodiscard]] int signal() const noexcept { return signal_; }
 
  private:

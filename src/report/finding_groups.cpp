@@ -10,7 +10,9 @@
 #include <tuple>
 
 #include "core/quoting.hpp"
+#include "core/text.hpp"
 #include "record/factor_list.hpp"
+#include "record/not_tried.hpp"
 
 namespace triptych::report {
 namespace {
@@ -20,25 +22,9 @@ using judge::Finding;
 using judge::Verdict;
 using Factors = std::map<std::string, std::string>;
 
-// The message with every word that has a digit taken out: "# of # pixels are over the bound".
+// What findings of one cause have in common: "# of # pixels are over the bound".
 std::string shape_of(std::string_view message) {
-  constexpr std::string_view between = " ,;:()[]";
-  std::string shape;
-  while (!message.empty()) {
-    const std::size_t length = std::min(message.find_first_of(between), message.size());
-    const std::string_view word = message.substr(0, length);
-    const bool number = std::ranges::any_of(
-        word, [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
-    if (number) {
-      shape += '#';
-    } else {
-      shape += word;
-    }
-    const std::size_t after = std::min(length + 1, message.size());
-    shape += message.substr(length, after - length);
-    message.remove_prefix(after);
-  }
-  return shape;
+  return core::without_numbers(message.substr(0, message.find(record::not_tried)));
 }
 
 Factors factors_of(const Finding& finding) {
@@ -100,7 +86,8 @@ using Members = std::vector<const Finding*>;
 
 bool is_smaller(const Finding* a, const Finding* b) {
   const auto key = [](const Finding* each) {
-    return std::tuple(size_of(*each), each->configuration.size());
+    const bool tried = each->message.find(record::not_tried) == std::string::npos;
+    return std::tuple(!tried, size_of(*each), each->configuration.size());
   };
   return key(a) < key(b);
 }
@@ -196,12 +183,31 @@ std::vector<FindingGroup> grouped(std::span<const Finding> findings) {
   return Grouping(findings).groups();
 }
 
+bool have_one_cause(const FindingGroup& a, const FindingGroup& b) {
+  const auto key = [](const Finding& finding) {
+    return std::tuple(finding.verdict, std::string_view(finding.device), shape_of(finding.message));
+  };
+  if (key(*a.first) != key(*b.first)) return false;
+  return ended_a_program(*a.first) ||
+         (a.first->check == b.first->check && technique_of(*a.first) == technique_of(*b.first));
+}
+
+bool take_in(FindingGroup& group, const FindingGroup& other) {
+  const bool smaller = is_smaller(other.first, group.first);
+  if (smaller) {
+    group.first = other.first;
+    group.right_on = other.right_on;
+  }
+  group.configurations += other.configurations;
+  if (group.signature != other.signature) group.signature.clear();
+  return smaller;
+}
+
 bool is_open(const Finding& finding) {
   return finding.verdict == Verdict::regression || finding.verdict == Verdict::cannot_judge;
 }
 
-std::string command_of(const Finding& finding, const std::string& plan,
-                       const Environment& environment) {
+std::string command_of(const Finding& finding, const judge::GateResult& result) {
   if (finding.device.empty() || finding.configuration.empty()) return {};
   std::vector<std::string> words;
   switch (finding.check) {
@@ -214,7 +220,7 @@ std::string command_of(const Finding& finding, const std::string& plan,
       break;
     case Check::cost:
     case Check::memory:
-      words = {"triptych", "run", record::plan_argument(plan)};
+      words = {"triptych", "run", record::plan_argument(result.plan)};
       break;
     default:
       return {};  // one run of a time shows nothing
@@ -225,8 +231,10 @@ std::string command_of(const Finding& finding, const std::string& plan,
   }
   if (words[1] == "render") words.insert(words.end(), {"--out", "repro"});
   std::string text;
-  for (const auto& [name, value] : environment) {
-    text += name + "=" + core::shell_quoted(value) + " ";
+  if (const auto set = result.environments.find(finding.device); set != result.environments.end()) {
+    for (const auto& [name, value] : set->second) {
+      text += name + "=" + core::shell_quoted(value) + " ";
+    }
   }
   return text + core::shell_command(words);
 }

@@ -29,14 +29,19 @@ struct FindingGroup {
 // configurations first. Left out is a regression of correlation that one of cost explains.
 [[nodiscard]] std::vector<FindingGroup> grouped(std::span<const judge::Finding> findings);
 
+// Whether groups of two plans have one cause: of one device and verdict, they say the same of one
+// technique by one check. What ends a program has one cause wherever it says the same.
+[[nodiscard]] bool have_one_cause(const FindingGroup& a, const FindingGroup& b);
+
+// Takes in a group of the same cause; true where its smallest case is now the other's.
+bool take_in(FindingGroup& group, const FindingGroup& other);
+
 // Not a pass, not advice: somebody has to look.
 [[nodiscard]] bool is_open(const judge::Finding& finding);
 
-using Environment = std::map<std::string, std::string>;
-
-// A command that shows the finding again, ready to be pasted; empty where none is known. `plan` as
-// `triptych run` takes it, `environment`: what was set for the device.
-[[nodiscard]] std::string command_of(const judge::Finding& finding, const std::string& plan,
-                                     const Environment& environment = {});
+// A command that shows a finding of the result again, ready to be pasted, with what was set for the
+// device; empty where none is known.
+[[nodiscard]] std::string command_of(const judge::Finding& finding,
+                                     const judge::GateResult& result);
 
 }  // namespace triptych::report

@@ -18,7 +18,7 @@ bool is_skip(const Finding& finding) {
   return finding.verdict == Verdict::skipped || finding.verdict == Verdict::advisory;
 }
 
-std::string test_case(const Finding& finding, const std::string& plan) {
+std::string test_case(const Finding& finding, const judge::GateResult& result) {
   const std::string name = finding.configuration.empty() ? "plan" : finding.configuration;
   std::string text = fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n",
                                  escape(finding.test), escape(name));
@@ -31,7 +31,7 @@ std::string test_case(const Finding& finding, const std::string& plan) {
   }
   const std::string message = escape(finding.message);
   if (is_open(finding)) {
-    const std::string command = escape(command_of(finding, plan));
+    const std::string command = escape(command_of(finding, result));
     text +=
         fmt::format("      <{0} type=\"{1}\" message=\"{2}\">{2}{3}{4}</{0}>\n",
                     finding.verdict == Verdict::regression ? "failure" : "error",
@@ -42,14 +42,12 @@ std::string test_case(const Finding& finding, const std::string& plan) {
   return text + "    </testcase>\n";
 }
 
-}  // namespace
-
-std::string junit(const judge::GateResult& result) {
+std::string test_suites(const judge::GateResult& result) {
   std::map<std::string, std::vector<const Finding*>> suites;
   for (const Finding& finding : result.findings) {
     suites[std::string(judge::name_of(finding.check))].push_back(&finding);
   }
-  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
+  std::string text;
   for (const auto& [check, findings] : suites) {
     const auto count = [&](auto&& matches) { return std::ranges::count_if(findings, matches); };
     text += fmt::format(
@@ -58,10 +56,22 @@ std::string junit(const judge::GateResult& result) {
         count([](const Finding* f) { return f->verdict == Verdict::regression; }),
         count([](const Finding* f) { return f->verdict == Verdict::cannot_judge; }),
         count([](const Finding* f) { return is_skip(*f); }));
-    for (const Finding* finding : findings) text += test_case(*finding, result.plan);
+    for (const Finding* finding : findings) text += test_case(*finding, result);
     text += "  </testsuite>\n";
   }
+  return text;
+}
+
+}  // namespace
+
+std::string junit(std::span<const judge::GateResult> results) {
+  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
+  for (const judge::GateResult& result : results) text += test_suites(result);
   return text + "</testsuites>\n";
+}
+
+std::string junit(const judge::GateResult& result) {
+  return junit(std::span(&result, 1));
 }
 
 }  // namespace triptych::report

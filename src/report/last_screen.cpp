@@ -112,10 +112,7 @@ class Screen {
         core::printable(fmt::format("{}: {}", judge::name_of(first.check), place_of(cause)),
                         width_ - 4))};
     append_wrapped(lines, core::printable(message_of(cause), 2 * (width_ - 6)), "");
-    const auto set = options_.environments.find(first.device);
-    const std::string command =
-        command_of(first, cause.result->plan,
-                   set == options_.environments.end() ? Environment{} : set->second);
+    const std::string command = command_of(first, *cause.result);
     // Cut short it would be another command.
     if (width_of(command) > longest_command) {
       lines.emplace_back("    (its command is in the page: it is too long for a terminal)");

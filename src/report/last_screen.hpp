@@ -1,19 +1,15 @@
 #pragma once
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "judge/gate/gate.hpp"
-#include "report/finding_groups.hpp"
 
 namespace triptych::report {
 
 struct ScreenOptions {
   bool colours = false;
   std::size_t width = 100;  // of the terminal, in characters
-  // What was set for a device when it was measured, by its id; commands repeat it.
-  std::map<std::string, Environment> environments = {};
 };
 
 // What a command that judges says last, at most 40 lines: the verdict, a row per kind of check over

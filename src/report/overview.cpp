@@ -110,6 +110,18 @@ bool was_checked(const Kind& kind, std::span<const GateResult* const> results) {
   });
 }
 
+// What several plans say of one cause is one.
+void add(std::vector<Cause>& causes, const GateResult& result, FindingGroup group) {
+  const auto same = std::ranges::find_if(
+      causes, [&](const Cause& cause) { return have_one_cause(cause.group, group); });
+  if (same == causes.end()) {
+    causes.push_back({&result, std::move(group)});
+    return;
+  }
+  if (take_in(same->group, group)) same->result = &result;
+  ++same->plans;
+}
+
 // Usage over regression over could not judge over pass.
 int weight_of(core::ExitCode code) {
   switch (code) {
@@ -137,7 +149,7 @@ Overview overview(std::span<const GateResult* const> results) {
     }
     for (FindingGroup& group : grouped(result->findings)) {
       if (group.first->verdict == Verdict::pass) continue;
-      (is_open(*group.first) ? all.open : all.aside).push_back({result, std::move(group)});
+      add(is_open(*group.first) ? all.open : all.aside, *result, std::move(group));
     }
   }
   all.devices = devices.size();
@@ -182,6 +194,9 @@ std::string_view meaning_of(core::ExitCode code) {
 std::string place_of(const Cause& cause) {
   const Finding& first = *cause.group.first;
   std::string text = first.device.empty() ? cause.result->plan : first.device;
+  if (first.device.empty() && cause.plans > 1) {
+    return fmt::format("{} and {} more", text, cause.plans - 1);
+  }
   if (!cause.group.signature.empty()) text += ", " + cause.group.signature;
   if (cause.group.configurations > 1) {
     text += fmt::format(" ({})", cause.group.subject());

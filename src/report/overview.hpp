@@ -20,8 +20,9 @@ struct KindRow {
 };
 
 struct Cause {
-  const judge::GateResult* result;
+  const judge::GateResult* result;  // that of the smallest case
   FindingGroup group;
+  std::size_t plans = 1;
 };
 
 struct Overview {
@@ -41,7 +42,7 @@ struct Overview {
 // "1: something is wrong" for people who meet the number.
 [[nodiscard]] std::string_view meaning_of(core::ExitCode code);
 
-// "vulkan:lavapipe, technique=raycast (12 configurations)"; the plan where neither is known. Text
+// "vulkan:lavapipe, technique=raycast (12 configurations)"; the plans where neither is known. Text
 // of unknown origin.
 [[nodiscard]] std::string place_of(const Cause& cause);
 // The message; of several configurations the smallest is named. Text of unknown origin.

@@ -65,13 +65,6 @@ const PlanData& plan_of(const Cause& cause, std::span<const PlanData> plans) {
   return *std::ranges::find(plans, cause.result, &PlanData::verdict);
 }
 
-Environment environment_of(const PlanData& plan, const std::string& device) {
-  for (const auto& entry : plan.devices) {
-    if (entry.device.id == device) return entry.device.environment;
-  }
-  return {};
-}
-
 // Of what drew a picture, or ended instead of drawing one.
 std::string picture_link(const PlanData& plan, const Finding& finding) {
   const auto drawn = [&](const record::Record& record) {
@@ -85,7 +78,7 @@ std::string picture_link(const PlanData& plan, const Finding& finding) {
 
 std::string article(const Cause& cause, const PlanData& plan) {
   const Finding& first = *cause.group.first;
-  const std::string command = command_of(first, plan.name, environment_of(plan, first.device));
+  const std::string command = command_of(first, *cause.result);
   const bool several = cause.group.configurations > 1;
   return fmt::format(
       "<article class=\"{0}\"><h3><span class=\"verdict {0}\">{1}</span> {2}</h3><p>{3}{4}</p>"

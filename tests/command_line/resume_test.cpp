@@ -45,16 +45,20 @@ TEST_F(Resume, APartOfThePlanThatTheCommandLineSetsIsItsOwn) {
   EXPECT_EQ(run("one/p.yaml --resume").code, 0);
 }
 
-// A driver under test may take its machine with it.
-TEST_F(Resume, AValidationGoesOn) {
+// A validation that is interrupted as soon as it has told of one configuration.
+Result validate_one(const Program& program, const std::string& options) {
   program.write("until_one_is_told.sh", R"("$@" >out 2>&1 &
 for i in $(seq 600); do grep -q 'null:scripted .*: ' out && break; sleep 0.1; done
-kill $!; wait $!; cat out
+kill -INT $!; wait $!; code=$?; cat out; exit $code
 )");
+  return program.run("validate --device null:scripted " + options,
+                     R"({"base_ns": 20000000, "sleep": true})", "bash until_one_is_told.sh");
+}
+
+// A driver under test may take its machine with it.
+TEST_F(Resume, AValidationGoesOn) {
   const auto first_told = [&](const std::string& options) {
-    const Result ended =
-        program.run("validate --device null:scripted " + options,
-                    R"({"base_ns": 20000000, "sleep": true})", "sh until_one_is_told.sh");
+    const Result ended = validate_one(program, options);
     EXPECT_THAT(ended.output, HasSubstr("what was measured is in the store, --resume goes on"));
     const std::string from = ended.output.substr(ended.output.find("camera="));
     return from.substr(0, from.find(": "));
@@ -62,6 +66,32 @@ kill $!; wait $!; cat out
   const std::string first = first_told("");
   EXPECT_NE(first_told("--resume"), first);
   EXPECT_EQ(first_told(""), first);
+}
+
+// What was measured is judged, and what was not is no pass.
+TEST_F(Resume, AnInterruptedValidationEndsWithTheLastScreen) {
+  const Result ended = validate_one(program, "--junit j.xml --json j.json");
+  EXPECT_EQ(ended.code, 1) << ended.output;  // its picture is no right one
+  EXPECT_THAT(ended.output, HasSubstr("Triptych   1 device"));
+  EXPECT_THAT(ended.output, HasSubstr("missing rows"));
+  EXPECT_THAT(ended.output, HasSubstr("no run was begun"));
+  EXPECT_THAT(ended.output, HasSubstr("exit 1: "));
+  EXPECT_THAT(ended.output, HasSubstr("validation/report.html"));
+  EXPECT_THAT(program.read("j.xml"), HasSubstr("volume/quick.image"));
+  EXPECT_THAT(program.read("j.xml"), HasSubstr("particles/accuracy.image"));
+  EXPECT_THAT(program.read("j.json"), HasSubstr("missing rows"));
+  EXPECT_THAT(program.read("validation/gate.log"), HasSubstr("missing rows"));
+}
+
+TEST_F(Resume, AnInterruptedValidationDoesNotJudgeTheOneBefore) {
+  std::filesystem::create_directory(program.folder() / "validation");
+  ASSERT_EQ(program
+                .run("run particles/quick --untimed --set technique=point --device 'null:*' "
+                     "--store validation/validation.sqlite")
+                .code,
+            0);
+  EXPECT_THAT(validate_one(program, "--json j.json").output, HasSubstr("no run was begun"));
+  EXPECT_THAT(program.read("j.json"), ::testing::Not(HasSubstr("technique=point")));
 }
 
 TEST_F(Resume, APlanIsGivenOnce) {

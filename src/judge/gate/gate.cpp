@@ -99,7 +99,10 @@ void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
 void report_nothing_measured(const RunView& view, const std::string& run,
                              std::vector<Finding>& findings) {
   const Check check = *view.checks.begin();
-  if (view.measured.empty() && view.of_other_data.empty()) {
+  if (run.empty()) {
+    findings.push_back(finding_about(view, check, Verdict::cannot_judge,
+                                     "nothing was measured: no run was begun"));
+  } else if (view.measured.empty() && view.of_other_data.empty()) {
     findings.push_back(finding_about(
         view, check, Verdict::cannot_judge,
         fmt::format("nothing was measured: run {} holds {} records of {} on the devices asked for",
@@ -149,9 +152,9 @@ void report_rows(const RunView& view, std::vector<Finding>& findings) {
   for (const auto& [id, device] : view.devices) {
     const std::set<std::string> there = configurations_of(view, id);
     report_missing(view, device, expected, there, "planned", findings);
-    if (expected.empty() || accepted != expected) {
-      report_missing(view, device, accepted, there, "accepted", findings);
-    }
+    std::set<std::string> told = there;
+    told.insert(expected.begin(), expected.end());
+    report_missing(view, device, accepted, told, "accepted", findings);
     std::vector<std::string> extra;
     std::ranges::set_difference(there, expected, std::back_inserter(extra));
     if (expected.empty() || extra.empty()) continue;
@@ -250,6 +253,7 @@ int rank(Verdict verdict) {
 
 void report_what_is_there(const RunView& view, GateResult& result) {
   for (const record::Record* record : view.measured) result.devices.insert(record->device);
+  for (const auto& [id, device] : view.devices) result.environments[id] = device.environment;
   report_nothing_measured(view, result.run, result.findings);
   report_outcomes(view, result.findings);
   report_other_plan(view, result.run, result.findings);

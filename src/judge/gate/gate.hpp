@@ -58,6 +58,8 @@ struct GateResult {
   std::vector<AccuracyScene> accuracies = {};      // likewise; by device, then as measured
   std::vector<CorrelationPair> correlations = {};  // those that could be drawn
   std::set<std::string> devices = {};              // that measured something, of those asked for
+  // What was set for a device when it was measured, by its id; commands repeat it.
+  std::map<std::string, std::map<std::string, std::string>> environments = {};
   // Of which all findings are advice or reasons for not judging.
   [[nodiscard]] std::vector<std::string> nothing_decided() const;
   [[nodiscard]] core::ExitCode exit_code() const;
@@ -100,7 +102,8 @@ struct GateRequest {
   std::function<std::string(const record::Record&)> data_hash = {};
 };
 
-// Throws InputError for a corrupt baseline (file and line), never because of what was measured.
+// `run`: its id; empty where none was begun, which cannot be judged. Throws InputError for a
+// corrupt baseline (file and line), never because of what was measured.
 [[nodiscard]] GateResult judge_run(const record::Store& store, const std::string& run,
                                    const Baselines& baselines, const GateRequest& request);
 

@@ -41,6 +41,18 @@ TEST(FindingGroups, OneCauseIsSaidOnceWithTheSmallestCase) {
   EXPECT_EQ(groups[0].subject(), "2 configurations");
 }
 
+// What two shown failures foretell is counted with them, and one that was tried is told.
+TEST(FindingGroups, WhatWasNotTriedIsOfTheCauseThatWas) {
+  const std::vector<Finding> findings{
+      finding(regression, "gl:x", "step=1,viewport=16",
+              "crashed: SIGSEGV; not tried, as two ended so with technique=raycast"),
+      finding(regression, "gl:x", "step=1,viewport=64", "crashed: SIGSEGV")};
+  const std::vector<FindingGroup> groups = grouped(findings);
+  ASSERT_EQ(groups.size(), 1U);
+  EXPECT_EQ(groups[0].configurations, 2U);
+  EXPECT_EQ(groups[0].first, &findings[1]);
+}
+
 TEST(FindingGroups, TechniquesAreCausesOfTheirOwnUnlessAllSayIt) {
   std::vector<Finding> findings{finding(regression, "gl:x", "technique=a"),
                                 finding(regression, "gl:x", "technique=b")};
@@ -94,17 +106,19 @@ TEST(FindingGroups, ADeviceOffTheLineIsNotToldWhereItsCostTellsWhy) {
 
 TEST(CommandOf, DrawsTheConfigurationAgain) {
   const Finding wrong = finding(regression, "gl:x#2", "data=a b%2Cc,step=0.5");
-  EXPECT_EQ(command_of(wrong, "volume/quick", {{"LP_X", "$(x)"}}),
+  judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
+  quick.environments = {{"gl:x#2", {{"LP_X", "$(x)"}}}};
+  EXPECT_EQ(command_of(wrong, quick),
             "LP_X='$(x)' triptych render volume --device 'gl:x#2' --set 'data=a b%2Cc' --set "
             "step=0.5 --out repro");
   const Finding cost = finding(regression, "gl:x", "step=1", "more", Check::cost);
-  EXPECT_EQ(command_of(cost, "volume/quick"),
-            "triptych run volume/quick --device gl:x --set step=1");
+  EXPECT_EQ(command_of(cost, quick), "triptych run volume/quick --device gl:x --set step=1");
 }
 
 TEST(CommandOf, IsNothingWhereNoneShowsIt) {
-  EXPECT_EQ(command_of(finding(regression, "", ""), "volume/quick"), "");
-  EXPECT_EQ(command_of(finding(regression, "gl:x", "step=1", "slower", Check::timing), "p"), "");
+  const judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
+  EXPECT_EQ(command_of(finding(regression, "", ""), quick), "");
+  EXPECT_EQ(command_of(finding(regression, "gl:x", "step=1", "slower", Check::timing), quick), "");
 }
 
 }  // namespace

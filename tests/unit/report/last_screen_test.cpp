@@ -120,9 +120,47 @@ TEST(LastScreen, ObeysNoName) {
 }
 
 TEST(LastScreen, RepeatsTheEnvironment) {
-  const std::vector<GateResult> results{failing()};
-  const ScreenOptions options{.environments = {{"vulkan:lavapipe", {{"LP_NUM_THREADS", "2"}}}}};
-  EXPECT_THAT(last_screen(results, 3, {}, options), HasSubstr("LP_NUM_THREADS=2 triptych render"));
+  GateResult result = failing();
+  result.environments = {{"vulkan:lavapipe", {{"LP_NUM_THREADS", "2"}}}};
+  EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
+              HasSubstr("LP_NUM_THREADS=2 triptych render"));
+}
+
+// A driver's one fault shows in every plan.
+TEST(LastScreen, OneCauseInSeveralPlansIsToldOnce) {
+  GateResult stress{.plan = "volume/stress", .run = "r", .findings = {}};
+  add(stress, Check::image, regression, "vulkan:lavapipe", "technique=raycast",
+      "3 of 256 pixels are over the bound");
+  const std::string text = last_screen(std::vector{failing(), stress}, 3, {});
+  EXPECT_THAT(text, HasSubstr("vulkan:lavapipe (7 configurations)"));
+  EXPECT_THAT(text, HasSubstr("3 of 256 pixels"));
+  EXPECT_THAT(text, Not(HasSubstr("--set step")));
+  EXPECT_EQ(text.find("✗"), text.rfind("✗"));
+
+  stress.findings.front().configuration = "technique=slices";
+  EXPECT_THAT(last_screen(std::vector{failing(), stress}, 3, {}), HasSubstr("technique=slices"))
+      << "of another technique it may be another cause";
+}
+
+TEST(LastScreen, WhatEndsAProgramIsOneCauseInAllPlans) {
+  std::vector<GateResult> results;
+  for (const char* plan : {"volume/quick", "volume/stress", "particles/quick"}) {
+    results.push_back({.plan = plan, .run = "r", .findings = {}});
+    add(results.back(), Check::image, regression, "gl:x", fmt::format("technique={}", plan),
+        "failed: no OpenGL 3.3 core context");
+  }
+  const std::string text = last_screen(results, 3, {});
+  EXPECT_THAT(text, HasSubstr("✗ image: gl:x (3 configurations)"));
+  EXPECT_EQ(text.find("no OpenGL"), text.rfind("no OpenGL"));
+}
+
+TEST(LastScreen, PlansThatWereNotBegunAreOneCause) {
+  std::vector<GateResult> results;
+  for (const char* plan : {"volume/quick", "volume/stress", "particles/quick"}) {
+    results.push_back({.plan = plan, .run = "", .findings = {}});
+    add(results.back(), Check::image, cannot_judge, "", "", "nothing was measured");
+  }
+  EXPECT_THAT(last_screen(results, 3, {}), HasSubstr("? image: volume/quick and 2 more"));
 }
 
 }  // namespace

@@ -41,6 +41,15 @@ TEST(Junit, CountsFailuresAndEscapes) {
   EXPECT_NE(xml.find("<property name=\"max_error\" value=\"0.5\"/>"), std::string::npos);
 }
 
+TEST(Junit, HoldsEveryPlan) {
+  judge::GateResult other = some_result();
+  other.plan = "volume/stress";
+  const std::string xml = junit(std::vector{some_result(), other});
+  EXPECT_NE(xml.find("volume/quick.image"), std::string::npos);
+  EXPECT_NE(xml.find("volume/stress.image"), std::string::npos);
+  EXPECT_EQ(test::xml_fault(xml), "");
+}
+
 TEST(Junit, IsUtf8WhateverADriverSays) {
   judge::GateResult result = some_result();
   result.findings.front().message = "GL_RENDERER \xff";

@@ -1,0 +1,18 @@
+#pragma once
+// What ended the worker twice is not tried on every configuration that it would meet: those have
+// the outcome and the reason of the two, and this behind it.
+
+#include <string_view>
+
+#include "record/record.hpp"
+
+namespace triptych::record {
+
+// Then the levels that the two share.
+inline constexpr std::string_view not_tried = "; not tried, as two ended so with ";
+
+[[nodiscard]] inline bool was_not_tried(const Record& record) {
+  return record.reason.find(not_tried) != std::string::npos;
+}
+
+}  // namespace triptych::record
