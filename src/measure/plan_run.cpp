@@ -94,7 +94,7 @@ PlanRun::PlanRun(const RunContext& context, const std::vector<std::string>& devi
     : context_(context), devices_(devices), tell_(tell) {
   result_.run = context.run;
   for (const Configuration& configuration : context.plan.configurations) {
-    keys_.insert(configuration_key(context.suite, configuration));
+    by_key_[configuration_key(context.suite, configuration)] = &configuration;
   }
   if (context.options.resume) count_what_is_there();
 }
@@ -122,6 +122,10 @@ DeviceRun& PlanRun::on(const std::string& device) {
   auto& entry = open_[device];
   if (!entry) entry = std::make_unique<DeviceRun>(context_, device);
   return *entry;
+}
+
+SameFailure& PlanRun::failures_of(const std::string& device) {
+  return failures_.try_emplace(device, context_.plan.varied).first->second;
 }
 
 void PlanRun::leave(const std::string& device) {
@@ -164,12 +168,16 @@ void PlanRun::measure(const std::string& device, const Configuration& configurat
   context_.store.add_record(done.record);
   work_ns_ += done.work_ns;
   count(done.record, result_);
+  failures_of(device).saw(configuration, done.record);
   report.done(done.record);
 }
 
 // A driver may take the machine with it, and would again with each --resume.
 Done PlanRun::attempt(const std::string& device, const Configuration& configuration,
                       const std::string& key, Report& report) {
+  if (const auto end = failures_of(device).foretold(configuration)) {
+    return on(device).pass_by(configuration, key, {end->outcome, end->reason});
+  }
   constexpr int most_attempts = 2;
   if (context_.store.begin_record(context_.run, key, device) > most_attempts) {
     return on(device).pass_by(
@@ -202,7 +210,7 @@ void PlanRun::share_frames(record::Record& record) {
 // Of the plan, on the run's devices: what it is resumed with may be less than it began with.
 bool PlanRun::is_ours(const record::Record& record) const {
   return std::ranges::find(devices_, record.device) != devices_.end() &&
-         keys_.contains(record.configuration);
+         by_key_.contains(record.configuration);
 }
 
 void PlanRun::count_what_is_there() {
@@ -210,6 +218,7 @@ void PlanRun::count_what_is_there() {
     if (!is_ours(record)) continue;
     count(record, result_);
     ++result_.there_before;
+    failures_of(record.device).saw(*by_key_.at(record.configuration), record);
   }
 }
 

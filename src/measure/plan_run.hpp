@@ -4,13 +4,13 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "measure/device_run.hpp"
 #include "measure/runner.hpp"
+#include "measure/same_failure.hpp"
 #include "measure/stopwatch.hpp"
 #include "record/record.hpp"
 
@@ -32,6 +32,7 @@ class PlanRun {
 
  private:
   DeviceRun& on(const std::string& device);
+  SameFailure& failures_of(const std::string& device);
   void leave(const std::string& device);
   void stop_if_asked();
   [[nodiscard]] std::vector<const Configuration*> pending(const std::string& device,
@@ -49,7 +50,8 @@ class PlanRun {
   RunResult result_;
   double work_ns_ = 0;
   std::map<std::string, std::unique_ptr<DeviceRun>> open_;
-  std::set<std::string> keys_;  // of the plan's configurations
+  std::map<std::string, const Configuration*> by_key_;  // the plan's configurations
+  std::map<std::string, SameFailure> failures_;         // by device
   std::map<std::pair<std::string, std::string>, record::Record> measured_;  // device, configuration
 };
 
