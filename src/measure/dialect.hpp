@@ -35,12 +35,14 @@ struct DialectReading {
   std::uint64_t expected = 0;
   std::optional<std::uint64_t> first;
   std::optional<std::uint64_t> again;
+  record::Counts ours = {};  // our own counters of the scene
 };
 
 // The verdict on a statistic, in one line that begins with one of these words:
 //   exact         as expected in every scene
 //   absent        never told
 //   unsteady      the same frame drawn again gives another number
+//   counts        in every scene the number of the counter of ours that follows
 //   proportional  the same multiple of what is expected in every one of at least two scenes
 //   inflated      never too low; the range of multiples follows
 //   differs       anything else; what was seen in which scene follows
