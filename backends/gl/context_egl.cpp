@@ -64,7 +64,7 @@ class EglContext final : public Context {
     // Lost contexts are to be told as such, but not every driver can.
     handle_ = create(debug, true);
     if (handle_ == EGL_NO_CONTEXT) handle_ = create(debug, false);
-    if (handle_ == EGL_NO_CONTEXT) throw egl_.error("eglCreateContext");
+    if (handle_ == EGL_NO_CONTEXT) refuse_context();
     try {
       const Current current(*this);
       load(egl_.get_proc_address, debug);
@@ -79,6 +79,13 @@ class EglContext final : public Context {
   ~EglContext() override { egl_.destroy_context(display_, handle_); }
 
  private:
+  [[noreturn]] void refuse_context() {
+    const core::ApiError error = egl_.error("eglCreateContext");
+    // So EGL calls a version or profile that the driver does not have.
+    if (error.code() == "EGL_BAD_MATCH") throw core::NotSupported("no OpenGL 3.3 core context");
+    throw error;
+  }
+
   void open_display(EGLenum platform, EGLDeviceEXT device) {
     display_ = egl_.get_platform_display(platform, device, nullptr);
     if (display_ == EGL_NO_DISPLAY) throw egl_.error("eglGetPlatformDisplayEXT");

@@ -41,7 +41,8 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
   if (const auto reason = no_emulator()) {
     done = {ended(record::Outcome::skipped, *reason)};
   } else if (!ensure_worker()) {
-    done = {ended(record::Outcome::failed, seat_.why_closed())};
+    done = {ended(seat_.unsupported() ? record::Outcome::skipped : record::Outcome::failed,
+                  seat_.why_closed())};
   } else if (job.protocol.counted && known_->cpu_features.empty()) {
     done = {ended(record::Outcome::skipped,
                   "its instructions cannot be counted: it does not compute on the processor")};

@@ -182,7 +182,8 @@ Message to_message(const Hello& hello) {
 }
 
 Message to_message(const Refused& refused) {
-  return {{{"type", "refused"}, {"reason", refused.reason}}, {}};
+  return {{{"type", "refused"}, {"reason", refused.reason}, {"unsupported", refused.unsupported}},
+          {}};
 }
 
 Message to_message(const Job& job) {
@@ -243,7 +244,9 @@ std::optional<Hello> as_hello(const Message& message) {
 
 std::optional<Refused> as_refused(const Message& message) {
   if (!is(message, "refused")) return std::nullopt;
-  return reading("refused", [&] { return Refused{message.json.at("reason")}; });
+  return reading("refused", [&] {
+    return Refused{message.json.at("reason"), message.json.value("unsupported", false)};
+  });
 }
 
 std::optional<Job> as_job(const Message& message) {

@@ -65,6 +65,7 @@ struct Hello {
 
 struct Refused {
   std::string reason;
+  bool unsupported = false;  // for something that the device lacks
 };
 
 struct Job {

@@ -315,16 +315,20 @@ int serve_worker(const Backend& backend, std::string_view device_id, const FindS
   die_with_parent();
   keep_to_ourselves(request_fd);
   keep_to_ourselves(answer_fd);
+  Refused refused;
   try {
     return serve(backend, device_id, find_suite, request_fd, answer_fd);
+  } catch (const core::NotSupported& error) {
+    refused = {error.what(), true};
   } catch (const std::exception& error) {
-    try {
-      send(answer_fd, to_message(Refused{error.what()}));
-    } catch (const core::Error&) {
-      // Nobody is left to be told.
-    }
-    return static_cast<int>(core::ExitCode::usage);
+    refused = {error.what()};
   }
+  try {
+    send(answer_fd, to_message(refused));
+  } catch (const core::Error&) {
+    // Nobody is left to be told.
+  }
+  return static_cast<int>(core::ExitCode::usage);
 }
 
 }  // namespace triptych::measure

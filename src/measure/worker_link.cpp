@@ -89,15 +89,17 @@ WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseco
   }
 }
 
-std::variant<Hello, std::string> WorkerLink::greet(const Start& start,
-                                                   std::chrono::milliseconds limit) {
+std::variant<Hello, Refused> WorkerLink::greet(const Start& start,
+                                               std::chrono::milliseconds limit) {
   const Reply reply = ask(to_message(start), limit);
-  if (const auto* died = std::get_if<Died>(&reply)) return "its worker died: " + died->reason;
-  if (const auto* late = std::get_if<Late>(&reply)) return late->reason;
+  if (const auto* died = std::get_if<Died>(&reply)) {
+    return Refused{"its worker died: " + died->reason};
+  }
+  if (const auto* late = std::get_if<Late>(&reply)) return Refused{late->reason};
   const Message& message = std::get<Message>(reply);
-  if (const auto refused = as_refused(message)) return refused->reason;
+  if (const auto refused = as_refused(message)) return *refused;
   const auto hello = as_hello(message);
-  if (!hello) return "its worker did not greet";
+  if (!hello) return Refused{"its worker did not greet"};
   return *hello;
 }
 

@@ -49,8 +49,8 @@ class WorkerLink {
                           const OnLoading& on_loading = {});
 
   // Begins to talk: what the worker greets with, or why its device cannot be opened.
-  [[nodiscard]] std::variant<Hello, std::string> greet(const Start& start,
-                                                       std::chrono::milliseconds limit);
+  [[nodiscard]] std::variant<Hello, Refused> greet(const Start& start,
+                                                   std::chrono::milliseconds limit);
 
   // Lets an idle worker leave by itself, so that drivers can write their caches; kills it when it
   // does not within a few seconds.

@@ -12,9 +12,10 @@ namespace triptych::measure {
 bool WorkerSeat::open(const std::function<Start()>& start,
                       const std::function<void(const Hello&)>& greeted) {
   constexpr int most_attempts = 2;
-  for (int attempt = 0; !occupied() && why_closed_.empty(); ++attempt) {
-    std::string reason = try_to_open(start(), greeted);
-    if (!reason.empty() && attempt + 1 >= most_attempts) why_closed_ = std::move(reason);
+  for (int attempt = 0; !occupied() && why_closed_.reason.empty(); ++attempt) {
+    Refused refused = try_to_open(start(), greeted);
+    const bool last = refused.unsupported || attempt + 1 >= most_attempts;
+    if (!refused.reason.empty() && last) why_closed_ = std::move(refused);
   }
   return occupied();
 }
@@ -24,23 +25,24 @@ void WorkerSeat::finish() {
   worker_.reset();
 }
 
-std::string WorkerSeat::try_to_open(const Start& start,
-                                    const std::function<void(const Hello&)>& greeted) {
+Refused WorkerSeat::try_to_open(const Start& start,
+                                const std::function<void(const Hello&)>& greeted) {
   std::vector<std::string> command = setup_.command;
   command.push_back(setup_.device);
-  const auto closed = [this](std::string_view reason) {
-    return fmt::format("{} cannot be opened: {}", setup_.device, reason);
+  const auto closed = [this](Refused refused) {
+    refused.reason = fmt::format("{} cannot be opened: {}", setup_.device, refused.reason);
+    return refused;
   };
   std::unique_ptr<WorkerLink> worker;
   try {
     worker = std::make_unique<WorkerLink>(command, setup_.environment, interrupts_);
   } catch (const core::IoError& error) {
-    return closed(error.what());
+    return closed({error.what()});
   }
   const Stopwatch opening;
   const auto greeting = worker->greet(start, setup_.limit);
   opening_ns_ += opening.ns();
-  if (const auto* reason = std::get_if<std::string>(&greeting)) return closed(*reason);
+  if (const auto* refused = std::get_if<Refused>(&greeting)) return closed(*refused);
   greeted(std::get<Hello>(greeting));
   worker_ = std::move(worker);
   return {};

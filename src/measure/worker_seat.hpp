@@ -26,10 +26,12 @@ class WorkerSeat {
 
   // True where a worker is there or could be started; it is told `start` and what it greets with is
   // handed on before it is kept, so that `greeted` may refuse it by an exception. One that cannot
-  // be started twice in a row is not tried again: false then, now and later, and why_closed() says
-  // why.
+  // be started twice in a row, or whose device lacks something, is not tried again: false then, now
+  // and later, and why_closed() says why.
   bool open(const std::function<Start()>& start, const std::function<void(const Hello&)>& greeted);
-  [[nodiscard]] const std::string& why_closed() const noexcept { return why_closed_; }
+  [[nodiscard]] const std::string& why_closed() const noexcept { return why_closed_.reason; }
+  // Whether it is something that the device lacks.
+  [[nodiscard]] bool unsupported() const noexcept { return why_closed_.unsupported; }
 
   // The worker, of a seat that is open.
   [[nodiscard]] WorkerLink& worker() const { return *worker_; }
@@ -42,14 +44,14 @@ class WorkerSeat {
   [[nodiscard]] double opening_ns() const noexcept { return opening_ns_; }
 
  private:
-  // Empty when a worker has greeted, else why not.
-  [[nodiscard]] std::string try_to_open(const Start& start,
-                                        const std::function<void(const Hello&)>& greeted);
+  // Without a reason when a worker has greeted, else why not.
+  [[nodiscard]] Refused try_to_open(const Start& start,
+                                    const std::function<void(const Hello&)>& greeted);
 
   WorkerSetup setup_;
   InterruptGuard& interrupts_;
   std::unique_ptr<WorkerLink> worker_;
-  std::string why_closed_;
+  Refused why_closed_;
   double opening_ns_ = 0;
 };
 

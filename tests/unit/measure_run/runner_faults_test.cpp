@@ -126,6 +126,15 @@ TEST_F(RunFaults, ADeviceThatCannotBeOpenedIsGivenUpAfterTwoStarts) {
   }
 }
 
+TEST_F(RunFaults, WhatADeviceLacksSkipsAllAfterOneStart) {
+  const Variable closed("TRIPTYCH_NULL_SCRIPT",
+                        R"({"failures": [{"kind": "not_supported", "at": "open"}]})");
+  const RunResult result = run(small_plan());
+  EXPECT_EQ(result.skipped, 4);
+  EXPECT_EQ(started_workers().size(), 1U);
+  EXPECT_THAT(records(result.run).front().reason, HasSubstr("cannot be opened"));
+}
+
 TEST_F(RunFaults, AStartThatFailsOnceCostsNothing) {
   const Variable once("TRIPTYCH_TEST_FAILING_STARTS", "1");
   const RunResult result = run(small_plan());
