@@ -44,6 +44,7 @@ class GlDevice final : public measure::Device {
         context_(std::move(context)),
         stamps_(is_software(info_) ? Stamps::finished : Stamps::in_stream) {
     const Current current(*context_);
+    sub_pixel_bits_ = static_cast<int>(context_->gl().limit(GL_SUBPIXEL_BITS));
     if (ComputePass::unsupported(context_->gl(), 1, 1)) return;
     for (std::size_t i = 0; i < filter_error_.size(); ++i) {
       filter_error_[i] = probe_filter(context_->gl(), static_cast<scene::VoxelFormat>(i));
@@ -90,6 +91,8 @@ class GlDevice final : public measure::Device {
     return filter_error_.at(static_cast<std::size_t>(path.voxel));
   }
 
+  [[nodiscard]] std::optional<int> sub_pixel_bits() const override { return sub_pixel_bits_; }
+
   [[nodiscard]] record::Counts memory() const override { return context_->gl().held.counts(); }
 
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override {
@@ -108,6 +111,7 @@ class GlDevice final : public measure::Device {
   record::Device info_;
   std::unique_ptr<Context> context_;
   Stamps stamps_;
+  int sub_pixel_bits_ = 0;
   // By voxel format; 1, the worst there is, where it cannot be probed.
   std::array<double, 3> filter_error_{1, 1, 1};
 };

@@ -68,6 +68,7 @@ std::map<std::string, std::string> limits_of(const Api& gl) {
     limits.emplace(name, fmt::to_string(value));
   };
   add("GL_MAX_3D_TEXTURE_SIZE", gl.limit(GL_MAX_3D_TEXTURE_SIZE));
+  add("GL_SUBPIXEL_BITS", gl.limit(GL_SUBPIXEL_BITS));
   add("GL_MAX_RENDERBUFFER_SIZE", gl.limit(GL_MAX_RENDERBUFFER_SIZE));
   GLint bits = 0;
   gl.GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);

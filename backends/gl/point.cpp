@@ -4,7 +4,7 @@
 #include "backends/gl/large_points.hpp"
 #include "backends/gl/sprites.hpp"
 #include "backends/gl/techniques.hpp"
-#include "technique/particles/point_margin.hpp"
+#include "technique/particles/margins.hpp"
 
 namespace triptych::gl_backend {
 namespace {

@@ -88,6 +88,7 @@ std::map<std::string, std::string> limits_of(const vk::raii::PhysicalDevice& dev
       {"maxImageDimension3D", fmt::to_string(limits.maxImageDimension3D)},
       {"maxStorageBufferRange", fmt::to_string(limits.maxStorageBufferRange)},
       {"maxComputeWorkGroupInvocations", fmt::to_string(limits.maxComputeWorkGroupInvocations)},
+      {"subPixelPrecisionBits", fmt::to_string(limits.subPixelPrecisionBits)},
       {"subTexelPrecisionBits", fmt::to_string(limits.subTexelPrecisionBits)},
       {"timestampPeriod", fmt::to_string(limits.timestampPeriod)},
       {"timestampComputeAndGraphics", yes_no(limits.timestampComputeAndGraphics)},

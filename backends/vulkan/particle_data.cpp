@@ -4,8 +4,8 @@
 #include <array>
 #include <span>
 
+#include "technique/particles/margins.hpp"
 #include "technique/particles/particle_parameters.hpp"
-#include "technique/particles/point_margin.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -52,7 +52,9 @@ ParticleConstants particle_constants(const Gpu& gpu, const measure::ParticleWork
           .ray_at_vertex = work.options.ray == ComputedAt::vertex ? 1 : 0,
           .fault = static_cast<std::int32_t>(work.options.fault),
           .largest_point = largest_point(gpu),
-          .point_margin = point_margin(gpu)};
+          .point_margin = point_margin(gpu),
+          .sprite_margin = static_cast<float>(technique::sprite_margin(
+              static_cast<int>(gpu.properties.limits.subPixelPrecisionBits)))};
 }
 
 vk::Format colour_format(scene::ColourKind kind) {

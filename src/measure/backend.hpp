@@ -108,6 +108,9 @@ class Device {
   // Sampler::manual.
   [[nodiscard]] virtual double filter_weight_error(const VolumePath& path) const = 0;
 
+  // Bits behind the point to which the rasterizer moves vertices; nothing where there is none.
+  [[nodiscard]] virtual std::optional<int> sub_pixel_bits() const { return std::nullopt; }
+
   // Bytes that the backend holds on the device now, as "buffers" and "images". What a driver takes
   // for itself is not among them. Empty where nobody counts them.
   [[nodiscard]] virtual record::Counts memory() const { return {}; }

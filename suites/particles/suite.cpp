@@ -26,6 +26,16 @@ namespace {
 using measure::as_number;
 using measure::Configuration;
 
+// On a device that tells nothing of a grid, what every one has that we know.
+reference::SphereErrorModel model_of(const scene::ParticleScene& scene,
+                                     const Configuration& configuration,
+                                     const std::map<std::string, double>& precision) {
+  const technique::ComputedAt ray = technique::computed_at(configuration.at("ray"));
+  const auto bits = precision.find("sub_pixel_bits");
+  if (bits == precision.end()) return error_model(scene, ray);
+  return error_model(scene, ray, static_cast<int>(bits->second));
+}
+
 class ParticleSuite final : public measure::SuiteWithTruth {
  public:
   explicit ParticleSuite(std::vector<std::filesystem::path> folders)
@@ -184,18 +194,17 @@ measure::Work ParticleSuite::calibration(technique::Work kind) {
 }
 
 measure::Truth ParticleSuite::truth(const Configuration& configuration,
-                                    const std::map<std::string, double>&) {
+                                    const std::map<std::string, double>& precision) {
   const scene::ParticleScene pictured = scene(configuration);
-  const reference::SphereTruth truth = reference::render_spheres(
-      pictured, error_model(pictured, technique::computed_at(configuration.at("ray"))));
+  const reference::SphereTruth truth =
+      reference::render_spheres(pictured, model_of(pictured, configuration, precision));
   return {.image = truth.image(), .bound = truth.bound_image()};
 }
 
 std::string ParticleSuite::truth_key(const Configuration& configuration,
-                                     const std::map<std::string, double>&) {
+                                     const std::map<std::string, double>& precision) {
   const scene::ParticleScene pictured = scene(configuration);
-  const reference::SphereErrorModel model =
-      error_model(pictured, technique::computed_at(configuration.at("ray")));
+  const reference::SphereErrorModel model = model_of(pictured, configuration, precision);
   const std::string model_hash = core::HashBuilder("sphere error model")
                                      .add(model.margin_px)
                                      .add(model.lateral_px)

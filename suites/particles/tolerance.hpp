@@ -17,9 +17,10 @@ namespace triptych::particles_suite {
 //   coordinates are right to u (tri_along_axis), a component of m = c × d adds a product and a
 //   difference of terms within the image plane's extent at that depth: 3u·W/2. Two axes: × √2.
 //   Together below 8u·W.
-//   Where the ray is made at the vertices, they lie on the rasterizer's grid of 1/256 pixel, so
-//   that the interpolated ray is that of a point up to 1/512 pixel away per axis: 1/256 pixel more,
-//   which leaves as much as that again for the interpolation itself.
+//   Where the ray is made at the vertices, they lie on the rasterizer's grid of g = 2⁻ᵇ pixel, so
+//   that the interpolated ray is that of a point up to g/2 away per axis: g more, which leaves as
+//   much as that again for the interpolation itself. Sprites cover what the grid moves
+//   (technique/particles/margins.hpp), so that a ray made per pixel depends on no grid.
 // lateral, relative to the radius. r²·q (3u + 2u) and |m|² (3 squares and 2 sums: 5u, halved by the
 //   root) are compared: 5u·r.
 // depth, relative to |C| + r. b = c·d: 3 products, 2 sums, 3u·|c||d|, and c's own u: 4u; root: the
@@ -30,6 +31,7 @@ namespace triptych::particles_suite {
 //   scale, times its slope, covered by the 256·u below); product u: 32u, and 256u more for
 //   intensity.
 [[nodiscard]] reference::SphereErrorModel error_model(const scene::ParticleScene& scene,
-                                                      technique::ComputedAt ray);
+                                                      technique::ComputedAt ray,
+                                                      int sub_pixel_bits = 8);
 
 }  // namespace triptych::particles_suite

@@ -21,12 +21,12 @@ Corner corner_on_image(vec2 low, vec2 high, vec2 side, float distance) {
 // No pixel: every corner at one place outside the view.
 Corner nowhere() { return Corner(vec4(2.0, 2.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0)); }
 
-// The part of the image plane that a sphere covers, with a margin of 1/64 pixel, within the viewport.
+// The part of the image plane that a sphere covers, with a margin of TRI_SPRITE_MARGIN pixels, within the viewport.
 // low > high: none. The planted fault takes 1 % off.
 void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   vec2 x = tri_sphere_interval(sphere.x, sphere.z, sphere.w);
   vec2 y = tri_sphere_interval(sphere.y, sphere.z, sphere.w);
-  TRI_PRECISE vec2 margin = 0.015625 * u.plane.zw;
+  TRI_PRECISE vec2 margin = TRI_SPRITE_MARGIN * u.plane.zw;
   TRI_PRECISE vec2 begin = vec2(x.x, y.x) - margin;
   TRI_PRECISE vec2 end = vec2(x.y, y.y) + margin;
   if (u.eye_rest.w < 1.0) {
@@ -75,7 +75,8 @@ Frame sprite_frame(vec4 sphere) {
   vec3 reference = abs(v.y) > 0.9 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
   vec3 right = normalize(cross(v, reference));
   float plane = tri_sprite_plane(d, sphere.w);
-  float radius = tri_sprite_radius(d, sphere.w, plane, max(u.plane.z, u.plane.w), u.eye_rest.w);
+  float pixel = (64.0 * TRI_SPRITE_MARGIN) * max(u.plane.z, u.plane.w);  // whose 64th is the margin
+  float radius = tri_sprite_radius(d, sphere.w, plane, pixel, u.eye_rest.w);
   return Frame(v * plane, radius * right, radius * cross(right, v), tri_surrounds(d2, sphere.w));
 }
 

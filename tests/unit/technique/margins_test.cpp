@@ -1,6 +1,8 @@
-#include "technique/particles/point_margin.hpp"
+#include "technique/particles/margins.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace triptych::technique {
 namespace {
@@ -8,6 +10,15 @@ namespace {
 TEST(PointMargin, IsTheGranularityWhereSizesMayBeRounded) {
   EXPECT_EQ(point_margin("Some GPU (llvmpipe is not its name)", 0.125), 0.125);
   EXPECT_EQ(point_margin("Some GPU", 1), 1);
+}
+
+TEST(SpriteMargin, CoversWhatTheGridMovesAnEdge) {
+  EXPECT_EQ(sprite_margin(8), 1.0 / 64);
+  EXPECT_EQ(sprite_margin(12), 1.0 / 64);
+  EXPECT_EQ(sprite_margin(4), 1.0 / 8);
+  for (int bits = 4; bits <= 8; ++bits) {
+    EXPECT_GT(sprite_margin(bits), std::sqrt(2) * std::ldexp(1, -bits));
+  }
 }
 
 TEST(PointMargin, KnowsTheSoftwareDrivers) {

@@ -1,4 +1,7 @@
-#include "technique/particles/point_margin.hpp"
+#include "technique/particles/margins.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace triptych::technique {
 
@@ -10,6 +13,10 @@ double point_margin(std::string_view renderer, double granularity) {
   // own margin is made. It is lavapipe's name for itself, too.
   if (renderer.starts_with("llvmpipe")) return 0;
   return granularity;
+}
+
+double sprite_margin(int sub_pixel_bits) {
+  return std::max(1.0 / 64, 2 * std::ldexp(1.0, -sub_pixel_bits));
 }
 
 }  // namespace triptych::technique
