@@ -8,6 +8,7 @@
 #include <set>
 
 #include "judge/baselines/frame_change.hpp"
+#include "judge/gate/open_fragments.hpp"
 #include "judge/images/agreement.hpp"
 #include "judge/images/image_metrics.hpp"
 
@@ -223,10 +224,12 @@ class Finder {
     }
     const auto ratio = ratio_of(*a, *b);
     const double reference = std::max(1.0, static_cast<double>(std::max(*a, *b)));
-    const double relative = std::abs(static_cast<double>(*b) - static_cast<double>(*a)) / reference;
+    const double difference = std::abs(static_cast<double>(*b) - static_cast<double>(*a));
+    const bool open = difference <= counters_across_devices * reference ||
+                      difference <= open_fragments(name, b_.record);
     if (same_driver_) {
       add(Kind::regression, about, change(*a, *b) + ", on the same driver", ratio);
-    } else if (relative > counters_across_devices) {
+    } else if (!open) {
       add(Kind::regression, about, change(*a, *b) + ", beyond what rounding decides", ratio);
     } else {
       add(Kind::changed, about, change(*a, *b) + ", where rounding decides", ratio);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "judge/gate/open_fragments.hpp"
 #include "judge/gate/run_view.hpp"
 #include "judge/images/agreement.hpp"
 
@@ -69,25 +70,35 @@ void compare_own(const std::string& name, std::uint64_t stored, const record::Re
       fmt::format("{} {} → {} ({:+.4g} %)", name, stored, found->second, 100 * relative));
 }
 
-// Another device's counter may have no meaning here: it need not be there.
+// Of another device or driver version. A counter may have no meaning here: it need not be there.
 void compare_with_others(const std::string& name, const Range& range, const record::Record& record,
                          Differences& out) {
   const auto found = record.counters.find(name);
   if (found == record.counters.end()) return;
   const double relative = relative_difference(found->second, range.nearest(found->second));
   out.largest = std::max(out.largest, std::abs(relative));
-  if (std::abs(relative) <= counters_across_devices) return;
+  const double open = open_fragments(name, record);
+  const double excess = relative * static_cast<double>(range.nearest(found->second));
+  if (std::abs(relative) <= counters_across_devices || std::abs(excess) <= open) return;
   out.wrong.push_back(
-      fmt::format("{} {} ({:+.4g} % beyond what other devices were accepted with: "
+      fmt::format("{} {} ({:+.4g} % beyond what was accepted: "
                   "{})",
                   name, found->second, 100 * relative, range.text()));
 }
 
+// Exact is what the same driver version counted before, and that a counter is told at all.
 void compare_counter(const std::string& name, const std::map<std::string, std::uint64_t>& stored,
-                     const record::Record& record, Differences& out) {
+                     const record::Record& record, bool known_driver, Differences& out) {
   const auto own = stored.find(record.device);
-  if (own != stored.end()) return compare_own(name, own->second, record, out);
+  const bool exact = known_driver || !record.counters.contains(name);
+  if (own != stored.end() && exact) return compare_own(name, own->second, record, out);
   compare_with_others(name, Range(stored), record, out);
+}
+
+bool knows_driver(const RunView& view, const record::Device& device) {
+  const auto& accepted = view.baselines.manifest().devices;
+  const auto found = accepted.find(device.id);
+  return found != accepted.end() && found->second.contains(device.statistics_key());
 }
 
 Finding check_record(const RunView& view, const record::Record& record,
@@ -101,7 +112,10 @@ Finding check_record(const RunView& view, const record::Record& record,
                                   "nothing was counted; run the plan again with counting frames");
   }
   Differences differences;
-  for (const auto& [name, values] : stored) compare_counter(name, values, record, differences);
+  const bool known_driver = knows_driver(view, view.device(record));
+  for (const auto& [name, values] : stored) {
+    compare_counter(name, values, record, known_driver, differences);
+  }
   for (const auto& [name, value] : record.counters) {
     if (!stored.contains(name)) differences.unknown.push_back(name);
   }

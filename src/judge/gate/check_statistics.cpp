@@ -137,7 +137,7 @@ class StatisticsCheck {
   void look_at(const record::Record& record) {
     const record::Device& device = view_.device(record);
     const auto stored = view_.baselines.statistics(device, record.configuration);
-    if (record.untimed()) {
+    if (record.untimed() && record.statistics.empty()) {
       findings_.push_back(finding_about(record, Check::statistics, Verdict::skipped,
                                         "pipeline statistics were not read: the run was untimed"));
     } else if (stored) {
