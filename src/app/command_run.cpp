@@ -34,6 +34,7 @@ struct RunArguments {
   bool measure_every = false;
   bool brief = false;
   bool untimed = false;
+  bool statistics = false;  // of an untimed run, too
   bool timed = false;
   std::vector<std::string> plants;
   std::optional<double> error;
@@ -138,6 +139,7 @@ std::vector<std::string> worker_command(const RunArguments& arguments) {
 measure::RunOptions options_of(const RunArguments& arguments) {
   measure::Protocol protocol = arguments.brief ? measure::brief_protocol : measure::Protocol{};
   protocol.timed = !arguments.untimed;
+  protocol.statistics = protocol.timed || arguments.statistics;
   protocol.measure_every = arguments.measure_every;
   return {
       .protocol = protocol,
@@ -296,6 +298,8 @@ void measure_plans(const Measuring& measuring) {
   arguments.resume = measuring.resume;
   arguments.plants = measuring.plants;
   arguments.brief = measuring.brief;
+  arguments.untimed = measuring.untimed;
+  arguments.statistics = true;
   arguments.told_to = stderr;
   static_cast<void>(run_resumably(arguments));
 }

@@ -44,7 +44,8 @@ void measure_what_is_left(const ValidateArguments& arguments, const std::string&
     measure_plans({.plans = {plans.begin(), plans.end()},
                    .devices = arguments.devices,
                    .store = file,
-                   .resume = arguments.resume});
+                   .resume = arguments.resume,
+                   .untimed = true});
   } catch (const measure::Interrupted& interrupted) {
     say("triptych: {}\n", interrupted.what());
   }

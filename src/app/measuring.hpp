@@ -15,7 +15,8 @@ struct Measuring {
   std::string store;
   bool resume = false;  // into the plans' latest runs, else into new ones
   std::vector<std::string> plants = {};
-  bool brief = false;  // times are shown, and decide nothing
+  bool brief = false;    // times are shown, and decide nothing
+  bool untimed = false;  // a frame each for the picture, the counters and the statistics
 };
 
 // Measures as `triptych run` does and tells it on standard error. Throws as measure::run_plans

@@ -93,9 +93,8 @@ void DeviceRun::remember() {
 
 Protocol DeviceRun::protocol() const {
   Protocol protocol = context_.options.protocol;
-  // Without times a run is for pictures and counters alone, unless its plan asks for more.
-  protocol.statistics = protocol.statistics && protocol.timed &&
-                        context_.plan.checks.contains(record::Check::statistics);
+  protocol.statistics =
+      protocol.statistics && context_.plan.checks.contains(record::Check::statistics);
   protocol.timed = protocol.timed && context_.plan.timed();
   protocol.counted = context_.plan.counted();
   // A plan for pictures alone asks for each of them: that two are alike is what it tests.

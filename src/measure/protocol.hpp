@@ -24,8 +24,8 @@ struct Protocol {
   int most_loop_frames = 1000;
   bool statistics = true;
   bool counters = true;
-  // Else one frame for its picture and one for our counters: nothing is warmed up, and no time,
-  // statistic or benchmark is told.
+  // Else one frame each for its picture, the statistics and our counters: nothing is warmed up, and
+  // no time or benchmark is told.
   bool timed = true;
   // Nothing but the instructions of the third frame (counting/emulator.hpp).
   bool counted = false;

@@ -39,9 +39,10 @@ record::Run new_run(const Plan& plan) {
           .configurations = plan.configurations.size()};
 }
 
-// The kinds of work whose clocks are needed.
+// The kinds of work of which clocks and statistics have to be calibrated.
 std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
-  return plan.timed() && protocol.timed ? work_kinds(plan) : std::vector<std::string>{};
+  const bool asked = protocol.timed || protocol.statistics;
+  return plan.timed() && asked ? work_kinds(plan) : std::vector<std::string>{};
 }
 
 // A file's runs are known by its name alone. Where its text is not the one that a run began with,
@@ -198,7 +199,8 @@ std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
                              interrupts,
                              open_run(each, store),
                              kinds_of(plan, options.protocol)};
-    const bool side_by_side = !context.plan.timed() && devices.size() > 1;
+    const bool timed = context.plan.timed() && options.protocol.timed;
+    const bool side_by_side = !timed && devices.size() > 1;
     results.push_back(side_by_side ? measure_devices_side_by_side(context, devices, on_progress)
                                    : PlanRun(context, devices, on_progress).measure_all());
   }

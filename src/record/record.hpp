@@ -122,8 +122,8 @@ struct Record {
   std::map<std::string, double> precision;  // facts for the image bound, e.g. "filter_weight_error"
   std::string benchmark_json;  // the entry of Google Benchmark's own output for this configuration
 
-  // Drawn for its picture and counters alone: neither warmed up nor timed, and no statistics read.
-  // A record that was timed and lost its times is none.
+  // Drawn for its picture and what it counts alone: neither warmed up nor timed. A record that was
+  // timed and lost its times is none.
   [[nodiscard]] bool untimed() const {
     return outcome == Outcome::measured && warm_up_frames == 0 && wall_ns.empty();
   }
