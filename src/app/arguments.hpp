@@ -59,8 +59,8 @@ void add_devices_command(Commands& commands);
 void add_list_command(Commands& commands);
 void add_run_commands(Commands& commands);  // run, worker
 void add_render_command(Commands& commands);
-void add_gate_commands(Commands& commands);  // gate, accept
-void add_compare_command(Commands& commands);
+void add_gate_commands(Commands& commands);     // gate, accept
+void add_compare_commands(Commands& commands);  // compare, diff
 void add_report_command(Commands& commands);
 void add_validate_command(Commands& commands);
 void add_analyze_command(Commands& commands);

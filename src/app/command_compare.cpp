@@ -6,7 +6,12 @@
 #include <memory>
 
 #include "app/comparing.hpp"
+#include "app/judging.hpp"
 #include "app/paths.hpp"
+#include "app/registry.hpp"
+#include "comparison/store_diff.hpp"
+#include "core/json.hpp"
+#include "core/json_text.hpp"
 #include "core/quoting.hpp"
 
 namespace triptych::app {
@@ -57,9 +62,39 @@ core::ExitCode compare(const CompareArguments& arguments) {
   return compare_and_tell({comparing}, arguments.json);
 }
 
+struct DiffArguments {
+  std::string a;
+  std::string b;
+  bool json = false;
+};
+
+core::ExitCode diff(const DiffArguments& arguments) {
+  const Registry registry = make_registry();
+  const record::Store a = open_to_judge(arguments.a);
+  record::Store b = open_to_judge(arguments.b);
+  Truths truths(registry, b);
+  const comparison::StoreDiff found = comparison::diff_stores(
+      a, b,
+      [&](const record::Record& record) -> const judge::TruthPair& { return truths.of(record); });
+  fmt::print("{}", arguments.json ? core::json_text(comparison::to_json(found), 2) + "\n"
+                                  : comparison::to_text(found));
+  return found.exit_code();
+}
+
+void add_diff_command(Commands& commands) {
+  auto arguments = std::make_shared<DiffArguments>();
+  CLI::App* command =
+      commands.add("diff", "Say what differs between two stores, of a driver and the next, say",
+                   [arguments] { return diff(*arguments); });
+  command->add_option("OLD", arguments->a, "Store of a run or a validation")->required();
+  command->add_option("NEW", arguments->b, "Store of the same plans")->required();
+  command->add_flag("--json", arguments->json, "Print everything as JSON");
+}
+
 }  // namespace
 
-void add_compare_command(Commands& commands) {
+void add_compare_commands(Commands& commands) {
+  add_diff_command(commands);
   auto arguments = std::make_shared<CompareArguments>();
   Comparing& comparing = arguments->comparing;
   CLI::App* command =

@@ -59,7 +59,7 @@ ExitCode run(int argc, char** argv) {
   triptych::app::add_run_commands(commands);
   triptych::app::add_render_command(commands);
   triptych::app::add_gate_commands(commands);
-  triptych::app::add_compare_command(commands);
+  triptych::app::add_compare_commands(commands);
   triptych::app::add_report_command(commands);
   triptych::app::add_validate_command(commands);
   triptych::app::add_analyze_command(commands);

@@ -87,12 +87,6 @@ core::Json to_json(const Difference& difference) {
   return json;
 }
 
-core::Json to_json(const std::vector<Difference>& differences) {
-  core::Json json = core::Json::array();
-  for (const Difference& each : differences) json.push_back(to_json(each));
-  return json;
-}
-
 core::Json to_json(const Compared& compared, bool timed, const ComparisonCommand& command) {
   core::Json json{{"configuration", compared.key}};
   if (!compared.reason.empty()) json["reason"] = compared.reason;
@@ -123,11 +117,17 @@ core::Json to_json(const Compared& compared, bool timed, const ComparisonCommand
                     {"ln_work", compared.work->log_ratio},
                     {"ln_time_per_work", compared.shift.estimate - compared.work->log_ratio}};
   }
-  json["differences"] = to_json(compared.differences);
+  json["differences"] = comparison::to_json(compared.differences);
   return json;
 }
 
 }  // namespace
+
+core::Json to_json(const std::vector<Difference>& differences) {
+  core::Json json = core::Json::array();
+  for (const Difference& each : differences) json.push_back(to_json(each));
+  return json;
+}
 
 std::string headline(const ComparisonResult& result) {
   std::map<std::string_view, int> times;

@@ -22,6 +22,9 @@ struct ComparisonCommand {
 // "FAIL: 18 slower, 2 regressions in what repeats, 0 fixed, 1 changed; 64 s"
 [[nodiscard]] std::string headline(const ComparisonResult& result);
 
+// [{"kind", "about", "text", "ratio"}]
+[[nodiscard]] nlohmann::json to_json(const std::vector<judge::Difference>& differences);
+
 // {"plan", "sides", "a", "b" (devices), "seconds", "exit_code", "headline", "differences" (of the
 // devices), "configurations": [{"configuration", "reason", "differences": [{"kind", "about",
 // "text", "ratio"}], "work"; of times "verdict", "ratio", "ratio_low", "ratio_high", "blocks",

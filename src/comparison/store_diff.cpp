@@ -1,0 +1,173 @@
+#include "comparison/store_diff.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "comparison/text.hpp"
+#include "core/json.hpp"
+
+namespace triptych::comparison {
+namespace {
+
+using judge::Difference;
+using judge::DifferenceKind;
+
+std::map<std::string, std::string> latest_runs(const record::Store& store) {
+  std::map<std::string, std::string> runs;  // id by plan
+  for (const record::Run& run : store.runs()) runs[run.plan] = run.id;
+  return runs;
+}
+
+std::map<std::string, record::Device> devices_of(const record::Store& store,
+                                                 const std::string& run) {
+  std::map<std::string, record::Device> devices;
+  for (auto& entry : store.devices(run)) devices.emplace(entry.device.id, entry.device);
+  return devices;
+}
+
+// What is in one of two maps alone, each name with `what` before it and its side behind.
+template <typename Map>
+void add_only_one(const Map& a, const Map& b, std::string_view what, std::set<std::string>& out) {
+  for (const auto& [name, value] : a) {
+    if (!b.contains(name)) out.insert(fmt::format("{} {}: only a has it", what, name));
+  }
+  for (const auto& [name, value] : b) {
+    if (!a.contains(name)) out.insert(fmt::format("{} {}: only b has it", what, name));
+  }
+}
+
+// A device is described by each of its runs.
+void add_new(const std::vector<Difference>& more, std::vector<Difference>& differences) {
+  for (const Difference& each : more) {
+    const bool known = std::ranges::any_of(differences, [&](const Difference& other) {
+      return other.about == each.about && other.text == each.text;
+    });
+    if (!known) differences.push_back(each);
+  }
+}
+
+class Diffing {
+ public:
+  Diffing(const record::Store& a, const record::Store& b, const KeptTruth& truth)
+      : a_(a), b_(b), truth_(truth) {}
+
+  void add_plan(const std::string& plan, const std::string& run_a, const std::string& run_b) {
+    const auto of_a = devices_of(a_, run_a);
+    const auto of_b = devices_of(b_, run_b);
+    add_only_one(of_a, of_b, plan + " on", only_one_);
+    for (const auto& [id, device] : of_a) {
+      const auto found = of_b.find(id);
+      if (found == of_b.end()) continue;
+      const RunSide a{a_, run_a, device};
+      const RunSide b{b_, run_b, found->second};
+      add_device(plan, a, b, diff_runs(a, b, truth_, true));
+    }
+  }
+
+  void add_plans() {
+    const auto of_a = latest_runs(a_);
+    const auto of_b = latest_runs(b_);
+    add_only_one(of_a, of_b, "plan", only_one_);
+    for (const auto& [plan, run] : of_a) {
+      if (const auto found = of_b.find(plan); found != of_b.end()) {
+        add_plan(plan, run, found->second);
+      }
+    }
+  }
+
+  [[nodiscard]] StoreDiff diff() && {
+    StoreDiff all{.devices = {}, .only_one = {only_one_.begin(), only_one_.end()}};
+    for (auto& [id, change] : changes_) all.devices.push_back(std::move(change));
+    return all;
+  }
+
+ private:
+  void add_device(const std::string& plan, const RunSide& a, const RunSide& b, RunDiff diff) {
+    DeviceChange& change =
+        changes_
+            .try_emplace(
+                a.device.id,
+                DeviceChange{.a = a.device, .b = b.device, .device = {}, .configurations = {}})
+            .first->second;
+    add_new(diff.device, change.device);
+    for (ConfigurationDiff& each : diff.configurations) {
+      each.key = fmt::format("{} {}", plan, each.key);
+      change.configurations.push_back(std::move(each));
+    }
+  }
+
+  const record::Store& a_;
+  const record::Store& b_;
+  const KeptTruth& truth_;
+  std::map<std::string, DeviceChange> changes_;  // by device
+  std::set<std::string> only_one_;
+};
+
+std::string text_of(const DeviceChange& change) {
+  DifferenceGroups groups;
+  groups.add(change.device, "");
+  for (const ConfigurationDiff& each : change.configurations) {
+    groups.add(each.differences, each.key);
+  }
+  return fmt::format("{}, {} configurations\na: {}\nb: {}\n{}\n", change.a.id,
+                     change.configurations.size(), change.a.key(), change.b.key(),
+                     groups.empty() ? "nothing differs\n" : groups.text());
+}
+
+}  // namespace
+
+bool DeviceChange::has(DifferenceKind kind) const {
+  const auto in = [kind](const std::vector<Difference>& differences) {
+    return std::ranges::find(differences, kind, &Difference::kind) != differences.end();
+  };
+  return in(device) || std::ranges::any_of(configurations,
+                                           [&](const auto& each) { return in(each.differences); });
+}
+
+core::ExitCode StoreDiff::exit_code() const {
+  const auto any = [this](DifferenceKind kind) {
+    return std::ranges::any_of(devices, [kind](const auto& each) { return each.has(kind); });
+  };
+  if (any(DifferenceKind::regression)) return core::ExitCode::regression;
+  const bool all = !devices.empty() && only_one.empty() && !any(DifferenceKind::unjudged);
+  return all ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+}
+
+StoreDiff diff_stores(const record::Store& a, const record::Store& b, const KeptTruth& truth) {
+  Diffing diffing(a, b, truth);
+  diffing.add_plans();
+  return std::move(diffing).diff();
+}
+
+std::string to_text(const StoreDiff& diff) {
+  std::string text;
+  for (const DeviceChange& change : diff.devices) text += text_of(change);
+  for (const std::string& each : diff.only_one) {
+    text += fmt::format("{:<12}  {}\n", judge::name_of(DifferenceKind::unjudged), each);
+  }
+  return text;
+}
+
+core::Json to_json(const StoreDiff& diff) {
+  core::Json json{{"exit_code", static_cast<int>(diff.exit_code())},
+                  {"only_one", diff.only_one},
+                  {"devices", core::Json::array()}};
+  for (const DeviceChange& change : diff.devices) {
+    core::Json configurations = core::Json::array();
+    for (const ConfigurationDiff& each : change.configurations) {
+      if (each.differences.empty()) continue;
+      configurations.push_back(
+          {{"configuration", each.key}, {"differences", to_json(each.differences)}});
+    }
+    json["devices"].push_back({{"a", change.a},
+                               {"b", change.b},
+                               {"differences", to_json(change.device)},
+                               {"configurations", std::move(configurations)}});
+  }
+  return json;
+}
+
+}  // namespace triptych::comparison

@@ -1,0 +1,71 @@
+// Two stores, of a driver before and after an upgrade.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "program.hpp"
+#include "right_picture.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Diff : public testing::Test {
+ protected:
+  void measure(const std::string& store, const std::string& keys = "",
+               const std::string& plan = "volume/quick") const {
+    const std::string script =
+        fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": 1e5{}}})", picture.string(), keys);
+    const Result result = program.run(
+        fmt::format("run {} --untimed --set skip=none,bricks --store {} {}", plan, store, tiny),
+        script);
+    ASSERT_EQ(result.code, 0) << result.output;
+  }
+  [[nodiscard]] Result diff(const std::string& more = "") const {
+    return program.run("diff old.sqlite new.sqlite " + more);
+  }
+
+  Program program;
+  std::filesystem::path picture = right_picture(program);
+};
+
+TEST_F(Diff, TheSameDriverDiffersInNothing) {
+  measure("old.sqlite");
+  measure("new.sqlite");
+  const Result result = diff();
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("null:scripted, 2 configurations"));
+  EXPECT_THAT(result.output, HasSubstr("nothing differs"));
+}
+
+TEST_F(Diff, WhatIsNewAndWhatIsFixedIsToldEitherWay) {
+  measure("old.sqlite");
+  measure("new.sqlite", R"(, "failures": [{"kind": "wrong_image", "at": "image"}])");
+  const Result worse = diff();
+  EXPECT_EQ(worse.code, 1) << worse.output;
+  EXPECT_THAT(worse.output, HasSubstr("regression    image: "));
+  EXPECT_THAT(worse.output, HasSubstr("2 configurations"));
+  const Result better = program.run("diff new.sqlite old.sqlite --json");
+  EXPECT_EQ(better.code, 0) << better.output;
+  EXPECT_THAT(better.output, HasSubstr(R"("kind": "fixed")"));
+}
+
+TEST_F(Diff, WhatOnlyOneHasCannotBeJudged) {
+  measure("old.sqlite");
+  measure("new.sqlite");
+  measure("new.sqlite", "", "volume/accuracy");
+  const Result result = diff();
+  EXPECT_EQ(result.code, 2) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy: only b has it"));
+}
+
+TEST_F(Diff, AStoreThatIsNotThereIsNamed) {
+  measure("old.sqlite");
+  EXPECT_THAT(diff().output, HasSubstr("new.sqlite"));
+  EXPECT_THAT(diff().code, ::testing::AnyOf(2, 3));
+}
+
+}  // namespace
+}  // namespace triptych::command_line
