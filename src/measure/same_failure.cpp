@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "core/text.hpp"
 #include "record/factor_list.hpp"
@@ -17,10 +16,14 @@ bool ended_the_worker(record::Outcome outcome) {
          outcome == record::Outcome::lost;
 }
 
-Configuration shared_by(const Configuration& a, const Configuration& b) {
-  Configuration shared;
-  std::ranges::set_intersection(a, b, std::inserter(shared, shared.end()));
-  return shared;
+// Factors in which two configurations of one plan differ.
+std::set<std::string> differing(const Configuration& a, const Configuration& b) {
+  std::set<std::string> factors;
+  for (const auto& [factor, level] : a) {
+    const auto found = b.find(factor);
+    if (found == b.end() || found->second != level) factors.insert(factor);
+  }
+  return factors;
 }
 
 }  // namespace
@@ -28,36 +31,42 @@ Configuration shared_by(const Configuration& a, const Configuration& b) {
 void SameFailure::saw(const Configuration& configuration, const record::Record& record) {
   if (record.outcome == record::Outcome::measured) measured_.push_back(configuration);
   if (!ended_the_worker(record.outcome) || record::was_not_tried(record)) return;
-  const Failure failure{configuration, record.outcome, record.reason};
+  const Failure failure{
+      configuration, record.outcome, record.reason,
+      fmt::format("{}: {}", record::name_of(record.outcome), core::without_numbers(record.reason))};
   for (const Failure& before : failures_) {
-    if (before.outcome != failure.outcome ||
-        core::without_numbers(before.reason) != core::without_numbers(failure.reason)) {
-      continue;
-    }
-    Configuration shared = shared_by(before.configuration, configuration);
-    if (shared.contains("technique")) causes_.push_back({std::move(shared), failure});
+    if (before.words != failure.words) continue;
+    const Factors factors = differing(before.configuration, configuration);
+    if (!is_refuted(configuration, factors))
+      no_matter_[failure.words].insert(factors.begin(), factors.end());
   }
   failures_.push_back(failure);
 }
 
 std::optional<SameFailure::Foretold> SameFailure::foretold(
     const Configuration& configuration) const {
-  const auto cause = std::ranges::find_if(causes_, [&](const Cause& each) {
-    return std::ranges::includes(configuration, each.shared) && !is_refuted(each);
-  });
-  if (cause == causes_.end()) return std::nullopt;
-  Configuration named = cause->shared;
-  std::erase_if(named, [&](const auto& level) {
-    return std::ranges::find(varied_, level.first) == varied_.end();
-  });
-  return Foretold{
-      cause->failure.outcome,
-      fmt::format("{}{}{}", cause->failure.reason, record::not_tried, record::factor_list(named))};
+  for (const Failure& failure : failures_) {
+    const auto found = no_matter_.find(failure.words);
+    if (found == no_matter_.end()) continue;
+    const Factors& no_matter = found->second;
+    if (!std::ranges::includes(no_matter, differing(failure.configuration, configuration)) ||
+        is_refuted(failure.configuration, no_matter)) {
+      continue;
+    }
+    Configuration shared = failure.configuration;
+    std::erase_if(shared, [&](const auto& level) {
+      return no_matter.contains(level.first) ||
+             std::ranges::find(varied_, level.first) == varied_.end();
+    });
+    return Foretold{failure.outcome, fmt::format("{}{}{}", failure.reason, record::not_tried,
+                                                 record::factor_list(shared))};
+  }
+  return std::nullopt;
 }
 
-bool SameFailure::is_refuted(const Cause& cause) const {
+bool SameFailure::is_refuted(const Configuration& configuration, const Factors& but_for) const {
   return std::ranges::any_of(measured_, [&](const Configuration& measured) {
-    return std::ranges::includes(measured, cause.shared);
+    return std::ranges::includes(but_for, differing(configuration, measured));
   });
 }
 

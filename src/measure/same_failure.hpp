@@ -2,7 +2,9 @@
 // A fault of a driver that ends its worker meets many configurations, and each costs a worker or
 // the whole limit. What two have shown is not tried on the rest.
 
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,27 +26,25 @@ class SameFailure {
     record::Outcome outcome;
     std::string reason;  // as of those that were tried, then record::not_tried and what they share
   };
-  // How the configuration would end: as two of its technique that crashed, hung or lost the device
-  // with the same words, if it has all levels that those two share, and nothing with all these
-  // levels was measured. Nothing: try it.
+  // How the configuration would end: as one that crashed, hung or lost the device, if it differs
+  // from that one only in factors that were seen not to matter – two that ended with the same words
+  // differ in them alone – and nothing that differs so was measured. Nothing: try it.
   [[nodiscard]] std::optional<Foretold> foretold(const Configuration& configuration) const;
 
  private:
+  using Factors = std::set<std::string>;
   struct Failure {
     Configuration configuration;
     record::Outcome outcome;
     std::string reason;
+    std::string words;  // outcome and reason, but for numbers
   };
-  struct Cause {
-    Configuration shared;  // by two failures
-    Failure failure;
-  };
-  [[nodiscard]] bool is_refuted(const Cause& cause) const;
+  [[nodiscard]] bool is_refuted(const Configuration& configuration, const Factors& but_for) const;
 
   std::vector<std::string> varied_;
   std::vector<Configuration> measured_;
   std::vector<Failure> failures_;
-  std::vector<Cause> causes_;
+  std::map<std::string, Factors> no_matter_;  // by words
 };
 
 }  // namespace triptych::measure

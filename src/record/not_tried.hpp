@@ -1,6 +1,6 @@
 #pragma once
 // What ended the worker twice is not tried on every configuration that it would meet: those have
-// the outcome and the reason of the two, and this behind it.
+// the outcome and the reason of those that were, and this behind it.
 
 #include <string_view>
 
@@ -8,8 +8,8 @@
 
 namespace triptych::record {
 
-// Then the levels that the two share.
-inline constexpr std::string_view not_tried = "; not tried, as two ended so with ";
+// Then the levels that they share.
+inline constexpr std::string_view not_tried = "; not tried, as others ended so with ";
 
 [[nodiscard]] inline bool was_not_tried(const Record& record) {
   return record.reason.find(not_tried) != std::string::npos;

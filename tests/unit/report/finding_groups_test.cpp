@@ -45,7 +45,7 @@ TEST(FindingGroups, OneCauseIsSaidOnceWithTheSmallestCase) {
 TEST(FindingGroups, WhatWasNotTriedIsOfTheCauseThatWas) {
   const std::vector<Finding> findings{
       finding(regression, "gl:x", "step=1,viewport=16",
-              "crashed: SIGSEGV; not tried, as two ended so with technique=raycast"),
+              "crashed: SIGSEGV; not tried, as others ended so with technique=raycast"),
       finding(regression, "gl:x", "step=1,viewport=64", "crashed: SIGSEGV")};
   const std::vector<FindingGroup> groups = grouped(findings);
   ASSERT_EQ(groups.size(), 1U);
