@@ -21,11 +21,11 @@ std::string constant_lines(const Api& gl, const ParticleConstants& constants) {
       "#extension GL_ARB_shader_draw_parameters : enable\n"
       "#define TRI_LINK(n) {}\n#define TRI_COLOUR {}\n#define TRI_TRANSFER_AT_PIXEL {:d}\n"
       "#define TRI_RAY_AT_VERTEX {:d}\n#define TRI_FAULT {}\n#define TRI_COUNT {:d}\n"
-      "#define TRI_SPRITE_MARGIN {:#.9g}\n{}",
+      "#define TRI_SPRITE_GROWTH {:#.9g}\n{}",
       gl.at_least(4, 3) ? "layout(location = n)" : "", static_cast<int>(constants.colour),
       int{constants.transfer_at_pixel}, int{constants.ray_at_vertex},
       static_cast<int>(constants.fault), int{constants.count},
-      technique::sprite_margin(static_cast<int>(gl.limit(GL_SUBPIXEL_BITS))),
+      technique::sprite_growth(static_cast<int>(gl.limit(GL_SUBPIXEL_BITS))),
       depth_promise(constants));
 }
 

@@ -31,12 +31,16 @@ Buffer upload_property(const Gpu& gpu, const technique::Arrangement& arrangement
   return make_buffer(gpu, arrangement.bytes(property), fill, eVertexBuffer | eStorageBuffer);
 }
 
+double sprite_growth(const Gpu& gpu) {
+  return technique::sprite_growth(static_cast<int>(gpu.properties.limits.subPixelPrecisionBits));
+}
+
 }  // namespace
 
 float point_margin(const Gpu& gpu) {
-  return static_cast<float>(
-      technique::point_margin(gpu.properties.deviceName.data(),
-                              static_cast<double>(gpu.properties.limits.pointSizeGranularity)));
+  const auto granularity = static_cast<double>(gpu.properties.limits.pointSizeGranularity);
+  return static_cast<float>(technique::point_margin(gpu.properties.deviceName.data(), granularity) +
+                            2 * sprite_growth(gpu));
 }
 
 float largest_point(const Gpu& gpu) {
@@ -53,8 +57,7 @@ ParticleConstants particle_constants(const Gpu& gpu, const measure::ParticleWork
           .fault = static_cast<std::int32_t>(work.options.fault),
           .largest_point = largest_point(gpu),
           .point_margin = point_margin(gpu),
-          .sprite_margin = static_cast<float>(technique::sprite_margin(
-              static_cast<int>(gpu.properties.limits.subPixelPrecisionBits)))};
+          .sprite_growth = static_cast<float>(sprite_growth(gpu))};
 }
 
 vk::Format colour_format(scene::ColourKind kind) {

@@ -32,7 +32,7 @@ struct ParticleConstants {
   std::int32_t fault = 0;
   float largest_point = 1;  // pixels
   float point_margin = 0;
-  float sprite_margin = 0;
+  float sprite_growth = 0;
 };
 [[nodiscard]] ParticleConstants particle_constants(const Gpu& gpu,
                                                    const measure::ParticleWork& work);

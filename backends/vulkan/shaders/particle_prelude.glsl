@@ -9,7 +9,7 @@ layout(constant_id = 2) const int TRI_RAY_AT_VERTEX = 0;
 layout(constant_id = 3) const int TRI_FAULT = 0;
 layout(constant_id = 4) const float TRI_LARGEST_POINT = 1.0;
 layout(constant_id = 5) const float TRI_POINT_MARGIN = 0.0;
-layout(constant_id = 6) const float TRI_SPRITE_MARGIN = 0.015625;
+layout(constant_id = 6) const float TRI_SPRITE_GROWTH = 0.0;
 #include "portable/prelude.glsl"
 #include "portable/volume_math.h"
 #include "portable/sphere_math.h"

@@ -17,9 +17,11 @@ double value_of(const record::Record& record, const char* counter) {
 
 bool is_open(const std::string& counter, const record::Record& record) {
   if (counter == "fragments" || counter == "fragments_discarded") return true;
-  // A ray that is made at the vertices moves with them, and with it the silhouette.
+  // A ray that is made at the vertices moves with them, and with it the silhouette: who is in
+  // sight.
   const auto ray = record.factors.find("ray");
-  return counter == "fragments_kept" && ray != record.factors.end() && ray->second == "vertex";
+  return (counter == "fragments_kept" || counter == "visible_ids") && ray != record.factors.end() &&
+         ray->second == "vertex";
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ double point_margin(std::string_view renderer, double granularity) {
   return granularity;
 }
 
-double sprite_margin(int sub_pixel_bits) {
-  return std::max(1.0 / 64, 2 * std::ldexp(1.0, -sub_pixel_bits));
+double sprite_growth(int sub_pixel_bits) {
+  return std::max(0.0, 2 * std::ldexp(1.0, -sub_pixel_bits) - 1.0 / 64);
 }
 
 }  // namespace triptych::technique

@@ -21,12 +21,12 @@ Corner corner_on_image(vec2 low, vec2 high, vec2 side, float distance) {
 // No pixel: every corner at one place outside the view.
 Corner nowhere() { return Corner(vec4(2.0, 2.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0)); }
 
-// The part of the image plane that a sphere covers, with a margin of TRI_SPRITE_MARGIN pixels, within the viewport.
+// The part of the image plane that a sphere covers, with a margin of 1/64 pixel, within the viewport.
 // low > high: none. The planted fault takes 1 % off.
 void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   vec2 x = tri_sphere_interval(sphere.x, sphere.z, sphere.w);
   vec2 y = tri_sphere_interval(sphere.y, sphere.z, sphere.w);
-  TRI_PRECISE vec2 margin = TRI_SPRITE_MARGIN * u.plane.zw;
+  TRI_PRECISE vec2 margin = 0.015625 * u.plane.zw;
   TRI_PRECISE vec2 begin = vec2(x.x, y.x) - margin;
   TRI_PRECISE vec2 end = vec2(x.y, y.y) + margin;
   if (u.eye_rest.w < 1.0) {
@@ -54,8 +54,13 @@ void screen_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   }
 }
 
-// Of a rectangle at the depth of the sphere's front.
+// Of a rectangle at the depth of the sphere's front. TRI_SPRITE_GROWTH: pixels more on each side, for
+// devices that move vertices to a coarse grid.
 Corner front_corner(vec4 sphere, vec2 low, vec2 high, vec2 side) {
+  if (TRI_SPRITE_GROWTH > 0.0) {
+    low -= TRI_SPRITE_GROWTH * u.plane.zw;
+    high += TRI_SPRITE_GROWTH * u.plane.zw;
+  }
   float front = (sphere.z - sphere.w) * 0.9990234375;
   return corner_on_image(low, high, side, max(front, u.eye.w));
 }
@@ -75,8 +80,10 @@ Frame sprite_frame(vec4 sphere) {
   vec3 reference = abs(v.y) > 0.9 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
   vec3 right = normalize(cross(v, reference));
   float plane = tri_sprite_plane(d, sphere.w);
-  float pixel = (64.0 * TRI_SPRITE_MARGIN) * max(u.plane.z, u.plane.w);  // whose 64th is the margin
-  float radius = tri_sprite_radius(d, sphere.w, plane, pixel, u.eye_rest.w);
+  float radius = tri_sprite_radius(d, sphere.w, plane, max(u.plane.z, u.plane.w), u.eye_rest.w);
+  if (TRI_SPRITE_GROWTH > 0.0) {  // a pixel at this depth is at least so large anywhere on the plane
+    radius += TRI_SPRITE_GROWTH * max(u.plane.z, u.plane.w) * max(sphere.z, 0.0);
+  }
   return Frame(v * plane, radius * right, radius * cross(right, v), tri_surrounds(d2, sphere.w));
 }
 

@@ -30,6 +30,7 @@ TEST(OpenFragments, OfRaysFromVerticesAreThoseAlongTheSilhouetteToo) {
   record::Record record = record_of(100, 10000, 8);
   record.factors["ray"] = "vertex";
   EXPECT_GT(open_fragments("fragments_kept", record), 0);
+  EXPECT_GT(open_fragments("visible_ids", record), 0);
 }
 
 TEST(OpenFragments, AreMoreOnACoarseGridAndWhereSpritesLieTogether) {

@@ -12,12 +12,12 @@ TEST(PointMargin, IsTheGranularityWhereSizesMayBeRounded) {
   EXPECT_EQ(point_margin("Some GPU", 1), 1);
 }
 
-TEST(SpriteMargin, CoversWhatTheGridMovesAnEdge) {
-  EXPECT_EQ(sprite_margin(8), 1.0 / 64);
-  EXPECT_EQ(sprite_margin(12), 1.0 / 64);
-  EXPECT_EQ(sprite_margin(4), 1.0 / 8);
+TEST(SpriteGrowth, CoversWhatTheGridMovesAnEdge) {
+  EXPECT_EQ(sprite_growth(8), 0);
+  EXPECT_EQ(sprite_growth(7), 0);
+  EXPECT_EQ(sprite_growth(4), 1.0 / 8 - 1.0 / 64);
   for (int bits = 4; bits <= 8; ++bits) {
-    EXPECT_GT(sprite_margin(bits), std::sqrt(2) * std::ldexp(1, -bits));
+    EXPECT_GT(1.0 / 64 + sprite_growth(bits), std::sqrt(2) * std::ldexp(1, -bits));
   }
 }
 
