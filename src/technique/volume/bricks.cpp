@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <span>
 
 namespace triptych::technique {
 namespace {
@@ -19,41 +21,71 @@ Span with_border(int b, int n, const BrickLayout& layout) {
 }
 
 struct Range {
-  float minimum;
-  float maximum;
+  float minimum = std::numeric_limits<float>::infinity();
+  float maximum = -std::numeric_limits<float>::infinity();
+
+  // NaN widens nothing.
+  void widen(const Range& by) {
+    minimum = std::min(minimum, by.minimum);
+    maximum = std::max(maximum, by.maximum);
+  }
 };
 
-// Of the normalised values that the brick holds with its border.
-Range range_of(const scene::VoxelGrid& grid, const BrickLayout& layout, int x, int y, int z) {
-  const auto nx = static_cast<std::size_t>(grid.size[0]);
-  const auto ny = static_cast<std::size_t>(grid.size[1]);
-  double lo = std::numeric_limits<double>::infinity();
-  double hi = -lo;
-  const Span xs = with_border(x, grid.size[0], layout);
-  const Span ys = with_border(y, grid.size[1], layout);
-  const Span zs = with_border(z, grid.size[2], layout);
-  for (int k = zs.begin; k < zs.end; ++k) {
-    for (int j = ys.begin; j < ys.end; ++j) {
-      const std::size_t row = nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k));
-      for (int i = xs.begin; i < xs.end; ++i) {
-        const double value = grid.normalised(row + static_cast<std::size_t>(i));
-        lo = std::min(lo, value);
-        hi = std::max(hi, value);
+// The ranges of `lines` neighbours, `stride` apart, gathered into those of an axis' bricks.
+void gather(std::span<const Range> from, std::size_t stride, int lines, int bricks,
+            const BrickLayout& layout, std::span<Range> to) {
+  for (int b = 0; b < bricks; ++b) {
+    const Span span = with_border(b, lines, layout);
+    for (int line = span.begin; line < span.end; ++line) {
+      for (std::size_t i = 0; i < stride; ++i) {
+        to[static_cast<std::size_t>(b) * stride + i].widen(
+            from[static_cast<std::size_t>(line) * stride + i]);
       }
     }
   }
-  return {static_cast<float>(lo), static_cast<float>(hi)};
 }
 
-// Calls visit(range) for every brick, x fastest, until it returns false.
+// One slice of voxels, gathered into the bricks of x and y.
+std::vector<Range> slice_ranges(const scene::VoxelGrid& grid, const BrickLayout& layout,
+                                const std::array<int, 3>& bricks, int slice) {
+  const auto nx = static_cast<std::size_t>(grid.size[0]);
+  const auto ny = static_cast<std::size_t>(grid.size[1]);
+  const auto bx = static_cast<std::size_t>(bricks[0]);
+  std::vector<Range> voxels(nx);
+  std::vector<Range> rows(bx * ny);
+  for (std::size_t j = 0; j < ny; ++j) {
+    const std::size_t first = nx * (j + ny * static_cast<std::size_t>(slice));
+    for (std::size_t i = 0; i < nx; ++i) {
+      const auto value = static_cast<float>(grid.normalised(first + i));
+      voxels[i] = {value, value};
+    }
+    gather(voxels, 1, grid.size[0], bricks[0], layout, std::span(rows).subspan(bx * j, bx));
+  }
+  std::vector<Range> result(bx * static_cast<std::size_t>(bricks[1]));
+  gather(rows, bx, grid.size[1], bricks[1], layout, result);
+  return result;
+}
+
+// Calls visit(range) for every brick, x fastest, until it returns false. Axis by axis, so that a
+// wide border costs its width and not its cube.
 template <typename Visit>
 void visit_bricks(const scene::VoxelGrid& grid, const BrickLayout& layout, Visit visit) {
-  const auto [bx, by, bz] = brick_counts(grid.size, layout);
-  for (int z = 0; z < bz; ++z) {
-    for (int y = 0; y < by; ++y) {
-      for (int x = 0; x < bx; ++x) {
-        if (!visit(range_of(grid, layout, x, y, z))) return;
-      }
+  const std::array<int, 3> bricks = brick_counts(grid.size, layout);
+  const int nz = grid.size[2];
+  std::deque<std::vector<Range>> open;  // layers of bricks that lack slices yet
+  int first = 0;                        // of them
+  for (int k = 0; k < nz; ++k) {
+    const std::vector<Range> slice = slice_ranges(grid, layout, bricks, k);
+    const auto next = [&] { return first + static_cast<int>(open.size()); };
+    while (next() < bricks[2] && with_border(next(), nz, layout).begin <= k) {
+      open.emplace_back(slice.size());
+    }
+    for (std::vector<Range>& layer : open) {
+      for (std::size_t b = 0; b < slice.size(); ++b) layer[b].widen(slice[b]);
+    }
+    for (; !open.empty() && with_border(first, nz, layout).end == k + 1; ++first) {
+      if (!std::ranges::all_of(open.front(), visit)) return;
+      open.pop_front();
     }
   }
 }
@@ -86,11 +118,20 @@ class OpaqueRanges {
   std::array<int, entries + 1> opaque_before_{};  // [k]: how many of the entries before k
 };
 
+// Every Vulkan device binds a buffer of so many bytes (maxStorageBufferRange).
+constexpr std::uint64_t most_map_bytes = 1U << 27U;
+
+BrickLayout bricks_of_cells(const std::array<int, 3>& size) {
+  BrickLayout layout{.edge = 2, .border = 0, .of_cells = true};
+  while (brick_map_bytes(size, layout) > most_map_bytes) layout.edge *= 2;
+  return layout;
+}
+
 }  // namespace
 
 BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip, double adapt) {
   BrickLayout layout;
-  if (skip == Skip::distance) layout = {.edge = 2, .border = 0, .of_cells = true};
+  if (skip == Skip::distance) layout = bricks_of_cells(scene.grid->size);
   if (adapt > 0 && scene.shading.enabled) layout.border += 1;
   if (scene.quadrature == scene::Quadrature::preintegrated) {
     const double half = scene.step_voxels / 2;
@@ -109,6 +150,12 @@ std::array<int, 3> brick_counts(const std::array<int, 3>& size, const BrickLayou
     return (length + layout.edge - 1) / layout.edge;
   });
   return counts;
+}
+
+std::uint64_t brick_map_bytes(const std::array<int, 3>& size, const BrickLayout& layout) {
+  std::uint64_t bytes = sizeof(std::int32_t);
+  for (const int n : brick_counts(size, layout)) bytes *= static_cast<std::uint64_t>(n);
+  return bytes;
 }
 
 BrickRanges brick_ranges(const scene::VoxelGrid& grid, const BrickLayout& layout) {

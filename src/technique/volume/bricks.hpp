@@ -27,10 +27,10 @@ struct BrickLayout {
 //   of up to half a voxel included; a preintegrated step whose middle lies inside reads s/2
 //   farther: ⌊s/2 + ¾⌋ voxels more, a quarter of a voxel for rounding.
 // Skip::distance: leaps make small bricks affordable, and bricks of cells are as tight as bricks
-// can
-//   be: a midpoint sample reads their own voxels alone, a preintegrated step ⌈s/2⌉ beyond. A sample
-//   that rounding takes across a face reads others with a weight of that rounding, at most 1e-3,
-//   which is less than the table entry by which visibility is widened.
+//   can be: a midpoint sample reads their own voxels alone, a preintegrated step ⌈s/2⌉ beyond. What
+//   rounding takes across a face reads others with a weight of that rounding, at most 1e-3,
+//   which is less than the table entry by which visibility is widened. The edge is 2, and doubled
+//   while the map would take more than 128 MiB.
 // `adapt` (RaycastOptions): shading reads one voxel farther, and what it reads has to lie in the
 //   range as well where samples are merged.
 [[nodiscard]] BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip,
@@ -38,6 +38,9 @@ struct BrickLayout {
 
 [[nodiscard]] std::array<int, 3> brick_counts(const std::array<int, 3>& size,
                                               const BrickLayout& layout);
+// Of brick_map, with a word per brick.
+[[nodiscard]] std::uint64_t brick_map_bytes(const std::array<int, 3>& size,
+                                            const BrickLayout& layout);
 
 // Minimum and maximum normalised value per brick, x fastest, over the brick and its border.
 struct BrickRanges {

@@ -14,15 +14,6 @@ namespace {
 
 constexpr std::uint64_t word = sizeof(std::uint32_t);
 
-std::uint64_t brick_bytes(const scene::VolumeScene& scene, const RaycastOptions& options) {
-  std::uint64_t bytes = word;
-  for (const int n :
-       brick_counts(scene.grid->size, brick_layout(scene, options.skip, options.adapt))) {
-    bytes *= static_cast<std::uint64_t>(n);
-  }
-  return bytes;
-}
-
 }  // namespace
 
 RaycastBuffers raycast_buffers(const scene::VolumeScene& scene, const RaycastOptions& options) {
@@ -32,10 +23,11 @@ RaycastBuffers raycast_buffers(const scene::VolumeScene& scene, const RaycastOpt
   const auto drawn = static_cast<std::uint64_t>(
       drawn_pixels(scene.width, scene.height, options.extra_work_stride));
   const bool looks_up_pairs = scene.quadrature == scene::Quadrature::preintegrated;
-  return {.picture = 4 * word * drawn,
-          .counters = raycast_counter_stride * word * pixels,
-          .bricks = brick_bytes(scene, options),
-          .pairs = looks_up_pairs ? 4 * word * texels_per_pair * entries * entries : 4 * word};
+  return {
+      .picture = 4 * word * drawn,
+      .counters = raycast_counter_stride * word * pixels,
+      .bricks = brick_map_bytes(scene.grid->size, brick_layout(scene, options.skip, options.adapt)),
+      .pairs = looks_up_pairs ? 4 * word * texels_per_pair * entries * entries : 4 * word};
 }
 
 std::optional<std::string> buffer_reason(const RaycastBuffers& buffers, std::uint64_t most,

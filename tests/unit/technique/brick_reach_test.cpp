@@ -75,6 +75,19 @@ TEST(BrickLayout, CoversWhatASampleInABrickMayRead) {
   EXPECT_GE(brick_layout(scene, Skip::bricks).border, 40);
 }
 
+TEST(BrickLayout, ALargeVolumeHasLargerBricksOfCells) {
+  scene::VolumeScene scene;
+  scene::VoxelGrid grid;
+  const auto edge = [&](std::array<int, 3> size) {
+    grid.size = size;
+    scene.grid = std::make_shared<const scene::VoxelGrid>(grid);
+    return brick_layout(scene, Skip::distance).edge;
+  };
+  EXPECT_EQ(edge({513, 513, 1025}), 2);  // 2²⁵ bricks, whose map has 2²⁷ bytes
+  EXPECT_EQ(edge({513, 513, 1026}), 4);
+  EXPECT_EQ(edge({16384, 16384, 16384}), 64);
+}
+
 TEST(BrickMap, IsVisibilityOrReach) {
   scene::VolumeScene scene;
   scene.grid = std::make_shared<const scene::VoxelGrid>(

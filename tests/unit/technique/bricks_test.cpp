@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/random.hpp"
 #include "scene/generators.hpp"
@@ -21,6 +23,56 @@ scene::TransferFunction stretch(core::Random& random) {
     function.entries[k][3] = (begin <= k && k < end) == opaque ? 0.5F : 0.0F;
   }
   return function;
+}
+
+// Looks at every voxel of brick (x, y, z) and its border.
+void expect_range(const scene::VoxelGrid& grid, const BrickLayout& layout, std::array<int, 3> brick,
+                  float minimum, float maximum) {
+  float lo = std::numeric_limits<float>::infinity();
+  float hi = -lo;
+  std::size_t index = 0;
+  for (int k = 0; k < grid.size[2]; ++k) {
+    for (int j = 0; j < grid.size[1]; ++j) {
+      for (int i = 0; i < grid.size[0]; ++i, ++index) {
+        const std::array<int, 3> at{i, j, k};
+        bool within = true;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const int begin = brick[axis] * layout.edge - layout.border;
+          const int end =
+              (brick[axis] + 1) * layout.edge + layout.border + (layout.of_cells ? 1 : 0);
+          within = within && begin <= at[axis] && at[axis] < end;
+        }
+        const auto value = static_cast<float>(grid.normalised(index));
+        if (!within || std::isnan(value)) continue;
+        lo = std::min(lo, value);
+        hi = std::max(hi, value);
+      }
+    }
+  }
+  ASSERT_EQ(minimum, lo);
+  ASSERT_EQ(maximum, hi);
+}
+
+TEST(Bricks, RangesAreThoseOfTheirVoxels) {
+  for (const std::array<int, 3> size : {std::array{1, 1, 1}, {1, 7, 2}, {13, 9, 11}}) {
+    scene::VoxelGrid grid =
+        scene::encode(scene::generate_volume("frequency_box", size), scene::VoxelFormat::u8);
+    for (const int border : {0, 1, 3, 40}) {
+      for (const BrickLayout& layout : {BrickLayout{.edge = 2, .border = border, .of_cells = true},
+                                        BrickLayout{.edge = 4, .border = border}}) {
+        const BrickRanges ranges = brick_ranges(grid, layout);
+        std::size_t b = 0;
+        for (int z = 0; z < ranges.counts[2]; ++z) {
+          for (int y = 0; y < ranges.counts[1]; ++y) {
+            for (int x = 0; x < ranges.counts[0]; ++x, ++b) {
+              expect_range(grid, layout, {x, y, z}, ranges.minimum.at(b), ranges.maximum.at(b));
+            }
+          }
+        }
+        ASSERT_EQ(ranges.minimum.size(), b);
+      }
+    }
+  }
 }
 
 TEST(Bricks, AnyIsEmptyAgreesWithTheVisibilityOfAll) {
