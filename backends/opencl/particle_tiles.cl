@@ -73,7 +73,7 @@ TRI_FN void look_for_farthest(float near, Tile* tile) {
 // Whether no surface of the sphere can show in the tile: its front lies farther than all that is
 // kept, by more than distances are rounded (24·2⁻²⁴ of |c| + r; |c| is at most the sum here).
 TRI_FN bool hidden(const Tile* tile, float4 c) {
-#if TRI_COUNT || TRI_REVERSED_DEPTH || !TRI_CONSERVATIVE_DEPTH
+#if TRI_REVERSED_DEPTH || !TRI_CONSERVATIVE_DEPTH
   return false;
 #elif TRI_WRONG_SENSE
   return c.z + c.w > tile->farthest;

@@ -1,15 +1,12 @@
 // Rays, and the runs of samples along them that lie in visible bricks.
 //
-// Raycasting that is timed leaps over whole cubes of bricks that are all visible or all invisible.
-// A sample within rounding of a face may then be given to the other side than a walk from brick to
-// brick gives it to: no matter for an image to which invisible bricks add nothing, which is the same
-// bit for bit with leaps, with a walk and without bricks. With skip bricks, the build that counts, and
-// speed_of_light, which adds up every colour that it fetches, walk; with skip distance (TRI_LEAPS) all leap.
-// So do all walk where samples are merged by bricks (TRI_ADAPT): a merged one stands for its bricks' way alone.
+// Skip bricks walks from brick to brick; skip distance (TRI_LEAPS) leaps over whole cubes of bricks that are all
+// visible or all invisible. A sample within rounding of a face may be given to either side: no matter for an
+// image to which invisible bricks add nothing, which is the same bit for bit with leaps, with a walk and
+// without bricks.
 //
-// brick_reach: n > 0 where all bricks fewer than n away (the greatest distance along any axis) are
-// visible, n < 0 where all fewer than −n away are invisible (brick_reach.hpp). With TRI_ADAPT:
-// technique::BrickKind.
+// brick_map is that of technique::brick_map. As leaps read it: n > 0 where all bricks fewer than n away (the
+// greatest distance along any axis) are visible, n < 0 where all fewer than −n away are invisible.
 
 typedef struct {
   real3 p0;    // where the ray enters the box, voxels
@@ -39,11 +36,11 @@ TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {
   return ray;
 }
 
-// Whether there is anything to skip. The build that counts walks through a full volume too.
-TRI_FN int skips(__constant Parameters* u, __global const int* brick_reach) {
+// Whether there is anything to skip; leaps see at a glance that a volume is full.
+TRI_FN int skips(__constant Parameters* u, __global const int* brick_map) {
   int4 grid = u->brick_grid;
-  if (TRI_ADAPT || (TRI_COUNT && !TRI_LEAPS)) return grid.w > 0;
-  return grid.w > 0 && brick_reach[0] < max(grid.x, max(grid.y, grid.z));
+  int full = max(grid.x, max(grid.y, grid.z));  // what leaps are told of a volume without empty bricks
+  return TRI_LEAPS == 1 ? grid.w > 0 && brick_map[0] < full : grid.w > 0;
 }
 
 // What a counting build counts along a ray; the others drop it.
@@ -55,7 +52,7 @@ typedef struct {
   uint terminated;
 } Counts;
 
-#if (TRI_COUNT || TRI_SPEED_OF_LIGHT || TRI_ADAPT) && !TRI_LEAPS
+#if !TRI_LEAPS
 
 // A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed
 // from the brick's index, not accumulated, so that they do not drift.
@@ -104,11 +101,11 @@ TRI_FN void next_brick(__constant Parameters* u, Walk* walk, const Ray* ray) {
 #define KIND_INVISIBLE 0
 #define KIND_SAMPLED 1
 #define KIND_MERGED 2  // and beyond
-TRI_FN int kind(__constant Parameters* u, __global const int* brick_reach, const Walk* walk) {
+TRI_FN int kind(__constant Parameters* u, __global const int* brick_map, const Walk* walk) {
   if (walk->outside) return KIND_SAMPLED;
   int index = walk->brick.x +
               u->brick_grid.x * (walk->brick.y + u->brick_grid.y * walk->brick.z);
-  return TRI_ADAPT ? brick_reach[index] : brick_reach[index] > 0;
+  return brick_map[index];
 }
 
 // The first sample at or behind `limit` that lies beyond the brick. A sample within rounding of the
@@ -120,13 +117,13 @@ TRI_FN int samples_before(const Walk* walk, int limit) {
 
 // Narrows [begin, end) to the next run of visible bricks of one kind at or after begin; empty at the
 // end of the ray. A brick of kind KIND_MERGED itself is a run of its own.
-TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_reach, Walk* walk,
+TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_map, Walk* walk,
                      const Ray* ray, int begin, int end, Counts* counts) {
-  int here = kind(u, brick_reach, walk);
+  int here = kind(u, brick_map, walk);
   while (begin < end && here == KIND_INVISIBLE) {
     begin = max(begin, samples_before(walk, end));
     next_brick(u, walk, ray);
-    here = kind(u, brick_reach, walk);
+    here = kind(u, brick_map, walk);
     counts->bricks_visited++;
     counts->bricks_skipped++;
   }
@@ -136,7 +133,7 @@ TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_reach, 
   while (stop < end && here == first && !(first == KIND_MERGED && stop > begin)) {
     stop = max(stop, samples_before(walk, end));
     next_brick(u, walk, ray);
-    here = kind(u, brick_reach, walk);
+    here = kind(u, brick_map, walk);
     counts->bricks_visited++;
   }
   return (int2)(begin, stop);
@@ -161,7 +158,7 @@ TRI_FN Walk start_walk(__constant Parameters* u, const Ray* ray) {
   Walk walk;
   walk.inverse_g =
       (real3)(inverse_step(ray->g.x), inverse_step(ray->g.y), inverse_step(ray->g.z));
-  walk.p0 = TRI_LEAPS ? ray->p0 - 0.5f : ray->p0;
+  walk.p0 = ray->p0 - 0.5f;
   walk.edge = (real)u->brick_grid.w;
   walk.inverse_edge = 1.0f / walk.edge;
   return walk;
@@ -180,14 +177,14 @@ TRI_FN real crossing(real p0, real inverse_g, real edge, int brick, int reach) {
 
 // The first sample after the i-th that lies beyond the cube of bricks that are like that of the
 // i-th; `end` at most. Each leap starts from its sample's own position: nothing drifts.
-TRI_FN int leap(__constant Parameters* u, __global const int* brick_reach, const Walk* walk,
+TRI_FN int leap(__constant Parameters* u, __global const int* brick_map, const Walk* walk,
                 const Ray* ray, int i, int end, int* visible) {
   real along = (real)i + 0.5f;
   int4 grid = u->brick_grid;
   int x = brick_at(walk->p0.x + along * ray->g.x, walk->inverse_edge, grid.x);
   int y = brick_at(walk->p0.y + along * ray->g.y, walk->inverse_edge, grid.y);
   int z = brick_at(walk->p0.z + along * ray->g.z, walk->inverse_edge, grid.z);
-  int signed_reach = brick_reach[x + grid.x * (y + grid.y * z)];
+  int signed_reach = brick_map[x + grid.x * (y + grid.y * z)];
   *visible = signed_reach > 0;
   int reach = *visible ? signed_reach : -signed_reach;
   real at_x = crossing(walk->p0.x, walk->inverse_g.x, walk->edge, x, reach);
@@ -201,22 +198,21 @@ TRI_FN int leap(__constant Parameters* u, __global const int* brick_reach, const
   return next < end ? next : end;
 }
 
-// Narrows [begin, end) to visible bricks at or after begin; empty at the end of the ray. It looks
-// no further than a batch needs: an opaque ray may end there.
-TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_reach, Walk* walk,
+// Narrows [begin, end) to the next run of visible bricks at or after begin; empty at the end of the ray.
+TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_map, Walk* walk,
                      const Ray* ray, int begin, int end, Counts* counts) {
   int visible = 0;
   int stop = begin;
   while (!visible && stop < end) {
     begin = stop;
-    stop = leap(u, brick_reach, walk, ray, begin, end, &visible);
+    stop = leap(u, brick_map, walk, ray, begin, end, &visible);
     counts->bricks_visited++;
     counts->bricks_skipped += !visible;
   }
   if (!visible) return (int2)(end, end);
-  // The build that counts looks on to the next invisible brick, so that no count depends on the batch.
-  while (visible && stop < end && (TRI_COUNT || stop - begin < TRI_BATCH)) {
-    int beyond = leap(u, brick_reach, walk, ray, stop, end, &visible);
+  // On to the next invisible brick, so that no count depends on the batch.
+  while (visible && stop < end) {
+    int beyond = leap(u, brick_map, walk, ray, stop, end, &visible);
     counts->bricks_visited += visible;
     stop = visible ? beyond : stop;
   }

@@ -216,7 +216,7 @@ TRI_FN void store_counts(__global uint* to, const Counts* counts, int total) {
 // Image: premultiplied RGBA, top row first. Column x of the grid is
 // image column tri_drawn_column(x): x itself for the picture, others beside it for planted extra work.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
-                      __global const int* brick_reach, __global float4* image,
+                      __global const int* brick_map, __global float4* image,
                       __global uint* counters, __global const float4* pairs) {
   int x = (int)get_global_id(0);
   int y = (int)get_global_id(1);
@@ -229,7 +229,7 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 #endif
   Gathered gathered = {(real4)(0.0f), 1.0f};
   Counts counts = {0u, 0u, 0u, 0u, 0u};
-  int skipping = skips(u, brick_reach);
+  int skipping = skips(u, brick_map);
   Walk walk;
   if (skipping) walk = start_walk(u, &ray);
   int i = 0;
@@ -237,7 +237,7 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
   while (i < count && !ended) {
     int stop = count;
     if (skipping) {
-      int2 run = next_run(u, brick_reach, &walk, &ray, i, count, &counts);
+      int2 run = next_run(u, brick_map, &walk, &ray, i, count, &counts);
       i = run.x;
       stop = run.y;
     }

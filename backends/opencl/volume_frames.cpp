@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "technique/volume/brick_kinds.hpp"
-#include "technique/volume/brick_reach.hpp"
+#include "technique/volume/brick_map.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/extra_work.hpp"
 #include "technique/volume/preintegration.hpp"
@@ -21,14 +20,6 @@ const std::vector<std::string_view> source_files{
 // Pixels of a work-group: wide enough for a GPU's waves; a CPU is indifferent.
 constexpr std::size_t group_width = 16;
 constexpr std::size_t group_height = 4;
-
-// Leaps are what skip bricks is timed by, too (ray.cl).
-std::vector<std::int32_t> brick_map(const technique::BrickRanges& ranges,
-                                    const measure::VolumeWork& work) {
-  if (work.options.adapt > 0) return brick_kinds(ranges, work.scene, work.options.adapt);
-  return technique::brick_reach(ranges.counts,
-                                technique::brick_visibility(ranges, work.scene.transfer_function));
-}
 
 }  // namespace
 
@@ -63,7 +54,8 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
   checked([&] {
     volume_ = volume.volume;
     table_ = upload_bytes(session, std::as_bytes(std::span(work.scene.transfer_function.entries)));
-    const std::vector<std::int32_t> map = brick_map(volume.ranges, work);
+    const std::vector<std::int32_t> map =
+        technique::brick_map(volume.ranges, work.scene, work.options.skip, work.options.adapt);
     std::vector<std::array<float, 4>> pairs(1);  // read by nothing with another quadrature
     if (constants.preintegrated) {
       pairs = technique::preintegrated_pairs(work.scene.transfer_function);

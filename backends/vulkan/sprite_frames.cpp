@@ -86,9 +86,13 @@ void SpriteFrames::bind() {
 }
 
 std::string_view SpriteFrames::pixel_stage(bool counting) const {
-  if (counting) return spirv("sphere_counting.frag.spv");
-  if (options_.fault == ParticleFault::wrong_sense) return spirv("sphere_wrong_sense.frag.spv");
-  return spirv(options_.conservative_depth ? "sphere_conservative.frag.spv" : "sphere.frag.spv");
+  std::string name = "sphere";
+  if (options_.fault == ParticleFault::wrong_sense) {
+    name += "_wrong_sense";
+  } else if (options_.conservative_depth) {
+    name += "_conservative";
+  }
+  return spirv(name + (counting ? "_counting" : "") + ".frag.spv");
 }
 
 DrawState SpriteFrames::draw_state(const SpriteDraw& draw, bool counting) const {

@@ -6,6 +6,7 @@
 #include "scene/volume.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/stress_cases.hpp"
+#include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::volume_suite {
 namespace {
@@ -42,8 +43,9 @@ const std::vector<Factor>& volume_factors() {
              "integrated between the values at its ends"),
       choice("shading", {"none", "gradient", std::string(own_level)}, "none", Decides::the_picture,
              "headlight from central differences"),
-      choice("skip", {"none", "bricks", "distance"}, "bricks", Decides::how_it_is_made,
-             "how empty space is skipped"),
+      choice("skip", {"none", "bricks", "distance"},
+             std::string(technique::name_of(technique::RaycastOptions{}.skip)),
+             Decides::how_it_is_made, "how empty space is skipped"),
       number("ert", 0, 0.5, "0.001953125", Decides::how_it_is_made,
              "transmittance below which a ray ends; 0: never. The default is half an 8-bit step",
              {std::string(own_level)}),

@@ -32,9 +32,10 @@ TEST(Usage, ASuiteIsListedWithAllThatAPlanMayHold) {
   const Program program;
   const Result listed = program.run("list volume");
   EXPECT_EQ(listed.code, 0) << listed.output;
-  for (const char* text : {"  step: 0.015625 to 4096 | own; default 1\n", "distance of samples",
-                           "  skip: none | bricks | distance; default bricks; the picture stays\n",
-                           "  generate:mandelbulb\n", "  volume/quick: "}) {
+  for (const char* text :
+       {"  step: 0.015625 to 4096 | own; default 1\n", "distance of samples",
+        "  skip: none | bricks | distance; default distance; the picture stays\n",
+        "  generate:mandelbulb\n", "  volume/quick: "}) {
     EXPECT_NE(listed.output.find(text), std::string::npos) << text << '\n' << listed.output;
   }
   const auto json = nlohmann::json::parse(program.run("list particles --json").output);

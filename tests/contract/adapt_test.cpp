@@ -21,10 +21,17 @@ record::Counts counts_of(measure::Device& device, const measure::Work& work) {
   return device.prepare(work)->frame(measure::Purpose::counters).counts;
 }
 
+// Samples are merged by the bricks of a walk.
+measure::Work walking(measure::Work work) {
+  options_of(work).skip = technique::Skip::bricks;
+  return work;
+}
+
 // A volume of the generators, most of them with several bricks of one value.
 measure::Work generated(const measure::Device& device, std::string_view name,
                         scene::VolumeScene scene) {
-  return default_work(device, scene::generate_volume(name, {37, 41, 43}), std::move(scene));
+  return walking(
+      default_work(device, scene::generate_volume(name, {37, 41, 43}), std::move(scene)));
 }
 
 core::Image bound_without_budget(const measure::Device& device, const measure::Work& work) {
@@ -106,10 +113,10 @@ TEST(Adapt, V1IsExactWithOneSampleARay) {
       const reference::AnalyticScene analytic =
           analytic_scene(reference::AnalyticProblem::v1_constant, size);
       const technique::Sampler sampler = device.default_path(scene::VoxelFormat::f32).sampler;
-      const measure::Work work{
-          .technique = "raycast",
-          .scene = VolumeWork{.scene = analytic.scene,
-                              .options = {.sampler = sampler, .ert = 0, .adapt = 1e-9}}};
+      const measure::Work work =
+          walking({.technique = "raycast",
+                   .scene = VolumeWork{.scene = analytic.scene,
+                                       .options = {.sampler = sampler, .ert = 0, .adapt = 1e-9}}});
       const record::Counts counts = counts_of(device, work);
       // The last step's middle may lie beyond the box, where there is no brick.
       EXPECT_LE(counts.at("samples"), 2 * counts.at("rays_hit"));
@@ -135,7 +142,7 @@ TEST(Adapt, RealVolumesStayWithinTheBudget) {
     for (const auto& file : files) {
       SCOPED_TRACE(file.filename().string());
       measure::Work work =
-          default_work(device, scene::load_volume(file.string()), small_scene("haze"));
+          walking(default_work(device, scene::load_volume(file.string()), small_scene("haze")));
       options_of(work).adapt = 1.0 / 255;
       expect_within_bound(device, work);
     }

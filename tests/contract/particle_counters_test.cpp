@@ -47,7 +47,7 @@ TEST(ParticleCounters, AddUp) {
 }
 
 // Every sphere's disc is covered by sprites of any shape, so that all keep the same fragments, and
-// a polygon wastes fewer the more corners it has (S6).
+// a polygon wastes fewer the more corners it has (S6). Tiles take no fragment that lies behind.
 TEST(ParticleCounters, SpritesOfEveryShapeKeepTheSameFragments) {
   on_every_device([](measure::Device& device) {
     ParticleWork work = generated_work("uniform", 100, "orbit_y:1/8", 256);
@@ -61,7 +61,11 @@ TEST(ParticleCounters, SpritesOfEveryShapeKeepTheSameFragments) {
     for (const auto& [technique, each] : counts) {
       if (!each.contains("fragments_kept")) continue;
       if (!kept) kept = each.at("fragments_kept");
-      EXPECT_EQ(each.at("fragments_kept"), *kept) << technique;
+      if (technique == "tiles") {
+        EXPECT_LE(each.at("fragments_kept"), *kept);
+      } else {
+        EXPECT_EQ(each.at("fragments_kept"), *kept) << technique;
+      }
     }
     if (!counts.contains("polygon_tess")) return;
     EXPECT_LT(counts["polygon_tess"]["fragments"], counts["quad_tess"]["fragments"]);

@@ -1,6 +1,5 @@
 // Planted faults: each is caught by the picture, on every technique that has it.
 
-#include "core/random.hpp"
 #include "measure/plant.hpp"
 #include "particle_scenes.hpp"
 
@@ -42,25 +41,12 @@ TEST(ParticleFaults, EveryOneIsCaughtByThePicture) {
   });
 }
 
-// A wall, the front of a huge sphere, with small spheres half sunk into it: once the wall is drawn,
-// each of them has its front before and its back behind what its tile holds.
-ParticleWork studded_wall() {
-  std::vector<std::array<double, 4>> spheres{{0, 0, -1000, 1000}};
-  core::Random random(11);
-  for (int i = 0; i < 20000; ++i) {
-    spheres.push_back({random.uniform(-4, 4), random.uniform(-4, 4), 0, 0.1});
-  }
-  ParticleWork work =
-      particle_work(particles_of(spheres), looking({0, 0, 5}, {0, 0, 0}, 60), 96, 96);
-  work.options.conservative_depth = true;
-  return work;
-}
-
 // Early rejection that takes a sphere's back for its front. Where a driver rejects nothing early
 // the picture cannot show it; each backend's own tests look into the shader then.
 TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
   on_every_device([](measure::Device& device) {
-    const ParticleWork work = studded_wall();
+    ParticleWork work = studded_wall();
+    work.options.conservative_depth = true;
     const reference::SphereTruth truth = truth_of(work);
     for (const char* technique : {"tiles", "quad_ray"}) {
       SCOPED_TRACE(technique);

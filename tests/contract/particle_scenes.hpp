@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/random.hpp"
 #include "judge/images/image_metrics.hpp"
 #include "reference/spheres.hpp"
 #include "scene/particle_generators.hpp"
@@ -65,6 +66,17 @@ inline ParticleWork generated_work(std::string_view generator, std::uint64_t cou
 inline reference::SphereTruth truth_of(const ParticleWork& work) {
   return reference::render_spheres(work.scene,
                                    particles_suite::error_model(work.scene, work.options.ray));
+}
+
+// A wall, the front of a huge sphere, with small spheres half sunk into it: once the wall is drawn,
+// each of them has its front before and its back behind what its tile holds.
+inline ParticleWork studded_wall() {
+  std::vector<std::array<double, 4>> spheres{{0, 0, -1000, 1000}};
+  core::Random random(11);
+  for (int i = 0; i < 20000; ++i) {
+    spheres.push_back({random.uniform(-4, 4), random.uniform(-4, 4), 0, 0.1});
+  }
+  return particle_work(particles_of(spheres), looking({0, 0, 5}, {0, 0, 0}, 60), 96, 96);
 }
 
 // Asks the image for every id and depth that is certain, and for its colours.

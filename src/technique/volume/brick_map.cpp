@@ -2,13 +2,17 @@
 
 #include "technique/volume/brick_kinds.hpp"
 #include "technique/volume/brick_reach.hpp"
-#include "technique/volume/bricks.hpp"
 
 namespace triptych::technique {
 
 std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip, double adapt) {
   if (skip == Skip::none) return {1};
-  const BrickRanges ranges = brick_ranges(*scene.grid, brick_layout(scene, skip, adapt));
+  return brick_map(brick_ranges(*scene.grid, brick_layout(scene, skip, adapt)), scene, skip, adapt);
+}
+
+std::vector<std::int32_t> brick_map(const BrickRanges& ranges, const scene::VolumeScene& scene,
+                                    Skip skip, double adapt) {
+  if (skip == Skip::none) return {1};
   if (adapt > 0) return brick_kinds(ranges, scene, adapt);
   const auto visible = brick_visibility(ranges, scene.transfer_function);
   if (skip == Skip::distance) return brick_reach(ranges.counts, visible);

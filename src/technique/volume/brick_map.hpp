@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scene/volume_scene.hpp"
-#include "technique/volume/raycast_parameters.hpp"
+#include "technique/volume/bricks.hpp"
 
 namespace triptych::technique {
 
@@ -13,5 +13,9 @@ namespace triptych::technique {
 // one word that nothing reads for Skip::none.
 [[nodiscard]] std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip,
                                                   double adapt = 0);
+// The same with the scene's ranges at hand, of brick_layout(scene, skip, adapt).
+[[nodiscard]] std::vector<std::int32_t> brick_map(const BrickRanges& ranges,
+                                                  const scene::VolumeScene& scene, Skip skip,
+                                                  double adapt);
 
 }  // namespace triptych::technique

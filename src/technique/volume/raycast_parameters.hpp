@@ -42,7 +42,7 @@ enum class Fault : std::uint8_t {
 // The choices that change the picture by no more than its bound.
 struct RaycastOptions {
   Sampler sampler = Sampler::manual;
-  Skip skip = Skip::bricks;
+  Skip skip = Skip::distance;
   double ert = 1.0 / 512;  // stop below this transmittance; 0: never
   double adapt = 0;        // error that merging samples within bricks may make (brick_kinds.hpp)
   Precision precision = Precision::fp32;

@@ -161,9 +161,11 @@ TEST(GlFrames, TheKernelHashTellsBuildsApart) {
     add("raycast_fragment", {});
     add("speed_of_light", {});
     EXPECT_EQ(hashes.size(), 5U);
+    add("raycast", {.skip = technique::Skip::bricks});
+    EXPECT_EQ(hashes.size(), 6U);
     // Run-time switches are no other build.
     add("raycast", {.skip = technique::Skip::none, .ert = 0});
-    EXPECT_EQ(hashes.size(), 5U);
+    EXPECT_EQ(hashes.size(), 6U);
   });
 }
 

@@ -144,7 +144,10 @@ TEST(OpenClFrames, TheHashIsOfTheDeviceCodeAlone) {
       return device.prepare(make_work("raycast", make_scene(scene), options))->kernel_hash();
     };
     const std::string plain = hash({}, {});
-    EXPECT_EQ(plain, hash({.camera = "random:1", .width = 20}, {.skip = technique::Skip::none}));
+    EXPECT_EQ(plain, hash({.camera = "random:1", .width = 20}, {.ert = 0}));
+    const std::string walk = hash({}, {.skip = technique::Skip::bricks});
+    EXPECT_EQ(walk, hash({}, {.skip = technique::Skip::none}));
+    EXPECT_NE(walk, plain);
     EXPECT_NE(plain, hash({.shading = true}, {}));
     EXPECT_NE(plain, hash({.voxel = scene::VoxelFormat::u8}, {}));
     EXPECT_NE(plain, hash({}, {.fault = technique::Fault::flipped_axis}));

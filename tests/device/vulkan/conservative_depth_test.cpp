@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,16 +30,23 @@ std::set<std::uint32_t> execution_modes(std::string_view code) {
   return modes;
 }
 
+// In the build that is timed and in the one that counts.
 TEST(ConservativeDepth, IsPromisedWhereItIsOnAndOnlyThere) {
-  const auto off = execution_modes(spirv("sphere.frag.spv"));
-  EXPECT_TRUE(off.contains(depth_replacing));
-  EXPECT_FALSE(off.contains(depth_less) || off.contains(depth_greater));
-  const auto on = execution_modes(spirv("sphere_conservative.frag.spv"));
-  EXPECT_TRUE(on.contains(depth_less));
-  EXPECT_FALSE(on.contains(depth_greater));
-  const auto planted = execution_modes(spirv("sphere_wrong_sense.frag.spv"));
-  EXPECT_TRUE(planted.contains(depth_greater));
-  EXPECT_FALSE(planted.contains(depth_less));
+  for (const std::string build : {"", "_counting"}) {
+    SCOPED_TRACE(build);
+    const auto modes = [&](const std::string& name) {
+      return execution_modes(spirv(name + build + ".frag.spv"));
+    };
+    const auto off = modes("sphere");
+    EXPECT_TRUE(off.contains(depth_replacing));
+    EXPECT_FALSE(off.contains(depth_less) || off.contains(depth_greater));
+    const auto on = modes("sphere_conservative");
+    EXPECT_TRUE(on.contains(depth_less));
+    EXPECT_FALSE(on.contains(depth_greater));
+    const auto planted = modes("sphere_wrong_sense");
+    EXPECT_TRUE(planted.contains(depth_greater));
+    EXPECT_FALSE(planted.contains(depth_less));
+  }
 }
 
 }  // namespace

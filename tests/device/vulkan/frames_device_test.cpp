@@ -180,7 +180,10 @@ TEST(VulkanFrames, TheHashIsOfDeviceCodeAlone) {
       return device.prepare(make_work(technique, scene, options))->kernel_hash();
     };
     const std::string base = hash("raycast", make_scene());
-    EXPECT_EQ(hash("raycast", make_scene({.camera = "random:1"}), {.skip = Skip::none}), base);
+    EXPECT_EQ(hash("raycast", make_scene({.camera = "random:1"}), {.ert = 0}), base);
+    const std::string walk = hash("raycast", make_scene(), {.skip = Skip::bricks});
+    EXPECT_EQ(hash("raycast", make_scene(), {.skip = Skip::none}), walk);
+    EXPECT_NE(walk, base);
     EXPECT_NE(hash("raycast_fragment", make_scene()), base);
     EXPECT_NE(hash("speed_of_light", make_scene()), base);
     EXPECT_NE(hash("raycast", make_scene({.shading = true})), base);

@@ -210,7 +210,7 @@ TEST(BrickKinds, AreTheMapOfBricks) {
 
 TEST(AdaptReason, SaysWhatHasNoBricksToMerge) {
   scene::VolumeScene scene;
-  RaycastOptions options;
+  RaycastOptions options{.skip = Skip::bricks};
   EXPECT_FALSE(adapt_reason("speed_of_light", scene, options));
   options.adapt = 1e-3;
   EXPECT_FALSE(adapt_reason("raycast", scene, options));

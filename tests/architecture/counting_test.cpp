@@ -1,0 +1,59 @@
+// What is counted has the control flow of what is timed: in device code TRI_COUNT decides what is
+// counted, and nothing else.
+
+#include <gtest/gtest.h>
+
+#include "source_tree.hpp"
+
+namespace triptych::architecture {
+namespace {
+
+const std::vector<std::string> device_code{".cl",   ".glsl", ".comp", ".vert",
+                                           ".frag", ".geom", ".tesc", ".tese"};
+
+std::vector<std::string> lines_of(const std::filesystem::path& file) {
+  std::istringstream text(read(file));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);)
+    lines.push_back(line.substr(0, line.find("//")));
+  return lines;
+}
+
+// Statements that leave a loop or a function, or begin a loop.
+bool steers(const std::string& line) {
+  static const std::regex word(R"(\b(return|break|continue|discard|for|while|do|goto)\b)");
+  return std::regex_search(line, word);
+}
+
+// Of one line: that TRI_COUNT stands in it as it may.
+bool is_a_count(const std::string& line) {
+  static const std::regex block(R"(^\s*#if TRI_COUNT\s*$)");
+  static const std::regex statement(
+      R"(^\s*if \(TRI_COUNT == 1( && [^|]*)?\) (count_\w+(\+\+| = 1u);|\{.*)\s*$)");
+  return std::regex_match(line, block) || (std::regex_match(line, statement) && !steers(line));
+}
+
+TEST(Counting, TriCountDecidesOnlyWhatIsCounted) {
+  static const std::regex name(R"(\bTRI_COUNT\b)");
+  std::size_t seen = 0;
+  for (const std::string folder : {"backends", "src/technique"}) {
+    for (const auto& file : files_below(folder, device_code)) {
+      bool counts = false;
+      for (const std::string& line : lines_of(file)) {
+        if (std::regex_search(line, name)) {
+          EXPECT_TRUE(is_a_count(line)) << file << ": " << line;
+          counts = line.starts_with("#if");
+          ++seen;
+        } else if (line.starts_with("#endif")) {
+          counts = false;
+        } else if (counts) {
+          EXPECT_FALSE(steers(line) || line.starts_with("#el")) << file << ": " << line;
+        }
+      }
+    }
+  }
+  EXPECT_GT(seen, 20U);
+}
+
+}  // namespace
+}  // namespace triptych::architecture

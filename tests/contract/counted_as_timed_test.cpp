@@ -1,0 +1,221 @@
+// What is counted is what is timed: the counters, from a build of their own, against what the timed
+// build's picture tells of its samples; and the same picture from both builds.
+
+#include <cmath>
+
+#include "measure/plant.hpp"
+#include "particle_scenes.hpp"
+
+namespace triptych::contract {
+namespace {
+
+using measure::VolumeWork;
+using technique::Skip;
+
+constexpr std::array all_skips{Skip::none, Skip::bricks, Skip::distance};
+
+// Red everywhere: what speed_of_light sums up is the number of samples.
+scene::TransferFunction reddened(std::string_view name) {
+  scene::TransferFunction function = scene::load_transfer_function(name);
+  for (auto& entry : function.entries) entry[0] = 1;
+  return function;
+}
+
+double sum_of_red(const core::Image& image) {
+  double sum = 0;
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) sum += image.rgba[i];
+  return sum;
+}
+
+void expect_sum_as_counted(measure::Device& device, measure::Work work) {
+  auto& volume = std::get<VolumeWork>(work.scene);
+  work.technique = "speed_of_light";
+  for (const Skip skip : all_skips) {
+    SCOPED_TRACE(technique::name_of(skip));
+    volume.options.skip = skip;
+    const auto prepared = device.prepare(work);
+    static_cast<void>(prepared->frame(measure::Purpose::timing));
+    const double sum = sum_of_red(prepared->image());
+    const record::Counts counts = prepared->frame(measure::Purpose::counters).counts;
+    EXPECT_EQ(static_cast<double>(counts.at("samples")), sum);
+  }
+}
+
+TEST(CountedAsTimed, SpeedOfLightSumsAsManySamplesAsItCounts) {
+  on_every_device([](measure::Device& device) {
+    for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
+      for (const std::string_view function : scene::transfer_function_presets()) {
+        SCOPED_TRACE(std::string(generator.name) + " " + std::string(function));
+        scene::VolumeScene scene = small_scene(function);
+        scene.transfer_function = reddened(function);
+        expect_sum_as_counted(
+            device, default_work(device, scene::generate_volume(generator.name, {37, 41, 23}),
+                                 std::move(scene)));
+      }
+    }
+  });
+}
+
+// Walls of one voxel across each axis.
+scene::Volume walls() {
+  constexpr int side = 64;
+  scene::Volume volume{.name = "walls", .size = {side, side, side}, .range_hi = 255};
+  const auto lit = [](int i) { return i == 12 || i == 36 || i == 52; };
+  for (int k = 0; k < side; ++k) {
+    for (int j = 0; j < side; ++j) {
+      for (int i = 0; i < side; ++i) {
+        volume.voxels.push_back(lit(i) || lit(j) || lit(k) ? std::byte{255} : std::byte{0});
+      }
+    }
+  }
+  return volume;
+}
+
+// A sample on a brick's face belongs to the brick ahead for a walk, to the upper one for a leap. So
+// along an axis' lower direction they take other samples.
+TEST(CountedAsTimed, SamplesOnFacesOfBricks) {
+  on_every_device([](measure::Device& device) {
+    scene::VolumeScene scene = small_scene("surfaces");
+    scene.transfer_function = reddened("surfaces");
+    for (std::size_t k = 0; k < 256; ++k) scene.transfer_function.entries.at(k)[3] = k < 8 ? 0 : 1;
+    scene.width = 1;
+    scene.height = 1;
+    scene.step_voxels = 16;
+    measure::Work work = default_work(device, walls(), std::move(scene));
+    for (const glm::dvec3 ahead : {glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1)}) {
+      for (const double direction : {-1.0, 1.0}) {
+        SCOPED_TRACE(ahead.x > 0 ? direction : 3 * direction);
+        const glm::dvec3 target(20, 20, 20);
+        std::get<VolumeWork>(work.scene).scene.camera =
+            scene::looking(target - 128 * direction * ahead, target, 60);
+        expect_sum_as_counted(device, work);
+      }
+    }
+  });
+}
+
+// Of a volume of one opacity per voxel length, drawn with early termination: the transmittance is
+// that of so many whole steps and, where no end came before, a part of one.
+struct Tally {
+  std::uint64_t rays_hit = 0;
+  std::uint64_t terminated = 0;
+  std::uint64_t samples = 0;
+  std::uint64_t doubtful = 0;  // rays whose last step is next to nothing, or nothing
+};
+
+Tally tally_of(const core::Image& image, double alpha, double step_voxels, double ert) {
+  constexpr double next_to_nothing = 1e-3;
+  const double per_step = step_voxels * std::log1p(-alpha);
+  Tally tally;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    const double left = 1 - static_cast<double>(image.rgba[i]);
+    if (left == 1) continue;
+    tally.rays_hit += 1;
+    const double steps = std::log(left) / per_step;
+    tally.samples += static_cast<std::uint64_t>(std::ceil(steps - next_to_nothing));
+    if (left < ert) {
+      tally.terminated += 1;
+    } else if (std::abs(steps - std::round(steps)) < next_to_nothing) {
+      tally.doubtful += 1;
+    }
+  }
+  return tally;
+}
+
+TEST(CountedAsTimed, RaysEndWhereTheCountingBuildEndsThem) {
+  constexpr double alpha = 0.03125;
+  constexpr double ert = 0.6;
+  on_every_device([&](measure::Device& device) {
+    scene::VolumeScene scene = small_scene("haze");
+    for (auto& entry : scene.transfer_function.entries) entry = {1, 1, 1, alpha};
+    measure::Work work =
+        default_work(device, scene::generate_volume("uniform_box", {37, 41, 23}), std::move(scene));
+    auto& volume = std::get<VolumeWork>(work.scene);
+    volume.options.ert = ert;
+    for (const char* technique : {"raycast", "raycast_fragment"}) {
+      for (const auto rule : {scene::Quadrature::midpoint, scene::Quadrature::preintegrated}) {
+        for (const Skip skip : all_skips) {
+          SCOPED_TRACE(technique);
+          SCOPED_TRACE(technique::name_of(skip));
+          work.technique = technique;
+          volume.scene.quadrature = rule;
+          volume.options.skip = skip;
+          if (device.unsupported(work)) continue;
+          const auto prepared = device.prepare(work);
+          static_cast<void>(prepared->frame(measure::Purpose::timing));
+          const Tally tally = tally_of(prepared->image(), alpha, volume.scene.step_voxels, ert);
+          const record::Counts counts = prepared->frame(measure::Purpose::counters).counts;
+          EXPECT_GT(tally.terminated, 0U);
+          EXPECT_LT(tally.terminated, tally.rays_hit);
+          EXPECT_LT(tally.doubtful, tally.rays_hit / 50);
+          EXPECT_NEAR(static_cast<double>(counts.at("rays_hit")),
+                      static_cast<double>(tally.rays_hit), static_cast<double>(tally.doubtful));
+          EXPECT_EQ(counts.at("rays_terminated"), tally.terminated);
+          EXPECT_NEAR(static_cast<double>(counts.at("samples")), static_cast<double>(tally.samples),
+                      static_cast<double>(tally.doubtful));
+        }
+      }
+    }
+  });
+}
+
+void expect_one_picture(measure::Device& device, const measure::Work& work) {
+  const auto prepared = device.prepare(work);
+  static_cast<void>(prepared->frame(measure::Purpose::timing));
+  const core::Image timed = prepared->image();
+  static_cast<void>(prepared->frame(measure::Purpose::counters));
+  EXPECT_EQ(prepared->image(), timed);
+}
+
+TEST(CountedAsTimed, VolumesHaveOnePicture) {
+  on_every_device([](measure::Device& device) {
+    measure::Work work = default_work(device, scene::generate_volume("mandelbulb", {37, 41, 23}),
+                                      small_scene("surfaces"));
+    for (const char* technique : {"raycast", "raycast_fragment"}) {
+      for (const Skip skip : all_skips) {
+        for (const double adapt : {0.0, 1.0 / 255}) {
+          SCOPED_TRACE(technique);
+          work.technique = technique;
+          std::get<VolumeWork>(work.scene).options.skip = skip;
+          std::get<VolumeWork>(work.scene).options.adapt = adapt;
+          if (!device.unsupported(work)) expect_one_picture(device, work);
+        }
+      }
+    }
+  });
+}
+
+// With the promise of conservative depth broken, the picture shows what was rejected early: the
+// counting build has to reject it too.
+TEST(CountedAsTimed, SpheresHaveOnePictureThoughTheyAreRejectedEarly) {
+  on_every_device([](measure::Device& device) {
+    ParticleWork work = studded_wall();
+    for (const bool conservative : {false, true}) {
+      work.options.conservative_depth = conservative;
+      with_every_technique(device, work, [&](const measure::Work& whole) {
+        expect_one_picture(device, whole);
+        measure::Work faulty = whole;
+        measure::apply_plant("wrong_sense", faulty);
+        if (!device.unsupported(faulty)) expect_one_picture(device, faulty);
+      });
+    }
+  });
+}
+
+// Where early rejection is our own, its fragments are not counted.
+TEST(CountedAsTimed, FragmentsRejectedEarlyAreNotCounted) {
+  on_every_device([](measure::Device& device) {
+    if (device.info().api != "opencl") return;  // the rasterizer is the driver's
+    ParticleWork work = generated_work("uniform", 20000, "orbit_y:1/8", 96);
+    work.scene.radius_scale = 3;
+    const auto fragments = [&](bool conservative) {
+      work.options.conservative_depth = conservative;
+      const measure::Work whole{.technique = "quad_instanced", .scene = work};
+      return device.prepare(whole)->frame(measure::Purpose::counters).counts.at("fragments");
+    };
+    EXPECT_LT(fragments(true), fragments(false));
+  });
+}
+
+}  // namespace
+}  // namespace triptych::contract
