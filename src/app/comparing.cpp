@@ -16,6 +16,7 @@
 #include "app/truth.hpp"
 #include "comparison/comparison.hpp"
 #include "comparison/text.hpp"
+#include "core/exit_code.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "core/quoting.hpp"
@@ -138,7 +139,7 @@ core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool 
       } catch (const measure::Interrupted&) {
         throw core::Error("interrupted; a comparison keeps nothing, begin it again");
       }
-      code = worse_of(code, all.back().result.exit_code());
+      code = core::worse_of(code, all.back().result.exit_code());
     }
   }
   tell(all, json);

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <map>
 #include <utility>
@@ -110,15 +109,6 @@ core::ExitCode tell_verdict(const record::Store& store, Truths& truths,
     fmt::print("{}", report::last_screen(results, seconds, written, screen()));
   }
   return report::overview(results).code;
-}
-
-core::ExitCode worse_of(core::ExitCode a, core::ExitCode b) {
-  using core::ExitCode;
-  constexpr std::array by_weight{ExitCode::pass, ExitCode::skip, ExitCode::cannot_judge,
-                                 ExitCode::regression, ExitCode::usage};
-  return std::max(a, b, [&](ExitCode one, ExitCode other) {
-    return std::ranges::find(by_weight, one) < std::ranges::find(by_weight, other);
-  });
 }
 
 }  // namespace triptych::app

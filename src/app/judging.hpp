@@ -52,7 +52,4 @@ core::ExitCode tell_verdict(const record::Store& store, Truths& truths,
 [[nodiscard]] std::string page_of(const record::Store& store, Truths& truths,
                                   const std::string& baselines);
 
-// Of two verdicts the one that counts: usage over regression over could not judge over pass.
-[[nodiscard]] core::ExitCode worse_of(core::ExitCode a, core::ExitCode b);
-
 }  // namespace triptych::app

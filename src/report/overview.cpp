@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include "core/exit_code.hpp"
+
 namespace triptych::report {
 namespace {
 
@@ -122,20 +124,6 @@ void add(std::vector<Cause>& causes, const GateResult& result, FindingGroup grou
   ++same->plans;
 }
 
-// Usage over regression over could not judge over pass.
-int weight_of(core::ExitCode code) {
-  switch (code) {
-    case core::ExitCode::usage:
-      return 3;
-    case core::ExitCode::regression:
-      return 2;
-    case core::ExitCode::pass:
-      return 0;
-    default:
-      return 1;
-  }
-}
-
 }  // namespace
 
 Overview overview(std::span<const GateResult* const> results) {
@@ -143,7 +131,7 @@ Overview overview(std::span<const GateResult* const> results) {
   std::set<std::string_view> devices;
   if (!results.empty()) all.code = core::ExitCode::pass;
   for (const GateResult* result : results) {
-    if (weight_of(result->exit_code()) > weight_of(all.code)) all.code = result->exit_code();
+    all.code = core::worse_of(all.code, result->exit_code());
     for (const Finding& finding : result->findings) {
       if (!finding.device.empty()) devices.insert(finding.device);
     }

@@ -1,0 +1,18 @@
+#pragma once
+#include <algorithm>
+#include <array>
+
+#include "core/error.hpp"
+
+namespace triptych::core {
+
+// Of two verdicts the one that counts: usage over regression over could not judge over pass.
+[[nodiscard]] inline ExitCode worse_of(ExitCode a, ExitCode b) {
+  constexpr std::array by_weight{ExitCode::pass, ExitCode::skip, ExitCode::cannot_judge,
+                                 ExitCode::regression, ExitCode::usage};
+  return std::max(a, b, [&](ExitCode one, ExitCode other) {
+    return std::ranges::find(by_weight, one) < std::ranges::find(by_weight, other);
+  });
+}
+
+}  // namespace triptych::core
