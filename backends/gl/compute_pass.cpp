@@ -25,10 +25,21 @@ ComputePass::ComputePass(const Api& gl, int width, int height, int extra_work_st
                                     static_cast<std::size_t>(technique::drawn_pixels(
                                         width, height, extra_work_stride)))) {}
 
+std::optional<std::string> storage_unsupported(const Api& gl) {
+  if (gl.VERSION_4_3 != 0 ||
+      (gl.ARB_shader_storage_buffer_object != 0 && gl.ARB_shading_language_420pack != 0 &&
+       (gl.VERSION_4_2 != 0 || gl.ARB_shader_image_load_store != 0))) {
+    return std::nullopt;
+  }
+  return "storage blocks need OpenGL 4.3 or GL_ARB_shader_storage_buffer_object, "
+         "GL_ARB_shading_language_420pack and GL_ARB_shader_image_load_store";
+}
+
 std::optional<std::string> ComputePass::unsupported(const Api& gl, int width, int height) {
   if (gl.VERSION_4_3 == 0 && gl.ARB_compute_shader == 0) {
     return "compute shaders need OpenGL 4.3 or GL_ARB_compute_shader";
   }
+  if (auto reason = storage_unsupported(gl)) return reason;
   const std::array<int, 2> size{width, height};
   for (GLuint axis = 0; axis < size.size(); ++axis) {
     const std::int64_t needed = groups(size[axis]);

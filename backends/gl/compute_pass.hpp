@@ -6,6 +6,9 @@
 
 namespace triptych::gl_backend {
 
+// Why shaders cannot read, count and be waited for in storage blocks; empty when they can.
+[[nodiscard]] std::optional<std::string> storage_unsupported(const Api& gl);
+
 // One invocation per pixel into a storage buffer; raycast and speed_of_light.
 class ComputePass final : public Pass {
  public:

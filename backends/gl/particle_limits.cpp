@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <array>
 
+#include "backends/gl/compute_pass.hpp"
+
 namespace triptych::gl_backend {
 
 std::optional<std::string> particles_unsupported(const Api& gl, const measure::ParticleWork& work,
                                                  bool storage) {
-  if (gl.VERSION_4_3 == 0 &&
-      (gl.ARB_compute_shader == 0 || gl.ARB_shader_storage_buffer_object == 0 ||
-       gl.ARB_shading_language_420pack == 0)) {
-    return "culling and counting need OpenGL 4.3 or GL_ARB_compute_shader, "
-           "GL_ARB_shader_storage_buffer_object and GL_ARB_shading_language_420pack";
+  if (gl.VERSION_4_3 == 0 && gl.ARB_compute_shader == 0) {
+    return "culling and counting need OpenGL 4.3 or GL_ARB_compute_shader";
   }
+  if (auto reason = storage_unsupported(gl)) return reason;
   const scene::ParticleScene& scene = work.scene;
   const std::int64_t edge =
       std::min(gl.limit(GL_MAX_RENDERBUFFER_SIZE), gl.limit(GL_MAX_TEXTURE_SIZE));

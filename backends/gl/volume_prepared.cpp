@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "backends/gl/compute_pass.hpp"
 #include "backends/gl/prepared.hpp"
 #include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
@@ -118,11 +119,7 @@ Constants constants_of(const measure::VolumeWork& work) {
 }
 
 std::optional<std::string> volume_unsupported(const Api& gl, const measure::VolumeWork& work) {
-  if (gl.VERSION_4_3 == 0 &&
-      (gl.ARB_shader_storage_buffer_object == 0 || gl.ARB_shading_language_420pack == 0)) {
-    return "storage blocks need OpenGL 4.3 or GL_ARB_shader_storage_buffer_object and "
-           "GL_ARB_shading_language_420pack";
-  }
+  if (auto reason = storage_unsupported(gl)) return reason;
   // Doubles came with 4.0, but below 4.3 the sources are compiled as GLSL 3.30 (program.cpp).
   if (work.options.precision == technique::Precision::fp64 && gl.VERSION_4_3 == 0) {
     return "precision fp64 needs OpenGL 4.3";

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "core/error.hpp"
@@ -39,6 +40,19 @@ TEST(GlDevices, WhatIsListedOpensAsListed) {
     EXPECT_EQ(backend->open(each.id)->info(), each);
     EXPECT_FALSE(each.name.empty());
     EXPECT_FALSE(each.driver_version.empty());
+  }
+}
+
+// tests/device/gl/CMakeLists.txt takes one extension after the other from GL 3.3.
+TEST(GlDevices, AnExtensionThatIsMissingIsTheReason) {
+  const char* without = std::getenv("MESA_EXTENSION_OVERRIDE");
+  if (without == nullptr) GTEST_SKIP() << "no extension is taken away";
+  const auto backend = backend_under_test();
+  const std::vector<record::Device> devices = backend->list().devices;
+  EXPECT_FALSE(devices.empty());
+  for (const record::Device& each : devices) {
+    const auto reason = backend->open(each.id)->unsupported(make_work("raycast", make_scene(), {}));
+    EXPECT_THAT(reason.value_or("it can"), HasSubstr(without + 1)) << each.id;
   }
 }
 
