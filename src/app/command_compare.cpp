@@ -65,6 +65,7 @@ core::ExitCode compare(const CompareArguments& arguments) {
 struct DiffArguments {
   std::string a;
   std::string b;
+  std::vector<std::string> devices;
   bool json = false;
 };
 
@@ -74,7 +75,7 @@ core::ExitCode diff(const DiffArguments& arguments) {
   record::Store b = open_to_judge(arguments.b);
   Truths truths(registry, b);
   const comparison::StoreDiff found = comparison::diff_stores(
-      a, b,
+      a, b, arguments.devices,
       [&](const record::Record& record) -> const judge::TruthPair& { return truths.of(record); });
   fmt::print("{}", arguments.json ? core::json_text(comparison::to_json(found), 2) + "\n"
                                   : comparison::to_text(found));
@@ -88,6 +89,7 @@ void add_diff_command(Commands& commands) {
                    [arguments] { return diff(*arguments); });
   command->add_option("OLD", arguments->a, "Store of a run or a validation")->required();
   command->add_option("NEW", arguments->b, "Store of the same plans")->required();
+  command->add_option("--device", arguments->devices, "Glob: only these (repeatable)");
   command->add_flag("--json", arguments->json, "Print everything as JSON");
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "comparison/text.hpp"
+#include "core/glob.hpp"
 #include "core/json.hpp"
 
 namespace triptych::comparison {
@@ -21,10 +22,13 @@ std::map<std::string, std::string> latest_runs(const record::Store& store) {
   return runs;
 }
 
-std::map<std::string, record::Device> devices_of(const record::Store& store,
-                                                 const std::string& run) {
+std::map<std::string, record::Device> devices_of(const record::Store& store, const std::string& run,
+                                                 const std::vector<std::string>& globs) {
   std::map<std::string, record::Device> devices;
-  for (auto& entry : store.devices(run)) devices.emplace(entry.device.id, entry.device);
+  for (auto& entry : store.devices(run)) {
+    if (!globs.empty() && !core::any_glob_matches(globs, entry.device.id)) continue;
+    devices.emplace(entry.device.id, entry.device);
+  }
   return devices;
 }
 
@@ -51,12 +55,13 @@ void add_new(const std::vector<Difference>& more, std::vector<Difference>& diffe
 
 class Diffing {
  public:
-  Diffing(const record::Store& a, const record::Store& b, const KeptTruth& truth)
-      : a_(a), b_(b), truth_(truth) {}
+  Diffing(const record::Store& a, const record::Store& b, const std::vector<std::string>& devices,
+          const KeptTruth& truth)
+      : a_(a), b_(b), globs_(devices), truth_(truth) {}
 
   void add_plan(const std::string& plan, const std::string& run_a, const std::string& run_b) {
-    const auto of_a = devices_of(a_, run_a);
-    const auto of_b = devices_of(b_, run_b);
+    const auto of_a = devices_of(a_, run_a, globs_);
+    const auto of_b = devices_of(b_, run_b, globs_);
     add_only_one(of_a, of_b, plan + " on", only_one_);
     for (const auto& [id, device] : of_a) {
       const auto found = of_b.find(id);
@@ -101,6 +106,7 @@ class Diffing {
 
   const record::Store& a_;
   const record::Store& b_;
+  const std::vector<std::string>& globs_;
   const KeptTruth& truth_;
   std::map<std::string, DeviceChange> changes_;  // by device
   std::set<std::string> only_one_;
@@ -112,8 +118,11 @@ std::string text_of(const DeviceChange& change) {
   for (const ConfigurationDiff& each : change.configurations) {
     groups.add(each.differences, each.key);
   }
+  const auto version = [](const record::Device& device) {
+    return fmt::format("{}, API {}", device.driver_version, device.api_version);
+  };
   return fmt::format("{}, {} configurations\na: {}\nb: {}\n{}\n", change.a.id,
-                     change.configurations.size(), change.a.key(), change.b.key(),
+                     change.configurations.size(), version(change.a), version(change.b),
                      groups.empty() ? "nothing differs\n" : groups.text());
 }
 
@@ -136,8 +145,9 @@ core::ExitCode StoreDiff::exit_code() const {
   return all ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
-StoreDiff diff_stores(const record::Store& a, const record::Store& b, const KeptTruth& truth) {
-  Diffing diffing(a, b, truth);
+StoreDiff diff_stores(const record::Store& a, const record::Store& b,
+                      const std::vector<std::string>& devices, const KeptTruth& truth) {
+  Diffing diffing(a, b, devices, truth);
   diffing.add_plans();
   return std::move(diffing).diff();
 }

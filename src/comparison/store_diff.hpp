@@ -29,8 +29,10 @@ struct StoreDiff {
   [[nodiscard]] core::ExitCode exit_code() const;
 };
 
-// The latest run of each plan in either. `truth`: of records of both. Throws as record::Store does.
+// The latest run of each plan in either, of the devices that match one of the globs, of all without
+// any. `truth`: of records of both. Throws as record::Store does.
 [[nodiscard]] StoreDiff diff_stores(const record::Store& a, const record::Store& b,
+                                    const std::vector<std::string>& devices,
                                     const KeptTruth& truth);
 
 // Each device with both versions, then its differences by kind, worst first, then the verdict.

@@ -61,6 +61,14 @@ TEST_F(Diff, WhatOnlyOneHasCannotBeJudged) {
   EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy: only b has it"));
 }
 
+TEST_F(Diff, DevicesThatAreNotAskedForAreLeftOut) {
+  measure("old.sqlite");
+  measure("new.sqlite");
+  const Result result = diff("--device 'gl:*'");
+  EXPECT_EQ(result.code, 2) << result.output;
+  EXPECT_THAT(result.output, Not(HasSubstr("null:scripted")));
+}
+
 TEST_F(Diff, AStoreThatIsNotThereIsNamed) {
   measure("old.sqlite");
   EXPECT_THAT(diff().output, HasSubstr("new.sqlite"));
