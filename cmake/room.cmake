@@ -1,6 +1,7 @@
 # The floors of the house: a room may link only rooms of lower floors.
 set(TRIPTYCH_FLOORS
-  core=0 scene=1 record=1 technique=2 reference=2 judge=2 analysis=3 measure=3 report=4 comparison=4 backend=4 suite=4 app=5)
+  core=0 scene=1 record=1 estimation=1 technique=2 reference=2 accuracy=2 judge=3 analysis=3 measure=3
+  report=4 comparison=4 backend=4 suite=4 app=5)
 
 function(triptych_floor room out)
   string(REGEX REPLACE "^(backend|suite)_.*" "\\1" kind "${room}")
@@ -13,7 +14,7 @@ function(triptych_floor room out)
   message(FATAL_ERROR "room '${room}' has no floor; add it to TRIPTYCH_FLOORS in cmake/room.cmake")
 endfunction()
 
-# What nearly every file includes, parsed once per target: half of the time of a build.
+# What nearly every file includes: parsing it was half of the time of a build.
 set(TRIPTYCH_COMMON_HEADERS
   <algorithm> <array> <chrono> <cmath> <filesystem> <functional> <map> <memory> <optional> <ranges> <set> <span>
   <string> <string_view> <variant> <vector> <fmt/format.h> <nlohmann/json.hpp>)
@@ -25,17 +26,36 @@ function(triptych_optimise_less target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# triptych_room(NAME SOURCES file... [ROOMS room...] [PUBLIC lib...] [PRIVATE lib...])
-# A static library triptych_NAME that sees the headers of the rooms it names and no others above it.
+# triptych_parsed_headers(NAME header...): parsed once for all targets that say REUSE_FROM NAME. They must be
+# optimised alike, else the compiler refuses what was parsed.
+function(triptych_parsed_headers name)
+  file(WRITE ${CMAKE_BINARY_DIR}/${name}.cpp "")
+  add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/${name}.cpp)
+  target_link_libraries(${name} PRIVATE triptych_options fmt::fmt nlohmann_json::nlohmann_json)
+  target_precompile_headers(${name} PRIVATE ${TRIPTYCH_COMMON_HEADERS} ${ARGN})
+endfunction()
+triptych_parsed_headers(triptych_headers_computing)
+triptych_parsed_headers(triptych_headers)
+triptych_optimise_less(triptych_headers)
+
+# triptych_room(NAME SOURCES file... [ROOMS room...] [PUBLIC lib...] [PRIVATE lib...] [HEADERS header...])
+# A static library triptych_NAME that sees the headers of the rooms it names and no others above it. HEADERS are
+# parsed once beside the common ones.
 function(triptych_room name)
-  cmake_parse_arguments(arg "" "" "SOURCES;ROOMS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;ROOMS;PUBLIC;PRIVATE;HEADERS" ${ARGN})
   triptych_floor(${name} own)
   add_library(triptych_${name} STATIC ${arg_SOURCES})
   target_include_directories(triptych_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
   target_link_libraries(triptych_${name} PRIVATE triptych_options fmt::fmt nlohmann_json::nlohmann_json)
-  target_precompile_headers(triptych_${name} PRIVATE ${TRIPTYCH_COMMON_HEADERS})
-  if(NOT name IN_LIST TRIPTYCH_COMPUTING_ROOMS)
+  if(name IN_LIST TRIPTYCH_COMPUTING_ROOMS)
+    target_precompile_headers(triptych_${name} REUSE_FROM triptych_headers_computing)
+  else()
     triptych_optimise_less(triptych_${name})
+    if(arg_HEADERS)
+      target_precompile_headers(triptych_${name} PRIVATE ${TRIPTYCH_COMMON_HEADERS} ${arg_HEADERS})
+    else()
+      target_precompile_headers(triptych_${name} REUSE_FROM triptych_headers)
+    endif()
   endif()
   foreach(room IN LISTS arg_ROOMS)
     triptych_floor(${room} other)
@@ -57,7 +77,12 @@ function(triptych_test name)
     target_link_libraries(${name} PRIVATE triptych_${room})
   endforeach()
   triptych_optimise_less(${name})
-  target_precompile_headers(${name} PRIVATE ${TRIPTYCH_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
+  if(NOT TARGET triptych_headers_test)
+    triptych_parsed_headers(triptych_headers_test <gmock/gmock.h> <gtest/gtest.h>)
+    target_link_libraries(triptych_headers_test PRIVATE GTest::gmock)
+    triptych_optimise_less(triptych_headers_test)
+  endif()
+  target_precompile_headers(${name} REUSE_FROM triptych_headers_test)
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
   endif()

@@ -8,6 +8,8 @@ target_compile_options(triptych_options INTERFACE
   $<$<BOOL:${TRIPTYCH_WARNINGS_AS_ERRORS}>:-Werror>)
 # Contraction of a*b+c is left to the code that asks for it: the same bits on every x86-64 machine.
 target_compile_options(triptych_options INTERFACE -ffp-contract=off)
+# Some libraries ask for it. What is parsed once for all targets has to be parsed alike.
+target_compile_options(triptych_options INTERFACE -pthread)
 if(TRIPTYCH_SANITIZE)
   target_compile_options(triptych_options INTERFACE -fsanitize=${TRIPTYCH_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(triptych_options INTERFACE -fsanitize=${TRIPTYCH_SANITIZE})

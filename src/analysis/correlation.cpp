@@ -4,15 +4,15 @@
 #include <cmath>
 #include <set>
 
-#include "judge/statistics/regression.hpp"
-#include "judge/statistics/statistics.hpp"
+#include "estimation/regression.hpp"
+#include "estimation/statistics.hpp"
 
 namespace triptych::analysis {
 
-using judge::least_squares;
-using judge::LeastSquares;
-using judge::mean;
-using judge::pearson_r;
+using estimation::least_squares;
+using estimation::LeastSquares;
+using estimation::mean;
+using estimation::pearson_r;
 namespace {
 
 struct Pairs {

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "analysis/kolmogorov.hpp"
-#include "judge/statistics/statistics.hpp"
+#include "estimation/statistics.hpp"
 
 namespace triptych::analysis {
 
-using judge::mean;
+using estimation::mean;
 namespace {
 
 constexpr int percents[] = {0, 5, 10, 25, 50, 75, 90, 95, 99, 100};

@@ -3,11 +3,11 @@
 #include <opencv2/ml.hpp>
 
 #include "core/error.hpp"
-#include "judge/statistics/statistics.hpp"
+#include "estimation/statistics.hpp"
 
 namespace triptych::analysis {
 
-using judge::mean;
+using estimation::mean;
 namespace {
 
 int as_int(std::size_t value) {

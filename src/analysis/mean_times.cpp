@@ -5,11 +5,11 @@
 #include <set>
 #include <utility>
 
-#include "judge/statistics/statistics.hpp"
+#include "estimation/statistics.hpp"
 
 namespace triptych::analysis {
 
-using judge::mean;
+using estimation::mean;
 namespace {
 
 struct Natural {

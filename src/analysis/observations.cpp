@@ -11,12 +11,12 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "judge/images/has_picture.hpp"
-#include "judge/statistics/statistics.hpp"
+#include "estimation/statistics.hpp"
+#include "record/has_picture.hpp"
 
 namespace triptych::analysis {
 
-using judge::median;
+using estimation::median;
 namespace {
 
 std::string identity(const Source& source) {
@@ -58,7 +58,7 @@ std::string unfit(const record::Record& record) {
     return fmt::format("{} on {}", record::name_of(record.outcome), record.device);
   }
   if (!record.planted.empty()) return "with a planted fault";
-  if (!judge::has_picture(record)) return "of a technique that makes no picture";
+  if (!record::has_picture(record)) return "of a technique that makes no picture";
   // A logarithm is taken of it.
   if (!(median(record.wall_ns) > 0)) return fmt::format("without a time on {}", record.device);
   return {};

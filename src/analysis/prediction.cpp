@@ -8,11 +8,11 @@
 
 #include "analysis/learners.hpp"
 #include "core/random.hpp"
-#include "judge/statistics/statistics.hpp"
+#include "estimation/statistics.hpp"
 
 namespace triptych::analysis {
 
-using judge::mean;
+using estimation::mean;
 namespace {
 
 // What decides the structure of what is drawn, in both suites.

@@ -4,12 +4,12 @@
 #include <map>
 
 #include "core/random.hpp"
-#include "judge/statistics/statistics.hpp"
+#include "estimation/statistics.hpp"
 
 namespace triptych::analysis {
 
-using judge::mean;
-using judge::median;
+using estimation::mean;
+using estimation::median;
 namespace {
 
 // The first `count` of a Fisher–Yates shuffle of 0 … size − 1.

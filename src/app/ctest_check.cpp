@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "accuracy/image_metrics.hpp"
 #include "app/judging.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
@@ -15,7 +16,6 @@
 #include "core/image_io.hpp"
 #include "core/quoting.hpp"
 #include "judge/gate/gate.hpp"
-#include "judge/images/image_metrics.hpp"
 #include "measure/plan.hpp"
 
 namespace triptych::app {
@@ -51,7 +51,7 @@ void print_pictures(const record::Store& store, const std::string& run, Truths& 
     print_picture("TestImage", file("test"), image);
     print_picture("ValidImage", file("valid"), truth.truth);
     print_picture("DifferenceImage", file("difference"),
-                  judge::difference_image(image, truth.truth, 16));
+                  accuracy::difference_image(image, truth.truth, 16));
     return;
   }
 }

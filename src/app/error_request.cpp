@@ -9,11 +9,11 @@
 #include <map>
 #include <set>
 
+#include "accuracy/cases.hpp"
+#include "accuracy/choice.hpp"
+#include "accuracy/image_metrics.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
-#include "judge/accuracy/cases.hpp"
-#include "judge/accuracy/choice.hpp"
-#include "judge/images/image_metrics.hpp"
 #include "measure/factor.hpp"
 
 namespace triptych::app {
@@ -69,9 +69,9 @@ measure::Plan plan_within_error(const measure::Plan& plan, measure::SuiteWithTru
   const measure::Factor& steps = factor_of(suite, "step");
   const measure::Factor& ert = factor_of(suite, "ert");
   const double enough =
-      std::clamp(rounded_down(judge::termination_share * error), ert.minimum, ert.maximum);
+      std::clamp(rounded_down(accuracy::termination_share * error), ert.minimum, ert.maximum);
   const double merged =
-      std::min(rounded_down(judge::merging_share * error), factor_of(suite, "adapt").maximum);
+      std::min(rounded_down(accuracy::merging_share * error), factor_of(suite, "adapt").maximum);
   measure::Plan request = plan;
   request.name = fmt::format("{} within {}", plan.name, error);
   request.configurations.clear();
@@ -91,10 +91,10 @@ measure::Plan plan_within_error(const measure::Plan& plan, measure::SuiteWithTru
     bool any = false;
     for (const std::string& quadrature : levels_of(suite, "quadrature")) {
       coarse["quadrature"] = quadrature;
-      const auto found = judge::longest_step(
-          judge::step_share * error, {steps.minimum, steps.maximum}, [&](double step) {
+      const auto found = accuracy::longest_step(
+          accuracy::step_share * error, {steps.minimum, steps.maximum}, [&](double step) {
             coarse["step"] = fmt::format("{}", rounded_down(step));
-            return judge::root_mean_square(suite.truth(coarse, {}).image, limit);
+            return accuracy::root_mean_square(suite.truth(coarse, {}).image, limit);
           });
       if (!found) {
         tell(fmt::format("{}: no {} step is short enough", scene_of(suite, candidate), quadrature));
@@ -127,26 +127,26 @@ measure::Plan plan_within_error(const measure::Plan& plan, measure::SuiteWithTru
 std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records,
                                       const measure::Suite& suite, Truths& truths, double error) {
   struct Group {
-    std::vector<judge::AccuracyCase> cases;
+    std::vector<accuracy::AccuracyCase> cases;
     std::vector<const record::Record*> records;
   };
   std::map<std::pair<std::string, std::string>, Group> groups;
   for (const record::Record& record : records) {
     if (record.outcome != record::Outcome::measured || record.image.empty()) continue;
-    const judge::LimitPicture* limit = truths.limit_of(record);
+    const accuracy::LimitPicture* limit = truths.limit_of(record);
     if (limit == nullptr) continue;
     const core::Image picture = truths.picture_of(record);
-    const auto found = judge::picture_error(picture, truths.of(record).truth, limit->image);
+    const auto found = accuracy::picture_error(picture, truths.of(record).truth, limit->image);
     if (!found) continue;
     Group& group = groups[{record.device, scene_of(suite, record.factors)}];
-    group.cases.push_back(judge::accuracy_case(record, *found));
+    group.cases.push_back(accuracy::accuracy_case(record, *found));
     group.records.push_back(&record);
   }
   std::vector<ErrorAnswer> answers;
   for (const auto& [key, group] : groups) {
     ErrorAnswer answer{.device = key.first, .scene = key.second};
-    const auto best = judge::cheapest(group.cases, error);
-    const std::size_t shown = best.value_or(judge::most_accurate(group.cases));
+    const auto best = accuracy::cheapest(group.cases, error);
+    const std::size_t shown = best.value_or(accuracy::most_accurate(group.cases));
     answer.rmse = group.cases[shown].rmse;
     if (best) {
       answer.record = group.records[*best];

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/accuracy.hpp"
 #include "app/truth.hpp"
-#include "judge/accuracy/accuracy.hpp"
 #include "measure/plan.hpp"
 
 namespace triptych::app {

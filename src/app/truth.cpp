@@ -76,7 +76,7 @@ void Truths::keep(const record::TruthImage& truth) {
   }
 }
 
-const judge::LimitPicture* Truths::limit_of(const record::Record& record) {
+const accuracy::LimitPicture* Truths::limit_of(const record::Record& record) {
   const std::string key = registry_.suite(record.suite).limit_key(record.factors);
   if (key.empty()) return nullptr;
   const auto found = limits_.find(key);
@@ -84,10 +84,10 @@ const judge::LimitPicture* Truths::limit_of(const record::Record& record) {
   return &limits_.emplace(key, find_or_render_limit(record, key)).first->second;
 }
 
-judge::LimitPicture Truths::find_or_render_limit(const record::Record& record,
-                                                 const std::string& key) {
+accuracy::LimitPicture Truths::find_or_render_limit(const record::Record& record,
+                                                    const std::string& key) {
   measure::SuiteWithTruth& suite = registry_.suite(record.suite);
-  judge::LimitPicture picture{
+  accuracy::LimitPicture picture{
       .key = key, .image = {}, .uncertainty = {}, .closed_form = suite.closed_form(record.factors)};
   // Among the truths: a scene's name of its own, and its uncertainty for a bound.
   const std::string scene = "limit of " + record.suite;

@@ -27,7 +27,7 @@ class Truths {
     return store_.picture(record.image);
   }
   // nullptr where the record's scene has none.
-  [[nodiscard]] const judge::LimitPicture* limit_of(const record::Record& record);
+  [[nodiscard]] const accuracy::LimitPicture* limit_of(const record::Record& record);
 
  private:
   [[nodiscard]] judge::TruthPair find_or_render(const record::Record& record);
@@ -37,10 +37,10 @@ class Truths {
 
   const Registry& registry_;
   record::Store& store_;
-  [[nodiscard]] judge::LimitPicture find_or_render_limit(const record::Record& record,
-                                                         const std::string& key);
+  [[nodiscard]] accuracy::LimitPicture find_or_render_limit(const record::Record& record,
+                                                            const std::string& key);
   std::map<std::string, judge::TruthPair> known_;
-  std::map<std::string, judge::LimitPicture> limits_;  // by key
+  std::map<std::string, accuracy::LimitPicture> limits_;  // by key
   std::map<std::string, std::string> data_hashes_;
 };
 

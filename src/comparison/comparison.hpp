@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "comparison/pairwise.hpp"
 #include "comparison/run_diff.hpp"
-#include "judge/compare/pairwise.hpp"
 #include "measure/plan.hpp"
 #include "measure/runner.hpp"
 #include "measure/turns.hpp"
@@ -27,8 +27,8 @@ struct ComparisonOptions {
   std::chrono::seconds limit{60};
   std::uint64_t seed = 1;
   bool times = true;  // of a plan that is timed
-  judge::SequentialDesign design = judge::SequentialDesign::standard();
-  judge::ConfirmationDesign confirmation;
+  SequentialDesign design = SequentialDesign::standard();
+  ConfirmationDesign confirmation;
 };
 
 // What is known of one configuration.
@@ -37,9 +37,9 @@ struct Compared {
   measure::Configuration configuration;
   // How the side ended that did not do its part, with the reason; skipped: it cannot.
   std::optional<record::Outcome> ended;
-  judge::PairVerdict verdict = judge::PairVerdict::undecided;
+  PairVerdict verdict = PairVerdict::undecided;
   std::string reason;  // of no verdict, or of one that the confirmation took back
-  judge::Shift shift;  // of ln t, b against a; meaningless when ended
+  Shift shift;         // of ln t, b against a; meaningless when ended
   int blocks = 0;      // of the first launch
   int launches = 0;    // fresh ones that confirmed, or did not
   int frames_per_turn = 1;
@@ -47,7 +47,7 @@ struct Compared {
   std::string why_wall;  // why not the device's clocks
   double seconds = 0;    // spent on it
   std::optional<judge::WorkChange> work;
-  std::vector<judge::Difference> differences;
+  std::vector<Difference> differences;
 
   [[nodiscard]] bool is_regression() const;
   [[nodiscard]] bool is_doubtful(bool timed) const;
@@ -59,8 +59,8 @@ struct ComparisonResult {
   record::Device a;
   record::Device b;
   bool timed = false;
-  std::vector<judge::Difference> device;  // of the two as such
-  std::vector<Compared> configurations;   // in the plan's order
+  std::vector<Difference> device;        // of the two as such
+  std::vector<Compared> configurations;  // in the plan's order
   double seconds = 0;
 
   [[nodiscard]] core::ExitCode exit_code() const;

@@ -5,9 +5,7 @@
 namespace triptych::comparison {
 namespace {
 
-using judge::PairVerdict;
-
-bool has(const Compared& compared, judge::DifferenceKind kind) {
+bool has(const Compared& compared, DifferenceKind kind) {
   return std::ranges::any_of(compared.differences,
                              [kind](const auto& each) { return each.kind == kind; });
 }
@@ -15,20 +13,19 @@ bool has(const Compared& compared, judge::DifferenceKind kind) {
 }  // namespace
 
 bool Compared::is_regression() const {
-  return (!ended && verdict == PairVerdict::slower) ||
-         has(*this, judge::DifferenceKind::regression);
+  return (!ended && verdict == PairVerdict::slower) || has(*this, DifferenceKind::regression);
 }
 
 bool Compared::is_doubtful(bool timed) const {
-  if (has(*this, judge::DifferenceKind::unjudged)) return true;
-  if (has(*this, judge::DifferenceKind::fixed)) return false;
+  if (has(*this, DifferenceKind::unjudged)) return true;
+  if (has(*this, DifferenceKind::fixed)) return false;
   if (ended) return *ended != record::Outcome::skipped;
   return timed && verdict == PairVerdict::undecided;
 }
 
 std::string_view Compared::verdict_name() const {
   if (ended) return *ended == record::Outcome::skipped ? "skipped" : "cannot tell";
-  return judge::name_of(verdict);
+  return name_of(verdict);
 }
 
 core::ExitCode ComparisonResult::exit_code() const {

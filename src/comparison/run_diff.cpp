@@ -10,9 +10,6 @@
 namespace triptych::comparison {
 namespace {
 
-using judge::Difference;
-using judge::DifferenceKind;
-
 class Differ {
  public:
   Differ(const RunSide& a, const RunSide& b, const KeptTruth& truth, bool same_setup)
@@ -21,11 +18,11 @@ class Differ {
   [[nodiscard]] ConfigurationDiff both(const record::Record& a, const record::Record& b) const {
     const core::Image image_a = picture(a_, a);
     const core::Image image_b = picture(b_, b);
-    judge::ComparedSide side_a{a, a_.device, image_a};
-    judge::ComparedSide side_b{b, b_.device, image_b};
+    ComparedSide side_a{a, a_.device, image_a};
+    ComparedSide side_b{b, b_.device, image_b};
     find_truth(side_a);
     find_truth(side_b);
-    judge::Comparison found = judge::find_differences(side_a, side_b, same_setup_);
+    Comparison found = find_differences(side_a, side_b, same_setup_);
     return {.key = a.configuration,
             .differences = std::move(found.differences),
             .void_time = std::move(found.void_time),
@@ -56,7 +53,7 @@ class Differ {
     return std::nullopt;
   }
 
-  void find_truth(judge::ComparedSide& side) const {
+  void find_truth(ComparedSide& side) const {
     if (side.record.image.empty()) return;
     try {
       side.truth = &truth_(side.record);
@@ -88,7 +85,7 @@ std::string range_of(const std::pair<double, double>& ratios) {
 
 RunDiff diff_runs(const RunSide& a, const RunSide& b, const KeptTruth& truth, bool same_setup) {
   const Differ differ(a, b, truth, same_setup);
-  RunDiff diff{.device = judge::find_differences(a.device, b.device), .configurations = {}};
+  RunDiff diff{.device = find_differences(a.device, b.device), .configurations = {}};
   std::map<std::string, record::Record> of_b;
   for (record::Record& record : records_of(b)) {
     std::string key = record.configuration;
@@ -129,7 +126,7 @@ void DifferenceGroups::add(const Difference& difference, const std::string& wher
 std::string DifferenceGroups::text() const {
   std::string text;
   for (const auto& [key, group] : groups_) {
-    text += fmt::format("{:<12}  {}: ", judge::name_of(key.first), key.second);
+    text += fmt::format("{:<12}  {}: ", name_of(key.first), key.second);
     if (group.count > 1) {
       if (group.ratios) text += range_of(*group.ratios) + " ";
       text += fmt::format("in {} configurations, {} ", group.count,

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "comparison/differences.hpp"
 #include "judge/baselines/work.hpp"
-#include "judge/compare/differences.hpp"
 #include "record/store.hpp"
 
 namespace triptych::comparison {
@@ -28,7 +28,7 @@ struct RunSide {
 
 struct ConfigurationDiff {
   std::string key;
-  std::vector<judge::Difference> differences;  // worst first
+  std::vector<Difference> differences;  // worst first
   // Why no time of it means anything, and how the side ended that is to blame, if it did.
   std::string void_time;
   std::optional<record::Outcome> ended;
@@ -37,11 +37,11 @@ struct ConfigurationDiff {
 };
 
 struct RunDiff {
-  std::vector<judge::Difference> device;          // of the two as such
+  std::vector<Difference> device;                 // of the two as such
   std::vector<ConfigurationDiff> configurations;  // in a's order, then what only b has
 };
 
-// `same_setup`: as judge::find_differences.
+// `same_setup`: as find_differences.
 [[nodiscard]] RunDiff diff_runs(const RunSide& a, const RunSide& b, const KeptTruth& truth,
                                 bool same_setup);
 
@@ -56,16 +56,16 @@ struct DifferenceGroup {
 class DifferenceGroups {
  public:
   // `where`: the configuration; empty: the device.
-  void add(const std::vector<judge::Difference>& differences, const std::string& where);
+  void add(const std::vector<Difference>& differences, const std::string& where);
   [[nodiscard]] bool empty() const noexcept { return groups_.empty(); }
   // "regression  cost: +1.2 % to +40 % in 27 configurations, most in …: …", a line each, by kind,
   // worst first, then by what they are about.
   [[nodiscard]] std::string text() const;
 
  private:
-  void add(const judge::Difference& difference, const std::string& where);
+  void add(const Difference& difference, const std::string& where);
 
-  std::map<std::pair<judge::DifferenceKind, std::string>, DifferenceGroup> groups_;
+  std::map<std::pair<DifferenceKind, std::string>, DifferenceGroup> groups_;
 };
 
 }  // namespace triptych::comparison

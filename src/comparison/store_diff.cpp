@@ -13,8 +13,6 @@
 namespace triptych::comparison {
 namespace {
 
-using judge::Difference;
-using judge::DifferenceKind;
 
 std::map<std::string, std::string> latest_runs(const record::Store& store) {
   std::map<std::string, std::string> runs;  // id by plan
@@ -156,7 +154,7 @@ std::string to_text(const StoreDiff& diff) {
   std::string text;
   for (const DeviceChange& change : diff.devices) text += text_of(change);
   for (const std::string& each : diff.only_one) {
-    text += fmt::format("{:<12}  {}\n", judge::name_of(DifferenceKind::unjudged), each);
+    text += fmt::format("{:<12}  {}\n", name_of(DifferenceKind::unjudged), each);
   }
   return text;
 }

@@ -15,10 +15,10 @@ namespace triptych::comparison {
 struct DeviceChange {
   record::Device a;
   record::Device b;
-  std::vector<judge::Difference> device;          // of the two as such
+  std::vector<Difference> device;          // of the two as such
   std::vector<ConfigurationDiff> configurations;  // "PLAN CONFIGURATION" each
 
-  [[nodiscard]] bool has(judge::DifferenceKind kind) const;
+  [[nodiscard]] bool has(DifferenceKind kind) const;
 };
 
 struct StoreDiff {

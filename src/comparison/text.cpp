@@ -14,9 +14,6 @@
 namespace triptych::comparison {
 namespace {
 
-using judge::Difference;
-using judge::DifferenceKind;
-
 // The command that measures this configuration alone, as long as it takes.
 std::string settle(const Compared& compared, const ComparisonCommand& command) {
   std::string text =
@@ -33,7 +30,7 @@ std::string_view name_of(measure::TurnClock clock) {
 }
 
 // "1.052 [1.047, 1.058]"
-std::string ratio_of(const judge::Shift& shift) {
+std::string ratio_of(const Shift& shift) {
   return fmt::format("{:.4f} [{:.4f}, {:.4f}]", std::exp(shift.estimate),
                      std::exp(shift.interval.low), std::exp(shift.interval.high));
 }
@@ -47,7 +44,7 @@ std::string line_of(const Compared& compared, const ComparisonCommand& command) 
   }
   line += fmt::format("  {:.1f} s  {}", compared.seconds, compared.key);
   if (!compared.reason.empty()) line += "\n              " + compared.reason;
-  const bool undecided = !compared.ended && compared.verdict == judge::PairVerdict::undecided;
+  const bool undecided = !compared.ended && compared.verdict == PairVerdict::undecided;
   if (undecided && compared.blocks > 0) line += "; settle it: " + settle(compared, command);
   const auto& work = compared.work;
   if (work && work->log_ratio != 0) {
@@ -80,9 +77,8 @@ std::string clocks_text(const ComparisonResult& result) {
 }
 
 core::Json to_json(const Difference& difference) {
-  core::Json json{{"kind", judge::name_of(difference.kind)},
-                  {"about", difference.about},
-                  {"text", difference.text}};
+  core::Json json{
+      {"kind", name_of(difference.kind)}, {"about", difference.about}, {"text", difference.text}};
   if (difference.ratio) json["ratio"] = *difference.ratio;
   return json;
 }
@@ -108,7 +104,7 @@ core::Json to_json(const Compared& compared, bool timed, const ComparisonCommand
     set("ratio", compared.shift.estimate);
     set("ratio_low", compared.shift.interval.low);
     set("ratio_high", compared.shift.interval.high);
-    if (compared.verdict == judge::PairVerdict::undecided) {
+    if (compared.verdict == PairVerdict::undecided) {
       json["settle"] = settle(compared, command);
     }
   }

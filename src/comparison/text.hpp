@@ -23,7 +23,7 @@ struct ComparisonCommand {
 [[nodiscard]] std::string headline(const ComparisonResult& result);
 
 // [{"kind", "about", "text", "ratio"}]
-[[nodiscard]] nlohmann::json to_json(const std::vector<judge::Difference>& differences);
+[[nodiscard]] nlohmann::json to_json(const std::vector<Difference>& differences);
 
 // {"plan", "sides", "a", "b" (devices), "seconds", "exit_code", "headline", "differences" (of the
 // devices), "configurations": [{"configuration", "reason", "differences": [{"kind", "about",

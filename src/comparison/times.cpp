@@ -14,7 +14,6 @@
 namespace triptych::comparison {
 namespace {
 
-using judge::PairVerdict;
 using measure::Side;
 using measure::TurnClock;
 
@@ -66,7 +65,7 @@ class Timer {
           ended.side() == Side::b && ended.outcome() != record::Outcome::skipped;
       if (fault_of_b) {
         entry.compared.differences.push_back(
-            {.kind = judge::DifferenceKind::regression, .about = "outcome", .text = ended.what()});
+            {.kind = DifferenceKind::regression, .about = "outcome", .text = ended.what()});
       }
     }
     entry.compared.seconds += stopwatch.seconds();
@@ -116,8 +115,7 @@ class Timer {
       compared.clock = TurnClock::wall;
       compared.why_wall = "the device times of these turns cannot be true";
     }
-    const judge::Look look =
-        judge::look_at(measure::differences(entry.blocks, compared.clock), options_.design);
+    const Look look = look_at(measure::differences(entry.blocks, compared.clock), options_.design);
     compared.verdict = look.verdict;
     compared.shift = look.shift;
     compared.blocks = static_cast<int>(entry.blocks.size());
@@ -183,7 +181,7 @@ class Timer {
   void confirm_suspects() {
     const std::vector<Entry*> suspected = suspects();
     if (suspected.empty()) return;
-    std::vector<judge::Suspect> launched;
+    std::vector<Suspect> launched;
     for (const Entry* entry : suspected) {
       launched.push_back({{}, entry->compared.verdict == PairVerdict::slower});
     }
@@ -191,7 +189,7 @@ class Timer {
     int done = 0;
     const auto launch = [&](std::span<const std::size_t> open, std::size_t number,
                             std::size_t until) {
-      const bool enough = number > judge::least_launches && over_budget();
+      const bool enough = number > least_launches && over_budget();
       const bool all_ended = std::ranges::all_of(
           open, [&](std::size_t i) { return suspected[i]->compared.ended.has_value(); });
       if (enough || all_ended || !relaunched()) return false;
@@ -207,7 +205,7 @@ class Timer {
       return true;
     };
     const auto confirmed =
-        judge::confirm_in_looks(launched, options_.confirmation, options_.design, launch);
+        confirm_in_looks(launched, options_.confirmation, options_.design, launch);
     for (std::size_t i = 0; i < suspected.size(); ++i) {
       if (!suspected[i]->compared.ended) take(confirmed[i], launched[i], suspected[i]->compared);
     }
@@ -224,7 +222,7 @@ class Timer {
     }
   }
 
-  void launch_again(Entry& entry, judge::Suspect& suspect) {
+  void launch_again(Entry& entry, Suspect& suspect) {
     if (entry.compared.ended) return;
     about(entry, [&] {
       hold(entry);
@@ -235,23 +233,22 @@ class Timer {
       if (entry.compared.clock == TurnClock::device && !measure::device_clock_holds(blocks)) return;
       const auto differences = measure::differences(blocks, entry.compared.clock);
       const double level = options_.design.alpha_of_a_look();
-      suspect.launches.push_back(judge::estimate_shift(differences, level).estimate);
+      suspect.launches.push_back(estimate_shift(differences, level).estimate);
     });
   }
 
-  static void take(const judge::Confirmation& confirmed, const judge::Suspect& suspect,
-                   Compared& compared) {
+  static void take(const Confirmation& confirmed, const Suspect& suspect, Compared& compared) {
     const auto suspected = std::exchange(compared.verdict, confirmed.verdict);
-    if (suspect.launches.size() < judge::least_launches) {
-      compared.reason = fmt::format("{} at first, but fresh launches could not be measured",
-                                    judge::name_of(suspected));
+    if (suspect.launches.size() < least_launches) {
+      compared.reason =
+          fmt::format("{} at first, but fresh launches could not be measured", name_of(suspected));
       return;
     }
     compared.launches = static_cast<int>(suspect.launches.size());
     if (confirmed.verdict != suspected) {
-      compared.reason = fmt::format("{} in one launch by {:+.2f} %, not so in {} fresh ones",
-                                    judge::name_of(suspected),
-                                    100 * std::expm1(compared.shift.estimate), compared.launches);
+      compared.reason =
+          fmt::format("{} in one launch by {:+.2f} %, not so in {} fresh ones", name_of(suspected),
+                      100 * std::expm1(compared.shift.estimate), compared.launches);
     }
     compared.shift = confirmed.shift;
   }

@@ -13,7 +13,7 @@
 namespace triptych::report {
 namespace {
 
-std::optional<double> cost_of(const judge::AccuracyCase& each, Cost cost) {
+std::optional<double> cost_of(const accuracy::AccuracyCase& each, Cost cost) {
   if (cost == Cost::time && each.time_ns) return *each.time_ns / 1e6;
   if (cost == Cost::time || !each.samples) return std::nullopt;
   return static_cast<double>(*each.samples);
@@ -21,13 +21,14 @@ std::optional<double> cost_of(const judge::AccuracyCase& each, Cost cost) {
 
 // What the colour tells: of configurations that stand alone the technique, else there would be as
 // many colours as points.
-std::string colour_name(const judge::AccuracyFamily& family, const judge::AccuracyCase& each) {
+std::string colour_name(const accuracy::AccuracyFamily& family,
+                        const accuracy::AccuracyCase& each) {
   const auto technique = each.factors.find("technique");
   const bool alone = family.members.size() == 1 && technique != each.factors.end();
   return alone ? technique->second : family.name;
 }
 
-std::vector<std::string> factors_of(const judge::AccuracyScene& scene) {
+std::vector<std::string> factors_of(const accuracy::AccuracyScene& scene) {
   std::vector<std::string> factors;
   std::istringstream text(scene.scene);
   for (std::string factor; std::getline(text, factor, ',');) factors.push_back(factor);
@@ -37,7 +38,7 @@ std::vector<std::string> factors_of(const judge::AccuracyScene& scene) {
 // One scene on one device: a line per family, the front in ink, the goals dashed.
 class Diagram {
  public:
-  Diagram(const judge::AccuracyScene& scene, const std::string& title, Cost cost)
+  Diagram(const accuracy::AccuracyScene& scene, const std::string& title, Cost cost)
       : scene_(scene),
         cost_(cost),
         figure_(title + " on " + scene.device,
@@ -47,7 +48,7 @@ class Diagram {
                 230, 150) {}
 
   [[nodiscard]] std::string svg() {
-    for (const judge::AccuracyFamily& family : scene_.families) add_family(family);
+    for (const accuracy::AccuracyFamily& family : scene_.families) add_family(family);
     if (figure_.empty()) return {};
     add_front();
     add_goals();
@@ -57,7 +58,7 @@ class Diagram {
  private:
   // What has no error or no cost has no place on such axes.
   [[nodiscard]] std::optional<Figure::Place> place_of(std::size_t i) const {
-    const judge::AccuracyCase& each = scene_.cases[i];
+    const accuracy::AccuracyCase& each = scene_.cases[i];
     const auto paid = cost_of(each, cost_);
     if (!paid || !(*paid > 0) || !(each.rmse > 0)) return std::nullopt;
     return Figure::Place{each.rmse, *paid};
@@ -67,12 +68,12 @@ class Diagram {
     if (added && !name.empty()) figure_.legend(name, {.colour = found->second});
     return found->second;
   }
-  void add_family(const judge::AccuracyFamily& family) {
+  void add_family(const accuracy::AccuracyFamily& family) {
     std::vector<Figure::Place> places;
     for (const std::size_t i : family.members) {
       const auto place = place_of(i);
       if (!place) continue;
-      const judge::AccuracyCase& each = scene_.cases[i];
+      const accuracy::AccuracyCase& each = scene_.cases[i];
       places.push_back(*place);
       figure_.point(*place, {.colour = colour(colour_name(family, each)), .opacity = 0.8},
                     fmt::format("{}: RMSE {:.3g}, {:.3g}{}", each.configuration, place->x, place->y,
@@ -95,10 +96,10 @@ class Diagram {
     figure_.legend("the front", {.colour = "ink"}, true);
   }
   void add_goals() {
-    for (const double goal : judge::accuracy_goals) figure_.upright(goal);
+    for (const double goal : accuracy::accuracy_goals) figure_.upright(goal);
   }
 
-  const judge::AccuracyScene& scene_;
+  const accuracy::AccuracyScene& scene_;
   Cost cost_;
   Figure figure_;
   std::map<std::string, std::string_view> colours_;
@@ -106,11 +107,11 @@ class Diagram {
 
 }  // namespace
 
-std::string accuracy_title(std::span<const judge::AccuracyScene> scenes,
-                           const judge::AccuracyScene& scene) {
+std::string accuracy_title(std::span<const accuracy::AccuracyScene> scenes,
+                           const accuracy::AccuracyScene& scene) {
   std::string title = scene.data;
   for (const std::string& factor : factors_of(scene)) {
-    const auto lacks = [&](const judge::AccuracyScene& other) {
+    const auto lacks = [&](const accuracy::AccuracyScene& other) {
       const std::vector<std::string> theirs = factors_of(other);
       return other.data == scene.data && std::ranges::find(theirs, factor) == theirs.end();
     };
@@ -119,9 +120,9 @@ std::string accuracy_title(std::span<const judge::AccuracyScene> scenes,
   return title;
 }
 
-std::string accuracy_chart(std::span<const judge::AccuracyScene> scenes, Cost cost) {
+std::string accuracy_chart(std::span<const accuracy::AccuracyScene> scenes, Cost cost) {
   std::vector<Titled> all;
-  for (const judge::AccuracyScene& scene : scenes) {
+  for (const accuracy::AccuracyScene& scene : scenes) {
     const std::string title = accuracy_title(scenes, scene);
     std::string svg = Diagram(scene, title, cost).svg();
     if (!svg.empty()) all.push_back({title + " on " + scene.device, std::move(svg)});

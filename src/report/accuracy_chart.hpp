@@ -2,7 +2,7 @@
 #include <span>
 #include <string>
 
-#include "judge/accuracy/cases.hpp"
+#include "accuracy/cases.hpp"
 
 namespace triptych::report {
 
@@ -12,10 +12,11 @@ enum class Cost { time, samples };
 // line per family, the front in ink, the goals as upright rules. A case without error or without
 // cost has no place on such axes and is left out; empty where none has one. Scenes are named by
 // accuracy_title.
-[[nodiscard]] std::string accuracy_chart(std::span<const judge::AccuracyScene> scenes, Cost cost);
+[[nodiscard]] std::string accuracy_chart(std::span<const accuracy::AccuracyScene> scenes,
+                                         Cost cost);
 
 // The data, and those factors of the picture that tell it from the others of the same data.
-[[nodiscard]] std::string accuracy_title(std::span<const judge::AccuracyScene> scenes,
-                                         const judge::AccuracyScene& scene);
+[[nodiscard]] std::string accuracy_title(std::span<const accuracy::AccuracyScene> scenes,
+                                         const accuracy::AccuracyScene& scene);
 
 }  // namespace triptych::report

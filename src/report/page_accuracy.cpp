@@ -15,8 +15,8 @@ namespace triptych::report {
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
-using judge::AccuracyScene;
-using judge::Order;
+using accuracy::AccuracyScene;
+using accuracy::Order;
 
 std::string error_text(double error) {
   return fmt::format("{:.2e}", error);
@@ -27,20 +27,20 @@ std::string order_text(const std::optional<Order>& order) {
   return fmt::format("{:.2f} ± {:.2f} ({} steps)", order->order, order->half_width, order->points);
 }
 
-std::string time_text(const judge::AccuracyCase& each) {
+std::string time_text(const accuracy::AccuracyCase& each) {
   return each.time_ns ? duration(*each.time_ns) : "";
 }
 
-const judge::AccuracyFamily& family_of(const AccuracyScene& scene, std::size_t index) {
-  return *std::ranges::find_if(scene.families, [index](const judge::AccuracyFamily& family) {
+const accuracy::AccuracyFamily& family_of(const AccuracyScene& scene, std::size_t index) {
+  return *std::ranges::find_if(scene.families, [index](const accuracy::AccuracyFamily& family) {
     return std::ranges::find(family.members, index) != family.members.end();
   });
 }
 
 // The widest front of the same picture on any device.
-const judge::FrontArea& widest(const std::vector<AccuracyScene>& scenes,
-                               const AccuracyScene& scene) {
-  const judge::FrontArea* best = &*scene.area;
+const accuracy::FrontArea& widest(const std::vector<AccuracyScene>& scenes,
+                                  const AccuracyScene& scene) {
+  const accuracy::FrontArea* best = &*scene.area;
   for (const AccuracyScene& other : scenes) {
     const bool comparable = other.limit == scene.limit && other.area.has_value();
     if (comparable && other.area->area > best->area) best = &*other.area;
@@ -52,7 +52,8 @@ void append_area(std::vector<std::string>& row, const std::vector<AccuracyScene>
                  const AccuracyScene& scene) {
   if (scene.area) {
     row.push_back(fmt::format("{:.1f}", scene.area->area));
-    row.push_back(fmt::format("{:.2f}", judge::equal_slowdown(widest(scenes, scene), *scene.area)));
+    row.push_back(
+        fmt::format("{:.2f}", accuracy::equal_slowdown(widest(scenes, scene), *scene.area)));
   } else {
     row.insert(row.end(), 2, "");
   }
@@ -63,12 +64,12 @@ std::string summary_table(const std::vector<AccuracyScene>& scenes) {
              "time to 1/1024", "time to 1e-4", "hypervolume", "times as long as the best",
              "on the front", "dominated"}};
   for (const AccuracyScene& scene : scenes) {
-    const std::size_t best = judge::most_accurate(scene.cases);
+    const std::size_t best = accuracy::most_accurate(scene.cases);
     std::vector<std::string> row{escape(accuracy_title(scenes, scene)), escape(scene.device),
                                  order_text(family_of(scene, best).order),
                                  error_text(scene.cases[best].rmse)};
-    for (const double goal : judge::accuracy_goals) {
-      const auto time = judge::time_to_error(scene.cases, scene.families, goal);
+    for (const double goal : accuracy::accuracy_goals) {
+      const auto time = accuracy::time_to_error(scene.cases, scene.families, goal);
       row.push_back(time ? duration(*time) : scene.front.empty() ? "" : "not reached");
     }
     append_area(row, scenes, scene);
@@ -82,7 +83,7 @@ std::string summary_table(const std::vector<AccuracyScene>& scenes) {
 std::string order_table(const std::vector<AccuracyScene>& scenes) {
   Rows rows{{"scene", "device", "family", "order ± 95 %", "coarsest", "finest"}};
   for (const AccuracyScene& scene : scenes) {
-    for (const judge::AccuracyFamily& family : scene.families) {
+    for (const accuracy::AccuracyFamily& family : scene.families) {
       rows.push_back({escape(accuracy_title(scenes, scene)), escape(scene.device),
                       escape(family.name), order_text(family.order),
                       error_text(scene.cases[family.members.front()].rmse),
@@ -92,7 +93,7 @@ std::string order_table(const std::vector<AccuracyScene>& scenes) {
   return table(rows);
 }
 
-std::string level(const judge::AccuracyCase& each, const std::string& factor) {
+std::string level(const accuracy::AccuracyCase& each, const std::string& factor) {
   return each.factors.at(factor);
 }
 
@@ -103,17 +104,17 @@ class Parts {
       : scenes_(scenes), scene_(scene), title_(accuracy_title(scenes, scene)), rows_(rows) {}
 
   void append() {
-    const judge::AccuracyCase& least = scene_.cases[judge::most_accurate(scene_.cases)];
+    const accuracy::AccuracyCase& least = scene_.cases[accuracy::most_accurate(scene_.cases)];
     add("the most accurate: " + least.configuration, "", least.rmse, error_text(least.largest),
         time_text(least));
     if (least.factors.contains("step")) add("its step alone", "", least.lattice);
     add("its rounding, storage and early termination", "", least.arithmetic);
-    for (const judge::Switched& each : judge::switched_alone(scene_.cases)) {
+    for (const accuracy::Switched& each : accuracy::switched_alone(scene_.cases)) {
       add(each, scene_.cases[each.to], "");
     }
     for (const AccuracyScene& other : scenes_) {
       if (other.device != scene_.device || other.limit == scene_.limit) continue;
-      const auto each = judge::switched_picture(scene_.cases, other.cases, "viewport");
+      const auto each = accuracy::switched_picture(scene_.cases, other.cases, "viewport");
       if (each) add(*each, other.cases[each->to], ", another picture");
     }
     add("output with 8 bits a channel", "", scene_.eight_bits);
@@ -127,8 +128,8 @@ class Parts {
     rows_.push_back({escape(title_), escape(scene_.device), escape(what), std::move(before),
                      error_text(error), std::move(largest), std::move(time)});
   }
-  void add(const judge::Switched& each, const judge::AccuracyCase& to, const char* remark) {
-    const judge::AccuracyCase& from = scene_.cases[each.from];
+  void add(const accuracy::Switched& each, const accuracy::AccuracyCase& to, const char* remark) {
+    const accuracy::AccuracyCase& from = scene_.cases[each.from];
     add(fmt::format("{} {} → {}{}", each.factor, level(from, each.factor), level(to, each.factor),
                     remark),
         error_text(from.rmse), to.rmse, error_text(to.largest), time_text(to));
@@ -149,9 +150,9 @@ std::string parts_table(const std::vector<AccuracyScene>& scenes) {
 std::string dominated_table(const std::vector<AccuracyScene>& scenes) {
   Rows rows{{"device", "configuration", "RMSE", "time", "beaten by", "RMSE", "time"}};
   for (const AccuracyScene& scene : scenes) {
-    for (const judge::Dominated& each : scene.dominated) {
-      const judge::AccuracyCase& worse = scene.cases[each.index];
-      const judge::AccuracyCase& better = scene.cases[each.by];
+    for (const accuracy::Dominated& each : scene.dominated) {
+      const accuracy::AccuracyCase& worse = scene.cases[each.index];
+      const accuracy::AccuracyCase& better = scene.cases[each.by];
       rows.push_back({escape(scene.device), escape(worse.configuration), error_text(worse.rmse),
                       time_text(worse), escape(better.configuration), error_text(better.rmse),
                       time_text(better)});
@@ -169,9 +170,10 @@ std::string accuracy_section(const PlanData& plan) {
     return std::ranges::any_of(
         scenes, [&](const AccuracyScene& scene) { return std::ranges::any_of(scene.cases, has); });
   };
-  const bool timed = any([](const judge::AccuracyCase& each) { return each.time_ns.has_value(); });
+  const bool timed =
+      any([](const accuracy::AccuracyCase& each) { return each.time_ns.has_value(); });
   const bool counted =
-      any([](const judge::AccuracyCase& each) { return each.samples.has_value(); });
+      any([](const accuracy::AccuracyCase& each) { return each.samples.has_value(); });
   std::string text =
       "<h3>Run time against error</h3><p>The error is the root mean square over all channels, in "
       "linear float, against the picture that the scene tends to as its sampling is refined. A "

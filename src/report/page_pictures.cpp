@@ -11,9 +11,9 @@
 #include <string>
 #include <variant>
 
+#include "accuracy/image_metrics.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
-#include "judge/images/image_metrics.hpp"
 #include "report/html.hpp"
 #include "report/page_frame.hpp"
 #include "report/page_sections.hpp"
@@ -141,7 +141,7 @@ std::string titled(const PlanData& plan, const SameBits& group,
       made_by(group, of_scene), below);
 }
 
-std::string verdict_text(const judge::ImageComparison& result) {
+std::string verdict_text(const accuracy::ImageComparison& result) {
   const bool right = result.within_bound();
   std::string text = fmt::format("within the bound, {:.0f} % of it used", 100 * result.worst.ratio);
   if (!right)
@@ -171,7 +171,7 @@ Panel panel_of(const record::Store& store, const PlanData& plan, const SameBits&
   const Image image = store.picture(record.image);
   const std::string drawn = figure(picture(image, record.device), escape(record.device));
   if (pair == nullptr) return {whole(drawn, escape(std::get<std::string>(found)))};
-  const judge::ImageComparison result = judge::compare(image, pair->truth, pair->bound);
+  const accuracy::ImageComparison result = accuracy::compare(image, pair->truth, pair->bound);
   if (result.size_mismatch) {
     return {whole(reference + drawn, "<b class=\"regression\">wrong size</b>"), true, 1};
   }

@@ -96,7 +96,7 @@ std::string circle_in(std::map<std::string, std::set<std::string>> needed) {
 
 TEST(Includes, FoldersOfARoomFormNoCircle) {
   EXPECT_EQ(circle_in({{"a", {"b"}}, {"b", {"a", "c"}}, {"c", {}}}), "a b ");
-  EXPECT_GE(folders_of("judge").size(), 7U);
+  EXPECT_GE(folders_of("judge").size(), 4U);
   EXPECT_TRUE(folders_of("judge").at("gate").contains("baselines"));
   for (const auto& entry : std::filesystem::directory_iterator(source_folder / "src")) {
     const std::string room = entry.path().filename().string();

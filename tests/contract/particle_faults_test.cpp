@@ -35,7 +35,7 @@ TEST(ParticleFaults, EveryOneIsCaughtByThePicture) {
         measure::Work faulty = whole;
         measure::apply_plant(planted.name, faulty);
         if (device.unsupported(faulty)) return;  // there is nothing to break in this technique
-        EXPECT_FALSE(judge::compare(draw(device, faulty), expected, bound).within_bound());
+        EXPECT_FALSE(accuracy::compare(draw(device, faulty), expected, bound).within_bound());
       });
     }
   });
@@ -55,8 +55,8 @@ TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
       expect_true(draw(device, faulty), truth);
       measure::apply_plant("wrong_sense", faulty);
       if (!ours || device.unsupported(faulty)) continue;
-      EXPECT_FALSE(
-          judge::compare(draw(device, faulty), truth.image(), truth.bound_image()).within_bound());
+      EXPECT_FALSE(accuracy::compare(draw(device, faulty), truth.image(), truth.bound_image())
+                       .within_bound());
     }
   });
 }

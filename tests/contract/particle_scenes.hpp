@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/image_metrics.hpp"
 #include "core/random.hpp"
-#include "judge/images/image_metrics.hpp"
 #include "reference/spheres.hpp"
 #include "scene/particle_generators.hpp"
 #include "suites/particles/tolerance.hpp"
@@ -81,7 +81,7 @@ inline ParticleWork studded_wall() {
 
 // Asks the image for every id and depth that is certain, and for its colours.
 inline void expect_true(const core::Image& image, const reference::SphereTruth& truth) {
-  const auto result = judge::compare(image, truth.image(), truth.bound_image());
+  const auto result = accuracy::compare(image, truth.image(), truth.bound_image());
   const auto& first = result.first_wrong;
   EXPECT_TRUE(result.within_bound())
       << result.wrong_ids << " wrong ids, " << result.wrong_depths << " wrong depths, "

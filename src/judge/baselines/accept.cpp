@@ -9,12 +9,12 @@
 #include "core/glob.hpp"
 #include "core/image_io.hpp"
 #include "core/quoting.hpp"
+#include "estimation/statistics.hpp"
 #include "judge/baselines/baselines.hpp"
 #include "judge/baselines/json_file.hpp"
 #include "judge/baselines/layout.hpp"
 #include "judge/baselines/next_folder.hpp"
-#include "judge/images/has_picture.hpp"
-#include "judge/statistics/statistics.hpp"
+#include "record/has_picture.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -72,10 +72,10 @@ void update_errors(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
   Json& table = table_of(update.value(), accepted);
   for (const record::Record& record : accepted.measured) {
-    const LimitPicture* limit = record.image.empty() ? nullptr : request.limit(record);
+    const accuracy::LimitPicture* limit = record.image.empty() ? nullptr : request.limit(record);
     if (limit == nullptr) continue;
     const auto error =
-        picture_error(store.picture(record.image), request.truth(record), limit->image);
+        accuracy::picture_error(store.picture(record.image), request.truth(record), limit->image);
     if (!error) continue;
     table[record.configuration][record.device] = {{"rmse", error->rmse},
                                                   {"arithmetic", error->arithmetic}};
@@ -154,7 +154,7 @@ void update_timings(const Accepted& accepted, const record::Device& device, Next
     const std::vector<double>& times = record.time_ns();
     if (times.empty()) continue;
     table[record.configuration] = {{"clock", record.clock()},
-                                   {"median_ns", median(times)},
+                                   {"median_ns", estimation::median(times)},
                                    {"spread", log_spread(times)},
                                    {"frames", times.size()},
                                    {"kernel_hash", record.kernel_hash}};
@@ -186,7 +186,7 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, NextF
   if (accepted.replaces_all) drop_all_but(table, accepted.scenes);
   std::set<std::string> done;
   for (const record::Record& record : accepted.measured) {
-    if (!has_picture(record)) continue;
+    if (!record::has_picture(record)) continue;
     if (done.insert(record.scene).second) {
       const core::Image reference = request.truth(record);
       if (keeps) update_image(record, reference, next);

@@ -12,9 +12,9 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_io.hpp"
+#include "estimation/statistics.hpp"
 #include "judge/baselines/json_file.hpp"
 #include "judge/baselines/layout.hpp"
-#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge {
 namespace fs = std::filesystem;
@@ -201,9 +201,9 @@ double log_spread(std::vector<double> times_ns) {
     }
   }
   if (!std::isfinite(step)) step = 0;
-  const double centre = median(logarithms);
+  const double centre = estimation::median(logarithms);
   for (double& value : logarithms) value = std::abs(value - centre);
-  return std::max({normal * median(logarithms), step, between_processes});
+  return std::max({normal * estimation::median(logarithms), step, between_processes});
 }
 
 // What was read so far, by file.

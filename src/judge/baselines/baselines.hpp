@@ -30,8 +30,8 @@
 #include <string_view>
 #include <vector>
 
+#include "accuracy/cases.hpp"
 #include "core/image.hpp"
-#include "judge/accuracy/cases.hpp"
 #include "judge/baselines/reference_hash.hpp"
 #include "judge/stress/stress.hpp"
 #include "record/store.hpp"
@@ -164,7 +164,7 @@ struct AcceptRequest {
   // As GateRequest::data_hash.
   std::function<std::string(const record::Record&)> data_hash = {};
   // The limit of a record's scene, nullptr where it has none; nothing: no errors are stored.
-  std::function<const LimitPicture*(const record::Record&)> limit = {};
+  std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
   // Scores every record of the run by both; nothing: no scores are stored.
   std::optional<StressTruths> stress = {};
   // Told of each file that lies aside, then of "" when all do and nothing has taken effect yet.

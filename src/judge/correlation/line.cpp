@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "judge/statistics/regression.hpp"
-#include "judge/statistics/statistics.hpp"
+#include "estimation/regression.hpp"
+#include "estimation/statistics.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -62,11 +62,11 @@ std::string refusal_of(const CorrelationLine& line) {
 }
 
 double two_sided(double z, double degrees) {
-  return 2 * student_t_upper_tail(std::abs(z), degrees);
+  return 2 * estimation::student_t_upper_tail(std::abs(z), degrees);
 }
 
-RobustLine fit_of(const Values& x, const Values& y) {
-  RobustLine fit = robust_line(x, y);
+estimation::RobustLine fit_of(const Values& x, const Values& y) {
+  estimation::RobustLine fit = estimation::robust_line(x, y);
   fit.scale = std::max(fit.scale, Model::least_scale);
   return fit;
 }
@@ -77,10 +77,10 @@ void weigh_side(const Values& residuals, const std::vector<std::size_t>& side, d
                 Values& weights, Values& centred) {
   Values values;
   for (const std::size_t i : side) values.push_back(residuals[i]);
-  const double centre = median(values);
+  const double centre = estimation::median(values);
   for (const std::size_t i : side) {
     centred[i] = residuals[i] - centre;
-    weights[i] = bisquare_weight(centred[i], scale);
+    weights[i] = estimation::bisquare_weight(centred[i], scale);
   }
 }
 
@@ -103,7 +103,8 @@ double weighted_product(const Values& weights, const Values& a, const Values& b)
 
 // The coefficient g of the level's indicator d in y = a + b·x + g·d, where d's own regression on x
 // is taken out (Frisch and Waugh 1933): a level of expensive configurations does not hide in b.
-OffTheLine level_effect(const Values& x, const RobustLine& fit, const FactorLevel& level) {
+OffTheLine level_effect(const Values& x, const estimation::RobustLine& fit,
+                        const FactorLevel& level) {
   Values weights(x.size());
   Values centred(x.size());
   weigh_side(fit.residuals, level.inside, fit.scale, weights, centred);
@@ -116,13 +117,13 @@ OffTheLine level_effect(const Values& x, const RobustLine& fit, const FactorLeve
   const double squares = weighted_product(weights, own, own);
   OffTheLine result{level.name, level.inside, 0, 0, 1};
   result.effect = weighted_product(weights, own, fit.residuals) / squares;
-  const double kappa = robust_variance(centred, fit.scale, 3);
+  const double kappa = estimation::robust_variance(centred, fit.scale, 3);
   result.error = fit.scale * std::sqrt(kappa / squares);
   return result;
 }
 
 // The clearest level, with its q; `effect` 0 where there is none.
-OffTheLine clearest_level(const Values& x, const RobustLine& fit,
+OffTheLine clearest_level(const Values& x, const estimation::RobustLine& fit,
                           std::span<const FactorLevel> levels) {
   OffTheLine best;
   Values p;
@@ -136,19 +137,20 @@ OffTheLine clearest_level(const Values& x, const RobustLine& fit,
     least = p.back();
     best = each;
   }
-  if (!p.empty()) best.q = std::ranges::min(benjamini_hochberg_adjusted(p));
+  if (!p.empty()) best.q = std::ranges::min(estimation::benjamini_hochberg_adjusted(p));
   return best;
 }
 
-std::vector<OffTheLine> configurations_off(const Values& x, const RobustLine& fit) {
+std::vector<OffTheLine> configurations_off(const Values& x, const estimation::RobustLine& fit) {
   std::vector<OffTheLine> all;
   Values p;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double error = fit.scale * std::sqrt(1 + fit.leverages[i]);
     all.push_back({{}, {i}, fit.residuals[i], error, 1});
-    p.push_back(student_t_upper_tail(fit.residuals[i] / error, static_cast<double>(x.size()) - 2));
+    p.push_back(estimation::student_t_upper_tail(fit.residuals[i] / error,
+                                                 static_cast<double>(x.size()) - 2));
   }
-  const Values q = benjamini_hochberg_adjusted(p);
+  const Values q = estimation::benjamini_hochberg_adjusted(p);
   for (std::size_t i = 0; i < x.size(); ++i) all[i].q = q[i];
   std::erase_if(all, [](const OffTheLine& each) {
     return each.q > Model::share_of_false || each.effect < std::log(Model::configuration_effect);
@@ -168,12 +170,12 @@ void fit_line(CorrelationPair& pair) {
     line.intercept = line.slope = line.scale = line.rho = line.pearson = none;
     for (CorrelationPoint& point : pair.points) point.residual = none;
   } else {
-    const RobustLine fit = robust_line(x, y);
+    const estimation::RobustLine fit = estimation::robust_line(x, y);
     line.intercept = fit.line.intercept;
     line.slope = fit.line.slope;
     line.scale = fit.scale;
-    line.rho = pearson_r(x, y);
-    line.pearson = pearson_r(plain(x), plain(y));
+    line.rho = estimation::pearson_r(x, y);
+    line.pearson = estimation::pearson_r(plain(x), plain(y));
     for (CorrelationPoint& point : pair.points) point.residual = point.y - line.at(point.x);
   }
   line.refusal = refusal_of(line);
@@ -184,7 +186,7 @@ std::vector<OffTheLine> off_the_line(std::span<const CorrelationPoint> points,
   auto [x, y] = coordinates_of(points);
   const std::vector<FactorLevel> levels = factor_levels(factors, Model::least_level);
   std::vector<OffTheLine> result;
-  RobustLine fit = fit_of(x, y);
+  estimation::RobustLine fit = fit_of(x, y);
   while (result.size() < Model::most_levels) {
     OffTheLine level = clearest_level(x, fit, levels);
     if (level.q > Model::share_of_false || std::abs(level.effect) < std::log(Model::level_effect)) {

@@ -33,7 +33,7 @@ struct LineModel {
 };
 
 // Fits points[i].y along points[i].x and sets their residuals. ln y = a + b·ln x: Theil and Sen's
-// line and others to start, refined by an MM-estimate (judge/statistics/regression.hpp).
+// line and others to start, refined by an MM-estimate (estimation/regression.hpp).
 void fit_line(CorrelationPair& pair);
 
 struct OffTheLine {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <optional>
 
+#include "estimation/statistics.hpp"
 #include "judge/baselines/cost_tolerance.hpp"
-#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -32,7 +32,7 @@ Movement movement(Movement::Of of, std::span<const double> moved, Indices member
   std::vector<double> values;
   for (const std::size_t i : result.members) values.push_back(moved[i]);
   std::ranges::sort(values, {}, [](double value) { return std::abs(value); });
-  result.log_ratio = median(values);
+  result.log_ratio = estimation::median(values);
   result.least = values.front();
   result.most = values.back();
   return result;

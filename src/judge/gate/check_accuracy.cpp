@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "judge/gate/run_view.hpp"
-#include "judge/images/has_picture.hpp"
+#include "record/has_picture.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -36,7 +36,8 @@ std::optional<double> allowed_on(const std::map<std::string, StoredError>& store
   return largest;
 }
 
-Finding judge_error(const RunView& view, const record::Record& record, const PictureError& error) {
+Finding judge_error(const RunView& view, const record::Record& record,
+                    const accuracy::PictureError& error) {
   const auto limit = allowed_on(view.baselines.errors(record.configuration), record.device);
   const auto about = [&](Verdict verdict, std::string message) {
     Finding finding = finding_about(record, Check::accuracy, verdict, std::move(message));
@@ -58,24 +59,25 @@ Finding judge_error(const RunView& view, const record::Record& record, const Pic
 }
 
 // The order that the accepted errors of a family give: nothing but errors is stored.
-std::optional<Order> stored_order(const RunView& view, const AccuracyScene& scene,
-                                  const AccuracyFamily& family) {
-  std::vector<StepError> points;
+std::optional<accuracy::Order> stored_order(const RunView& view,
+                                            const accuracy::AccuracyScene& scene,
+                                            const accuracy::AccuracyFamily& family) {
+  std::vector<accuracy::StepError> points;
   for (const std::size_t i : family.members) {
-    const AccuracyCase& each = scene.cases[i];
+    const accuracy::AccuracyCase& each = scene.cases[i];
     const auto errors = view.baselines.errors(each.configuration);
     const auto own = errors.find(scene.device);
-    const auto step = step_of(each);
+    const auto step = accuracy::step_of(each);
     if (own == errors.end() || !step) continue;
     points.push_back({*step, own->second.rmse, own->second.arithmetic});
   }
-  return fit_order(points);
+  return accuracy::fit_order(points);
 }
 
 // An order has fallen when it lies below the accepted one by more than both intervals. Where the
 // same steps give none any more, errors of another kind than the step's have grown.
 Finding judge_order(const RunView& view, const record::Device& device,
-                    const std::optional<Order>& now, const Order& stored) {
+                    const std::optional<accuracy::Order>& now, const accuracy::Order& stored) {
   const std::string accepted =
       fmt::format("accepted {:.2f} ± {:.2f}", stored.order, stored.half_width);
   if (!now) {
@@ -92,9 +94,10 @@ Finding judge_order(const RunView& view, const record::Device& device,
   return finding;
 }
 
-void judge_orders(const RunView& view, const AccuracyScene& scene, AccuracyFindings& result) {
+void judge_orders(const RunView& view, const accuracy::AccuracyScene& scene,
+                  AccuracyFindings& result) {
   const record::Device& device = view.devices.at(scene.device);
-  for (const AccuracyFamily& family : scene.families) {
+  for (const accuracy::AccuracyFamily& family : scene.families) {
     const auto stored = stored_order(view, scene, family);
     if (!stored) continue;
     Finding finding = judge_order(view, device, family.order, *stored);
@@ -107,22 +110,24 @@ void judge_orders(const RunView& view, const AccuracyScene& scene, AccuracyFindi
 class Scenes {
  public:
   // A level that was named and is what `auto` means on the device makes no second case.
-  void add(const record::Record& record, const LimitPicture& limit, AccuracyCase each) {
+  void add(const record::Record& record, const accuracy::LimitPicture& limit,
+           accuracy::AccuracyCase each) {
     const auto [known, is_new] = index_.try_emplace({record.device, limit.key}, scenes_.size());
-    if (is_new) scenes_.push_back(accuracy_scene(record, limit));
-    narrow(scenes_[known->second], record);
-    std::vector<AccuracyCase>& cases = scenes_[known->second].cases;
-    if (std::ranges::find(cases, each.factors, &AccuracyCase::factors) != cases.end()) return;
+    if (is_new) scenes_.push_back(accuracy::accuracy_scene(record, limit));
+    accuracy::narrow(scenes_[known->second], record);
+    std::vector<accuracy::AccuracyCase>& cases = scenes_[known->second].cases;
+    if (std::ranges::find(cases, each.factors, &accuracy::AccuracyCase::factors) != cases.end())
+      return;
     cases.push_back(std::move(each));
   }
-  std::vector<AccuracyScene> finish() && {
-    for (AccuracyScene& scene : scenes_) evaluate(scene);
+  std::vector<accuracy::AccuracyScene> finish() && {
+    for (accuracy::AccuracyScene& scene : scenes_) accuracy::evaluate(scene);
     return std::move(scenes_);
   }
 
  private:
   std::map<std::pair<std::string, std::string>, std::size_t> index_;
-  std::vector<AccuracyScene> scenes_;
+  std::vector<accuracy::AccuracyScene> scenes_;
 };
 
 // Looks at one record after the other: what cannot be looked at is told, and stops no other.
@@ -140,7 +145,7 @@ class AccuracyCheck {
 
   void finish() {
     out_.scenes = std::move(scenes_).finish();
-    for (const AccuracyScene& scene : out_.scenes) judge_orders(view_, scene, out_);
+    for (const accuracy::AccuracyScene& scene : out_.scenes) judge_orders(view_, scene, out_);
   }
 
  private:
@@ -149,7 +154,7 @@ class AccuracyCheck {
   }
 
   void measure_error(const record::Record& record) {
-    const LimitPicture* limit = view_.request.limit(record);
+    const accuracy::LimitPicture* limit = view_.request.limit(record);
     if (limit == nullptr) {
       // Of a scene without a limit there is none to be missed.
       if (view_.baselines.errors(record.configuration).empty()) return;
@@ -162,14 +167,14 @@ class AccuracyCheck {
       add(record, Verdict::cannot_judge, "the record holds no picture; run the plan again");
       return;
     }
-    const auto error = picture_error(view_.store.picture(record.image),
-                                     view_.request.truth(record).truth, limit->image);
+    const auto error = accuracy::picture_error(view_.store.picture(record.image),
+                                               view_.request.truth(record).truth, limit->image);
     if (!error) {
       add(record, Verdict::regression,
           "the picture cannot be compared: of another size, or with values that are not finite");
       return;
     }
-    scenes_.add(record, *limit, accuracy_case(record, *error));
+    scenes_.add(record, *limit, accuracy::accuracy_case(record, *error));
     if (view_.baselines.present()) out_.findings.push_back(judge_error(view_, record, *error));
   }
 
@@ -185,7 +190,7 @@ AccuracyFindings check_accuracies(const RunView& view) {
   if (view.request.limit && view.request.truth) {
     AccuracyCheck check(view, result);
     for (const record::Record* record : view.measured) {
-      if (has_picture(*record)) check.look_at(*record);
+      if (record::has_picture(*record)) check.look_at(*record);
     }
     check.finish();
   }

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/statistics.hpp"
 #include "judge/baselines/frame_change.hpp"
 #include "judge/gate/run_view.hpp"
-#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -82,7 +82,7 @@ class DeviceCostCheck {
         device_.driver_version, counted.counted_by, other->driver_version, other->counted_by);
     if (!ratios.empty()) {
       message += fmt::format("; median of {} configurations {:+.3g} % instructions", ratios.size(),
-                             100 * (median(ratios) - 1));
+                             100 * (estimation::median(ratios) - 1));
     }
     add(findings, Verdict::advisory, std::move(message));
   }

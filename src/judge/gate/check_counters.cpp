@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "judge/agreement.hpp"
 #include "judge/gate/open_fragments.hpp"
 #include "judge/gate/run_view.hpp"
-#include "judge/images/agreement.hpp"
 
 namespace triptych::judge {
 namespace {

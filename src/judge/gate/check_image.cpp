@@ -4,12 +4,13 @@
 #include <memory>
 #include <tuple>
 
+#include "accuracy/image_fault.hpp"
+#include "accuracy/image_metrics.hpp"
 #include "core/image_io.hpp"
+#include "judge/agreement.hpp"
 #include "judge/gate/run_view.hpp"
-#include "judge/images/agreement.hpp"
-#include "judge/images/has_picture.hpp"
-#include "judge/images/image_metrics.hpp"
 #include "record/factor_list.hpp"
+#include "record/has_picture.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -24,16 +25,7 @@ struct Picture {
   double rmse;  // from the truth
 };
 
-std::string describe(const ImageComparison& comparison) {
-  const ImageComparison::Place& worst = comparison.worst;
-  return fmt::format(
-      "worst at pixel ({}, {}): error {:.3g}, bound {:.3g}, ratio {:.3g}; largest error {:.3g}, "
-      "RMSE {:.3g}",
-      worst.x, worst.y, worst.error, worst.bound, worst.ratio, comparison.largest.error,
-      comparison.rmse);
-}
-
-void add_numbers(Finding& finding, const ImageComparison& comparison) {
+void add_numbers(Finding& finding, const accuracy::ImageComparison& comparison) {
   set_number(finding, "max_error", comparison.largest.error);
   set_number(finding, "error", comparison.worst.error);
   set_number(finding, "bound", comparison.worst.bound);
@@ -46,41 +38,6 @@ void add_numbers(Finding& finding, const ImageComparison& comparison) {
   set_number(finding, "pixels_not_finite", static_cast<double>(comparison.non_finite));
   set_number(finding, "pixels_of_another_particle", static_cast<double>(comparison.wrong_ids));
   set_number(finding, "pixels_at_another_depth", static_cast<double>(comparison.wrong_depths));
-}
-
-std::string particle_name(std::uint32_t id) {
-  return id == core::Image::no_particle ? "none" : fmt::format("particle {}", id);
-}
-
-std::string describe_surfaces(const ImageComparison& comparison, std::string_view name) {
-  const ImageComparison::Surface& first = comparison.first_wrong;
-  return fmt::format(
-      "{} of {} pixels show another particle than {}, {} more the right one at another depth; "
-      "first at pixel ({}, {}): {} at depth {:.6g}, expected {} at {:.6g} ± {:.3g}",
-      comparison.wrong_ids, comparison.pixels, name, comparison.wrong_depths, first.x, first.y,
-      particle_name(first.id), first.depth, particle_name(first.expected_id), first.expected_depth,
-      first.bound);
-}
-
-// What is wrong with a picture held against `name`; empty when nothing is.
-std::string fault(const ImageComparison& comparison, const core::Image& image,
-                  const core::Image& expected, std::string_view name) {
-  if (comparison.size_mismatch) {
-    return fmt::format("{}x{} pixels where {} has {}x{}", image.width, image.height, name,
-                       expected.width, expected.height);
-  }
-  if (comparison.non_finite > 0) {
-    return fmt::format("{} of {} pixels are not finite against {}", comparison.non_finite,
-                       comparison.pixels, name);
-  }
-  if (comparison.over_bound > 0) {
-    return fmt::format("{} of {} pixels are over the bound against {}; {}", comparison.over_bound,
-                       comparison.pixels, name, describe(comparison));
-  }
-  if (comparison.wrong_ids + comparison.wrong_depths > 0) {
-    return describe_surfaces(comparison, name);
-  }
-  return comparison.pixels == 0 ? std::string("the picture is empty") : std::string();
 }
 
 // Nothing but the scene and the technique is set: every device takes the path it prefers.
@@ -136,7 +93,8 @@ class SceneJudge {
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
       for (std::size_t j = i + 1; j < pictures_.size(); ++j) {
         if (pictures_[i].record->device == pictures_[j].record->device) continue;
-        const double rms = root_mean_square(pictures_[i].image, pictures_[j].image, bound_);
+        const double rms =
+            accuracy::root_mean_square(pictures_[i].image, pictures_[j].image, bound_);
         if (!(rms > largest)) continue;
         std::tie(left, right, largest) = std::tuple(&pictures_[i], &pictures_[j], rms);
       }
@@ -148,21 +106,21 @@ class SceneJudge {
 
  private:
   void judge_image(const record::Record& record, core::Image image, const TruthPair& pair) {
-    const ImageComparison comparison = compare(image, pair.truth, pair.bound);
-    std::string wrong = fault(comparison, image, pair.truth, "the truth");
+    const accuracy::ImageComparison comparison = accuracy::compare(image, pair.truth, pair.bound);
+    std::string wrong = accuracy::image_fault(comparison, image, pair.truth, "the truth");
     if (wrong.empty() && stored_) {
-      const auto against_stored = compare(image, *stored_, pair.bound, truth_tolerance);
-      wrong = fault(against_stored, image, *stored_, "the stored picture");
+      const auto against_stored = accuracy::compare(image, *stored_, pair.bound, truth_tolerance);
+      wrong = accuracy::image_fault(against_stored, image, *stored_, "the stored picture");
     }
     const bool right = wrong.empty();
-    Finding finding =
-        finding_about(record, Check::image, right ? Verdict::pass : Verdict::regression,
-                      right ? "within the bound of the truth; " + describe(comparison) : wrong);
+    Finding finding = finding_about(
+        record, Check::image, right ? Verdict::pass : Verdict::regression,
+        right ? "within the bound of the truth; " + accuracy::describe(comparison) : wrong);
     add_numbers(finding, comparison);
     out_.findings.push_back(std::move(finding));
     if (!right) out_.wrong[{record.device, record.configuration}] = wrong;
     if (right && on_default_path(record)) {
-      const double rmse = root_mean_square(image, pair.truth, pair.bound);
+      const double rmse = accuracy::root_mean_square(image, pair.truth, pair.bound);
       pictures_.push_back({&record, std::move(image), rmse});
       if (!pair.bound.ids.empty()) bound_ = pair.bound;
     }
@@ -175,12 +133,13 @@ class SceneJudge {
     Finding finding = finding_about(view_, Check::image, Verdict::pass, {});
     finding.configuration = scene_;
     if (stored_) {
-      const ImageComparison comparison = compare(pair.truth, *stored_, truth_tolerance);
+      const accuracy::ImageComparison comparison =
+          accuracy::compare(pair.truth, *stored_, truth_tolerance);
       add_numbers(finding, comparison);
-      std::string wrong = fault(comparison, pair.truth, *stored_, "the stored one");
+      std::string wrong = accuracy::image_fault(comparison, pair.truth, *stored_, "the stored one");
       if (wrong.empty()) {  // ids and depths, where they are certain
-        wrong = fault(compare(pair.truth, *stored_, pair.bound), pair.truth, *stored_,
-                      "the stored one");
+        wrong = accuracy::image_fault(accuracy::compare(pair.truth, *stored_, pair.bound),
+                                      pair.truth, *stored_, "the stored one");
       }
       finding.verdict = wrong.empty() ? Verdict::pass : Verdict::regression;
       finding.message = wrong.empty()
@@ -233,11 +192,6 @@ class SceneJudge {
 
 }  // namespace
 
-std::string image_fault(const ImageComparison& comparison, const core::Image& image,
-                        const core::Image& expected, std::string_view name) {
-  return fault(comparison, image, expected, name);
-}
-
 ImageFindings check_images(const RunView& view) {
   ImageFindings out;
   if (!view.request.truth) {
@@ -247,7 +201,7 @@ ImageFindings check_images(const RunView& view) {
   }
   std::map<std::string, std::vector<const record::Record*>> scenes;
   for (const record::Record* record : view.measured) {
-    if (has_picture(*record)) scenes[record->scene].push_back(record);
+    if (record::has_picture(*record)) scenes[record->scene].push_back(record);
   }
   for (const auto& [scene, records] : scenes) {
     SceneJudge judge(view, out, scene);

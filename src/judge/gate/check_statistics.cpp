@@ -4,8 +4,8 @@
 #include <set>
 #include <string_view>
 
+#include "judge/agreement.hpp"
 #include "judge/gate/run_view.hpp"
-#include "judge/images/agreement.hpp"
 
 namespace triptych::judge {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <optional>
 
+#include "estimation/statistics.hpp"
 #include "judge/baselines/work.hpp"
 #include "judge/gate/run_view.hpp"
-#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -34,7 +34,7 @@ std::optional<std::string_view> common_clock(const record::Record& record,
 Ratio ratio_of(const record::Record& record, std::string_view clock, const StoredTiming& stored) {
   constexpr double normal = 1.96;
   const std::vector<double>& times = record.time_ns_by(clock);
-  return {&record, std::log(median(times) / stored.median_ns),
+  return {&record, std::log(estimation::median(times) / stored.median_ns),
           normal * std::hypot(log_spread(times), stored.spread)};
 }
 
@@ -91,7 +91,8 @@ class DeviceTimes {
     findings_.push_back(finding_about(view_, device_, Check::timing, verdict, std::move(message)));
   }
   static bool is_time(const std::vector<double>& times) {
-    return !times.empty() && std::isfinite(median(times)) && median(times) > 0;
+    return !times.empty() && std::isfinite(estimation::median(times)) &&
+           estimation::median(times) > 0;
   }
 
   // Where the picture is judged as well, or excused, that is the verdict.
@@ -120,7 +121,7 @@ class DeviceTimes {
 
   void judge(const Ratio& ratio, std::string_view clock, const StoredTiming& stored) {
     const record::Record& record = *ratio.record;
-    const double now = median(record.time_ns_by(clock));
+    const double now = estimation::median(record.time_ns_by(clock));
     const Verdict verdict = verdict_of(ratio);
     std::string message = fmt::format("{:.4g} ms, stored {:.4g} ms: {}", 1e-6 * now,
                                       1e-6 * stored.median_ns, text_of(ratio));
@@ -142,7 +143,7 @@ class DeviceTimes {
     if (ratios_.empty()) return;
     std::vector<double> logarithms;
     for (const Ratio& ratio : ratios_) logarithms.push_back(ratio.log_ratio);
-    const double middle = median(logarithms);
+    const double middle = estimation::median(logarithms);
     const Ratio& worst = *std::ranges::max_element(ratios_, {}, &Ratio::log_ratio);
     add(Verdict::advisory,
         fmt::format("times: {:+.1f} % (median of {} configurations), at worst {} in {}{}",

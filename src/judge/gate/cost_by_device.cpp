@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "estimation/statistics.hpp"
 #include "judge/correlation/line.hpp"
-#include "judge/statistics/statistics.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -64,7 +64,7 @@ DeviceCost of_before(const DriverCost& stored) {
 // By the clock that counts for both; the wall clock times everything.
 std::optional<double> log_median(const record::Record& record, std::string_view clock) {
   const std::vector<double>& times = record.time_ns_by(clock);
-  return times.empty() ? std::nullopt : std::optional(std::log(median(times)));
+  return times.empty() ? std::nullopt : std::optional(std::log(estimation::median(times)));
 }
 
 using ByConfiguration = std::map<std::string, const record::Record*>;

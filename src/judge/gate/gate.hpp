@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "accuracy/cases.hpp"
 #include "core/error.hpp"
 #include "core/image.hpp"
-#include "judge/accuracy/cases.hpp"
 #include "judge/baselines/baselines.hpp"
 #include "judge/correlation/pair.hpp"
 #include "judge/stress/stress.hpp"
@@ -54,10 +54,10 @@ struct Finding {
 struct GateResult {
   std::string plan;
   std::string run;
-  std::vector<Finding> findings;                   // worst first, then by device and configuration
-  std::vector<AccuracyScene> accuracies = {};      // likewise; by device, then as measured
-  std::vector<CorrelationPair> correlations = {};  // those that could be drawn
-  std::set<std::string> devices = {};              // that measured something, of those asked for
+  std::vector<Finding> findings;  // worst first, then by device and configuration
+  std::vector<accuracy::AccuracyScene> accuracies = {};  // likewise; by device, then as measured
+  std::vector<CorrelationPair> correlations = {};        // those that could be drawn
+  std::set<std::string> devices = {};  // that measured something, of those asked for
   // What was set for a device when it was measured, by its id; commands repeat it.
   std::map<std::string, std::map<std::string, std::string>> environments = {};
   // Of which all findings are advice or reasons for not judging.
@@ -86,7 +86,7 @@ struct GateRequest {
   // suite, cached in the store by the caller.
   FindTruth truth;
   // The limit of a record's scene, nullptr where it has none; it lives as long as the request.
-  std::function<const LimitPicture*(const record::Record&)> limit = {};
+  std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
   // What must hold of a record beside its truth; nothing: no record has any.
   FindExpectations expectations = {};
   std::string today;  // ISO date, for the expiry of waivers

@@ -142,7 +142,8 @@ core::Json to_json(const GateResult& result) {
   core::Json correlations = core::Json::array();
   for (const CorrelationPair& pair : result.correlations) correlations.push_back(to_json(pair));
   core::Json accuracies = core::Json::array();
-  for (const AccuracyScene& scene : result.accuracies) accuracies.push_back(to_json(scene));
+  for (const accuracy::AccuracyScene& scene : result.accuracies)
+    accuracies.push_back(to_json(scene));
   return {{"plan", result.plan},
           {"run", result.run},
           {"exit_code", static_cast<int>(result.exit_code())},

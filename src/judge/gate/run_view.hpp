@@ -68,7 +68,7 @@ struct CorrelationFindings {
 
 struct AccuracyFindings {
   std::vector<Finding> findings;
-  std::vector<AccuracyScene> scenes;
+  std::vector<accuracy::AccuracyScene> scenes;
 };
 // Without baselines there are no findings, yet scenes.
 [[nodiscard]] AccuracyFindings check_accuracies(const RunView& view);

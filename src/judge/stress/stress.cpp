@@ -8,9 +8,10 @@
 #include <optional>
 #include <variant>
 
+#include "accuracy/image_fault.hpp"
+#include "accuracy/image_metrics.hpp"
 #include "core/error.hpp"
-#include "judge/images/agreement.hpp"
-#include "judge/images/image_metrics.hpp"
+#include "judge/agreement.hpp"
 #include "judge/stress/expectation.hpp"
 
 namespace triptych::judge {
@@ -99,8 +100,8 @@ class Scoring {
       lose(score, fmt::format("no truth to judge by: {}", error.what()));
       return;
     }
-    const ImageComparison comparison = compare(picture, pair.truth, pair.bound);
-    std::string wrong = image_fault(comparison, picture, pair.truth, "the truth");
+    const accuracy::ImageComparison comparison = accuracy::compare(picture, pair.truth, pair.bound);
+    std::string wrong = accuracy::image_fault(comparison, picture, pair.truth, "the truth");
     score.right = wrong.empty();
     if (!score.right) lose(score, wrong);
     for (const record::Expectation& each : expected) {
@@ -110,7 +111,7 @@ class Scoring {
       lose(score, wrong);
     }
     if (!comparison.size_mismatch) {
-      result.rmse = root_mean_square(picture, pair.truth, pair.bound);
+      result.rmse = accuracy::root_mean_square(picture, pair.truth, pair.bound);
       result.bound = std::move(pair.bound);
     }
   }
@@ -122,7 +123,7 @@ class Scoring {
     const core::Image& mine = *run_.picture(*own.record);
     for (const Case* other : cases) {
       if (other == &own || !other->rmse || !(*other->rmse <= *own.rmse)) continue;
-      const double rms = root_mean_square(mine, *run_.picture(*other->record), own.bound);
+      const double rms = accuracy::root_mean_square(mine, *run_.picture(*other->record), own.bound);
       if (rms < device_agreement) continue;
       own.score.agreed = false;
       lose(own.score,

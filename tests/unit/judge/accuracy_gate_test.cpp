@@ -7,11 +7,11 @@
 #include <fstream>
 #include <map>
 
+#include "accuracy/cases.hpp"
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
 #include "core/json.hpp"
 #include "fixture.hpp"
-#include "judge/accuracy/cases.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -33,8 +33,8 @@ class AccuracyGateTest : public JudgeTest {
     request_.limit = [this](const record::Record& record) { return limit_of(record); };
   }
 
-  const LimitPicture* limit_of(const record::Record& record) {
-    LimitPicture& limit = limits_[record.scene];
+  const accuracy::LimitPicture* limit_of(const record::Record& record) {
+    accuracy::LimitPicture& limit = limits_[record.scene];
     limit.key = record.scene;
     limit.image = shifted(truth_of(record.scene), lattice);
     return &limit;
@@ -92,20 +92,20 @@ class AccuracyGateTest : public JudgeTest {
   static constexpr const char* of_steps = "vulkan:lavapipe";
 
  private:
-  std::map<std::string, LimitPicture> limits_;
+  std::map<std::string, accuracy::LimitPicture> limits_;
 };
 
 TEST_F(AccuracyGateTest, SplitsTheErrorByTheTruthOnTheLattice) {
   const core::Image truth = truth_of(front_);
-  const auto error = picture_error(shifted(truth, 0.25F), truth, shifted(truth, 0.75F));
+  const auto error = accuracy::picture_error(shifted(truth, 0.25F), truth, shifted(truth, 0.75F));
   ASSERT_TRUE(error);
   EXPECT_NEAR(error->arithmetic, 0.25, 1e-6);
   EXPECT_NEAR(error->lattice, 0.75, 1e-6);
   EXPECT_NEAR(error->rmse, 0.5, 1e-6);
   EXPECT_NEAR(error->largest, 0.5, 1e-6);
   EXPECT_NEAR(error->error_99, 0.5, 1e-6);
-  EXPECT_FALSE(picture_error(truth, truth, core::Image(1, 1)));
-  EXPECT_FALSE(picture_error(shifted(truth, std::nanf("")), truth, truth));
+  EXPECT_FALSE(accuracy::picture_error(truth, truth, core::Image(1, 1)));
+  EXPECT_FALSE(accuracy::picture_error(shifted(truth, std::nanf("")), truth, truth));
 }
 
 TEST_F(AccuracyGateTest, AcceptedErrorsPass) {

@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-judge::AccuracyCase at(const std::string& step, double time, double rmse) {
+accuracy::AccuracyCase at(const std::string& step, double time, double rmse) {
   return {.configuration = "step=" + step,
           .factors = {{"data", "ball"}, {"step", step}},
           .time_ns = time,
@@ -17,8 +17,8 @@ judge::AccuracyCase at(const std::string& step, double time, double rmse) {
           .rmse = rmse};
 }
 
-judge::AccuracyScene some_scene() {
-  judge::AccuracyScene scene;
+accuracy::AccuracyScene some_scene() {
+  accuracy::AccuracyScene scene;
   scene.device = "gl:x";
   scene.limit = "ball of 64";
   scene.scene = "data=ball <1>,viewport=64";
@@ -26,12 +26,12 @@ judge::AccuracyScene some_scene() {
   scene.nothing = 1;
   scene.cases = {at("1", 1e6, 1e-3), at("0.5", 2e6, 2.5e-4), at("0.25", 4e6, 6.25e-5),
                  at("0.125", 8e6, 0), at("2", 3e6, 4e-3)};
-  judge::evaluate(scene);
+  accuracy::evaluate(scene);
   return scene;
 }
 
 TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
-  const std::vector<judge::AccuracyScene> scenes{some_scene()};
+  const std::vector<accuracy::AccuracyScene> scenes{some_scene()};
   const std::string html = accuracy_chart(scenes, Cost::time);
   EXPECT_EQ(test::xml_fault(html), "") << html;
   EXPECT_THAT(html, HasSubstr("step=2: RMSE 0.004, 3 ms"));
@@ -54,10 +54,10 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
 }
 
 TEST(AccuracySection, ComparesDevicesByTheArea) {
-  judge::AccuracyScene slower = some_scene();
+  accuracy::AccuracyScene slower = some_scene();
   slower.device = "gl:slower";
-  for (judge::AccuracyCase& each : slower.cases) *each.time_ns *= 3;
-  judge::evaluate(slower);
+  for (accuracy::AccuracyCase& each : slower.cases) *each.time_ns *= 3;
+  accuracy::evaluate(slower);
   judge::GateResult verdict;
   verdict.accuracies = {some_scene(), slower};
   const PlanData plan{.anchor = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
@@ -68,12 +68,12 @@ TEST(AccuracySection, ComparesDevicesByTheArea) {
 
 // Pictures of another size are scenes of their own, and are named so.
 TEST(AccuracySection, TellsPicturesOfOneDataApart) {
-  judge::AccuracyScene finer = some_scene();
+  accuracy::AccuracyScene finer = some_scene();
   finer.limit = "ball of 128";
   finer.scene = "data=ball <1>,viewport=128";
-  for (judge::AccuracyCase& each : finer.cases) each.factors["viewport"] = "128";
-  judge::AccuracyScene scene = some_scene();
-  for (judge::AccuracyCase& each : scene.cases) each.factors["viewport"] = "64";
+  for (accuracy::AccuracyCase& each : finer.cases) each.factors["viewport"] = "128";
+  accuracy::AccuracyScene scene = some_scene();
+  for (accuracy::AccuracyCase& each : scene.cases) each.factors["viewport"] = "64";
   judge::GateResult verdict;
   verdict.accuracies = {scene, finer};
   const PlanData plan{.anchor = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
@@ -85,9 +85,9 @@ TEST(AccuracySection, TellsPicturesOfOneDataApart) {
 }
 
 TEST(AccuracySection, WithoutTimesTellsErrorsAlone) {
-  judge::AccuracyScene scene = some_scene();
-  for (judge::AccuracyCase& each : scene.cases) each.time_ns.reset();
-  judge::evaluate(scene);
+  accuracy::AccuracyScene scene = some_scene();
+  for (accuracy::AccuracyCase& each : scene.cases) each.time_ns.reset();
+  accuracy::evaluate(scene);
   judge::GateResult verdict;
   verdict.accuracies = {scene};
   const PlanData plan{.anchor = "plan0", .devices = {}, .records = {}, .verdict = &verdict};

@@ -1,0 +1,220 @@
+#include "accuracy/accuracy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "estimation/regression.hpp"
+#include "estimation/statistics.hpp"
+
+namespace triptych::accuracy {
+namespace {
+
+using Factors = std::map<std::string, std::string>;
+
+constexpr double coarsest_step = 1;
+constexpr double largest_arithmetic_share = 0.1;
+constexpr std::size_t least_points = 3;
+constexpr double tail = 0.025;  // on either side of a 95 % interval
+
+// The factors that differ among the cases, `step` left out.
+std::set<std::string> telling_factors(std::span<const AccuracyCase> cases) {
+  std::set<std::string> names;
+  for (const AccuracyCase& each : cases) {
+    for (const auto& [name, value] : each.factors) {
+      const auto first = cases.front().factors.find(name);
+      if (first == cases.front().factors.end() || first->second != value) names.insert(name);
+    }
+  }
+  names.erase("step");
+  return names;
+}
+
+std::string family_name(const AccuracyCase& each, const std::set<std::string>& telling) {
+  std::string name;
+  for (const std::string& factor : telling) {
+    const auto value = each.factors.find(factor);
+    if (value == each.factors.end()) continue;
+    name += fmt::format("{}{}={}", name.empty() ? "" : ", ", factor, value->second);
+  }
+  return name;
+}
+
+std::optional<Order> order_of(std::span<const AccuracyCase> cases,
+                              std::span<const std::size_t> members) {
+  std::vector<StepError> points;
+  for (const std::size_t i : members) {
+    if (const auto step = step_of(cases[i])) {
+      points.push_back({*step, cases[i].rmse, cases[i].arithmetic});
+    }
+  }
+  return fit_order(points);
+}
+
+// Neither worse on any axis nor equal on both; both were timed.
+bool beats(const AccuracyCase& a, const AccuracyCase& b) {
+  return *a.time_ns <= *b.time_ns && a.rmse <= b.rmse &&
+         (*a.time_ns < *b.time_ns || a.rmse < b.rmse);
+}
+
+// The only factor in which the two differ, if it is one.
+std::optional<std::string> only_difference(const Factors& a, const Factors& b) {
+  if (a.size() != b.size()) return std::nullopt;
+  std::optional<std::string> only;
+  for (const auto& [name, value] : a) {
+    const auto other = b.find(name);
+    if (other == b.end()) return std::nullopt;
+    if (other->second == value) continue;
+    if (only) return std::nullopt;
+    only = name;
+  }
+  return only;
+}
+
+// The indices by rising error, of equals the fastest first.
+std::vector<std::size_t> by_accuracy(std::span<const AccuracyCase> cases) {
+  std::vector<std::size_t> order(cases.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    return std::pair(cases[i].rmse, cases[i].time_ns.value_or(never));
+  });
+  return order;
+}
+
+// Where the line through two points passes the error; both logarithms must exist.
+std::optional<double> time_between(const AccuracyCase& a, const AccuracyCase& b, double error) {
+  if (!a.time_ns || !b.time_ns) return std::nullopt;
+  const bool between = std::min(a.rmse, b.rmse) < error && error < std::max(a.rmse, b.rmse);
+  if (!between || !(std::min(a.rmse, b.rmse) > 0)) return std::nullopt;
+  const double share = std::log(error / a.rmse) / std::log(b.rmse / a.rmse);
+  return *a.time_ns * std::pow(*b.time_ns / *a.time_ns, share);
+}
+
+}  // namespace
+
+std::optional<double> step_of(const AccuracyCase& each) {
+  const auto found = each.factors.find("step");
+  if (found == each.factors.end()) return std::nullopt;
+  return std::strtod(found->second.c_str(), nullptr);
+}
+
+std::optional<Order> fit_order(std::span<const StepError> points) {
+  std::vector<double> x;
+  std::vector<double> y;
+  for (const StepError& point : points) {
+    const bool resolved =
+        point.error > 0 && point.arithmetic <= largest_arithmetic_share * point.error;
+    if (!resolved || point.step > coarsest_step) continue;
+    x.push_back(std::log(point.step));
+    y.push_back(std::log(point.error));
+  }
+  if (x.size() < least_points) return std::nullopt;
+  const estimation::LeastSquares fit = estimation::least_squares(x, y);
+  if (!std::isfinite(fit.line.slope) || !std::isfinite(fit.slope_error)) return std::nullopt;
+  const double t = estimation::student_t_upper_quantile(tail, static_cast<double>(x.size() - 2));
+  return Order{fit.line.slope, t * fit.slope_error, x.size()};
+}
+
+std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (cases[i].time_ns) order.push_back(i);
+  }
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    return std::pair(*cases[a].time_ns, cases[a].rmse) <
+           std::pair(*cases[b].time_ns, cases[b].rmse);
+  });
+  std::vector<std::size_t> front;
+  for (const std::size_t i : order) {
+    if (front.empty() || cases[i].rmse < cases[front.back()].rmse) front.push_back(i);
+  }
+  return front;
+}
+
+std::vector<Dominated> dominated(std::span<const AccuracyCase> cases,
+                                 std::span<const std::size_t> front) {
+  std::vector<Dominated> result;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (!cases[i].time_ns) continue;
+    const auto by = std::ranges::find_if(
+        front, [&](std::size_t better) { return beats(cases[better], cases[i]); });
+    if (by != front.end()) result.push_back({i, *by});
+  }
+  return result;
+}
+
+std::vector<AccuracyFamily> accuracy_families(std::span<const AccuracyCase> cases) {
+  if (cases.empty()) return {};
+  const std::set<std::string> telling = telling_factors(cases);
+  std::map<std::string, AccuracyFamily> families;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const std::string name = family_name(cases[i], telling);
+    families[name].name = name;
+    families[name].members.push_back(i);
+  }
+  std::vector<AccuracyFamily> result;
+  for (auto& [name, family] : families) {
+    std::ranges::stable_sort(family.members, std::greater{},
+                             [&](std::size_t i) { return step_of(cases[i]).value_or(0); });
+    family.order = order_of(cases, family.members);
+    result.push_back(std::move(family));
+  }
+  return result;
+}
+
+std::optional<double> time_to_error(std::span<const AccuracyCase> cases,
+                                    std::span<const AccuracyFamily> families, double error) {
+  std::optional<double> least;
+  const auto consider = [&](double time) { least = std::min(least.value_or(time), time); };
+  for (const AccuracyCase& each : cases) {
+    if (each.time_ns && each.rmse <= error) consider(*each.time_ns);
+  }
+  for (const AccuracyFamily& family : families) {
+    for (std::size_t i = 0; i + 1 < family.members.size(); ++i) {
+      const auto time = time_between(cases[family.members[i]], cases[family.members[i + 1]], error);
+      if (time) consider(*time);
+    }
+  }
+  return least;
+}
+
+std::size_t most_accurate(std::span<const AccuracyCase> cases) {
+  return by_accuracy(cases).front();
+}
+
+std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases) {
+  std::map<std::string, std::vector<Switched>> by_factor;
+  for (const std::size_t from : by_accuracy(cases)) {
+    for (std::size_t to = 0; to < cases.size(); ++to) {
+      const auto factor = only_difference(cases[from].factors, cases[to].factors);
+      if (!factor) continue;
+      std::vector<Switched>& known = by_factor[*factor];
+      if (known.empty() || known.front().from == from) known.push_back({*factor, from, to});
+    }
+  }
+  std::vector<Switched> result;
+  for (const auto& [factor, switched] : by_factor) {
+    result.insert(result.end(), switched.begin(), switched.end());
+  }
+  return result;
+}
+
+std::optional<Switched> switched_picture(std::span<const AccuracyCase> cases,
+                                         std::span<const AccuracyCase> others,
+                                         std::string_view factor) {
+  for (const std::size_t from : by_accuracy(cases)) {
+    for (std::size_t to = 0; to < others.size(); ++to) {
+      const auto only = only_difference(cases[from].factors, others[to].factors);
+      if (only && *only == factor) return Switched{*only, from, to};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace triptych::accuracy

@@ -1,0 +1,98 @@
+#include "accuracy/cases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string_view>
+
+#include "accuracy/image_metrics.hpp"
+#include "record/factor_list.hpp"
+
+namespace triptych::accuracy {
+namespace {
+
+// "camera=…,data=…,step=…" without its step and what `other` does not hold.
+std::string in_common(std::string_view scene, std::string_view other) {
+  const auto known = record::parse_factor_list(other);
+  auto kept = record::parse_factor_list(scene);
+  std::erase_if(kept, [&](const auto& level) {
+    const auto same = known.find(level.first);
+    return level.first == "step" || same == known.end() || same->second != level.second;
+  });
+  return record::factor_list(kept);
+}
+
+double root_mean_square(const std::vector<float>& values) {
+  double squares = 0;
+  for (const float value : values)
+    squares += static_cast<double>(value) * static_cast<double>(value);
+  return values.empty() ? 0 : std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+core::Image in_eight_bits(core::Image image) {
+  for (float& value : image.rgba) {
+    value = std::round(std::clamp(value, 0.0F, 1.0F) * 255.0F) / 255.0F;
+  }
+  return image;
+}
+
+}  // namespace
+
+std::optional<PictureError> picture_error(const core::Image& picture, const core::Image& truth,
+                                          const core::Image& limit) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  const ImageComparison whole = compare(picture, limit, any);
+  const double arithmetic = accuracy::root_mean_square(picture, truth);
+  const double lattice = accuracy::root_mean_square(truth, limit);
+  if (whole.size_mismatch || whole.non_finite > 0 || whole.pixels == 0 ||
+      !std::isfinite(arithmetic) || !std::isfinite(lattice)) {
+    return std::nullopt;
+  }
+  return PictureError{whole.rmse, whole.largest.error, whole.error_99, lattice, arithmetic};
+}
+
+AccuracyCase accuracy_case(const record::Record& record, const PictureError& error) {
+  const auto summary = record::summarise(record.time_ns());
+  AccuracyCase result{.configuration = record.configuration,
+                      .factors = record.factors,
+                      .time_ns = summary ? std::optional(summary->median) : std::nullopt,
+                      .samples = {},
+                      .rmse = error.rmse,
+                      .largest = error.largest,
+                      .error_99 = error.error_99,
+                      .lattice = error.lattice,
+                      .arithmetic = error.arithmetic};
+  const auto samples = record.counters.find("samples");
+  if (samples != record.counters.end()) result.samples = samples->second;
+  return result;
+}
+
+AccuracyScene accuracy_scene(const record::Record& record, const LimitPicture& limit) {
+  AccuracyScene scene;
+  scene.device = record.device;
+  scene.limit = limit.key;
+  scene.scene = in_common(record.scene, record.scene);
+  const auto data = record.factors.find("data");
+  if (data != record.factors.end()) scene.data = data->second;
+  scene.uncertainty = root_mean_square(limit.uncertainty.rgba);
+  if (limit.closed_form) {
+    scene.representation = accuracy::root_mean_square(limit.image, *limit.closed_form);
+  }
+  scene.eight_bits = accuracy::root_mean_square(in_eight_bits(limit.image), limit.image);
+  scene.nothing = root_mean_square(limit.image.rgba);
+  return scene;
+}
+
+void narrow(AccuracyScene& scene, const record::Record& record) {
+  scene.scene = in_common(scene.scene, record.scene);
+}
+
+void evaluate(AccuracyScene& scene) {
+  scene.families = accuracy_families(scene.cases);
+  scene.front = pareto_front(scene.cases);
+  scene.dominated = dominated(scene.cases, scene.front);
+  scene.area = front_area(scene.cases, scene.front, scene.nothing);
+}
+
+}  // namespace triptych::accuracy

@@ -1,0 +1,164 @@
+#include "accuracy/image_metrics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "record/record.hpp"
+
+namespace triptych::accuracy {
+namespace {
+
+bool same_size(const core::Image& a, const core::Image& b) {
+  return a.width == b.width && a.height == b.height && a.rgba.size() == b.rgba.size() &&
+         a.ids.size() == b.ids.size() && a.depth.size() == b.depth.size();
+}
+
+std::span<const float, 4> channels(const core::Image& image, std::size_t pixel) {
+  return std::span<const float, 4>(image.rgba.data() + 4 * pixel, 4);
+}
+
+bool finite(std::span<const float, 4> pixel) {
+  return std::ranges::all_of(pixel, [](float v) { return std::isfinite(v); });
+}
+
+double difference(float a, float b) {
+  return std::abs(static_cast<double>(a) - static_cast<double>(b));
+}
+
+double ratio_of(double error, double bound) {
+  if (error == 0) return 0;
+  return bound > 0 ? error / bound : std::numeric_limits<double>::infinity();
+}
+
+// `bound_at(pixel, channel)` gives the bound; one that is NaN is exceeded by everything.
+template <typename BoundAt>
+ImageComparison compare_with(const core::Image& image, const core::Image& truth,
+                             const BoundAt& bound_at) {
+  ImageComparison result;
+  result.pixels = image.pixel_count();
+  std::vector<double> errors;
+  errors.reserve(result.pixels);
+  double squares = 0;
+  for (std::size_t i = 0; i < result.pixels; ++i) {
+    const auto seen = channels(image, i);
+    const auto expected = channels(truth, i);
+    if (!finite(seen) || !finite(expected)) {
+      ++result.non_finite;
+      continue;
+    }
+    ImageComparison::Place place{static_cast<int>(i % static_cast<std::size_t>(image.width)),
+                                 static_cast<int>(i / static_cast<std::size_t>(image.width))};
+    bool over = false;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double error = difference(seen[c], expected[c]);
+      const double bound = bound_at(i, c);
+      squares += error * error;
+      over = over || !(error <= bound);
+      if (c == 0 || error > place.error) {
+        place.error = error;
+        place.bound = bound;
+        place.ratio = ratio_of(error, bound);
+      }
+    }
+    if (over) ++result.over_bound;
+    if (errors.empty() || place.ratio > result.worst.ratio) result.worst = place;
+    if (errors.empty() || place.error > result.largest.error) result.largest = place;
+    errors.push_back(place.error);
+  }
+  if (errors.empty()) return result;
+  result.rmse = std::sqrt(squares / (4.0 * static_cast<double>(errors.size())));
+  result.error_99 = record::percentile(std::move(errors), 0.99);
+  return result;
+}
+
+// The id of this pixel is not left open.
+bool id_is_certain(const core::Image& bound, std::size_t pixel) {
+  return bound.ids[pixel] == 0;
+}
+
+bool same_depth(double depth, double expected, double bound) {
+  return depth == expected || std::abs(depth - expected) <= bound;
+}
+
+void compare_surfaces(const core::Image& image, const core::Image& truth, const core::Image& bound,
+                      ImageComparison& result) {
+  for (std::size_t i = 0; i < truth.ids.size(); ++i) {
+    const bool wrong_id = id_is_certain(bound, i) && image.ids[i] != truth.ids[i];
+    const bool wrong_depth =
+        id_is_certain(bound, i) && !same_depth(image.depth[i], truth.depth[i], bound.depth[i]);
+    if (!wrong_id && !wrong_depth) continue;
+    if (result.first_wrong.x < 0) {
+      const auto width = static_cast<std::size_t>(image.width);
+      result.first_wrong = {.x = static_cast<int>(i % width),
+                            .y = static_cast<int>(i / width),
+                            .id = image.ids[i],
+                            .expected_id = truth.ids[i],
+                            .depth = image.depth[i],
+                            .expected_depth = truth.depth[i],
+                            .bound = bound.depth[i]};
+    }
+    ++(wrong_id ? result.wrong_ids : result.wrong_depths);
+  }
+}
+
+}  // namespace
+
+ImageComparison compare(const core::Image& image, const core::Image& truth,
+                        const core::Image& bound, double slack) {
+  if (!same_size(image, truth) || !same_size(image, bound)) return {.size_mismatch = true};
+  ImageComparison result = compare_with(image, truth, [&](std::size_t pixel, std::size_t channel) {
+    return static_cast<double>(bound.rgba[4 * pixel + channel]) + slack;
+  });
+  compare_surfaces(image, truth, bound, result);
+  return result;
+}
+
+ImageComparison compare(const core::Image& image, const core::Image& truth, double bound) {
+  if (!same_size(image, truth)) return {.size_mismatch = true};
+  return compare_with(image, truth, [bound](std::size_t, std::size_t) { return bound; });
+}
+
+double root_mean_square(const core::Image& a, const core::Image& b, const core::Image& bound) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!same_size(a, b) || a.rgba.empty()) return none;
+  double squares = 0;
+  std::size_t pixels = 0;
+  for (std::size_t i = 0; i < a.pixel_count(); ++i) {
+    if (!bound.ids.empty() && !id_is_certain(bound, i)) continue;
+    ++pixels;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double error = difference(a.rgba[4 * i + c], b.rgba[4 * i + c]);
+      squares += error * error;
+    }
+  }
+  const double mean = squares / (4.0 * static_cast<double>(pixels));
+  return std::isfinite(mean) ? std::sqrt(mean) : none;
+}
+
+core::Image difference_image(const core::Image& a, const core::Image& b, double gain) {
+  if (!same_size(a, b)) {
+    throw core::InputError(fmt::format("pictures of different size: {}x{} and {}x{}", a.width,
+                                       a.height, b.width, b.height));
+  }
+  core::Image result(a.width, a.height);
+  for (std::size_t i = 0; i < a.pixel_count(); ++i) {
+    const auto left = channels(a, i);
+    const auto right = channels(b, i);
+    const bool shown = finite(left) && finite(right);
+    for (std::size_t c = 0; c < 3; ++c) {
+      result.rgba[4 * i + c] = shown ? static_cast<float>(gain * difference(left[c], right[c]))
+                                     : std::numeric_limits<float>::quiet_NaN();
+    }
+    result.rgba[4 * i + 3] = 1;
+  }
+  return result;
+}
+
+}  // namespace triptych::accuracy

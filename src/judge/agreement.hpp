@@ -1,0 +1,27 @@
+#pragma once
+// What two devices must agree on, for the gate and for comparing in pairs alike.
+
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace triptych::judge {
+
+// Root mean square between any two devices' pictures on default paths, in full scale.
+inline constexpr double device_agreement = 1e-4;
+
+// Relative. A threshold on floats may fall the other way on another device for a few samples.
+inline constexpr double counters_across_devices = 1e-4;
+
+// Vulkan and GL leave the rest of the statistics to the implementation.
+inline constexpr std::array<std::string_view, 5> portable_statistics{
+    "input_assembly_vertices", "input_assembly_primitives", "geometry_primitives",
+    "tessellation_control_patches", "compute_invocations"};
+
+// Why a number cannot be held against other drivers' (`dialect`: Device::statistics_dialect); empty
+// where it can. A dialect that nobody looked at says nothing: its numbers are taken as they are.
+[[nodiscard]] std::string statistic_reservation(const std::map<std::string, std::string>& dialect,
+                                                const std::string& statistic);
+
+}  // namespace triptych::judge

@@ -1,0 +1,14 @@
+#pragma once
+// Which records have a picture to be judged.
+
+#include "record/record.hpp"
+
+namespace triptych::record {
+
+// What speed_of_light leaves behind is sums. By name, as a record is all there is: the test holds
+// it to the catalogue's techniques without a picture.
+[[nodiscard]] inline bool has_picture(const Record& record) {
+  return record.technique != "speed_of_light";
+}
+
+}  // namespace triptych::record

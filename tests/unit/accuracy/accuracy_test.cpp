@@ -1,0 +1,174 @@
+// Orders, fronts and times to an error on numbers whose answers are known.
+
+#include "accuracy/accuracy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace triptych::accuracy {
+namespace {
+
+std::vector<StepError> errors_by(const std::vector<double>& steps,
+                                 const std::function<double(double)>& error,
+                                 double arithmetic = 0) {
+  std::vector<StepError> points;
+  for (const double step : steps) points.push_back({step, error(step), arithmetic});
+  return points;
+}
+
+const std::vector<double> halvings{2, 1, 0.5, 0.25, 0.125, 0.0625};
+
+AccuracyCase at(double time, double rmse, double step = 1, const std::string& ert = "0") {
+  return {.configuration = {},
+          .factors = {{"step", step == 1 ? "1" : std::to_string(step)}, {"ert", ert}},
+          .time_ns = time,
+          .samples = {},
+          .rmse = rmse};
+}
+
+TEST(FitOrder, FindsThePowerAndItsCertainty) {
+  const auto exact = fit_order(errors_by(halvings, [](double h) { return 0.3 * h * h; }));
+  ASSERT_TRUE(exact);
+  EXPECT_NEAR(exact->order, 2, 1e-12);
+  EXPECT_NEAR(exact->half_width, 0, 1e-6);
+  const auto first = fit_order(errors_by(halvings, [](double h) { return 0.3 * h; }));
+  EXPECT_NEAR(first->order, 1, 1e-12);
+}
+
+// By hand: ln e = 2·ln h ± 0.1 alternating over four halvings; the slope's deviation is
+// Σ(x − x̄)d/Σ(x − x̄)², the interval t₀.₉₇₅(2) = 4.3027 standard errors.
+TEST(FitOrder, TheIntervalIsStudents) {
+  const std::vector<double> steps{1, 0.5, 0.25, 0.125};
+  double sign = 0.1;
+  const auto order = fit_order(errors_by(steps, [&](double h) {
+    sign = -sign;
+    return h * h * std::exp(sign);
+  }));
+  ASSERT_TRUE(order);
+  // x̄-centred x in units of ln 2: 1.5, 0.5, −0.5, −1.5; d = −.1, .1, −.1, .1.
+  const double shift = (1.5 * -0.1 + 0.5 * 0.1 + -0.5 * -0.1 + -1.5 * 0.1) / 5 / std::log(2.0);
+  EXPECT_NEAR(order->order, 2 + shift, 1e-12);
+  const double residual = 4 * 0.01 - 5 * std::pow(shift * std::log(2.0), 2);
+  const double error = std::sqrt(residual / 2 / 5) / std::log(2.0);
+  EXPECT_NEAR(order->half_width, 4.302653 * error, 1e-5);
+}
+
+TEST(FitOrder, StepsBeyondAVoxelAreNoRefinement) {
+  auto points = errors_by(halvings, [](double h) { return h * h; });
+  points.front().error = 1e3;
+  const auto order = fit_order(points);
+  ASSERT_TRUE(order);
+  EXPECT_NEAR(order->order, 2, 1e-12);
+  EXPECT_EQ(order->points, 5U);
+}
+
+// With a floor of rounding f beside the step's own error s, √(s² + f²) is measured.
+TEST(FitOrder, RoundingDoesNotFlattenIt) {
+  const double floor = 1e-4;
+  const auto order = fit_order(errors_by(
+      halvings, [&](double h) { return std::hypot(0.1 * h * h, floor); }, floor));
+  ASSERT_TRUE(order);
+  EXPECT_EQ(order->points, 4U);  // 0.1, 0.025, 0.006 and 0.0016, but not 0.0004
+  EXPECT_NEAR(order->order, 2, 0.005);
+  EXPECT_FALSE(fit_order(errors_by(
+      halvings, [&](double) { return floor; }, floor)));
+}
+
+TEST(FitOrder, TwoPointsAreNoOrder) {
+  EXPECT_FALSE(fit_order(errors_by({1, 0.5}, [](double h) { return h * h; })));
+  EXPECT_FALSE(fit_order(errors_by(halvings, [](double) { return 0.0; })));
+}
+
+TEST(Front, IsWhatNothingBeats) {
+  const std::vector<AccuracyCase> cases{at(1, 8), at(2, 4), at(3, 5), at(4, 2), at(4, 2), at(2, 6)};
+  const auto front = pareto_front(cases);
+  EXPECT_EQ(front, (std::vector<std::size_t>{0, 1, 3}));
+  const auto beaten = dominated(cases, front);
+  ASSERT_EQ(beaten.size(), 2U);  // the equal of one on the front is not beaten by it
+  EXPECT_EQ(beaten[0].index, 2U);
+  EXPECT_EQ(beaten[0].by, 1U);
+  EXPECT_EQ(beaten[1].index, 5U);
+  EXPECT_EQ(beaten[1].by, 1U);
+}
+
+TEST(Families, DifferByTheStepAlone) {
+  const std::vector<AccuracyCase> cases{at(1, 1, 0.5, "0"), at(1, 1, 1, "0"), at(1, 1, 1, "0.1")};
+  const auto families = accuracy_families(cases);
+  ASSERT_EQ(families.size(), 2U);
+  EXPECT_EQ(families[0].name, "ert=0");
+  EXPECT_EQ(families[0].members, (std::vector<std::size_t>{1, 0}));
+  EXPECT_EQ(families[1].name, "ert=0.1");
+}
+
+TEST(TimeToError, IsStraightOnLogarithmicAxes) {
+  // Time ∝ 1/step, error ∝ step²: error ∝ time⁻².
+  const std::vector<AccuracyCase> cases{at(1, 1e-2, 1), at(4, 1e-2 / 16, 0.25)};
+  const auto families = accuracy_families(cases);
+  EXPECT_NEAR(*time_to_error(cases, families, 1e-2 / 4), 2, 1e-12);
+  EXPECT_EQ(*time_to_error(cases, families, 0.1), 1);  // already the fastest
+  EXPECT_FALSE(time_to_error(cases, families, 1e-4));
+}
+
+TEST(TimeToError, DoesNotReadBetweenFamilies) {
+  const std::vector<AccuracyCase> cases{at(1, 1e-2, 1, "0"), at(4, 1e-4, 1, "0.1")};
+  EXPECT_EQ(*time_to_error(cases, accuracy_families(cases), 1e-3), 4);
+}
+
+TEST(SwitchedAlone, ChangesOneFactor) {
+  const std::vector<AccuracyCase> cases{at(9, 1, 0.5, "0"), at(5, 2, 1, "0"), at(5, 3, 0.5, "0.1"),
+                                        at(5, 4, 1, "0.1")};
+  EXPECT_EQ(most_accurate(cases), 0U);
+  const auto switched = switched_alone(cases);
+  ASSERT_EQ(switched.size(), 2U);
+  EXPECT_EQ(switched[0].factor, "ert");
+  EXPECT_EQ(switched[0].from, 0U);
+  EXPECT_EQ(switched[0].to, 2U);
+  EXPECT_EQ(switched[1].factor, "step");
+  EXPECT_EQ(switched[1].from, 0U);
+  EXPECT_EQ(switched[1].to, 1U);
+}
+
+// What was tried on one step only is told of the best of that step.
+TEST(SwitchedAlone, IsToldOfTheBestThatHasALikeOne) {
+  const std::vector<AccuracyCase> cases{at(9, 1, 0.5, "0"), at(5, 2, 1, "0"), at(5, 4, 1, "0.1")};
+  const auto switched = switched_alone(cases);
+  ASSERT_EQ(switched.size(), 2U);
+  EXPECT_EQ(switched[0].factor, "ert");
+  EXPECT_EQ(switched[0].from, 1U);
+  EXPECT_EQ(switched[0].to, 2U);
+}
+
+TEST(SwitchedPicture, FindsTheLikeOneElsewhere) {
+  std::vector<AccuracyCase> cases{at(9, 1, 0.5), at(5, 2, 1)};
+  std::vector<AccuracyCase> others{at(5, 3, 1), at(9, 4, 0.25)};
+  for (AccuracyCase& each : cases) each.factors["viewport"] = "48";
+  for (AccuracyCase& each : others) each.factors["viewport"] = "96";
+  const auto found = switched_picture(cases, others, "viewport");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->from, 1U);  // the most accurate has none
+  EXPECT_EQ(found->to, 0U);
+  EXPECT_FALSE(switched_picture(cases, others, "step"));
+}
+
+// Errors and orders need no times; fronts and times to an error are of what has one.
+TEST(Untimed, HasOrdersButNoFront) {
+  std::vector<AccuracyCase> cases;
+  for (const double step : {1.0, 0.5, 0.25}) cases.push_back(at(1, 0.1 * step * step, step));
+  for (AccuracyCase& each : cases) each.time_ns.reset();
+  const auto families = accuracy_families(cases);
+  ASSERT_EQ(families.size(), 1U);
+  ASSERT_TRUE(families[0].order);
+  EXPECT_NEAR(families[0].order->order, 2, 1e-12);
+  EXPECT_TRUE(pareto_front(cases).empty());
+  EXPECT_TRUE(dominated(cases, {}).empty());
+  EXPECT_FALSE(time_to_error(cases, families, 1));
+  EXPECT_EQ(most_accurate(cases), 2U);
+  cases.push_back(at(7, 0.05, 2));
+  EXPECT_EQ(pareto_front(cases), (std::vector<std::size_t>{3}));
+}
+
+}  // namespace
+}  // namespace triptych::accuracy

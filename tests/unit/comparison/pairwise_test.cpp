@@ -1,0 +1,380 @@
+#include "comparison/pairwise.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/random.hpp"
+#include "estimation/statistics.hpp"
+#include "tests/support/normal.hpp"
+
+namespace triptych::comparison {
+namespace {
+
+using test::normal;
+
+// Hollander & Wolfe (1973), p. 29f.: depression scale at the first and the second visit, as R's
+// wilcox.test has it: V = 40, p = 0.01953 one-sided, estimate 0.46.
+std::vector<double> depression_scale() {
+  const std::vector<double> first{1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30};
+  const std::vector<double> second{0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29};
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < first.size(); ++i) differences.push_back(first[i] - second[i]);
+  return differences;
+}
+
+TEST(SignedRank, GivesThePublishedValues) {
+  const SignedRank test = wilcoxon_signed_rank(depression_scale());
+  EXPECT_EQ(test.n, 9U);
+  EXPECT_EQ(test.statistic, 40);
+  EXPECT_NEAR(test.p_greater, 0.01953125, 1e-12);  // 10/512
+  EXPECT_NEAR(estimate_shift(depression_scale(), 0.025).estimate, 0.46, 1e-12);
+}
+
+// Every assignment of signs to the distances, one by one: the null distribution by definition.
+TEST(SignedRank, IsTheEnumeratedNullDistributionWithAndWithoutTies) {
+  core::Random random(3);
+  for (std::size_t n = 1; n <= 10; ++n) {
+    for (const bool tied : {false, true}) {
+      std::vector<double> values;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double value = random.uniform(-1, 1);
+        values.push_back(tied ? std::copysign(std::ceil(3 * std::abs(value)), value) : value);
+      }
+      const SignedRank test = wilcoxon_signed_rank(values);
+      double less = 0;
+      double greater = 0;
+      for (unsigned signs = 0; signs < 1U << n; ++signs) {
+        std::vector<double> flipped;
+        for (std::size_t i = 0; i < n; ++i) {
+          flipped.push_back(std::abs(values[i]) * ((signs >> i & 1U) != 0 ? 1 : -1));
+        }
+        const double statistic = wilcoxon_signed_rank(flipped).statistic;
+        less += statistic <= test.statistic ? 1 : 0;
+        greater += statistic >= test.statistic ? 1 : 0;
+      }
+      EXPECT_NEAR(test.p_less, less / std::pow(2, n), 1e-12) << n << tied;
+      EXPECT_NEAR(test.p_greater, greater / std::pow(2, n), 1e-12) << n << tied;
+    }
+  }
+}
+
+TEST(SignedRank, ZerosSayNothing) {
+  const SignedRank test = wilcoxon_signed_rank(std::vector<double>{0, 0, 1, 2});
+  EXPECT_EQ(test.n, 2U);
+  EXPECT_EQ(test.statistic, 3);
+  EXPECT_EQ(wilcoxon_signed_rank(std::vector<double>(30, 0.5), 0.5).p_greater, 1);
+}
+
+// Differences of n distinct sizes whose ranks above 0 add up to `statistic`.
+std::vector<double> differences_with(std::size_t n, std::size_t statistic) {
+  std::vector<double> values;
+  for (std::size_t rank = n; rank > 0; --rank) {
+    const bool positive = rank <= statistic;
+    if (positive) statistic -= rank;
+    values.push_back((positive ? 1.0 : -1.0) * static_cast<double>(rank));
+  }
+  return values;
+}
+
+// The first term that the normal approximation leaves out (Edgeworth; V is symmetric) is
+// φ(z)(3z − z³)·κ₄/(24σ⁴) with κ₄ = −Σi⁴/8, and φ(z)(3z − z³) ≤ 0.551. A tenth for the terms after.
+TEST(SignedRank, TheApproximationErrsByItsNextTermAtMost) {
+  constexpr std::size_t n = most_for_exact + 1;
+  std::vector<double> share{1};
+  double fourth = 0;
+  double variance = 0;
+  for (std::size_t rank = 1; rank <= n; ++rank) {
+    const auto r = static_cast<double>(rank);
+    fourth += r * r * r * r / 8;
+    variance += r * r / 4;
+    share.resize(share.size() + rank, 0.0);
+    for (std::size_t sum = share.size(); sum-- > 0;) {
+      share[sum] = (share[sum] + (sum >= rank ? share[sum - rank] : 0)) / 2;
+    }
+  }
+  const double bound = 1.1 * 0.551 * fourth / (24 * variance * variance);
+  double less = 0;
+  for (std::size_t statistic = 0; statistic < share.size(); ++statistic) {
+    less += share[statistic];
+    const SignedRank test = wilcoxon_signed_rank(differences_with(n, statistic));
+    ASSERT_EQ(test.statistic, static_cast<double>(statistic));
+    EXPECT_NEAR(test.p_less, less, bound) << statistic;
+    EXPECT_NEAR(test.p_greater, 1 - less + share[statistic], bound) << statistic;
+  }
+}
+
+// 40 differences of two sizes: n(n+1)(2n+1)/24 − (20³−20)·2/48 = 5203.75… by hand.
+TEST(SignedRank, TiesNarrowTheApproximation) {
+  std::vector<double> values(20, 1.0);
+  values.insert(values.end(), 20, -2.0);
+  const double variance = 40.0 * 41 * 81 / 24 - 2 * (8000.0 - 20) / 48;
+  const double z = (210.0 - 410 + 0.5) / std::sqrt(variance);  // ranks 1…20 are positive
+  EXPECT_NEAR(wilcoxon_signed_rank(values).p_less, estimation::student_t_upper_tail(-z, INFINITY),
+              1e-12);
+}
+
+TEST(Shift, TheIntervalIsWhatTheTestDoesNotReject) {
+  core::Random random(8);
+  for (const std::size_t n : {12U, 24U, 48U}) {
+    std::vector<double> values;
+    while (values.size() < n) values.push_back(0.02 * normal(random));
+    const double tail = 0.01 / 6;
+    const Interval interval = estimate_shift(values, tail).interval;
+    const double hair = 1e-9;
+    EXPECT_LE(wilcoxon_signed_rank(values, interval.low - hair).p_greater, tail) << n;
+    EXPECT_GT(wilcoxon_signed_rank(values, interval.low + hair).p_greater, tail) << n;
+    EXPECT_LE(wilcoxon_signed_rank(values, interval.high + hair).p_less, tail) << n;
+    EXPECT_GT(wilcoxon_signed_rank(values, interval.high - hair).p_less, tail) << n;
+  }
+}
+
+TEST(Shift, TooFewDifferencesHaveAnEndlessInterval) {
+  const Shift shift = estimate_shift(std::vector<double>{1, 2}, 0.01);
+  EXPECT_EQ(shift.estimate, 1.5);
+  EXPECT_TRUE(std::isinf(shift.interval.high));
+  EXPECT_TRUE(std::isnan(estimate_shift({}, 0.01).estimate));
+}
+
+// One comparison on a synthetic machine: both sides share a slow drift (AR(1) from turn to turn),
+// each turn has noise of its own, and now and then something takes a share of the machine away.
+struct Machine {
+  double noise = 0.01;
+  double drift = 0.01;        // standard deviation of the drift
+  double persistence = 0.98;  // from one turn to the next
+  double disturbed = 0.02;    // share of turns half as long again
+
+  [[nodiscard]] std::vector<double> blocks(double shift, int count, core::Random& random) const {
+    std::vector<double> differences;
+    double level = drift * normal(random);
+    const double step = drift * std::sqrt(1 - persistence * persistence);
+    for (int i = 0; i < count; ++i) {
+      const bool b_first = random.uniform() < 0.5;
+      double difference = 0;
+      for (int turn = 0; turn < 4; ++turn) {
+        level = persistence * level + step * normal(random);
+        const bool outer = turn == 0 || turn == 3;
+        const bool b = outer == b_first;
+        double ln_time = level + noise * normal(random) + (b ? shift : 0);
+        if (random.uniform() < disturbed) ln_time += 0.4;
+        difference += (b ? 0.5 : -0.5) * ln_time;
+      }
+      differences.push_back(difference);
+    }
+    return differences;
+  }
+};
+
+struct Outcomes {
+  int slower = 0, faster = 0, same = 0, undecided = 0, covered = 0;
+  double blocks = 0;
+};
+
+Outcomes repeat(const Machine& machine, double shift, int times, std::uint64_t seed) {
+  const SequentialDesign design = SequentialDesign::standard();
+  core::Random random(seed);
+  Outcomes outcomes;
+  for (int i = 0; i < times; ++i) {
+    const std::vector<double> all = machine.blocks(shift, design.looks.back(), random);
+    Look look;
+    int blocks = 0;
+    while (look.verdict == PairVerdict::undecided && design.next_look(blocks) > 0) {
+      blocks = design.next_look(blocks);
+      look = look_at(std::span(all).first(static_cast<std::size_t>(blocks)), design);
+    }
+    outcomes.blocks += static_cast<double>(blocks) / times;
+    outcomes.slower += look.verdict == PairVerdict::slower ? 1 : 0;
+    outcomes.faster += look.verdict == PairVerdict::faster ? 1 : 0;
+    outcomes.same += look.verdict == PairVerdict::same ? 1 : 0;
+    outcomes.undecided += look.verdict == PairVerdict::undecided ? 1 : 0;
+    const Interval& interval = look.shift.interval;
+    outcomes.covered += interval.low <= shift && shift <= interval.high ? 1 : 0;
+  }
+  return outcomes;
+}
+
+// The design errs on each side with α = .01; at 300 repetitions 8 or fewer errors are expected with
+// a probability above .99.
+constexpr int repetitions = 300;
+constexpr int most_errors = 8;
+
+TEST(Sequential, NothingIsSlowerThanItself) {
+  const Outcomes outcomes = repeat({}, 0, repetitions, 1);
+  EXPECT_EQ(outcomes.slower + outcomes.faster, 0);
+  EXPECT_GE(outcomes.same, repetitions * 9 / 10);
+  EXPECT_GE(outcomes.covered, repetitions - 2 * most_errors);
+}
+
+TEST(Sequential, WhatIsToleratedIsSeldomCalledSlower) {
+  const Outcomes outcomes = repeat({}, std::log(1.01), repetitions, 2);
+  EXPECT_LE(outcomes.slower, most_errors);
+  EXPECT_GE(outcomes.covered, repetitions - 2 * most_errors);
+}
+
+TEST(Sequential, WhatMustBeCaughtIsSeldomPassed) {
+  const Outcomes outcomes = repeat({}, std::log(1.03), repetitions, 3);
+  EXPECT_LE(outcomes.same, most_errors);
+  EXPECT_GE(outcomes.slower, repetitions * 9 / 10);
+  EXPECT_GE(outcomes.covered, repetitions - 2 * most_errors);
+  const Outcomes mirrored = repeat({}, -std::log(1.03), repetitions, 4);
+  EXPECT_LE(mirrored.same, most_errors);
+  EXPECT_GE(mirrored.faster, repetitions * 9 / 10);
+}
+
+TEST(Sequential, NoiseMakesItGoOnAndNotErr) {
+  const Machine noisy{.noise = 0.1, .drift = 0.05};
+  const Outcomes same = repeat(noisy, 0, 100, 5);
+  EXPECT_EQ(same.slower + same.faster, 0);
+  const Outcomes slower = repeat(noisy, std::log(1.05), 100, 6);
+  EXPECT_EQ(slower.same + slower.faster, 0);
+  EXPECT_GT(same.blocks, repeat({}, 0, 100, 5).blocks);
+}
+
+TEST(Sequential, LooksFollowOneAnother) {
+  const SequentialDesign design = SequentialDesign::standard();
+  EXPECT_EQ(design.next_look(0), 12);
+  EXPECT_EQ(design.next_look(12), 24);
+  EXPECT_EQ(design.next_look(20), 24);  // a look at a budget's end
+  EXPECT_EQ(design.next_look(384), 0);
+  EXPECT_NEAR(design.alpha_of_a_look(), 0.01 / 6, 1e-15);
+}
+
+std::vector<double> launches(double shift, double between, core::Random& random) {
+  std::vector<double> result;
+  for (int i = 0; i < 5; ++i) result.push_back(shift + between * normal(random));
+  return result;
+}
+
+TEST(Confirm, WhatFreshLaunchesRepeatIsBelieved) {
+  core::Random random(11);
+  const std::vector<Suspect> suspects{{launches(std::log(1.05), 0.003, random), true},
+                                      {launches(-std::log(1.05), 0.003, random), false}};
+  const auto confirmed = confirm(suspects, 0.05, SequentialDesign::standard());
+  EXPECT_EQ(confirmed[0].verdict, PairVerdict::slower);
+  EXPECT_EQ(confirmed[1].verdict, PairVerdict::faster);
+  EXPECT_NEAR(confirmed[0].shift.estimate, std::log(1.05), 0.005);
+}
+
+TEST(Confirm, WhatOneLaunchAloneSaidIsTakenBack) {
+  const std::vector<Suspect> suspects{{{0.001, -0.002, 0.0, 0.002, -0.001}, true}};
+  const auto confirmed = confirm(suspects, 0.05, SequentialDesign::standard());
+  EXPECT_EQ(confirmed[0].verdict, PairVerdict::same);
+  const std::vector<Suspect> scattered{{{0.06, -0.02, 0.09, 0.01, 0.05}, true}};
+  EXPECT_EQ(confirm(scattered, 0.05, SequentialDesign::standard())[0].verdict,
+            PairVerdict::undecided);
+}
+
+// What is no suspect is no hypothesis: nothing can be said of it any more.
+TEST(Confirm, CountsTheSuspectsAsHypotheses) {
+  std::vector<Suspect> suspects{{{0.0135, 0.0175, 0.0095, 0.0155, 0.0115}, true}};
+  EXPECT_EQ(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);
+  for (int i = 0; i < 1000; ++i) suspects.push_back({{0.001, 0.005, -0.003, 0.003, -0.001}, true});
+  EXPECT_NE(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);
+}
+
+TEST(Confirm, LaunchesOfAnotherSuspectLendTheirVariance) {
+  core::Random random(12);
+  std::vector<Suspect> suspects{{{0.0301, 0.0302, 0.0301, 0.0302, 0.0301}, true}};
+  const double alone = confirm(suspects, 0.05, SequentialDesign::standard())[0].p;
+  for (int i = 0; i < 20; ++i) suspects.push_back({launches(0, 0.02, random), true});
+  EXPECT_GT(confirm(suspects, 0.05, SequentialDesign::standard())[0].p, alone);
+}
+
+TEST(Confirm, EqualLaunchesAreNoZeroOverZero) {
+  const std::vector<Suspect> suspects{{std::vector<double>(5, std::log(1.05)), true}};
+  EXPECT_EQ(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);
+}
+
+TEST(Confirm, OneLaunchHasNoScatter) {
+  const std::vector<Suspect> suspects{{{0.5}, true}, {{}, true}, {std::vector(5, 0.05), true}};
+  const auto confirmed = confirm(suspects, 0.05, SequentialDesign::standard());
+  EXPECT_EQ(confirmed[0].verdict, PairVerdict::undecided);
+  EXPECT_TRUE(std::isinf(confirmed[1].shift.interval.high));
+  EXPECT_EQ(confirmed[2].verdict, PairVerdict::slower);
+}
+
+// Launches of each suspect, handed out one by one.
+struct Launcher {
+  std::vector<std::vector<double>> launches;
+  std::vector<std::vector<std::size_t>> asked;  // which suspects, by launch
+
+  std::vector<Confirmation> confirm_all() {
+    std::vector<Suspect> suspects(launches.size());
+    return confirm_in_looks(
+        suspects, {}, SequentialDesign::standard(),
+        [&](std::span<const std::size_t> open, std::size_t number, std::size_t /*until*/) {
+          asked.emplace_back(open.begin(), open.end());
+          bool any = false;
+          for (const std::size_t i : open) {
+            if (number > launches[i].size()) continue;
+            suspects[i].launches.push_back(launches[i][number - 1]);
+            any = true;
+          }
+          return any;
+        });
+  }
+};
+
+// Five launches settle what is plain; what they leave open is launched five times more.
+TEST(ConfirmInLooks, GoesOnWithWhatIsOpen) {
+  core::Random random(21);
+  std::vector<double> scattered{0.05, 0.01, 0.06, 0.012, 0.05, 0.035, 0.03, 0.04, 0.036, 0.03};
+  Launcher launcher{.launches = {std::vector(10, 0.05), scattered, std::vector(10, 0.0)},
+                    .asked = {}};
+  for (double& launch : launcher.launches[0]) launch += 0.001 * normal(random);
+  for (double& launch : launcher.launches[2]) launch += 0.001 * normal(random);
+  const auto confirmed = launcher.confirm_all();
+  EXPECT_EQ(confirmed[0].verdict, PairVerdict::slower);
+  EXPECT_EQ(confirmed[1].verdict, PairVerdict::slower);
+  EXPECT_EQ(confirmed[2].verdict, PairVerdict::same);
+  ASSERT_EQ(launcher.asked.size(), 10U);
+  EXPECT_THAT(launcher.asked[4], testing::ElementsAre(0, 1, 2));
+  EXPECT_THAT(launcher.asked[5], testing::ElementsAre(1));
+}
+
+TEST(ConfirmInLooks, EndsWithTheLaunchesThatThereAre) {
+  Launcher few{.launches = {{0.05, 0.051, 0.049}}, .asked = {}};
+  EXPECT_EQ(few.confirm_all()[0].verdict, PairVerdict::slower);
+  EXPECT_EQ(few.asked.size(), 4U);
+  Launcher none{.launches = {{}}, .asked = {}};
+  EXPECT_EQ(none.confirm_all()[0].verdict, PairVerdict::undecided);
+  EXPECT_TRUE(Launcher().confirm_all().empty());
+}
+
+// Launches shift every block of theirs: one launch's interval is far too narrow, and what it alone
+// calls slower must not survive. Over families of 24 configurations, none of them slower by more
+// than what is tolerated, false discoveries are among at most q of 200 families: at q = .02 more
+// than 10 come about with a probability below .003.
+TEST(ConfirmInLooks, LaunchEffectsAreSeldomBelieved) {
+  const SequentialDesign design = SequentialDesign::standard();
+  const double between = 0.01;
+  core::Random random(13);
+  std::size_t suspected = 0;
+  int families_wrong = 0;
+  constexpr int families = 200;
+  for (int family = 0; family < families; ++family) {
+    Launcher launcher;
+    for (int i = 0; i < 24; ++i) {
+      // This launch alone looks slower.
+      if (between * normal(random) < 0.015) continue;
+      launcher.launches.emplace_back();
+      for (int launch = 0; launch < 10; ++launch) {
+        launcher.launches.back().push_back(design.tolerated + between * normal(random));
+      }
+    }
+    suspected += launcher.launches.size();
+    families_wrong += std::ranges::any_of(launcher.confirm_all(),
+                                          [](const Confirmation& each) {
+                                            return each.verdict == PairVerdict::slower;
+                                          })
+                          ? 1
+                          : 0;
+  }
+  EXPECT_GE(suspected, 200U);
+  EXPECT_LE(families_wrong, 10);
+}
+
+}  // namespace
+}  // namespace triptych::comparison
