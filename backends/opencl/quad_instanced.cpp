@@ -1,5 +1,4 @@
-// Ray-aligned quads as instances. Without a vertex stage these are the sprites of quad_ray, made
-// from the same buffers.
+// Ray-aligned quads. Without a rasterizer's stages all ways to make them are this one.
 #include "backends/opencl/particle_frames.hpp"
 #include "backends/opencl/techniques.hpp"
 

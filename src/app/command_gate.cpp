@@ -192,7 +192,7 @@ void add_accept_command(Commands& commands) {
   command->add_option("--only", arguments->only, "Glob over configurations");
   command->add_flag("--drop", arguments->drop,
                     "Drop stored configurations that the run has no record of, and files that are "
-                    "not as they were accepted");
+                    "not as they were accepted; with --only what a device skips now");
   command->add_option("--store", arguments->store)->capture_default_str();
   add_baselines_option(*command, arguments->baselines);
 }

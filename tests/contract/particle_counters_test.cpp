@@ -86,10 +86,10 @@ TEST(ParticleCounters, ScreenAlignedQuadsAreCostlyAmongTheSpheres) {
   on_every_device([](measure::Device& device) {
     const auto ratio = [&](const char* camera) {
       const ParticleWork work = generated_work("uniform", 3000, camera, 96);
-      const double ray = static_cast<double>(fragments_of(device, "quad_ray", work));
+      const double ray = static_cast<double>(fragments_of(device, "quad_instanced", work));
       return static_cast<double>(fragments_of(device, "quad_screen", work)) / ray;
     };
-    if (fragments_of(device, "quad_ray", generated_work("uniform", 10, "orbit_y:1/8", 8)) == 0) {
+    if (fragments_of(device, "quad_screen", generated_work("uniform", 10, "orbit_y:1/8", 8)) == 0) {
       return;  // no geometry shaders
     }
     EXPECT_NEAR(ratio("orbit_y:1/8"), 1, 0.1);

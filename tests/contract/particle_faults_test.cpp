@@ -48,7 +48,7 @@ TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
     ParticleWork work = studded_wall();
     work.options.conservative_depth = true;
     const reference::SphereTruth truth = truth_of(work);
-    for (const char* technique : {"tiles", "quad_ray"}) {
+    for (const char* technique : {"tiles", "quad_instanced"}) {
       SCOPED_TRACE(technique);
       const bool ours = std::string_view(technique) == "tiles" || device.info().api == "opencl";
       measure::Work faulty{.technique = technique, .scene = work};

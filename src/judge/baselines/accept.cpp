@@ -11,6 +11,7 @@
 #include "core/quoting.hpp"
 #include "estimation/statistics.hpp"
 #include "judge/baselines/baselines.hpp"
+#include "judge/baselines/drop_skipped.hpp"
 #include "judge/baselines/json_file.hpp"
 #include "judge/baselines/layout.hpp"
 #include "judge/baselines/next_folder.hpp"
@@ -27,6 +28,7 @@ struct Accepted {
   record::Run run;
   record::Checks checks;
   std::vector<record::Record> measured;
+  std::vector<record::Record> skipped;            // to be dropped
   std::map<std::string, record::Device> devices;  // by id
   // Configurations and scenes the run has any record of; used only when everything is replaced.
   bool replaces_all = false;
@@ -278,18 +280,21 @@ Accepted select(const record::Store& store, const std::string& run, const Accept
     const bool wanted =
         request.only.empty() || core::glob_matches(request.only, record.configuration);
     if (wanted && record.outcome == record::Outcome::measured) accepted.measured.push_back(record);
+    const bool drops = request.drop && !request.only.empty();
+    if (wanted && drops && record.outcome == record::Outcome::skipped) {
+      accepted.skipped.push_back(record);
+    }
   }
-  if (accepted.measured.empty()) {
+  if (accepted.measured.empty() && accepted.skipped.empty()) {
     throw core::InputError(
         fmt::format("run {} measured nothing{}", run,
                     request.only.empty() ? "" : " that matches " + request.only));
   }
-  std::set<std::string> measured_devices;
-  for (const record::Record& record : accepted.measured) measured_devices.insert(record.device);
+  std::set<std::string> told_of;
+  for (const record::Record& record : accepted.measured) told_of.insert(record.device);
+  for (const record::Record& record : accepted.skipped) told_of.insert(record.device);
   for (const auto& entry : store.devices(run)) {
-    if (measured_devices.contains(entry.device.id)) {
-      accepted.devices.emplace(entry.device.id, entry.device);
-    }
+    if (told_of.contains(entry.device.id)) accepted.devices.emplace(entry.device.id, entry.device);
   }
   return accepted;
 }
@@ -378,6 +383,7 @@ std::vector<std::string> accept(const record::Store& store, const std::string& r
     update_statistics(accepted, device, next);
     if (keeps_times) update_timings(accepted, device, next);
   }
+  drop_skipped(accepted.skipped, accepted.devices, next);
   append_history(accepted, request, next);
   write_manifest(accepted, manifest, next);
   replace_folder(next.folder, next.files, request.on_written);

@@ -157,7 +157,8 @@ struct AcceptRequest {
   std::string only;    // glob over configuration keys; empty: all
   std::string date;    // ISO
   // Stored configurations that the run has no record of go, and so does what is not as it was
-  // accepted; else such a run or such files are refused.
+  // accepted; else such a run or such files are refused. With `only`: what is stored of
+  // configurations goes where their device skips them now.
   bool drop = false;
   // The truth of a scene, as for the gate.
   std::function<core::Image(const record::Record&)> truth;

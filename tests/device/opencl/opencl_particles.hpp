@@ -19,9 +19,8 @@
 
 namespace triptych::opencl_backend {
 
-inline constexpr std::array<std::string_view, 7> particle_techniques{
-    "quad_screen",  "quad_ray",         "quad_instanced", "quad_tess",
-    "polygon_tess", "polygon_adaptive", "tiles"};
+inline constexpr std::array<std::string_view, 5> particle_techniques{
+    "quad_screen", "quad_instanced", "polygon_tess", "polygon_adaptive", "tiles"};
 
 using Spheres = std::vector<std::array<double, 4>>;
 

@@ -99,7 +99,7 @@ TEST(OpenClParticles, OcclusionLeavesCellsOutAndNoBitsChange) {
 TEST(OpenClParticles, CountingAndRepeatedWorkLeaveThePicture) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = generated("uniform", 60000, "orbit_y:1/8", 200);
-    for (const std::string_view technique : {"tiles", "quad_ray"}) {
+    for (const std::string_view technique : {"tiles", "quad_instanced"}) {
       const auto plain = device.prepare(make_work(technique, scene));
       const auto slowed = device.prepare(make_work(technique, scene, {.extra_work_stride = 1}));
       double plain_ns = 1e18;
@@ -176,16 +176,18 @@ TEST(OpenClParticles, WhatCannotBeDrawnIsRefused) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = seen_from({{0, 0, -4, 1}}, {0, 0, 0}, 60);
     EXPECT_EQ(device.unsupported(make_work("tiles", scene)), std::nullopt);
-    EXPECT_TRUE(device.unsupported(make_work("point", scene)));
+    for (const char* technique : {"point", "quad_ray", "quad_tess"}) {
+      EXPECT_TRUE(device.unsupported(make_work(technique, scene))) << technique;
+    }
     EXPECT_TRUE(device.unsupported(make_work("raycast", scene)));
     EXPECT_TRUE(device.unsupported(make_work("tiles", make_scene({}))));
-    EXPECT_TRUE(
-        device.unsupported(make_work("quad_ray", scene, {.fault = ParticleFault::wrong_sense})));
+    EXPECT_TRUE(device.unsupported(
+        make_work("quad_instanced", scene, {.fault = ParticleFault::wrong_sense})));
     EXPECT_TRUE(
         device.unsupported(make_work("tiles", scene, {.ray = technique::ComputedAt::vertex})));
-    EXPECT_EQ(
-        device.unsupported(make_work("quad_ray", scene, {.fault = ParticleFault::lost_at_border})),
-        std::nullopt);
+    EXPECT_EQ(device.unsupported(
+                  make_work("quad_instanced", scene, {.fault = ParticleFault::lost_at_border})),
+              std::nullopt);
     scene::ParticleScene wide = scene;
     wide.width = 40000;
     const measure::Work work = make_work("tiles", wide);

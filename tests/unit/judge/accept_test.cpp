@@ -106,6 +106,29 @@ TEST_F(AcceptTest, WhatThePlanNoLongerHoldsIsDropped) {
   EXPECT_EQ(std::ranges::distance(std::filesystem::directory_iterator(baseline("images"))), 1);
 }
 
+// Only where one says so: a skip may be the day's.
+TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
+  accept_first([](record::Record& record, core::Image&) { record.memory = {{"buffers", 9}}; });
+  const auto timings = device_file("timings", "opencl");
+  add_run("b", [&](record::Record& record, core::Image&) {
+    const bool skips = record.device == "opencl:pocl" && record.configuration == plain_;
+    if (skips) record.outcome = record::Outcome::skipped;
+  });
+  const auto stored = [&](const char* file) {
+    return read(baseline(file))[plain_].dump().find("opencl:pocl") != std::string::npos;
+  };
+  (void)accept_run("b");
+  EXPECT_TRUE(stored("counters.json") && stored("memory.json"));
+  (void)accept_run("b", {.only = bricks_, .drop = true});
+  EXPECT_TRUE(stored("counters.json") && stored("memory.json"));
+  (void)accept_run("b", {.only = plain_, .drop = true});
+  EXPECT_FALSE(stored("counters.json") || stored("memory.json"));
+  EXPECT_EQ(read(timings)["configurations"].count(plain_), 0U);
+  EXPECT_EQ(read(timings)["configurations"].count(bricks_), 1U);
+  core::Json counters = read(baseline("counters.json"));
+  EXPECT_EQ(counters[plain_]["samples"].size() + 1, counters[bricks_]["samples"].size());
+}
+
 // One device's run replaces its own voxel format's hash, and leaves the others'.
 TEST_F(AcceptTest, DataOfOtherFormatsKeepsItsHash) {
   const auto with_formats = [](record::Record& record, core::Image&) {

@@ -1,0 +1,61 @@
+#include "judge/baselines/drop_skipped.hpp"
+
+#include "judge/baselines/layout.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using core::Json;
+
+// {device: …} or {name: {device: …}}; what is empty then goes, too.
+void erase_device(Json& values, const std::string& device) {
+  values.erase(device);
+  for (auto item = values.begin(); item != values.end();) {
+    if (item->is_object()) item->erase(device);
+    item = item->is_object() && item->empty() ? values.erase(item) : std::next(item);
+  }
+}
+
+// A table of all devices.
+void drop_from_table(std::span<const record::Record> skipped, const char* name, NextFolder& next) {
+  if (!next.files.contains(name)) return;
+  Update file(next, name);
+  Json& table = file.value();
+  for (const record::Record& record : skipped) {
+    const auto found = table.find(record.configuration);
+    if (found == table.end()) continue;
+    erase_device(*found, record.device);
+    if (found->empty()) table.erase(found);
+  }
+  file.write(2);
+}
+
+// A file of the device's own.
+void drop_from_file(std::span<const record::Record> skipped, const std::string& device,
+                    const std::string& name, int depth, NextFolder& next) {
+  if (!next.files.contains(name)) return;
+  Update file(next, name);
+  const auto table = file.value().find("configurations");
+  if (table == file.value().end() || !table->is_object()) return;
+  for (const record::Record& record : skipped) {
+    if (record.device == device) table->erase(record.configuration);
+  }
+  file.write(depth);
+}
+
+}  // namespace
+
+void drop_skipped(std::span<const record::Record> skipped,
+                  const std::map<std::string, record::Device>& devices, NextFolder& next) {
+  if (skipped.empty()) return;
+  for (const char* name : {Layout::counters, Layout::memory, Layout::errors, Layout::scores}) {
+    drop_from_table(skipped, name, next);
+  }
+  for (const auto& [id, device] : devices) {
+    drop_from_file(skipped, id, Layout::cost(device), 3, next);
+    drop_from_file(skipped, id, Layout::statistics(device), 3, next);
+    drop_from_file(skipped, id, Layout::timings(device), 2, next);
+  }
+}
+
+}  // namespace triptych::judge
