@@ -58,13 +58,13 @@ Buffer pair_buffer(const Api& gl, const scene::VolumeScene& scene) {
 TexelFormat texel_format(scene::VoxelFormat format) {
   switch (format) {
     case scene::VoxelFormat::u8:
-      return {GL_R8, GL_UNSIGNED_BYTE, 255};
+      return {GL_R8, GL_UNSIGNED_BYTE};
     case scene::VoxelFormat::u16:
-      return {GL_R16, GL_UNSIGNED_SHORT, 65535};
+      return {GL_R16, GL_UNSIGNED_SHORT};
     case scene::VoxelFormat::f32:
       break;
   }
-  return {GL_R32F, GL_FLOAT, 1};
+  return {GL_R32F, GL_FLOAT};
 }
 
 Texture volume_texture(const Api& gl, const scene::VoxelGrid& grid, bool linear) {
@@ -107,7 +107,7 @@ VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work)
       pairs_(pair_buffer(gl, work.scene)) {
   parameters_ = constant_buffer(
       gl, technique::raycast_parameters(work.scene, work.options,
-                                        texel_format(work.scene.grid->format).stored_maximum));
+                                        scene::largest_stored(work.scene.grid->format)));
 }
 
 void VolumeData::bind(const Api& gl) const {

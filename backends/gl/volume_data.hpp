@@ -12,7 +12,6 @@ namespace triptych::gl_backend {
 struct TexelFormat {
   GLenum internal = GL_R32F;
   GLenum type = GL_FLOAT;
-  double stored_maximum = 1;  // of technique::raycast_parameters
 };
 [[nodiscard]] TexelFormat texel_format(scene::VoxelFormat format);
 

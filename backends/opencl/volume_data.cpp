@@ -113,16 +113,7 @@ std::uint64_t bordered_voxels(const std::array<int, 3>& size) {
 }
 
 double stored_maximum(scene::VoxelFormat voxel, technique::Sampler sampler) {
-  if (sampler == technique::Sampler::manual) return 1;
-  switch (voxel) {
-    case scene::VoxelFormat::u8:
-      return 255;
-    case scene::VoxelFormat::u16:
-      return 65535;
-    case scene::VoxelFormat::f32:
-      return 1;
-  }
-  return 1;
+  return sampler == technique::Sampler::manual ? 1 : scene::largest_stored(voxel);
 }
 
 cl::Memory upload(const Session& session, const scene::VoxelGrid& grid,

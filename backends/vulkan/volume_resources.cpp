@@ -18,23 +18,10 @@ namespace {
 constexpr std::uint32_t passes = 2;
 constexpr std::uint32_t storage_buffers = 4;  // bricks, output, counters, pairs
 
-// What an integer texel of this format is divided by on its way to the shader.
-double stored_maximum(scene::VoxelFormat format) {
-  switch (format) {
-    case scene::VoxelFormat::u8:
-      return 255;
-    case scene::VoxelFormat::u16:
-      return 65535;
-    case scene::VoxelFormat::f32:
-      return 1;
-  }
-  return 1;
-}
-
 Buffer upload_parameters(const Gpu& gpu, const measure::VolumeWork& work) {
-  return make_buffer(gpu,
-                     technique::raycast_parameters(work.scene, work.options,
-                                                   stored_maximum(work.scene.grid->format)),
+  // A texel reaches the shader divided by its format's largest.
+  const double stored_maximum = scene::largest_stored(work.scene.grid->format);
+  return make_buffer(gpu, technique::raycast_parameters(work.scene, work.options, stored_maximum),
                      vk::BufferUsageFlagBits::eUniformBuffer);
 }
 

@@ -184,6 +184,18 @@ std::size_t bytes_of(VoxelFormat format) {
   return 0;
 }
 
+double largest_stored(VoxelFormat format) {
+  switch (format) {
+    case VoxelFormat::u8:
+      return 255;
+    case VoxelFormat::u16:
+      return 65535;
+    case VoxelFormat::f32:
+      return 1;
+  }
+  return 1;
+}
+
 std::size_t VoxelGrid::voxel_count() const noexcept {
   return count_of(size);
 }

@@ -39,6 +39,8 @@ enum class VoxelFormat : std::uint8_t { u8, u16, f32 };
 [[nodiscard]] std::string_view name_of(VoxelFormat format);
 [[nodiscard]] VoxelFormat voxel_format(std::string_view name);  // throws InputError
 [[nodiscard]] std::size_t bytes_of(VoxelFormat format);
+// The largest integer that u8 and u16 store; 1 for f32, which stores no integer.
+[[nodiscard]] double largest_stored(VoxelFormat format);
 
 // Voxels as uploaded. The normalised value, 0..1 over the range, is
 //   x = stored·scale + offset     (stored: the integer, or the float itself)

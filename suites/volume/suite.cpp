@@ -217,7 +217,7 @@ double storage_step(const Configuration& configuration, scene::VoxelFormat nativ
     return 0x1.0p-24;
   }
   if (scene::bytes_of(format) >= scene::bytes_of(native)) return 0;
-  return format == scene::VoxelFormat::u8 ? 1.0 / 255 : 1.0 / 65535;
+  return 1 / scene::largest_stored(format);
 }
 
 VolumeSuite::Judged VolumeSuite::judged(const Configuration& configuration,

@@ -17,18 +17,6 @@ double unit_roundoff(technique::Precision precision) {
   return precision == technique::Precision::fp64 ? 0x1.0p-52 : float_roundoff;
 }
 
-double largest_stored(scene::VoxelFormat format) {
-  switch (format) {
-    case scene::VoxelFormat::u8:
-      return 255;
-    case scene::VoxelFormat::u16:
-      return 65535;
-    case scene::VoxelFormat::f32:
-      return 1;
-  }
-  return 1;
-}
-
 // How far from `origin` a ray from the eye may enter the box: the farthest corner of the faces that
 // the eye sees, and 0 from within.
 double farthest_entry(const scene::Box& box, const glm::dvec3& eye, const glm::dvec3& origin) {
@@ -76,7 +64,7 @@ reference::ErrorModel error_model(const scene::VolumeScene& scene, const PathPre
   const bool fp64 = path.precision == technique::Precision::fp64;
   const double u = unit_roundoff(path.precision);
   const scene::VoxelGrid& grid = *scene.grid;
-  const double format_range = std::abs(grid.scale) * largest_stored(grid.format);
+  const double format_range = std::abs(grid.scale) * scene::largest_stored(grid.format);
   const double magnitude = format_range + std::abs(grid.offset);
   const bool preintegrated = scene.quadrature == scene::Quadrature::preintegrated;
   const double filter = next_power_of_two(std::max(path.filter_weight_error, u));
