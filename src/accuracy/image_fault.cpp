@@ -24,10 +24,8 @@ std::string describe_surfaces(const ImageComparison& comparison, std::string_vie
 std::string describe(const ImageComparison& comparison) {
   const ImageComparison::Place& worst = comparison.worst;
   return fmt::format(
-      "worst at pixel ({}, {}): error {:.3g}, bound {:.3g}, ratio {:.3g}; largest error {:.3g}, "
-      "RMSE {:.3g}",
-      worst.x, worst.y, worst.error, worst.bound, worst.ratio, comparison.largest.error,
-      comparison.rmse);
+      "largest error {:.3g}, RMSE {:.3g}; worst at pixel ({}, {}): error {:.3g}, bound {:.3g}",
+      comparison.largest.error, comparison.rmse, worst.x, worst.y, worst.error, worst.bound);
 }
 
 std::string image_fault(const ImageComparison& comparison, const core::Image& image,

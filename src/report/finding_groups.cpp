@@ -82,6 +82,19 @@ bool is_told_by_cost(const Finding& finding, std::span<const Finding> findings) 
   });
 }
 
+using Places = std::set<std::pair<std::string_view, std::string_view>>;  // device, configuration
+
+Places wrong_pictures(std::span<const Finding> findings) {
+  Places wrong;
+  for (const Finding& each : findings) {
+    if (each.check != Check::image || each.verdict != Verdict::regression) continue;
+    if (!each.configuration.empty() && !ended_a_program(each)) {
+      wrong.emplace(each.device, each.configuration);
+    }
+  }
+  return wrong;
+}
+
 using Members = std::vector<const Finding*>;
 
 bool is_smaller(const Finding* a, const Finding* b) {
@@ -104,8 +117,16 @@ class Grouping {
       if (finding.configuration.empty()) continue;
       for (const auto& [factor, level] : factors_of(finding)) levels_[place][factor].insert(level);
     }
+    const Places wrong = wrong_pictures(findings);
     for (const Finding& finding : findings) {
       if (is_told_by_cost(finding, findings)) continue;
+      const std::pair<std::string_view, std::string_view> place(finding.device,
+                                                                finding.configuration);
+      const bool work = finding.check == Check::counters || finding.check == Check::statistics;
+      if (work && finding.verdict == Verdict::regression && wrong.contains(place)) {
+        changed_.insert(place);
+        continue;
+      }
       by_shape_[{finding.verdict, finding.check, finding.device, shape_of(finding.message)}]
           .push_back(&finding);
     }
@@ -147,6 +168,12 @@ class Grouping {
         found != passes_.end() && !first->configuration.empty()) {
       group.right_on = found->second;
     }
+    if (first->check == Check::image) {
+      group.changed_with_it =
+          static_cast<std::size_t>(std::ranges::count_if(members, [&](const Finding* f) {
+            return changed_.contains({f->device, f->configuration});
+          }));
+    }
     return group;
   }
 
@@ -167,6 +194,7 @@ class Grouping {
     return text;
   }
 
+  Places changed_;  // a wrong picture's counters or statistics
   std::map<std::pair<Check, std::string_view>, Levels> levels_;
   std::map<std::pair<Check, std::string_view>, std::vector<std::string>> passes_;
   std::map<std::tuple<Verdict, Check, std::string_view, std::string>, Members> by_shape_;
@@ -199,6 +227,7 @@ bool take_in(FindingGroup& group, const FindingGroup& other) {
     group.right_on = other.right_on;
   }
   group.configurations += other.configurations;
+  group.changed_with_it += other.changed_with_it;
   if (group.signature != other.signature) group.signature.clear();
   return smaller;
 }

@@ -16,6 +16,7 @@ using judge::Verdict;
 constexpr std::size_t most_lines = 40;
 constexpr std::size_t least_width = 40;
 constexpr std::size_t longest_command = 600;
+constexpr std::size_t longest_message = 3;  // lines
 
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
@@ -111,7 +112,7 @@ class Screen {
         "  {} {}", coloured(sign, first.verdict),
         core::printable(fmt::format("{}: {}", judge::name_of(first.check), place_of(cause)),
                         width_ - 4))};
-    append_wrapped(lines, core::printable(message_of(cause), 2 * (width_ - 6)), "");
+    append_wrapped(lines, core::printable(message_of(cause), longest_message * (width_ - 6)), "");
     const std::string command = command_of(first, *cause.result);
     // Cut short it would be another command.
     if (width_of(command) > longest_command) {

@@ -199,6 +199,11 @@ std::string message_of(const Cause& cause) {
     text += fmt::format("; {} {} right", fmt::join(group.right_on, ", "),
                         group.right_on.size() == 1 ? "is" : "are");
   }
+  if (group.changed_with_it > 0) {
+    text += group.configurations == 1
+                ? "; its counters changed too"
+                : fmt::format("; counters of {} changed too", group.changed_with_it);
+  }
   return text;
 }
 

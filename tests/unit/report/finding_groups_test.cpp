@@ -72,6 +72,17 @@ TEST(FindingGroups, DevicesChecksVerdictsAndMessagesAreCausesOfTheirOwn) {
   EXPECT_EQ(grouped(findings).size(), 5U);
 }
 
+TEST(FindingGroups, AWrongPicturesCountersAreToldWithIt) {
+  const std::vector<Finding> findings{
+      finding(regression, "gl:x", "step=1"), finding(regression, "gl:x", "step=2"),
+      finding(regression, "gl:x", "step=2", "samples 3 → 4", Check::counters),
+      finding(regression, "gl:y", "step=2", "samples 3 → 4", Check::counters)};
+  const std::vector<FindingGroup> groups = grouped(findings);
+  ASSERT_EQ(groups.size(), 2U);
+  EXPECT_EQ(groups[0].changed_with_it, 1U);
+  EXPECT_EQ(groups[1].first, &findings[3]);
+}
+
 TEST(FindingGroups, WorstFirstAndCausesBeforeConsequences) {
   const std::vector<Finding> findings{
       finding(advisory, "gl:x", "step=1"),
