@@ -5,12 +5,14 @@
 #include <system_error>
 #include <utility>
 
+#include "accuracy/image_fault.hpp"
 #include "app/arguments.hpp"
 #include "app/error_request.hpp"
 #include "app/listing.hpp"
 #include "app/loading.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
+#include "app/truth.hpp"
 #include "core/image_io.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
@@ -27,6 +29,8 @@ struct RenderArguments {
   std::vector<std::string> set;
   std::string out;
   std::optional<double> error;
+  bool truth = false;
+  std::vector<std::string> plants;
 };
 
 // The store of the one run that a picture is; gone when the picture is written.
@@ -68,6 +72,22 @@ core::Json frame_json(measure::SuiteWithTruth& suite, const record::Record& reco
   return frame;
 }
 
+// Writes the truth and the difference beside the picture, and says whether it is right.
+core::ExitCode hold_against_truth(const core::Image& image, const judge::TruthPair& pair,
+                                  const fs::path& out) {
+  constexpr double gain = 100;  // of what is shown as white
+  const accuracy::ImageComparison comparison = accuracy::compare(image, pair.truth, pair.bound);
+  const std::string wrong = accuracy::image_fault(comparison, image, pair.truth, "the truth");
+  core::write_exr(pair.truth, out / "truth.exr");
+  core::write_png(pair.truth, out / "truth.png");
+  if (!comparison.size_mismatch) {
+    core::write_png(accuracy::difference_image(image, pair.truth, gain), out / "difference.png");
+  }
+  fmt::print("{}\n",
+             wrong.empty() ? "within the bound of the truth; " + describe(comparison) : wrong);
+  return wrong.empty() ? core::ExitCode::pass : core::ExitCode::regression;
+}
+
 core::ExitCode render(const RenderArguments& arguments) {
   const Registry registry = make_registry();
   measure::SuiteWithTruth& suite = registry.suite(arguments.suite);
@@ -91,11 +111,13 @@ core::ExitCode render(const RenderArguments& arguments) {
   }
   const ScratchFile file(out / ".render.sqlite");
   record::Store store(file.path(), record::Store::Mode::append);
-  const measure::RunResult result = measure::run_plan(
-      plan, devices, suite, store, {.worker_command = {own_program(), "worker", "--device"}},
-      [](const measure::Progress& progress) {
-        if (progress.loading) show_loading(*progress.loading);
-      });
+  const measure::RunResult result =
+      measure::run_plan(plan, devices, suite, store,
+                        {.plants = parse_plants(arguments.plants),
+                         .worker_command = {own_program(), "worker", "--device"}},
+                        [](const measure::Progress& progress) {
+                          if (progress.loading) show_loading(*progress.loading);
+                        });
   const std::vector<record::Record> records = store.records(result.run);
   record::Record record = records.at(0);
   if (arguments.error) {
@@ -120,7 +142,9 @@ core::ExitCode render(const RenderArguments& arguments) {
       out / "frame.json",
       core::json_text(frame_json(suite, record, store.devices(result.run).at(0).device), 2) + "\n");
   fmt::print("{}\n", (out / "image.exr").string());
-  return core::ExitCode::pass;
+  if (!arguments.truth) return core::ExitCode::pass;
+  Truths truths(registry, store);
+  return hold_against_truth(image, truths.of(record), out);
 }
 
 }  // namespace
@@ -138,6 +162,10 @@ void add_render_command(Commands& commands) {
   command->add_option("--error", arguments->error,
                       "Root mean square error against the scene's limit: chooses the fastest step, "
                       "quadrature, ert, adapt and skip that keep it");
+  command->add_flag("--truth", arguments->truth,
+                    "Hold it against the reference: writes truth.exr, truth.png and difference.png "
+                    "(times 100), ends with 1 where it is wrong");
+  command->add_option("--plant", arguments->plants, "Inject a fault, as for run (repeatable)");
 }
 
 }  // namespace triptych::app

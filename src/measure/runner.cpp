@@ -66,13 +66,13 @@ void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& 
 // The id of the run to add to: a new one, or the plan's latest when it is to be resumed.
 std::string open_run(const PlannedRun& planned, record::Store& store) {
   const auto& [plan, suite, options] = planned;
-  const auto latest = store.latest_run(plan.name);
-  if (options.resume && latest) {
-    refuse_another_plan(*latest, plan, suite, store);
-    return latest->id;
+  const record::Run fresh = new_run(plan);
+  if (!options.resume) {
+    store.add_run(fresh);
+    return fresh.id;
   }
-  record::Run run = new_run(plan);
-  store.add_run(run);
+  const record::Run run = store.latest_run_or_add(fresh);
+  if (run.id != fresh.id) refuse_another_plan(run, plan, suite, store);
   return run.id;
 }
 

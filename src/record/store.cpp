@@ -78,6 +78,25 @@ std::map<std::string, std::string> read_dialect(const SQLite::Database& database
   return dialect;
 }
 
+std::optional<Run> latest_run_in(const SQLite::Database& database, std::string_view plan) {
+  SQLite::Statement row =
+      prepared(database, select_runs("WHERE plan = ? ORDER BY seq DESC LIMIT 1"), plan);
+  if (!row.executeStep()) return std::nullopt;
+  return read_run(row);
+}
+
+void insert_run(const SQLite::Database& database, const Run& run) {
+  execute(database,
+          "INSERT INTO run (id, plan, started_at, system, checks, plan_hash, configurations, "
+          "seal) VALUES (?, ?, ?, ?, ?, ?, ?, ?) "
+          "ON CONFLICT (id) DO UPDATE SET plan = excluded.plan, "
+          "started_at = excluded.started_at, system = excluded.system, "
+          "checks = excluded.checks, plan_hash = excluded.plan_hash, "
+          "configurations = excluded.configurations, seal = excluded.seal",
+          run.id, run.plan, run.started_at, text_of(run.system, "system", run), text_of(run.checks),
+          run.plan_hash, run.configurations, seal_of(run));
+}
+
 // What is committed meanwhile, and all before it, outlives a loss of power.
 class WaitsForDisk {
  public:
@@ -139,18 +158,20 @@ void Store::require_whole() const {
 }
 
 void Store::add_run(const Run& run) {
-  const std::string system = text_of(run.system, "system", run);
+  state_->write([&] { insert_run(state_->database, run); });
+}
+
+Run Store::latest_run_or_add(const Run& run) {
+  Run found = run;
   state_->write([&] {
-    execute(state_->database,
-            "INSERT INTO run (id, plan, started_at, system, checks, plan_hash, configurations, "
-            "seal) VALUES (?, ?, ?, ?, ?, ?, ?, ?) "
-            "ON CONFLICT (id) DO UPDATE SET plan = excluded.plan, "
-            "started_at = excluded.started_at, system = excluded.system, "
-            "checks = excluded.checks, plan_hash = excluded.plan_hash, "
-            "configurations = excluded.configurations, seal = excluded.seal",
-            run.id, run.plan, run.started_at, system, text_of(run.checks), run.plan_hash,
-            run.configurations, seal_of(run));
+    const std::optional<Run> latest = latest_run_in(state_->database, run.plan);
+    if (latest) {
+      found = *latest;
+    } else {
+      insert_run(state_->database, run);
+    }
   });
+  return found;
 }
 
 void Store::add_device(const std::string& run, const Device& d,
@@ -242,12 +263,7 @@ std::vector<Run> Store::runs() const {
 }
 
 std::optional<Run> Store::latest_run(std::string_view plan) const {
-  return on_store(state_->file, [&]() -> std::optional<Run> {
-    SQLite::Statement row =
-        prepared(state_->database, select_runs("WHERE plan = ? ORDER BY seq DESC LIMIT 1"), plan);
-    if (!row.executeStep()) return std::nullopt;
-    return read_run(row);
-  });
+  return on_store(state_->file, [&] { return latest_run_in(state_->database, plan); });
 }
 
 std::vector<Store::DeviceEntry> Store::devices(std::string_view run) const {

@@ -55,6 +55,9 @@ class Store {
   // What is already there under the same key is replaced. Devices and records of a run that was not
   // added are refused with InputError.
   void add_run(const Run& run);
+  // The latest run of the plan, or where there is none this one, now added. Of several processes that
+  // ask at once one adds, the others find its run.
+  [[nodiscard]] Run latest_run_or_add(const Run& run);
   void add_device(const std::string& run, const Device& device,
                   const std::vector<ClockTrust>& clocks);
   void add_image(std::string_view hash,

@@ -258,6 +258,9 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
   for (const auto& [factor, level] : factors_of(finding)) {
     words.insert(words.end(), {"--set", record::factor_list({{factor, level}})});
   }
+  for (const std::string& fault : finding.injected) words.insert(words.end(), {"--plant", fault});
+  if (finding.check == Check::image || finding.check == Check::stress)
+    words.emplace_back("--truth");
   if (words[1] == "render") words.insert(words.end(), {"--out", "repro"});
   std::string text;
   if (const auto set = result.environments.find(finding.device); set != result.environments.end()) {

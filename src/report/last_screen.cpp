@@ -123,7 +123,8 @@ class Screen {
     return lines;
   }
 
-  // Broken at spaces outside quotes; `end` closes every line but the last.
+  // Broken at spaces outside quotes, of a command never between an option and its value; `end`
+  // closes every line but the last.
   void append_wrapped(std::vector<std::string>& lines, std::string_view text,
                       std::string_view end) const {
     std::string line;
@@ -137,9 +138,13 @@ class Screen {
       line += (line.empty() || line == "  " ? "" : " ") + word;
       word.clear();
     };
-    for (const char c : text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const char c = text[i];
       if (c == '\'' && !end.empty()) quoted = !quoted;
-      if (c == ' ' && !quoted) {
+      const bool value_follows = !end.empty() && word.starts_with("--") &&
+                                 word.find(' ') == std::string::npos && i + 1 < text.size() &&
+                                 text[i + 1] != '-';
+      if (c == ' ' && !quoted && !value_follows) {
         put();
       } else {
         word += c;

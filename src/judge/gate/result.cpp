@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -171,7 +172,10 @@ Finding finding_about(const record::Record& record, Check check, Verdict verdict
                   record.device,
                   record.configuration,
                   std::move(message)};
-  if (!record.planted.empty()) finding.message += fmt::format(" [planted: {}]", record.planted);
+  for (const auto each : std::views::split(record.planted, '+')) {
+    if (!each.empty()) finding.injected.emplace_back(each.begin(), each.end());
+  }
+  if (!record.planted.empty()) finding.message += fmt::format(" [injected: {}]", record.planted);
   return finding;
 }
 

@@ -191,7 +191,7 @@ TEST_F(GateTest, PlantedFaultIsNamed) {
     if (record.device == "vulkan:lavapipe") record.planted = "swap_axes";
   });
   EXPECT_THAT(with(gate("b"), Verdict::regression).at(0).message,
-              HasSubstr("[planted: swap_axes]"));
+              HasSubstr("[injected: swap_axes]"));
 }
 
 }  // namespace

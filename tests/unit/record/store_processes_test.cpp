@@ -55,6 +55,23 @@ TEST_F(StoreTest, BusyForAShortTimeIsNoError) {
   release.join();
 }
 
+// CTest starts a plan's devices at once: all of them have to add to one run.
+TEST_F(StoreTest, OfManyThatWouldBeginARunOneDoes) {
+  { const Store empty(file_, Mode::append); }
+  std::array<std::string, 8> ids;
+  std::vector<std::thread> processes;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    processes.emplace_back([&, i] {
+      Store store(file_, Mode::append);
+      ids.at(i) = store.latest_run_or_add(sample_run(fmt::format("run-{}", i))).id;
+    });
+  }
+  for (std::thread& each : processes) each.join();
+  const Store store(file_, Mode::read);
+  ASSERT_THAT(store.runs(), SizeIs(1));
+  EXPECT_THAT(ids, testing::Each(store.runs().front().id));
+}
+
 TEST_F(StoreTest, ReaderBesideAWriter) {
   Store writer(file_, Mode::append);
   writer.add_run(sample_run());

@@ -11,6 +11,7 @@ namespace {
 using judge::Check;
 using judge::Finding;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using enum judge::Verdict;
 
 Finding finding(judge::Verdict verdict, const std::string& device, const std::string& configuration,
@@ -121,7 +122,10 @@ TEST(CommandOf, DrawsTheConfigurationAgain) {
   quick.environments = {{"gl:x#2", {{"LP_X", "$(x)"}}}};
   EXPECT_EQ(command_of(wrong, quick),
             "LP_X='$(x)' triptych render volume --device 'gl:x#2' --set 'data=a b%2Cc' --set "
-            "step=0.5 --out repro");
+            "step=0.5 --truth --out repro");
+  Finding injected = wrong;
+  injected.injected = {"coarse_filter"};
+  EXPECT_THAT(command_of(injected, quick), HasSubstr(" --plant coarse_filter --truth --out"));
   const Finding cost = finding(regression, "gl:x", "step=1", "more", Check::cost);
   EXPECT_EQ(command_of(cost, quick), "triptych run volume/quick --device gl:x --set step=1");
 }

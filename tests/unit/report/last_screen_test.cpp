@@ -59,8 +59,8 @@ TEST(LastScreen, TellsWhatWhereAndWhatToType) {
 
   ✗ image: vulkan:lavapipe, technique=raycast (6 configurations)
     11139 of 36864 pixels are over the bound; opencl:pocl is right
-    triptych render volume --device vulkan:lavapipe --set step=1 --set \
-      technique=raycast --out repro
+    triptych render volume --device vulkan:lavapipe --set step=1 \
+      --set technique=raycast --truth --out repro
 
   out/report.html   out/gate.log
 
