@@ -167,7 +167,7 @@ TEST(Dialect, WhichOfOurCountersADriverCountsIsNamed) {
 
 TEST(Dialect, TooLowSomewhereDiffers) {
   const Dialect dialect = dialect_of([](const Work& work, int, record::Counts& counts) {
-    counts["clipping_primitives"] += is_one_sprite(work) ? 1 : 0;
+    counts["clipping_primitives"] += is_one_sprite(work) ? 1U : 0U;
     if (work.technique == "quad_tess") counts["input_assembly_primitives"] = 0;
     if (!is_one_sprite(work)) counts["clipping_invocations"] -= 1;
   });
