@@ -75,13 +75,15 @@ core::Json frame_json(measure::SuiteWithTruth& suite, const record::Record& reco
 // Writes the truth and the difference beside the picture, and says whether it is right.
 core::ExitCode hold_against_truth(const core::Image& image, const judge::TruthPair& pair,
                                   const fs::path& out) {
-  constexpr double gain = 100;  // of what is shown as white
   const accuracy::ImageComparison comparison = accuracy::compare(image, pair.truth, pair.bound);
   const std::string wrong = accuracy::image_fault(comparison, image, pair.truth, "the truth");
   core::write_exr(pair.truth, out / "truth.exr");
   core::write_png(pair.truth, out / "truth.png");
   if (!comparison.size_mismatch) {
-    core::write_png(accuracy::difference_image(image, pair.truth, gain), out / "difference.png");
+    const double white = comparison.largest.error > 0 ? comparison.largest.error : 1;
+    core::write_png(accuracy::difference_image(image, pair.truth, 1 / white),
+                    out / "difference.png");
+    fmt::print("{}: white is an error of {:.3g}\n", (out / "difference.png").string(), white);
   }
   fmt::print("{}\n",
              wrong.empty() ? "within the bound of the truth; " + describe(comparison) : wrong);
@@ -163,8 +165,8 @@ void add_render_command(Commands& commands) {
                       "Root mean square error against the scene's limit: chooses the fastest step, "
                       "quadrature, ert, adapt and skip that keep it");
   command->add_flag("--truth", arguments->truth,
-                    "Hold it against the reference: writes truth.exr, truth.png and difference.png "
-                    "(times 100), ends with 1 where it is wrong");
+                    "Hold it against the reference: writes truth.exr, truth.png and "
+                    "difference.png, ends with 1 where it is wrong");
   command->add_option("--plant", arguments->plants, "Inject a fault, as for run (repeatable)");
 }
 
