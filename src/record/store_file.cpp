@@ -311,14 +311,18 @@ SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode 
   });
 }
 
-void require_file(const std::filesystem::path& file, const SQLite::Database& database) {
+void require_file(const std::filesystem::path& file, SQLite::Database& database) {
   int moved = 0;
   const int answer =
       sqlite3_file_control(database.getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &moved);
-  if (answer != SQLITE_OK || moved == 0) return;
+  std::error_code ignored;
+  const std::filesystem::path log = file.string() + "-wal";
+  const bool lost_log = !std::filesystem::exists(log, ignored) &&
+                        database.execAndGet("PRAGMA journal_mode").getString() == "wal";
+  if (!lost_log && (answer != SQLITE_OK || moved == 0)) return;
   throw core::IoError(
       fmt::format("{}: was removed or renamed while it was open; what is added now would be lost",
-                  file.string()));
+                  lost_log ? log.string() : file.string()));
 }
 
 void throw_damaged(const std::filesystem::path& file, std::string_view what) {

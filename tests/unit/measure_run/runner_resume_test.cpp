@@ -32,8 +32,8 @@ class RunResume : public RunTest {
 
   // Waits until the supervisor has stored so many records.
   void wait_for_records(std::size_t count) const {
+    const record::Store store = open_store();
     for (int i = 0; i < 2000; ++i) {
-      const record::Store store = open_store();
       const auto latest = store.latest_run("fake/quick");
       if (latest && store.records(latest->id).size() >= count) return;
       std::this_thread::sleep_for(milliseconds(10));

@@ -209,14 +209,17 @@ TEST_F(StoreTest, ReadOnlyFolderWithALogLeftBehind) {
 }
 
 TEST_F(StoreTest, FileTakenAwayWhileItIsOpen) {
-  Store store(file_, Mode::append);
-  store.add_run(sample_run());
-  std::filesystem::remove(file_);
-  try {
-    store.add_record(sample_record());
-    FAIL() << "was kept nowhere, without a word";
-  } catch (const core::IoError& error) {
-    EXPECT_THAT(error.what(), AllOf(StartsWith(file_.string()), HasSubstr("removed or renamed")));
+  for (const std::string ending : {"", "-wal"}) {
+    Store store(file_, Mode::append);
+    store.add_run(sample_run());
+    std::filesystem::remove(file_.string() + ending);
+    try {
+      store.add_record(sample_record());
+      FAIL() << "was kept nowhere, without a word";
+    } catch (const core::IoError& error) {
+      EXPECT_THAT(error.what(),
+                  AllOf(StartsWith(file_.string() + ending), HasSubstr("removed or renamed")));
+    }
   }
 }
 
