@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "app/comparing.hpp"
 #include "app/judging.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
+#include "comparison/side_by_side.hpp"
 #include "comparison/store_diff.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
@@ -24,6 +26,7 @@ struct CompareArguments {
   std::string a_program;
   std::string b_program;
   bool no_times = false;
+  bool apis = false;
   bool json = false;
 };
 
@@ -48,7 +51,37 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
   return side;
 }
 
+// Of the latest run of each plan: what it measured, device beside device.
+core::ExitCode show_apis(const CompareArguments& arguments) {
+  const Comparing& comparing = arguments.comparing;
+  if (comparing.store.empty()) {
+    throw core::InputError("--apis needs --store: the file that `triptych run` wrote");
+  }
+  const record::Store store = open_to_judge(comparing.store);
+  std::set<std::string> asked;
+  for (const std::string& plan : comparing.plans) {
+    asked.insert(latest_run_of(store, plan, comparing.store));
+  }
+  core::Json json = core::Json::object();
+  for (const record::Run& run : latest_runs(store)) {
+    if (!asked.empty() && !asked.contains(run.id)) continue;
+    const auto table = comparison::side_by_side(store.records(run.id));
+    if (!table) continue;
+    json[run.plan] = comparison::to_json(*table);
+    if (!arguments.json) fmt::print("{}\n\n{}\n", run.plan, comparison::to_text(*table));
+  }
+  if (json.empty()) {
+    throw core::NotSupported(comparing.store + ": no two devices measured the same configuration");
+  }
+  if (arguments.json) fmt::print("{}\n", core::json_text(json, 2));
+  return core::ExitCode::pass;
+}
+
 core::ExitCode compare(const CompareArguments& arguments) {
+  if (arguments.apis) return show_apis(arguments);
+  if (arguments.a.empty() || arguments.b.empty()) {
+    throw core::InputError("compare needs two sides, --a and --b, or --apis with a store");
+  }
   Comparing comparing = arguments.comparing;
   comparing.a = parse_side("--a", arguments.a, arguments.a_program);
   comparing.b = parse_side("--b", arguments.b, arguments.b_program);
@@ -107,13 +140,15 @@ void add_compare_commands(Commands& commands) {
       fmt::format("YAML files, or SUITE/PLAN (default: {})", fmt::join(main_job, " ")));
   comparing.choice.add_to(*command);
   constexpr const char* side = "DEVICE[,NAME=VALUE]…: with variables set for this side alone";
-  command->add_option("--a", arguments->a, side)->required();
-  command->add_option("--b", arguments->b, side)->required();
+  command->add_option("--a", arguments->a, side);
+  command->add_option("--b", arguments->b, side);
   command->add_option("--a-program", arguments->a_program,
                       "Another build of triptych to measure a");
   command->add_option("--b-program", arguments->b_program,
                       "Another build of triptych to measure b");
   command->add_flag("--no-times", arguments->no_times, "Only what repeats");
+  command->add_flag("--apis", arguments->apis,
+                    "Show what --store holds, technique by technique and device beside device");
   command
       ->add_option("--budget", comparing.budget_s,
                    "Seconds after which no doubt about a time is followed any further (default: "

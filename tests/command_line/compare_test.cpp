@@ -144,5 +144,13 @@ TEST_F(Compare, AnotherProgramServesItsSide) {
   expect_verdict(compare(b_as(1), "--b-program /bin/true"), 2, "cannot be opened");
 }
 
+TEST_F(Compare, SideBySideNeedsAStoreOfTwoDevices) {
+  expect_verdict(program.run("compare --apis"), 3, "--apis needs --store");
+  const std::string run = fmt::format("run volume/quick {} --store s.sqlite", tiny);
+  ASSERT_EQ(program.run(run, script(1, 1)).code, 0);
+  expect_verdict(program.run("compare --apis --store s.sqlite"), 2, "no two devices measured");
+  expect_verdict(program.run("compare volume/quick"), 3, "needs two sides");
+}
+
 }  // namespace
 }  // namespace triptych::command_line

@@ -1,0 +1,62 @@
+#include "comparison/side_by_side.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace triptych::comparison {
+namespace {
+
+using testing::HasSubstr;
+
+record::Record measured(const std::string& device, const std::string& technique,
+                        const std::string& step, std::uint64_t instructions) {
+  record::Record record;
+  record.device = device;
+  record.technique = technique;
+  record.configuration = "step=" + step + ",technique=" + technique;
+  record.outcome = record::Outcome::measured;
+  record.wall_ns = {1e6 * static_cast<double>(instructions)};
+  if (instructions > 0) record.cost = {{"device_code", instructions}, {"libc", 7}};
+  record.counters = {{"samples", 100}};
+  return record;
+}
+
+TEST(SideBySide, IsTheGeometricMeanOverWhatAllMeasured) {
+  std::vector<record::Record> records{
+      measured("gl:x", "a", "1", 100), measured("vulkan:y", "a", "1", 200),
+      measured("gl:x", "a", "2", 100), measured("vulkan:y", "a", "2", 80),
+      measured("gl:x", "a", "3", 1),  // alone: compares with nothing
+      measured("gl:x", "b", "1", 30),  measured("vulkan:y", "b", "1", 10)};
+  records[1].counters["samples"] = 150;
+  const auto table = side_by_side(records);
+  ASSERT_TRUE(table);
+  EXPECT_EQ(table->unit, "instructions");
+  ASSERT_EQ(table->rows.size(), 2U);
+  EXPECT_EQ(table->rows[0].configurations, 2U);
+  EXPECT_NEAR(table->rows[0].cells.at("vulkan:y").ratio, std::sqrt(1.6), 1e-12);
+  EXPECT_NEAR(table->rows[1].cells.at("gl:x").ratio, 3, 1e-12);
+  EXPECT_EQ(table->rows[1].best, "vulkan:y");
+  EXPECT_THAT(to_text(*table), HasSubstr("1.26 (samples ×1.22)"));
+  EXPECT_EQ(to_json(*table)["rows"][1]["best"], "vulkan:y");
+}
+
+TEST(SideBySide, TakesTimesWhereNothingWasCountedAndSaysWhatIsMissing) {
+  std::vector<record::Record> records{
+      measured("gl:x", "a", "1", 10), measured("gl:y", "a", "1", 20),
+      measured("gl:z", "b", "1", 20), measured("gl:x", "b", "1", 10)};
+  for (record::Record& each : records) each.cost.clear();
+  const auto table = side_by_side(records);
+  ASSERT_TRUE(table);
+  EXPECT_EQ(table->unit, "ns");
+  EXPECT_THAT(to_text(*table), HasSubstr("–"));
+  EXPECT_THAT(table->sentence(), HasSubstr("gl:x takes the least in 2 of 2 techniques; gl:y 2.00"));
+}
+
+TEST(SideBySide, OneDeviceIsNoTable) {
+  const std::vector<record::Record> records{measured("gl:x", "a", "1", 10)};
+  EXPECT_FALSE(side_by_side(records));
+}
+
+}  // namespace
+}  // namespace triptych::comparison
