@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/code_place.hpp"
-#include "measure/memory_ledger.hpp"
+#include "measure/contract/memory_ledger.hpp"
 
 namespace triptych::gl_backend {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::gl_backend {
 

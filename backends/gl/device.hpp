@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "backends/gl/context.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::gl_backend {
 

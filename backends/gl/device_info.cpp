@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "measure/cpu_features.hpp"
+#include "measure/system/cpu_features.hpp"
 
 namespace triptych::gl_backend {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "backends/gl/api.hpp"
-#include "measure/memory_ledger.hpp"
+#include "measure/contract/memory_ledger.hpp"
 
 namespace triptych::gl_backend {
 

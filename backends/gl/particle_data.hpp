@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "backends/gl/objects.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 #include "technique/particles/arrangement.hpp"
 
 namespace triptych::gl_backend {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "backends/gl/api.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::gl_backend {
 

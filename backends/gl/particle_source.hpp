@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "backends/gl/program.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::gl_backend {
 

@@ -10,7 +10,7 @@
 #include "backends/gl/timing.hpp"
 #include "backends/gl/volume_data.hpp"
 #include "core/image.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::gl_backend {
 

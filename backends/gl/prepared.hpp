@@ -8,7 +8,7 @@
 #include "backends/gl/context.hpp"
 #include "backends/gl/timing.hpp"
 #include "core/image.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::gl_backend {
 

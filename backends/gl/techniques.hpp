@@ -9,7 +9,7 @@
 #include "backends/gl/context.hpp"
 #include "backends/gl/prepared.hpp"
 #include "backends/gl/timing.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 #include "technique_list.hpp"
 
 namespace triptych::gl_backend {

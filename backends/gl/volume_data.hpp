@@ -3,7 +3,7 @@
 #include <span>
 
 #include "backends/gl/objects.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 #include "scene/volume.hpp"
 
 namespace triptych::gl_backend {

@@ -5,7 +5,7 @@
 
 #include "backends/gl/context.hpp"
 #include "backends/gl/pass.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::gl_backend {
 

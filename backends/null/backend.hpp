@@ -46,7 +46,7 @@
 #include <vector>
 
 #include "core/image.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::null_backend {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/image.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::null_backend {
 

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "backends/opencl/devices.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::opencl_backend {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "measure/cpu_features.hpp"
+#include "measure/system/cpu_features.hpp"
 #include "record/device_id.hpp"
 
 namespace triptych::opencl_backend {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "backends/opencl/objects.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::opencl_backend {
 

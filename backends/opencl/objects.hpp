@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/code_place.hpp"
-#include "measure/memory_ledger.hpp"
+#include "measure/contract/memory_ledger.hpp"
 
 namespace triptych::opencl_backend {
 

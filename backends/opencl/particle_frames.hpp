@@ -8,7 +8,7 @@
 #include "backends/opencl/launches.hpp"
 #include "backends/opencl/particle_programs.hpp"
 #include "backends/opencl/particle_stages.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::opencl_backend {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "backends/opencl/objects.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::opencl_backend {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "backends/opencl/programs.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::opencl_backend {
 

@@ -6,7 +6,7 @@
 #include "backends/opencl/objects.hpp"
 #include "backends/opencl/programs.hpp"
 #include "backends/opencl/volume_data.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 #include "technique_list.hpp"
 
 namespace triptych::opencl_backend {

@@ -6,7 +6,7 @@
 #include "backends/vulkan/devices.hpp"
 #include "backends/vulkan/gpu.hpp"
 #include "backends/vulkan/instance.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::vulkan_backend {
 

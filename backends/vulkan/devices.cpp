@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "backends/vulkan/errors.hpp"
-#include "measure/cpu_features.hpp"
+#include "measure/system/cpu_features.hpp"
 #include "record/device_id.hpp"
 
 namespace triptych::vulkan_backend {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "backends/vulkan/gpu.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::vulkan_backend {
 

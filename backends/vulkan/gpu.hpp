@@ -6,7 +6,7 @@
 
 #include "backends/vulkan/pipelines.hpp"
 #include "backends/vulkan/vulkan.hpp"
-#include "measure/memory_ledger.hpp"
+#include "measure/contract/memory_ledger.hpp"
 
 namespace triptych::vulkan_backend {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "backends/vulkan/gpu.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::vulkan_backend {
 

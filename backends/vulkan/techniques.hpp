@@ -5,7 +5,7 @@
 
 #include "backends/vulkan/gpu.hpp"
 #include "backends/vulkan/instance.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 #include "technique_list.hpp"
 
 namespace triptych::vulkan_backend {

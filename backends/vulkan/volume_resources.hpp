@@ -7,7 +7,7 @@
 #include "backends/vulkan/descriptors.hpp"
 #include "backends/vulkan/memory.hpp"
 #include "backends/vulkan/pipeline.hpp"
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::vulkan_backend {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "measure/plan.hpp"
-#include "measure/runner.hpp"
+#include "measure/plan/plan.hpp"
+#include "measure/run/runner.hpp"
 
 namespace triptych::app {
 

@@ -15,8 +15,8 @@
 #include "core/foreign_error.hpp"
 #include "core/quoting.hpp"
 #include "judge/gate/gate.hpp"
-#include "measure/plan.hpp"
-#include "measure/stopwatch.hpp"
+#include "measure/plan/plan.hpp"
+#include "measure/system/stopwatch.hpp"
 
 namespace triptych::app {
 namespace {

@@ -17,8 +17,9 @@
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/saying.hpp"
-#include "measure/plant.hpp"
-#include "measure/process.hpp"
+#include "measure/protocol/plant.hpp"
+#include "measure/system/process.hpp"
+#include "measure/worker/worker.hpp"
 
 namespace triptych::app {
 namespace {

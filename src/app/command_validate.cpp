@@ -10,8 +10,8 @@
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/saying.hpp"
-#include "measure/runner.hpp"
-#include "measure/stopwatch.hpp"
+#include "measure/run/runner.hpp"
+#include "measure/system/stopwatch.hpp"
 
 namespace triptych::app {
 namespace {

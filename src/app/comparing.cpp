@@ -21,7 +21,7 @@
 #include "core/json_text.hpp"
 #include "core/quoting.hpp"
 #include "core/temporary_folder.hpp"
-#include "measure/plant.hpp"
+#include "measure/protocol/plant.hpp"
 
 namespace triptych::app {
 namespace {

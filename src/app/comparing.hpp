@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/arguments.hpp"
-#include "measure/worker_setup.hpp"
+#include "measure/worker/worker_setup.hpp"
 
 namespace triptych::app {
 

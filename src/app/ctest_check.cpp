@@ -16,7 +16,7 @@
 #include "core/image_io.hpp"
 #include "core/quoting.hpp"
 #include "judge/gate/gate.hpp"
-#include "measure/plan.hpp"
+#include "measure/plan/plan.hpp"
 
 namespace triptych::app {
 namespace {

@@ -14,7 +14,7 @@
 #include "accuracy/image_metrics.hpp"
 #include "core/error.hpp"
 #include "core/image_io.hpp"
-#include "measure/factor.hpp"
+#include "measure/contract/factor.hpp"
 
 namespace triptych::app {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "accuracy/accuracy.hpp"
 #include "app/truth.hpp"
-#include "measure/plan.hpp"
+#include "measure/plan/plan.hpp"
 
 namespace triptych::app {
 

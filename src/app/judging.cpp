@@ -11,7 +11,7 @@
 #include "app/paths.hpp"
 #include "core/foreign_error.hpp"
 #include "core/quoting.hpp"
-#include "measure/plan.hpp"
+#include "measure/plan/plan.hpp"
 #include "report/benchmark_json.hpp"
 #include "report/folder.hpp"
 #include "report/junit.hpp"

@@ -6,7 +6,7 @@
 
 #include "app/truth.hpp"
 #include "judge/gate/gate.hpp"
-#include "measure/plan.hpp"
+#include "measure/plan/plan.hpp"
 #include "record/store.hpp"
 
 namespace triptych::app {

@@ -9,9 +9,9 @@
 
 #include "app/paths.hpp"
 #include "core/json.hpp"
-#include "measure/environment.hpp"
-#include "measure/wire.hpp"
-#include "measure/worker_link.hpp"
+#include "measure/system/environment.hpp"
+#include "measure/worker/wire.hpp"
+#include "measure/worker/worker_link.hpp"
 
 namespace triptych::app {
 namespace {

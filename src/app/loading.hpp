@@ -1,5 +1,5 @@
 #pragma once
-#include "measure/loading.hpp"
+#include "measure/contract/loading.hpp"
 
 namespace triptych::app {
 

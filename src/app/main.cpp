@@ -13,7 +13,7 @@
 #include "app/saying.hpp"
 #include "app/version.hpp"
 #include "core/foreign_error.hpp"
-#include "measure/plan_values.hpp"
+#include "measure/plan/plan_values.hpp"
 
 namespace {
 

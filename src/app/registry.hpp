@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "measure/backend.hpp"
-#include "measure/plan.hpp"
-#include "measure/suite.hpp"
+#include "measure/contract/backend.hpp"
+#include "measure/contract/suite.hpp"
+#include "measure/plan/plan.hpp"
 
 namespace triptych::app {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "comparison/times.hpp"
-#include "measure/stopwatch.hpp"
+#include "measure/system/stopwatch.hpp"
 
 namespace triptych::comparison {
 namespace {

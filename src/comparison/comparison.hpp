@@ -10,9 +10,9 @@
 
 #include "comparison/pairwise.hpp"
 #include "comparison/run_diff.hpp"
-#include "measure/plan.hpp"
-#include "measure/runner.hpp"
-#include "measure/turns.hpp"
+#include "measure/plan/plan.hpp"
+#include "measure/run/runner.hpp"
+#include "measure/run/turns.hpp"
 
 namespace triptych::comparison {
 

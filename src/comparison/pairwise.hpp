@@ -1,7 +1,7 @@
 #pragma once
 // Two things measured in turns: is one slower than the other? Plain functions of numbers: the
-// differences d of ln t between side b and side a, one per block of turns (measure/turns.hpp), so
-// that d > 0 says b is slower.
+// differences d of ln t between side b and side a, one per block of turns (measure/run/turns.hpp),
+// so that d > 0 says b is slower.
 
 #include <array>
 #include <cstddef>

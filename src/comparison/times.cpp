@@ -8,8 +8,8 @@
 #include <cmath>
 #include <utility>
 
-#include "measure/plant.hpp"
-#include "measure/stopwatch.hpp"
+#include "measure/protocol/plant.hpp"
+#include "measure/system/stopwatch.hpp"
 
 namespace triptych::comparison {
 namespace {

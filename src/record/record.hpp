@@ -39,9 +39,9 @@ struct Device {
   std::map<std::string, std::string>
       environment;                            // variables that are set and change code generation
   std::map<std::string, std::string> limits;  // in the API's own names
-  // What each pipeline statistic is worth, as scenes of known answer showed (measure/dialect.hpp):
-  // statistic → "exact", else "differs: …" or another word and what was seen. Empty where nobody
-  // looked. It follows from the driver and is no part of any key.
+  // What each pipeline statistic is worth, as scenes of known answer showed
+  // (measure/protocol/dialect.hpp): statistic → "exact", else "differs: …" or another word and what
+  // was seen. Empty where nobody looked. It follows from the driver and is no part of any key.
   std::map<std::string, std::string> statistics_dialect = {};
 
   // id, driver version, API version, CPU features or else the name of the hardware, environment:

@@ -1,6 +1,6 @@
 #include "suites/particles/factors.hpp"
 
-#include "measure/factor.hpp"
+#include "measure/contract/factor.hpp"
 #include "scene/camera.hpp"
 #include "scene/particles.hpp"
 #include "scene/transfer_function.hpp"

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "measure/suite.hpp"
+#include "measure/contract/suite.hpp"
 
 namespace triptych::particles_suite {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a scene of particles cannot tell apart (measure::Suite::plain).
 
-#include "measure/suite.hpp"
+#include "measure/contract/suite.hpp"
 #include "scene/particle_scene.hpp"
 
 namespace triptych::particles_suite {

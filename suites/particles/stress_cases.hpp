@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "measure/stress_name.hpp"
+#include "measure/contract/stress_name.hpp"
 #include "record/expectation.hpp"
 #include "scene/particles.hpp"
 

@@ -10,7 +10,7 @@
 #include "core/hash.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
-#include "measure/factor.hpp"
+#include "measure/contract/factor.hpp"
 #include "reference/spheres.hpp"
 #include "scene/file_table.hpp"
 #include "scene/particle_generators.hpp"

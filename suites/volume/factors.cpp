@@ -1,6 +1,6 @@
 #include "suites/volume/factors.hpp"
 
-#include "measure/factor.hpp"
+#include "measure/contract/factor.hpp"
 #include "scene/camera.hpp"
 #include "scene/transfer_function.hpp"
 #include "scene/volume.hpp"

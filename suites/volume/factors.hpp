@@ -2,7 +2,7 @@
 #include <string_view>
 #include <vector>
 
-#include "measure/suite.hpp"
+#include "measure/contract/suite.hpp"
 
 namespace triptych::volume_suite {
 

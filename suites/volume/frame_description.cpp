@@ -1,7 +1,7 @@
 #include "suites/volume/frame_description.hpp"
 
 #include "core/json.hpp"
-#include "measure/factor.hpp"
+#include "measure/contract/factor.hpp"
 
 namespace triptych::volume_suite {
 namespace {

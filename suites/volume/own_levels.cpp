@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "measure/factor.hpp"
+#include "measure/contract/factor.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/factors.hpp"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "measure/suite.hpp"
+#include "measure/contract/suite.hpp"
 #include "scene/volume_scene.hpp"
 #include "suites/volume/stress_cases.hpp"
 

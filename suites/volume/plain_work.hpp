@@ -1,7 +1,7 @@
 #pragma once
 // What a volume cannot tell apart (measure::Suite::plain).
 
-#include "measure/suite.hpp"
+#include "measure/contract/suite.hpp"
 
 namespace triptych::volume_suite {
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "measure/stress_name.hpp"
+#include "measure/contract/stress_name.hpp"
 #include "record/expectation.hpp"
 #include "scene/camera.hpp"
 #include "scene/transfer_function.hpp"

@@ -9,7 +9,7 @@
 #include "core/hash.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
-#include "measure/factor.hpp"
+#include "measure/contract/factor.hpp"
 #include "reference/volume.hpp"
 #include "scene/denormals.hpp"
 #include "scene/file_table.hpp"

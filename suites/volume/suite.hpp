@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "measure/suite.hpp"
+#include "measure/contract/suite.hpp"
 
 namespace triptych::volume_suite {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/image_io.hpp"
-#include "measure/plan.hpp"
+#include "measure/plan/plan.hpp"
 #include "program.hpp"
 #include "suites/volume/suite.hpp"
 

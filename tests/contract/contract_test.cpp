@@ -1,4 +1,4 @@
-// What measure/backend.hpp promises, whatever the API.
+// What measure/contract/backend.hpp promises, whatever the API.
 
 #include <cstdlib>
 #include <set>

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "measure/plant.hpp"
+#include "measure/protocol/plant.hpp"
 #include "particle_scenes.hpp"
 
 namespace triptych::contract {

@@ -1,6 +1,6 @@
 // Planted faults: each is caught by the picture, on every technique that has it.
 
-#include "measure/plant.hpp"
+#include "measure/protocol/plant.hpp"
 #include "particle_scenes.hpp"
 
 namespace triptych::contract {

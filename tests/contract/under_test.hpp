@@ -6,7 +6,7 @@
 #include <functional>
 #include <memory>
 
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 #include "scene/generators.hpp"
 
 namespace triptych::contract {

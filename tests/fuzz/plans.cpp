@@ -1,5 +1,5 @@
 #include "fuzzed.hpp"
-#include "measure/plan_yaml.hpp"
+#include "measure/plan/plan_yaml.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace triptych;

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 #include "scene/volume_scene.hpp"
 
 namespace triptych::test {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "measure/suite.hpp"
+#include "measure/contract/suite.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace triptych::test {

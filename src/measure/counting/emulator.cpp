@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "measure/cpu_features.hpp"
-#include "measure/process.hpp"
+#include "measure/system/cpu_features.hpp"
+#include "measure/system/process.hpp"
 
 namespace triptych::measure {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "measure/suite.hpp"
+#include "measure/contract/suite.hpp"
 
 namespace triptych::measure {
 

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "fake_suite.hpp"
-#include "measure/plan.hpp"
+#include "measure/plan/plan.hpp"
 
 namespace triptych::measure {
 

@@ -1,4 +1,4 @@
-#include "measure/plan.hpp"
+#include "measure/plan/plan.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "measure/benchmark_loop.hpp"
+#include "measure/protocol/benchmark_loop.hpp"
 
 #include <gmock/gmock.h>
 

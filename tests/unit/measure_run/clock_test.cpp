@@ -1,11 +1,11 @@
-#include "measure/clock.hpp"
+#include "measure/protocol/clock.hpp"
 
 #include <gmock/gmock.h>
 
 #include <limits>
 
 #include "core/error.hpp"
-#include "measure/protocol.hpp"
+#include "measure/protocol/protocol.hpp"
 #include "tests/unit/measure/fake_suite.hpp"
 #include "tests/unit/measure_run/scripted_prepared.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "measure/counting/emulator.hpp"
 #include "measure/counting/instruction_counter.hpp"
-#include "measure/process.hpp"
+#include "measure/system/process.hpp"
 
 namespace triptych::measure {
 namespace {

@@ -1,6 +1,6 @@
 // Verdicts on pipeline statistics, on a device that tells what it is scripted to.
 
-#include "measure/dialect.hpp"
+#include "measure/protocol/dialect.hpp"
 
 #include <gmock/gmock.h>
 

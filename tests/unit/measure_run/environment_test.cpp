@@ -1,4 +1,4 @@
-#include "measure/environment.hpp"
+#include "measure/system/environment.hpp"
 
 #include <gmock/gmock.h>
 

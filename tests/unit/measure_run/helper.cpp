@@ -30,8 +30,9 @@
 
 #include "backends/null/backend.hpp"
 #include "measure/counting/instruction_counter.hpp"
-#include "measure/process.hpp"
-#include "measure/runner.hpp"
+#include "measure/run/runner.hpp"
+#include "measure/system/process.hpp"
+#include "measure/worker/worker.hpp"
 #include "tests/unit/measure/fake_suite.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "measure/loading.hpp"
+#include "measure/contract/loading.hpp"
 
 #include <gmock/gmock.h>
 

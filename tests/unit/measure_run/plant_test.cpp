@@ -1,4 +1,4 @@
-#include "measure/plant.hpp"
+#include "measure/protocol/plant.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "measure/process.hpp"
+#include "measure/system/process.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "core/error.hpp"
-#include "measure/runner.hpp"
-#include "measure/worker_link.hpp"
+#include "measure/run/runner.hpp"
+#include "measure/worker/worker_link.hpp"
 
 namespace triptych::measure {
 namespace {

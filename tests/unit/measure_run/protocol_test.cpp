@@ -1,4 +1,4 @@
-#include "measure/protocol.hpp"
+#include "measure/protocol/protocol.hpp"
 
 #include <gmock/gmock.h>
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/runner.hpp"
+#include "measure/run/runner.hpp"
 #include "tests/unit/measure/fake_suite.hpp"
 #include "tests/unit/measure_run/scratch.hpp"
 

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "core/error.hpp"
-#include "measure/process.hpp"
+#include "measure/system/process.hpp"
 #include "tests/unit/measure_run/run_fixture.hpp"
 
 namespace triptych::measure {

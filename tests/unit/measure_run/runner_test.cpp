@@ -1,4 +1,4 @@
-#include "measure/runner.hpp"
+#include "measure/run/runner.hpp"
 
 #include <gmock/gmock.h>
 

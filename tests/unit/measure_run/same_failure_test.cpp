@@ -1,4 +1,4 @@
-#include "measure/same_failure.hpp"
+#include "measure/run/same_failure.hpp"
 
 #include "record/not_tried.hpp"
 #include "tests/unit/measure_run/run_fixture.hpp"

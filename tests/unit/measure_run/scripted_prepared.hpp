@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "measure/backend.hpp"
+#include "measure/contract/backend.hpp"
 
 namespace triptych::measure {
 

@@ -1,4 +1,4 @@
-#include "measure/turns.hpp"
+#include "measure/run/turns.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // What counts as the same work, and what runs make of it.
 
-#include "measure/twins.hpp"
+#include "measure/contract/twins.hpp"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "measure/wire.hpp"
+#include "measure/worker/wire.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
-#include "measure/process.hpp"
+#include "measure/system/process.hpp"
 
 namespace triptych::measure {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "measure/plan.hpp"
+#include "measure/plan/plan.hpp"
 #include "suites/particles/suite.hpp"
 #include "support/table_keys.hpp"
 #include "support/temporary_folder.hpp"

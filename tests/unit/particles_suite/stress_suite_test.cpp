@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "measure/plan.hpp"
+#include "measure/plan/plan.hpp"
 #include "suites/particles/stress_cases.hpp"
 #include "suites/particles/suite.hpp"
 

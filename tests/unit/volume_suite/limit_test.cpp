@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "measure/plan.hpp"
+#include "measure/plan/plan.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/suite.hpp"
 

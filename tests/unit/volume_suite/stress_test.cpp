@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "measure/plan.hpp"
+#include "measure/plan/plan.hpp"
 #include "reference/volume.hpp"
 #include "suites/volume/stress_cases.hpp"
 #include "suites/volume/suite.hpp"

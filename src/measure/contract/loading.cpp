@@ -1,0 +1,45 @@
+#include "measure/contract/loading.hpp"
+
+#include <utility>
+
+namespace triptych::measure {
+namespace {
+
+class Pace {
+ public:
+  Pace(OnLoading tell, std::function<std::chrono::steady_clock::time_point()> now)
+      : tell_(std::move(tell)), now_(std::move(now)) {}
+
+  void operator()(const Loading& loading) {
+    const auto now = now_();
+    if (loading.what != last_.what || loading.share < last_.share) {
+      rested_since_ = now;
+      told_ = false;
+    }
+    last_ = loading;
+    if (loading.share >= 1) {
+      if (std::exchange(told_, false)) tell_(loading);
+    } else if (now - rested_since_ >= pause) {
+      rested_since_ = now;
+      told_ = true;
+      tell_(loading);
+    }
+  }
+
+ private:
+  static constexpr std::chrono::seconds pause{2};
+
+  OnLoading tell_;
+  std::function<std::chrono::steady_clock::time_point()> now_;
+  Loading last_{.what = {}, .share = 1};
+  std::chrono::steady_clock::time_point rested_since_;
+  bool told_ = false;
+};
+
+}  // namespace
+
+OnLoading paced(OnLoading tell, std::function<std::chrono::steady_clock::time_point()> now) {
+  return Pace(std::move(tell), std::move(now));
+}
+
+}  // namespace triptych::measure

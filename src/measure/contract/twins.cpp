@@ -1,0 +1,70 @@
+#include "measure/contract/twins.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <variant>
+
+namespace triptych::measure {
+namespace {
+
+// Alpha is 1 − T + T·background in floats: three roundings of numbers up to 1, half a 2⁻²³ each.
+constexpr double alpha_rounding = 0x1.0p-22;
+
+std::string reason_for(const PlainWork& known, const PlainWork& wanted, double transmittance) {
+  std::vector<std::string> reasons;
+  const auto tell = [&](const PlainWork& of, const PlainWork& beside) {
+    for (const auto& [factor, why] : of.why) {
+      if (!beside.why.contains(factor)) reasons.push_back(factor + ": " + why);
+    }
+  };
+  tell(wanted, known);
+  tell(known, wanted);
+  if (known.ends_below != wanted.ends_below) {
+    reasons.push_back(fmt::format("ert: no ray gets darker than {:.3g}", transmittance));
+  }
+  return reasons.empty() ? "the same levels on this device"
+                         : fmt::format("{}", fmt::join(reasons, "; "));
+}
+
+}  // namespace
+
+double least_transmittance(const Work& work, const core::Image& picture) {
+  const auto* volume = std::get_if<VolumeWork>(&work.scene);
+  if (volume == nullptr || picture.rgba.empty()) return 0;
+  const double shows = 1.0 - static_cast<double>(volume->scene.background[3]);
+  if (!(shows > 0.5)) return 0;
+  double alpha = 0;
+  for (std::size_t i = 3; i < picture.rgba.size(); i += 4) {
+    const double here = static_cast<double>(picture.rgba[i]);
+    if (std::isnan(here)) return 0;
+    alpha = std::max(alpha, here);
+  }
+  const double least = (1.0 - alpha - alpha_rounding) / shows;
+  return least > 0 ? least : 0;
+}
+
+std::optional<Twin> Twins::find(const PlainWork& plain) const {
+  const auto same = known_.find(plain.levels);
+  if (same == known_.end()) return std::nullopt;
+  for (const Known& known : same->second) {
+    const bool told_apart =
+        known.plain.ends_below != plain.ends_below &&
+        known.least_transmittance <= std::max(known.plain.ends_below, plain.ends_below);
+    if (told_apart) continue;
+    return Twin{.key = known.key,
+                .reason = reason_for(known.plain, plain, known.least_transmittance)};
+  }
+  return std::nullopt;
+}
+
+void Twins::add(const PlainWork& plain, const std::string& key, const Work& work,
+                const core::Image& picture) {
+  known_[plain.levels].push_back({key, plain, least_transmittance(work, picture)});
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,255 @@
+#include "measure/plan/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/hash.hpp"
+#include "measure/plan/plan_combinations.hpp"
+#include "measure/plan/plan_values.hpp"
+#include "measure/plan/plan_yaml.hpp"
+#include "record/factor_list.hpp"
+#include "technique/catalogue.hpp"
+
+namespace triptych::measure {
+namespace {
+
+// --- factors
+
+const Factor& factor_of(const Suite& suite, const PlacedText& name) {
+  const auto found = std::ranges::find(suite.factors(), name.text, &Factor::name);
+  if (found != suite.factors().end()) return *found;
+  std::vector<std::string> known;
+  for (const Factor& each : suite.factors()) known.push_back(each.name);
+  throw core::InputError(
+      name.place, fmt::format("unknown factor '{}'{}", name.text, suggestion(name.text, known)));
+}
+
+// Sets, or sets anew, what the entries name.
+void set_values(const Suite& suite, const std::vector<PlanEntry>& entries, ValuesByFactor& values) {
+  for (const PlanEntry& entry : entries) {
+    const Factor& factor = factor_of(suite, entry.factor);
+    values[factor.name] = canonical_values(suite, factor, entry.values);
+  }
+}
+
+void apply(const Overrides& overrides, const Suite& suite, ValuesByFactor& values) {
+  std::vector<std::string> seen;
+  for (const auto& [name, texts] : overrides) {
+    const core::FilePlace place{.file = "--set " + name};
+    // A variable of its own: GCC 14 takes the reference for one into what was passed, and warns.
+    const PlacedText placed_name{.text = name, .place = place};
+    const Factor& factor = factor_of(suite, placed_name);
+    if (std::ranges::find(seen, name) != seen.end()) {
+      throw core::InputError(place, "given twice; put all values into one list: a,b");
+    }
+    seen.push_back(name);
+    if (texts.empty()) throw core::InputError(place, "expected factor=value or factor=a,b");
+    std::vector<PlacedText> placed;
+    for (const std::string& each : texts) placed.push_back({.text = each, .place = place});
+    values[name] = canonical_values(suite, factor, placed);
+  }
+}
+
+// --- where plans come from
+
+struct PlanSource {
+  std::string name;
+  std::string file;   // what errors call it
+  std::string suite;  // of a short name; empty for a file
+  std::string yaml;
+};
+
+PlanSource read_plan_file(const std::filesystem::path& file) {
+  if (file.empty()) {
+    throw core::InputError("a plan needs a name: of a YAML file, or SUITE/PLAN");
+  }
+  try {
+    return {.name = plan_name(file.string()),
+            .file = file.string(),
+            .suite = "",
+            .yaml = core::read_text(file)};
+  } catch (const core::IoError& error) {
+    throw core::InputError(
+        fmt::format("{}; a plan is a YAML file or a short name SUITE/PLAN", error.what()));
+  }
+}
+
+// Short names have one slash and no ending; "./name" is always a file.
+bool is_short_name(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  return slash != std::string_view::npos && slash > 0 && slash + 1 < text.size() &&
+         text.find('/', slash + 1) == std::string_view::npos &&
+         text.find('.') == std::string_view::npos;
+}
+
+PlanSource find_plan(std::string_view name_or_file, const FindSuite& find_suite) {
+  if (!is_short_name(name_or_file)) return read_plan_file(std::filesystem::path(name_or_file));
+  const std::size_t slash = name_or_file.find('/');
+  const Suite& suite = find_suite(name_or_file.substr(0, slash));
+  const std::string_view plan = name_or_file.substr(slash + 1);
+  std::vector<std::string> known;
+  for (const std::string_view each : suite.plan_names()) known.emplace_back(each);
+  if (std::ranges::find(known, plan) == known.end()) {
+    throw core::InputError(
+        fmt::format("suite '{}' has no plan '{}'{}", suite.name(), plan, suggestion(plan, known)));
+  }
+  return {.name = std::string(name_or_file),
+          .file = std::string(name_or_file),
+          .suite = std::string(suite.name()),
+          .yaml = std::string(suite.plan_text(plan))};
+}
+
+const Suite& suite_of(const PlanSource& source, const PlanText& text, const FindSuite& find_suite) {
+  if (!source.suite.empty() && text.suite.text != source.suite) {
+    throw core::InputError(text.suite.place, fmt::format("a plan of suite '{}' says 'suite: {}'",
+                                                         source.suite, text.suite.text));
+  }
+  try {
+    return find_suite(text.suite.text);
+  } catch (const core::InputError& error) {
+    throw core::InputError(text.suite.place, error.what());
+  }
+}
+
+// Where the factor of the most values got them: what to shorten when there are too many.
+core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& values,
+                              const std::vector<const std::vector<PlanEntry>*>& entries,
+                              const Overrides& overrides) {
+  const auto size = [](const auto& each) { return each.second.size(); };
+  const auto longest = std::ranges::max_element(values, {}, size);
+  if (longest == values.end()) return {.file = source.file};
+  const auto named = [&](const auto& override) { return override.first == longest->first; };
+  if (std::ranges::any_of(overrides, named)) return {.file = "--set " + longest->first};
+  core::FilePlace place{.file = source.file};
+  for (const std::vector<PlanEntry>* block : entries) {
+    for (const PlanEntry& entry : *block) {
+      if (entry.factor.text == longest->first) place = entry.factor.place;
+    }
+  }
+  return place;
+}
+
+// One set of values, each with all its combinations.
+struct Block {
+  ValuesByFactor values;
+  core::FilePlace place;  // of the longest list in it
+};
+
+// Of one block or more; no combination is there twice.
+Plan make_plan(const std::string& name, const Suite& suite, const std::vector<Block>& blocks) {
+  Plan plan{.name = name,
+            .suite = std::string(suite.name()),
+            .summary = {},
+            .configurations = {},
+            .varied = {},
+            .checks = Plan::standard_checks(),
+            .hash = {}};
+  for (const auto& [values, place] : blocks) {
+    std::vector<Configuration> all = all_combinations(suite, values, place);
+    if (plan.configurations.empty()) {
+      plan.configurations = std::move(all);
+    } else {
+      add_combinations(all, plan.configurations);
+    }
+  }
+  for (const Factor* each : slowest_first(suite)) {
+    const std::string& factor = each->name;
+    const std::string& first = plan.configurations.front().at(factor);
+    const auto differs = [&](const Configuration& one) { return one.at(factor) != first; };
+    if (std::ranges::any_of(plan.configurations, differs)) plan.varied.push_back(factor);
+  }
+  return plan;
+}
+
+}  // namespace
+
+record::Checks Plan::standard_checks() {
+  using record::Check;
+  return {Check::image, Check::counters, Check::statistics, Check::memory, Check::timing};
+}
+
+std::string plan_name(std::string_view name_or_file) {
+  return is_short_name(name_or_file) ? std::string(name_or_file)
+                                     : std::filesystem::path(name_or_file).stem().string();
+}
+
+Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
+               const FindSuite& find_suite) {
+  const PlanSource source = find_plan(name_or_file, find_suite);
+  const PlanText text = parse_plan(source.yaml, source.file);
+  const Suite& suite = suite_of(source, text, find_suite);
+  std::vector<Block> blocks(1 + text.also.size());
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    std::vector<const std::vector<PlanEntry>*> entries{&text.entries};
+    if (i > 0) entries.push_back(&text.also[i - 1]);
+    auto& [values, place] = blocks[i];
+    for (const auto* each : entries) set_values(suite, *each, values);
+    apply(overrides, suite, values);
+    place = longest_place(source, values, entries, overrides);
+  }
+  Plan plan = make_plan(source.name, suite, blocks);
+  plan.summary = text.summary;
+  if (!text.checks.empty()) plan.checks = text.checks;
+  plan.hash = core::content_hash(source.yaml);
+  return plan;
+}
+
+Plan default_plan(const Suite& suite, const Overrides& overrides) {
+  ValuesByFactor values;
+  apply(overrides, suite, values);
+  return make_plan(std::string(suite.name()) + "/defaults", suite, {{values, {.file = "--set"}}});
+}
+
+std::string configuration_key(const Suite& suite, const Configuration& configuration) {
+  Configuration named = configuration;
+  std::erase_if(named, [&](const auto& level) {
+    const auto& [name, value] = level;
+    const auto factor = std::ranges::find(suite.factors(), name, &Factor::name);
+    const bool always = name == "technique" || name == "data" || name == "camera";
+    return !always && factor != suite.factors().end() && standard_of(*factor) == value;
+  });
+  return record::factor_list(named);
+}
+
+std::vector<std::string> work_kinds(const Plan& plan) {
+  std::set<std::string> kinds;
+  for (const Configuration& each : plan.configurations) {
+    kinds.emplace(technique::name_of(technique::technique(each.at("technique")).work));
+  }
+  return {kinds.begin(), kinds.end()};
+}
+
+void keep_shard(Plan& plan, int index, int count) {
+  if (count < 1 || index < 1 || index > count) {
+    throw core::InputError(fmt::format("shard {}/{}: expected i/n with 1 ≤ i ≤ n", index, count));
+  }
+  const auto data_of = [](const Configuration& configuration) {
+    const auto data = configuration.find("data");
+    return data == configuration.end() ? std::string() : data->second;
+  };
+  std::vector<std::string> data_sets;
+  for (const Configuration& each : plan.configurations) {
+    if (data_sets.empty() || data_sets.back() != data_of(each)) data_sets.push_back(data_of(each));
+  }
+  // Data sets are dealt out whole as long as there is one for every shard; the rest is dealt out by
+  // configuration, so that no shard has more than one above another.
+  const auto shards = static_cast<std::size_t>(count);
+  const auto mine = static_cast<std::size_t>(index - 1);
+  const std::size_t whole = data_sets.size() / shards * shards;
+  std::vector<Configuration> kept;
+  std::size_t data_set = 0;
+  std::size_t rest = 0;
+  for (Configuration& each : plan.configurations) {
+    while (data_sets[data_set] != data_of(each)) ++data_set;
+    const std::size_t owner = (data_set < whole ? data_set : rest++) % shards;
+    if (owner == mine) kept.push_back(std::move(each));
+  }
+  plan.configurations = std::move(kept);
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,136 @@
+#include "measure/plan/plan_values.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "core/json_text.hpp"
+#include "core/text.hpp"
+
+namespace triptych::measure {
+namespace {
+
+// Levenshtein's distance: insertions, deletions and replacements of single characters.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+// One spelling per number: the shortest that reads back as the same double, so that 0.5, .5 and
+// 5e-1 are one value. Empty when the text is not a finite number.
+std::optional<double> parse_number(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  if (!whole || !std::isfinite(number)) return std::nullopt;
+  return number == 0 ? 0 : number;  // no −0
+}
+
+std::string canonical_number(const Factor& factor, const PlacedText& value) {
+  if (std::ranges::find(factor.levels, value.text) != factor.levels.end()) return value.text;
+  const std::optional<double> number = parse_number(value.text);
+  if (!number) {
+    throw core::InputError(
+        value.place, fmt::format("'{}': expected a number, found '{}'", factor.name, value.text));
+  }
+  if (*number < factor.minimum || *number > factor.maximum) {
+    throw core::InputError(value.place,
+                           fmt::format("'{}': {} is out of range; expected {} to {}", factor.name,
+                                       *number, factor.minimum, factor.maximum));
+  }
+  return fmt::format("{}", *number);
+}
+
+std::string canonical_choice(const Factor& factor, const PlacedText& value) {
+  if (std::ranges::find(factor.levels, value.text) != factor.levels.end()) return value.text;
+  throw core::InputError(value.place,
+                         fmt::format("'{}' has no level '{}'{}", factor.name, value.text,
+                                     suggestion(value.text, factor.levels)));
+}
+
+// A configuration is one line, of a list, a table or a baseline, and part of JSON and XML.
+std::string canonical_text(const Factor& factor, const PlacedText& value) {
+  if (value.text.empty() || !core::is_line(value.text)) {
+    throw core::InputError(value.place,
+                           fmt::format("'{}': a value is not empty and is UTF-8 without line "
+                                       "breaks and control characters; found {}",
+                                       factor.name, core::json_text(value.text)));
+  }
+  return value.text;
+}
+
+std::string canonical(const Suite& suite, const Factor& factor, const PlacedText& value) {
+  // "auto" may be the default of a factor of any kind, and may then be said aloud.
+  if (value.text == factor.standard) return standard_of(factor);
+  std::string text;
+  switch (factor.kind) {
+    case FactorKind::number:
+      text = canonical_number(factor, value);
+      break;
+    case FactorKind::choice:
+      text = canonical_choice(factor, value);
+      break;
+    case FactorKind::text:
+      text = canonical_text(factor, value);
+      break;
+  }
+  try {
+    suite.check(factor, text);
+  } catch (const core::InputError& error) {
+    throw core::InputError(value.place, fmt::format("'{}': {}", factor.name, error.what()));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string suggestion(std::string_view wrong, const std::vector<std::string>& known) {
+  const auto distance = [&](const std::string& each) { return edit_distance(wrong, each); };
+  const auto nearest = std::ranges::min_element(known, {}, distance);
+  if (nearest != known.end() && distance(*nearest) <= std::max<std::size_t>(2, wrong.size() / 3)) {
+    return fmt::format("; did you mean '{}'?", *nearest);
+  }
+  return fmt::format("; there are: {}", fmt::join(known, ", "));
+}
+
+std::string standard_of(const Factor& factor) {
+  if (factor.kind == FactorKind::number) {
+    if (const auto number = parse_number(factor.standard)) return fmt::format("{}", *number);
+  }
+  return factor.standard;
+}
+
+std::vector<std::string> canonical_values(const Suite& suite, const Factor& factor,
+                                          const std::vector<PlacedText>& values) {
+  std::vector<std::string> result;
+  for (const PlacedText& value : values) {
+    std::string text = canonical(suite, factor, value);
+    const auto same = std::ranges::find(result, text);
+    if (same != result.end()) {
+      const PlacedText& first = values[static_cast<std::size_t>(same - result.begin())];
+      throw core::InputError(
+          value.place, fmt::format("'{}': {} is there twice{}", factor.name, value.text,
+                                   first.text == value.text ? "" : ", first as " + first.text));
+    }
+    result.push_back(std::move(text));
+  }
+  return result;
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,24 @@
+#pragma once
+// What a plan says about factors, in one spelling: for load_plan and what lies beside it.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/contract/suite.hpp"
+#include "measure/plan/plan_yaml.hpp"
+
+namespace triptych::measure {
+
+// "; did you mean 'step'?", or all there are where nothing is near.
+[[nodiscard]] std::string suggestion(std::string_view wrong, const std::vector<std::string>& known);
+
+// The default in the same spelling as values from a plan.
+[[nodiscard]] std::string standard_of(const Factor& factor);
+
+// Each value in its one spelling. Throws InputError with the place of a value that is no number,
+// out of range, no level, refused by the suite, or there twice.
+[[nodiscard]] std::vector<std::string> canonical_values(const Suite& suite, const Factor& factor,
+                                                        const std::vector<PlacedText>& values);
+
+}  // namespace triptych::measure

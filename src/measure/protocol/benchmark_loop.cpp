@@ -1,0 +1,176 @@
+#include "measure/protocol/benchmark_loop.hpp"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <sstream>
+#include <vector>
+
+#include "core/error.hpp"
+#include "record/record.hpp"
+
+namespace triptych::measure {
+namespace {
+
+// The library's own JSON, into a string. Numbers that JSON has no word for (the variation of times
+// that are all 0) are left out, since the library would print them all the same.
+class StringReporter : public benchmark::JSONReporter {
+ public:
+  StringReporter() {
+    SetOutputStream(&text_);
+    SetErrorStream(&complaints_);
+  }
+
+  void ReportRuns(const std::vector<Run>& runs) override {
+    std::vector<Run> printable;
+    for (const Run& run : runs) {
+      if (run.run_type == Run::RT_Iteration) {
+        total_ns_ += run.real_accumulated_time * 1e9;
+        executed_ += run.iterations;
+      }
+      if (!std::isfinite(run.real_accumulated_time) || !std::isfinite(run.cpu_accumulated_time)) {
+        continue;
+      }
+      printable.push_back(run);
+      std::erase_if(printable.back().counters,
+                    [](const auto& counter) { return !std::isfinite(counter.second.value); });
+    }
+    if (!printable.empty()) JSONReporter::ReportRuns(printable);
+  }
+
+  [[nodiscard]] double total_ns() const { return total_ns_; }
+  [[nodiscard]] benchmark::IterationCount executed() const { return executed_; }
+  [[nodiscard]] std::string text() const { return text_.str(); }
+
+ private:
+  std::ostringstream text_;
+  std::ostringstream complaints_;
+  double total_ns_ = 0;
+  benchmark::IterationCount executed_ = 0;
+};
+
+// Forgets what was registered, whatever happens in between.
+class Registration {
+ public:
+  Registration() = default;
+  Registration(const Registration&) = delete;
+  Registration& operator=(const Registration&) = delete;
+  ~Registration() { benchmark::ClearRegisteredBenchmarks(); }
+};
+
+BenchmarkResult run_registered(const std::string& name, int frames) {
+  StringReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter, "all");
+  if (reporter.executed() != frames) {
+    throw core::Error(fmt::format("Google Benchmark ran {} of {} frames of {}", reporter.executed(),
+                                  frames, name));
+  }
+  return {.total_ns = reporter.total_ns(),
+          .entries = nlohmann::json::parse(reporter.text()).at("benchmarks")};
+}
+
+// The library knows no exceptions, and aborts when one repetition of several says that it failed:
+// the first exception is kept, the remaining iterations do nothing, and it is thrown again
+// afterwards.
+class Guarded {
+ public:
+  template <typename Body>
+  void operator()(const Body& body) {
+    if (failure_) return;
+    try {
+      body();
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+  }
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::exception_ptr failure_;
+};
+
+double minimum(const std::vector<double>& values) {
+  return record::percentile(values, 0);
+}
+double lower_quartile(const std::vector<double>& values) {
+  return record::percentile(values, 0.25);
+}
+double upper_quartile(const std::vector<double>& values) {
+  return record::percentile(values, 0.75);
+}
+double maximum(const std::vector<double>& values) {
+  return record::percentile(values, 1);
+}
+
+}  // namespace
+
+void initialize_benchmarks() {
+  // What the command line says wins over the environment.
+  std::array<std::string, 11> words{"triptych",
+                                    "--benchmark_filter=all",
+                                    "--benchmark_list_tests=false",
+                                    "--benchmark_repetitions=1",
+                                    "--benchmark_time_unit=ns",
+                                    "--benchmark_out=",
+                                    "--benchmark_report_aggregates_only=false",
+                                    "--benchmark_display_aggregates_only=false",
+                                    "--benchmark_enable_random_interleaving=false",
+                                    "--benchmark_min_warmup_time=0",
+                                    "--benchmark_perf_counters="};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  int count = static_cast<int>(arguments.size());
+  arguments.push_back(nullptr);
+  benchmark::Initialize(&count, arguments.data());
+  // The library keeps the pointer to the program's name for its report.
+  benchmark::BenchmarkReporter::Context::executable_name = "triptych";
+}
+
+BenchmarkResult time_frames(const std::string& name, int frames,
+                            const std::function<IterationTime()>& frame) {
+  const Registration registration;
+  Guarded guarded;
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [&](benchmark::State& state) {
+                                 for (auto _ : state) {
+                                   IterationTime time;
+                                   guarded([&] { time = frame(); });
+                                   state.SetIterationTime(time.ns * 1e-9);
+                                   for (const auto& [fact, value] : time.facts) {
+                                     state.counters[fact] = value;
+                                   }
+                                 }
+                               })
+      ->UseManualTime()
+      ->Iterations(1)
+      ->Repetitions(frames)
+      ->ComputeStatistics("min", minimum)
+      ->ComputeStatistics("lower_quartile", lower_quartile)
+      ->ComputeStatistics("upper_quartile", upper_quartile)
+      ->ComputeStatistics("max", maximum);
+  BenchmarkResult result = run_registered(name, frames);
+  guarded.rethrow();
+  return result;
+}
+
+BenchmarkResult time_loop(const std::string& name, int frames, const std::function<void()>& frame) {
+  const Registration registration;
+  Guarded guarded;
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [&](benchmark::State& state) {
+                                 for (auto _ : state) guarded(frame);
+                               })
+      ->UseRealTime()
+      ->Iterations(frames);
+  BenchmarkResult result = run_registered(name, frames);
+  guarded.rethrow();
+  return result;
+}
+
+}  // namespace triptych::measure

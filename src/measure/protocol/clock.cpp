@@ -1,0 +1,158 @@
+#include "measure/protocol/clock.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "measure/protocol/protocol.hpp"
+
+namespace triptych::measure {
+namespace {
+
+constexpr int most_frames = 8;
+constexpr int least_frames = 3;
+constexpr double budget_ns = 0.5e9;  // of all calibration frames; a slow device takes the fewest
+
+record::ClockTrust without_time(technique::Work kind, std::string verdict) {
+  record::ClockTrust trust;
+  trust.work = technique::name_of(kind);
+  trust.verdict = std::move(verdict);
+  return trust;
+}
+
+int frames_within_budget(double frame_ns) {
+  if (!(frame_ns > 0)) return most_frames;
+  return std::clamp(static_cast<int>(std::min(budget_ns / frame_ns, 1e3)), least_frames,
+                    most_frames);
+}
+
+std::string percent(double ratio) {
+  return fmt::format("{:.1f} %", 100 * ratio);
+}
+
+// The scheduler may wake us late once; a clock has no such excuse for reading too much.
+bool believable(const std::vector<double>& ratios) {
+  const auto low = std::ranges::count_if(
+      ratios, [](double ratio) { return !(ratio >= ClockLimits::least_ratio); });
+  const bool high =
+      std::ranges::any_of(ratios, [](double ratio) { return !(ratio <= ClockLimits::most_ratio); });
+  const std::ptrdiff_t excused = ratios.size() >= 5 ? 1 : 0;
+  const bool zero = std::ranges::any_of(ratios, [](double ratio) { return !(ratio > 0); });
+  return !high && !zero && low <= excused;
+}
+
+std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::size_t frames) {
+  const std::string seen = fmt::format(
+      "device time is {} of wall time ({} to {}, {} frames of {:.3g} ms)", percent(trust.ratio),
+      percent(trust.ratio_low), percent(trust.ratio_high), frames, wall_ns * 1e-6);
+  if (trust.trusted) return "trusted: " + seen;
+  if (trust.ratio_high <= 0) {
+    return fmt::format("not trusted: reads 0 for {} frames of {:.3g} ms", frames, wall_ns * 1e-6);
+  }
+  const std::string limits =
+      fmt::format("{} to {} would be believed", percent(ClockLimits::least_ratio),
+                  percent(ClockLimits::most_ratio));
+  const bool is_short = wall_ns < ClockLimits::least_frame_ns / 4 && trust.ratio < 1;
+  return fmt::format("not trusted: {}; {}{}", seen, limits,
+                     is_short ? ", but frames this short tell little" : "");
+}
+
+// Finer steps along the rays are the same kind of work, only more of it; so are more pixels of the
+// same particles. False when this work cannot grow.
+bool lengthen(Work& work, double factor) {
+  if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {
+    constexpr double finest_step_voxels = 1e-3;
+    if (volume->scene.step_voxels <= finest_step_voxels) return false;
+    volume->scene.step_voxels = std::max(volume->scene.step_voxels / factor, finest_step_voxels);
+    return true;
+  }
+  scene::ParticleScene& scene = std::get<ParticleWork>(work.scene).scene;
+  constexpr int most_pixels_a_side = 4096;
+  const auto grown = [&](int side) {
+    return std::min(static_cast<int>(std::ceil(side * std::sqrt(factor))), most_pixels_a_side);
+  };
+  if (std::max(scene.width, scene.height) >= most_pixels_a_side) return false;
+  scene.width = grown(scene.width);
+  scene.height = grown(scene.height);
+  return true;
+}
+
+// The work with frames long enough, as far as it can be had.
+std::unique_ptr<Prepared> prepare_long_enough(Device& device, Work work) {
+  constexpr int most_attempts = 4;
+  std::unique_ptr<Prepared> prepared = device.prepare(work);
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    // Only the second frame is warm, but one that is short though cold will not get longer.
+    double frame_ns = prepared->frame(Purpose::timing).wall_ns;
+    if (!(frame_ns < ClockLimits::least_frame_ns)) {
+      frame_ns = prepared->frame(Purpose::timing).wall_ns;
+      if (!(frame_ns < ClockLimits::least_frame_ns)) break;
+    }
+    // Half as long again as asked, since the part that does not grow was in the frame too.
+    const double missing = 1.5 * ClockLimits::least_frame_ns / std::max(frame_ns, 1e3);
+    if (!lengthen(work, std::clamp(missing, 2.0, 64.0)) || device.unsupported(work)) break;
+    prepared.reset();
+    prepared = device.prepare(work);
+  }
+  return prepared;
+}
+
+}  // namespace
+
+record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind) {
+  const int frames = frames_within_budget(prepared.frame(Purpose::timing).wall_ns);
+  std::vector<double> ratios;
+  std::vector<double> wall_ns;
+  for (int i = 0; i < frames; ++i) {
+    const Frame frame = prepared.frame(Purpose::timing);
+    if (!frame.device_ns) return without_time(work_kind, "not trusted: the device tells no time");
+    if (!(frame.wall_ns > 0) || !std::isfinite(*frame.device_ns)) {
+      return without_time(work_kind,
+                          fmt::format("not trusted: {} ns of device time in {} ns of wall time",
+                                      *frame.device_ns, frame.wall_ns));
+    }
+    ratios.push_back(*frame.device_ns / frame.wall_ns);
+    wall_ns.push_back(frame.wall_ns);
+  }
+  record::ClockTrust trust;
+  trust.work = technique::name_of(work_kind);
+  trust.offered = true;
+  trust.ratio = record::percentile(ratios, 0.5);
+  trust.ratio_low = std::ranges::min(ratios);
+  trust.ratio_high = std::ranges::max(ratios);
+  trust.trusted = believable(ratios);
+  trust.verdict = verdict_of(trust, record::percentile(wall_ns, 0.5), ratios.size());
+  return trust;
+}
+
+record::ClockTrust calibrate_clock(Device& device, Suite& suite, technique::Work kind) {
+  try {
+    Work work = suite.calibration(kind);
+    if (const auto reason = device.unsupported(work)) {
+      return without_time(kind, "not calibrated: " + *reason);
+    }
+    const auto prepared = prepare_long_enough(device, std::move(work));
+    return calibrate(*prepared, kind);
+  } catch (const core::DeviceLost&) {
+    throw;
+  } catch (const core::Error& error) {
+    // The wall clock still serves; each configuration will show what else is wrong.
+    return without_time(kind, fmt::format("not calibrated: {}", error.what()));
+  }
+}
+
+bool plausible(const std::vector<double>& device_ns, const std::vector<double>& wall_ns) {
+  if (device_ns.empty() || device_ns.size() != wall_ns.size()) return false;
+  constexpr double tick_ns = 2e3;  // microsecond timers, one tick off at either end
+  std::size_t low = 0;
+  for (std::size_t i = 0; i < device_ns.size(); ++i) {
+    if (!(device_ns[i] > 0)) return false;
+    if (!(device_ns[i] <= wall_ns[i] * ClockLimits::most_ratio + tick_ns)) return false;
+    if (device_ns[i] < wall_ns[i] * ClockLimits::least_ratio_in_use - ClockLimits::launch_ns) ++low;
+  }
+  return 4 * low <= device_ns.size();
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,270 @@
+#include "measure/protocol/dialect.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+#include "scene/generators.hpp"
+#include "scene/particles.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using Dialect = std::map<std::string, std::string>;
+
+// --- the scenes ---
+
+std::shared_ptr<const scene::ParticleSet> particles_of(std::vector<std::array<float, 4>> spheres) {
+  auto set = std::make_shared<scene::ParticleSet>();
+  set->name = "calibration";
+  set->spheres = std::move(spheres);
+  for (std::uint32_t id = 0; id < set->spheres.size(); ++id) {
+    set->ids.push_back(id);
+    set->rgba8.push_back(0xffffffffU);
+  }
+  set->hash = scene::particle_hash(*set);
+  return set;
+}
+
+// As seen from the origin along −z. No culling: a compute pass of its own would be counted with
+// the draw by one API and not by the other.
+ParticleWork seen_from_origin(std::vector<std::array<float, 4>> spheres, int width, int height,
+                              double fov_y_deg) {
+  ParticleWork work;
+  work.scene.particles = particles_of(std::move(spheres));
+  work.scene.width = width;
+  work.scene.height = height;
+  work.scene.camera.fov_y_deg = fov_y_deg;
+  work.scene.camera.near =
+      scene::depth_scale(scene::bounding_box(*work.scene.particles), work.scene.camera.eye);
+  work.options.culling = technique::Culling::none;
+  return work;
+}
+
+// The sprite of a sphere around the eye is the viewport, corner for corner.
+ParticleWork around_the_eye() {
+  return seen_from_origin({{0, 0, 0, 1}}, 66, 50, 60);
+}
+
+constexpr int small_columns = 10;
+constexpr int small_rows = 10;
+constexpr std::uint64_t small_sprites = std::uint64_t{small_columns} * small_rows;
+
+// A grid of spheres of 5 pixels in cells of 7 × 6.2, so that no sprite reaches another or the
+// border and each lies otherwise to the pixels than its neighbours.
+ParticleWork many_small() {
+  constexpr int width = 70;
+  constexpr int height = 62;
+  constexpr double fov_y_deg = 20;
+  constexpr double distance = 10;
+  const double pixel =
+      2 * distance * std::tan(fov_y_deg / 360 * std::numbers::pi) / static_cast<double>(height);
+  std::vector<std::array<float, 4>> spheres;
+  for (int row = 0; row < small_rows; ++row) {
+    for (int column = 0; column < small_columns; ++column) {
+      const double x = (column + 0.5) / small_columns - 0.5;
+      const double y = (row + 0.5) / small_rows - 0.5;
+      spheres.push_back({static_cast<float>(x * width * pixel),
+                         static_cast<float>(y * height * pixel), static_cast<float>(-distance),
+                         static_cast<float>(2.5 * pixel)});
+    }
+  }
+  return seen_from_origin(std::move(spheres), width, height, fov_y_deg);
+}
+
+// What `sprites` quads in sight are made of, by the technique that makes them.
+record::Counts counts_of(std::string_view technique, std::uint64_t sprites) {
+  record::Counts counts{{"clipping_invocations", 2 * sprites},
+                        {"clipping_primitives", 2 * sprites}};
+  if (technique == "quad_instanced") {  // a strip of four vertices per instance
+    counts["input_assembly_vertices"] = 4 * sprites;
+    counts["input_assembly_primitives"] = 2 * sprites;
+    counts["vertex_invocations"] = 4 * sprites;
+    return counts;
+  }
+  counts["input_assembly_vertices"] = sprites;  // points, or patches of one vertex
+  counts["input_assembly_primitives"] = sprites;
+  counts["vertex_invocations"] = sprites;
+  if (technique == "quad_screen") {
+    counts["geometry_invocations"] = sprites;
+    counts["geometry_primitives"] = 2 * sprites;
+  } else {
+    counts["tessellation_control_patches"] = sprites;
+    counts["tessellation_evaluation_invocations"] = 4 * sprites;
+  }
+  return counts;
+}
+
+std::vector<DialectScene> draw_scenes() {
+  std::vector<DialectScene> scenes;
+  for (const char* const technique : {"quad_instanced", "quad_screen", "quad_tess"}) {
+    const ParticleWork one = around_the_eye();
+    DialectScene& whole = scenes.emplace_back();
+    whole.name = fmt::format("one sprite of {} over the whole view", technique);
+    whole.expected = counts_of(technique, 1);
+    whole.expected["fragment_invocations"] =
+        static_cast<std::uint64_t>(one.scene.width) * static_cast<std::uint64_t>(one.scene.height);
+    whole.work = {.technique = technique, .scene = one};
+
+    DialectScene& many = scenes.emplace_back();
+    many.name = fmt::format("{} small sprites of {}", small_sprites, technique);
+    many.expected = counts_of(technique, small_sprites);
+    many.counts_fragments = true;
+    many.work = {.technique = technique, .scene = many_small()};
+  }
+  return scenes;
+}
+
+// One invocation per pixel: both sides are whole work groups of any size in use.
+DialectScene compute_scene(int width, int height) {
+  VolumeWork volume;
+  volume.scene.grid = std::make_shared<const scene::VoxelGrid>(
+      scene::encode(scene::generate_volume("uniform_box", {8, 8, 8}), scene::VoxelFormat::f32));
+  volume.scene.transfer_function = scene::load_transfer_function("haze");
+  volume.scene.camera = scene::camera_at("orbit_y:1/8", volume.scene.box(), 60);
+  volume.scene.width = width;
+  volume.scene.height = height;
+  volume.options.skip = technique::Skip::none;
+  const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  return {.name = fmt::format("raycast of {}×{} pixels", width, height),
+          .work = {.technique = "raycast", .scene = std::move(volume)},
+          .expected = {{"compute_invocations", pixels}}};
+}
+
+// --- what the device says of them ---
+
+using Readings = std::map<std::string, std::vector<DialectReading>>;
+
+std::optional<std::uint64_t> find_count(const record::Counts& counts, const std::string& name) {
+  const auto found = counts.find(name);
+  return found == counts.end() ? std::optional<std::uint64_t>{} : found->second;
+}
+
+// Adds the readings of one scene; none where the device tells no statistics at all. A technique
+// without our own counter of fragments leaves the driver's unjudged.
+void read_scene(Device& device, const DialectScene& scene, Readings& readings) {
+  const auto prepared = device.prepare(scene.work);
+  const record::Counts first = prepared->frame(Purpose::statistics).counts;
+  if (first.empty()) return;
+  const record::Counts again = prepared->frame(Purpose::statistics).counts;
+  const record::Counts ours = prepared->frame(Purpose::counters).counts;
+  record::Counts expected = scene.expected;
+  if (scene.counts_fragments) {
+    const auto fragments = find_count(ours, "fragments");
+    if (fragments.value_or(0) > 0) expected["fragment_invocations"] = *fragments;
+  }
+  for (const auto& [name, value] : expected) {
+    readings[name].push_back({.scene = scene.name,
+                              .expected = value,
+                              .first = find_count(first, name),
+                              .again = find_count(again, name),
+                              .ours = ours});
+  }
+}
+
+// --- verdicts ---
+
+std::string text_of(const std::optional<std::uint64_t>& count) {
+  return count ? fmt::format("{}", *count) : "nothing";
+}
+
+// The counter of ours that the statistic is in every scene; empty where none is.
+std::string counted_by_us(const std::vector<DialectReading>& readings) {
+  for (const auto& [name, value] : readings.front().ours) {
+    const bool same = std::ranges::all_of(readings, [&](const DialectReading& each) {
+      return find_count(each.ours, name) == each.first;
+    });
+    if (same) return name;
+  }
+  return {};
+}
+
+double multiple(const DialectReading& reading) {
+  return static_cast<double>(reading.first.value_or(0)) / static_cast<double>(reading.expected);
+}
+
+std::string differences(const std::vector<DialectReading>& readings) {
+  std::vector<std::string> wrong;
+  for (const DialectReading& each : readings) {
+    if (each.first == each.expected) continue;
+    wrong.push_back(fmt::format("{} for {} ({})", text_of(each.first), each.expected, each.scene));
+  }
+  return fmt::format("differs: {}", fmt::join(wrong, ", "));
+}
+
+}  // namespace
+
+std::vector<DialectScene> dialect_scenes(technique::Work kind) {
+  if (kind == technique::Work::draw) return draw_scenes();
+  return {compute_scene(64, 64), compute_scene(192, 64)};
+}
+
+std::string dialect_verdict(const std::vector<DialectReading>& readings) {
+  const auto told = [](const DialectReading& each) { return each.first || each.again; };
+  if (std::ranges::none_of(readings, told)) return "absent: never told";
+  const auto unsteady = std::ranges::find_if(
+      readings, [](const DialectReading& each) { return each.first != each.again; });
+  if (unsteady != readings.end()) {
+    return fmt::format("unsteady: {}, and {} when drawn again ({})", text_of(unsteady->first),
+                       text_of(unsteady->again), unsteady->scene);
+  }
+  if (!std::ranges::all_of(readings, told)) return differences(readings);
+  if (std::ranges::all_of(readings,
+                          [](const DialectReading& each) { return each.first == each.expected; })) {
+    return "exact";
+  }
+  if (const std::string ours = counted_by_us(readings); !ours.empty()) {
+    return fmt::format("counts {}", ours);
+  }
+  const auto [low, high] = std::ranges::minmax(readings, {}, multiple);
+  if (low.first == std::uint64_t{0}) return differences(readings);
+  // Equal fractions, compared without rounding.
+  const bool same_multiple =
+      std::ranges::all_of(readings, [&first = readings.front()](const DialectReading& each) {
+        return *each.first * first.expected == *first.first * each.expected;
+      });
+  if (same_multiple && readings.size() > 1) {
+    return fmt::format("proportional: {:.4g} times the true number", multiple(low));
+  }
+  if (multiple(low) >= 1) {
+    return fmt::format("inflated: {:.4g} ({}) to {:.4g} ({}) times the true number", multiple(low),
+                       low.scene, multiple(high), high.scene);
+  }
+  return differences(readings);
+}
+
+Dialect calibrate_dialect(Device& device, technique::Work kind) {
+  Readings readings;
+  std::map<std::string, std::string> unknown;
+  for (const DialectScene& scene : dialect_scenes(kind)) {
+    try {
+      if (device.unsupported(scene.work)) continue;
+      read_scene(device, scene, readings);
+    } catch (const core::DeviceLost&) {
+      throw;
+    } catch (const core::NotSupported&) {
+      continue;
+    } catch (const core::Error& error) {
+      // The configurations to come will show what else is wrong.
+      for (const auto& [name, value] : scene.expected) {
+        unknown.emplace(name, fmt::format("unknown: {} ({})", error.what(), scene.name));
+      }
+    }
+    // A device that told nothing of the first scene tells nothing of the others: OpenCL.
+    if (readings.empty() && unknown.empty()) break;
+  }
+  Dialect dialect;
+  if (readings.empty()) return dialect;
+  for (const auto& [name, each] : readings) dialect[name] = dialect_verdict(each);
+  // What failed in one scene is not vouched for by the others.
+  for (const auto& [name, reason] : unknown) dialect[name] = reason;
+  return dialect;
+}
+
+}  // namespace triptych::measure

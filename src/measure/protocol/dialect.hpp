@@ -1,0 +1,58 @@
+#pragma once
+// What a driver's pipeline statistics are worth. Vulkan and GL leave most of these numbers to the
+// implementation, and drivers use the freedom; so scenes of which every number is known are drawn
+// once when a device is opened, and each statistic gets a verdict. Only what both drivers count
+// exactly is ever compared between them (judge/gate/check_statistics.cpp).
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/contract/backend.hpp"
+#include "technique/catalogue.hpp"
+
+namespace triptych::measure {
+
+// A scene to calibrate with, and what a driver that counts exactly says of it.
+struct DialectScene {
+  std::string name;  // for people: "one quad over 66×50 pixels"
+  Work work;
+  record::Counts expected;
+  // Whether the fragments are to be learnt from a counters frame (our own counter `fragments`).
+  bool counts_fragments = false;
+};
+
+// Those of one kind of work. Widths and heights of what is drawn are no multiples of 4: a driver
+// that counts whole stamps of pixels shows.
+[[nodiscard]] std::vector<DialectScene> dialect_scenes(technique::Work kind);
+
+// One statistic in one scene: `first` in one frame, `again` in the next; nothing where the device
+// told other statistics of that frame but not this one.
+struct DialectReading {
+  std::string scene;
+  std::uint64_t expected = 0;
+  std::optional<std::uint64_t> first;
+  std::optional<std::uint64_t> again;
+  record::Counts ours = {};  // our own counters of the scene
+};
+
+// The verdict on a statistic, in one line that begins with one of these words:
+//   exact         as expected in every scene
+//   absent        never told
+//   unsteady      the same frame drawn again gives another number
+//   counts        in every scene the number of the counter of ours that follows
+//   proportional  the same multiple of what is expected in every one of at least two scenes
+//   inflated      never too low; the range of multiples follows
+//   differs       anything else; what was seen in which scene follows
+// Precondition: at least one reading, and expected > 0 in each.
+[[nodiscard]] std::string dialect_verdict(const std::vector<DialectReading>& readings);
+
+// Statistic → verdict, for every statistic of the scenes that the device can draw. Empty for a
+// device that tells no statistics of any of them (OpenCL). An error of the API while a scene is
+// drawn becomes the verdict "unknown: …" on the statistics of that scene. Throws DeviceLost.
+[[nodiscard]] std::map<std::string, std::string> calibrate_dialect(Device& device,
+                                                                   technique::Work kind);
+
+}  // namespace triptych::measure

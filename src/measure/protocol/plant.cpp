@@ -1,0 +1,129 @@
+#include "measure/protocol/plant.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using technique::Fault;
+using technique::ParticleFault;
+
+constexpr std::array<std::pair<std::string_view, Fault>, 5> volume_faults{{
+    {"half_voxel_shift", Fault::half_voxel_shift},
+    {"flipped_axis", Fault::flipped_axis},
+    {"extra_sample", Fault::extra_sample},
+    {"uncorrected_opacity", Fault::uncorrected_opacity},
+    {"coarse_filter", Fault::coarse_filter},
+}};
+constexpr std::array<std::pair<std::string_view, ParticleFault>, 7> particle_faults{{
+    {"small_sprite", ParticleFault::small_sprite},
+    {"unresolved_ties", ParticleFault::unresolved_ties},
+    {"reversed_depth", ParticleFault::reversed_depth},
+    {"wrong_sense", ParticleFault::wrong_sense},
+    {"culled_visible", ParticleFault::culled_visible},
+    {"lost_at_border", ParticleFault::lost_at_border},
+    {"missing_barrier", ParticleFault::missing_barrier},
+}};
+constexpr std::array<std::string_view, 3> mishaps{"crash", "hang", "device_lost"};
+constexpr std::string_view slowdown = "slowdown:";
+
+template <typename Faults>
+auto named(const Faults& faults, std::string_view name) {
+  const auto found = std::ranges::find(faults, name, &Faults::value_type::first);
+  return found == faults.end() ? std::nullopt : std::optional(found->second);
+}
+
+// Every stride-th row twice is 1/stride more work. Empty when `text` is no percentage in (0, 100].
+std::optional<int> stride_of(std::string_view text) {
+  double percent = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  constexpr double least_percent = 0.01;
+  if (!(percent >= least_percent && percent <= 100)) return std::nullopt;
+  return static_cast<int>(std::lround(100 / percent));
+}
+
+bool is_mishap(std::string_view fault) {
+  for (const std::string_view each : mishaps) {
+    if (each == fault) return true;
+  }
+  return false;
+}
+
+[[noreturn]] void crash() {
+  std::signal(SIGSEGV, SIG_DFL);  // a sanitizer's handler would turn the signal into an exit code
+  std::raise(SIGSEGV);
+  std::abort();
+}
+
+[[noreturn]] void hang() {
+  for (;;) ::pause();
+}
+
+}  // namespace
+
+std::vector<std::string> faults_for(std::span<const Plant> plants, const std::string& configuration,
+                                    const std::string& device) {
+  std::vector<std::string> faults;
+  for (const Plant& plant : plants) {
+    const auto matches = [&plant](const std::string& text) {
+      return ::fnmatch(plant.only.c_str(), text.c_str(), 0) == 0;
+    };
+    if (plant.only.empty() || matches(configuration) || matches(device)) {
+      faults.push_back(plant.fault);
+    }
+  }
+  return faults;
+}
+
+std::string plant_names() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, unused] : volume_faults) names.push_back(name);
+  for (const auto& [name, unused] : particle_faults) names.push_back(name);
+  names.insert(names.end(), mishaps.begin(), mishaps.end());
+  return fmt::format("{}, slowdown:PERCENT (0.01 to 100)", fmt::join(names, ", "));
+}
+
+void check_plant(std::string_view fault) {
+  if (named(volume_faults, fault) || named(particle_faults, fault) || is_mishap(fault)) return;
+  if (fault.starts_with(slowdown) && stride_of(fault.substr(slowdown.size()))) return;
+  throw core::InputError(fmt::format("unknown fault '{}'; there are: {}", fault, plant_names()));
+}
+
+void apply_plant(std::string_view fault, Work& work) {
+  check_plant(fault);
+  if (fault == "crash") crash();
+  if (fault == "hang") hang();
+  if (fault == "device_lost") throw core::DeviceLost("plant", "device_lost");
+  const auto plant_into = [&](auto& options, const auto& faults) {
+    if (const auto planted = named(faults, fault)) {
+      options.fault = *planted;
+    } else if (fault.starts_with(slowdown)) {
+      options.extra_work_stride = *stride_of(fault.substr(slowdown.size()));
+    } else {
+      throw core::NotSupported(
+          fmt::format("technique {} has no fault '{}' to plant", work.technique, fault));
+    }
+  };
+  if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {
+    plant_into(volume->options, volume_faults);
+  } else {
+    plant_into(std::get<ParticleWork>(work.scene).options, particle_faults);
+  }
+}
+
+}  // namespace triptych::measure

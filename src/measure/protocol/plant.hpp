@@ -1,0 +1,37 @@
+#pragma once
+// Planted faults: to prove that the gate catches them and that a worker's death costs one
+// configuration.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/contract/backend.hpp"
+
+namespace triptych::measure {
+
+// Plants a fault in what is measured, to prove that the gate catches it: a technique::Fault by
+// name, "slowdown:PERCENT" (real extra work), "crash", "hang", "device_lost".
+struct Plant {
+  std::string fault;
+  std::string only;  // glob over configuration keys and device ids; empty: everywhere
+};
+
+// The faults of those that are meant for a configuration on a device.
+[[nodiscard]] std::vector<std::string> faults_for(std::span<const Plant> plants,
+                                                  const std::string& configuration,
+                                                  const std::string& device);
+
+// "half_voxel_shift, …, slowdown:PERCENT (0.01 to 100)".
+[[nodiscard]] std::string plant_names();
+
+// Throws InputError for a name that is none of the faults, naming those there are.
+void check_plant(std::string_view fault);
+
+// Puts the fault into what is drawn, or does at once what it says: "crash" ends this process with
+// SIGSEGV, "hang" never returns, "device_lost" throws DeviceLost. Throws NotSupported when this
+// kind of work has no such fault.
+void apply_plant(std::string_view fault, Work& work);
+
+}  // namespace triptych::measure

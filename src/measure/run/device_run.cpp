@@ -1,0 +1,182 @@
+#include "measure/run/device_run.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+#include <variant>
+
+#include "measure/counting/emulator.hpp"
+#include "measure/system/stopwatch.hpp"
+
+namespace triptych::measure {
+namespace {
+
+record::Record ended(record::Outcome outcome, std::string reason) {
+  record::Record record;
+  record.outcome = outcome;
+  record.reason = std::move(reason);
+  return record;
+}
+
+}  // namespace
+
+DeviceRun::DeviceRun(const RunContext& context, std::string device)
+    : context_(context),
+      device_(std::move(device)),
+      cache_(cache_name(side(), context.plan.counted())),
+      seat_(worker_setup(side(), context.plan.counted(), cache_, context.options.start_limit),
+            context.interrupts) {
+  remember();
+}
+
+SideOptions DeviceRun::side() const {
+  return {device_, context_.options.worker_command, context_.options.worker_environment};
+}
+
+Done DeviceRun::perform(const Configuration& configuration, const std::string& key,
+                        const OnLoading& on_loading) {
+  const Job job = this->job(configuration, key);
+  Done done;
+  if (const auto reason = no_emulator()) {
+    done = {ended(record::Outcome::skipped, *reason)};
+  } else if (!ensure_worker()) {
+    done = {ended(seat_.unsupported() ? record::Outcome::skipped : record::Outcome::failed,
+                  seat_.why_closed())};
+  } else if (job.protocol.counted && known_->cpu_features.empty()) {
+    done = {ended(record::Outcome::skipped,
+                  "its instructions cannot be counted: it does not compute on the processor")};
+  } else {
+    done = ask(job, on_loading);
+  }
+  if (job.protocol.counted) only_counted(done.record);
+  sign(job, key, done.record);
+  return done;
+}
+
+// What fails under the emulator says nothing of the device: other plans draw the same natively.
+void DeviceRun::only_counted(record::Record& record) const {
+  if (record.outcome == record::Outcome::measured) {
+    record.counted_by = std::get<Emulator>(find_emulator()).name;
+  } else if (record.outcome != record::Outcome::skipped) {
+    record.reason =
+        fmt::format("{} under the emulator: {}", name_of(record.outcome), record.reason);
+    record.outcome = record::Outcome::skipped;
+  }
+}
+
+std::optional<std::string> DeviceRun::no_emulator() const {
+  if (!context_.plan.counted()) return std::nullopt;
+  if (const auto* reason = std::get_if<std::string>(&find_emulator())) return *reason;
+  return std::nullopt;
+}
+
+Done DeviceRun::pass_by(const Configuration& configuration, const std::string& key,
+                        const Ended& why) const {
+  Done done{ended(why.outcome, why.reason)};
+  sign(job(configuration, key), key, done.record);
+  return done;
+}
+
+void DeviceRun::finish() {
+  seat_.finish();
+}
+
+// A resumed run goes on with the clocks it began with: records of one run rest on one verdict.
+void DeviceRun::remember() {
+  for (auto& entry : context_.store.devices(context_.run)) {
+    if (entry.device.id != device_) continue;
+    known_ = std::move(entry.device);
+    clocks_ = std::move(entry.clocks);
+  }
+}
+
+Protocol DeviceRun::protocol() const {
+  Protocol protocol = context_.options.protocol;
+  protocol.statistics =
+      protocol.statistics && context_.plan.checks.contains(record::Check::statistics);
+  protocol.timed = protocol.timed && context_.plan.timed();
+  protocol.counted = context_.plan.counted();
+  // A plan for pictures alone asks for each of them: that two are alike is what it tests.
+  protocol.measure_every = protocol.measure_every || !context_.plan.timed();
+  return protocol;
+}
+
+Job DeviceRun::job(const Configuration& configuration, const std::string& key) const {
+  return {.name = device_ + "/" + key,
+          .configuration = configuration,
+          .protocol = protocol(),
+          .plants = faults_for(context_.options.plants, key, device_)};
+}
+
+// What a record is of.
+void DeviceRun::sign(const Job& job, const std::string& key, record::Record& record) const {
+  record.run = context_.run;
+  record.suite = context_.plan.suite;
+  record.plan = context_.plan.name;
+  record.configuration = key;
+  record.scene = scene_key(context_.suite, job.configuration);
+  record.technique = job.configuration.at("technique");
+  record.device = device_;
+  record.planted = fmt::format("{}", fmt::join(job.plants, "+"));
+  if (record.factors.empty()) record.factors = job.configuration;
+}
+
+bool DeviceRun::ensure_worker() {
+  return seat_.open(
+      [this] {
+        return Start{.suite = context_.plan.suite, .kinds = context_.kinds, .clocks = clocks_};
+      },
+      [this](const Hello& hello) { greet(hello); });
+}
+
+void DeviceRun::greet(const Hello& hello) {
+  if (known_ && known_->key() != hello.device.key()) {
+    throw core::InputError(
+        fmt::format("{} has changed since run {} began (then {}; now {}): begin a new run "
+                    "instead of resuming",
+                    device_, context_.run, known_->key(), hello.device.key()));
+  }
+  if (known_ && clocks_ == hello.clocks) return;
+  known_ = hello.device;
+  clocks_ = hello.clocks;
+  context_.store.add_device(context_.run, *known_, clocks_);
+}
+
+Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
+  const Stopwatch stopwatch;
+  auto reply = exchange(to_message(job), on_loading);
+  if (const auto* lost = std::get_if<Ended>(&reply)) return {ended(lost->outcome, lost->reason)};
+  Answer& answer = std::get<Answer>(reply);
+  if (answer.record.outcome == record::Outcome::lost) seat_.vacate();
+  Done done{.record = std::move(answer.record),
+            .exr = std::move(answer.exr),
+            .work_ns = answer.worker_ns - answer.record.overhead_ns};
+  done.record.overhead_ns = stopwatch.ns() - done.work_ns;
+  return done;
+}
+
+std::variant<Answer, DeviceRun::Ended> DeviceRun::exchange(const Message& message,
+                                                           const OnLoading& on_loading) {
+  const std::chrono::seconds limit = context_.plan.counted()
+                                         ? std::max(counted_limit, context_.options.limit)
+                                         : context_.options.limit;
+  WorkerLink::Reply reply = seat_.worker().ask(message, limit, on_loading);
+  std::optional<Ended> ended;
+  if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
+    ended = {record::Outcome::crashed, std::move(died->reason)};
+  } else if (auto* late = std::get_if<WorkerLink::Late>(&reply)) {
+    ended = {record::Outcome::hung, std::move(late->reason)};
+  } else {
+    try {
+      if (auto answer = as_answer(std::move(std::get<Message>(reply)))) return std::move(*answer);
+      ended = {record::Outcome::failed, "the worker said something other than its answer"};
+    } catch (const core::InputError& error) {
+      ended = {record::Outcome::failed, error.what()};
+    }
+  }
+  seat_.vacate();
+  return std::move(*ended);
+}
+
+}  // namespace triptych::measure

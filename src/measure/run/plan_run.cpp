@@ -1,0 +1,225 @@
+#include "measure/run/plan_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace triptych::measure {
+
+// Tells how far the plan is, with the time left as the mean of what was done foretells it.
+class Report {
+ public:
+  Report(std::size_t total, const PlanRun::Tell& tell)
+      : total_(static_cast<int>(total)), tell_(tell) {}
+
+  void already_done() { --total_; }
+
+  void done(const record::Record& record) {
+    ++done_;
+    if (!tell_) return;
+    const auto spent = since_.elapsed();
+    const auto left = spent / done_ * (total_ - done_);
+    tell_({.device = record.device,
+           .configuration = record.configuration,
+           .done = done_,
+           .total = total_,
+           .left = std::chrono::round<std::chrono::seconds>(left),
+           .record = &record,
+           .loading = {}});
+  }
+
+  void loading(const std::string& device, const std::string& key, const Loading& loading) {
+    if (!tell_) return;
+    tell_({.device = device,
+           .configuration = key,
+           .done = done_,
+           .total = total_,
+           .left = {},
+           .record = nullptr,
+           .loading = loading});
+  }
+
+ private:
+  int total_;
+  int done_ = 0;
+  const PlanRun::Tell& tell_;
+  Stopwatch since_;
+};
+
+namespace {
+
+void count(const record::Record& record, RunResult& result) {
+  switch (record.outcome) {
+    case record::Outcome::measured:
+      ++result.measured;
+      if (!record.same_as.empty()) ++result.taken_over;
+      break;
+    case record::Outcome::skipped:
+      ++result.skipped;
+      break;
+    case record::Outcome::failed:
+    case record::Outcome::crashed:
+    case record::Outcome::hung:
+    case record::Outcome::lost:
+      ++result.failed;
+      break;
+  }
+}
+
+// What frames of another configuration told, which were this one's too; its own benchmark's entry
+// there is none.
+void take_over(record::Record& record, const record::Record& measured) {
+  record.wall_ns = measured.wall_ns;
+  record.device_ns = measured.device_ns;
+  record.device_clock_trusted = measured.device_clock_trusted;
+  record.warm_up_frames = measured.warm_up_frames;
+  record.frames_per_100ms = measured.frames_per_100ms;
+  record.loop_wall_ns = measured.loop_wall_ns;
+  record.loop_frames = measured.loop_frames;
+  record.memory = measured.memory;
+  record.counters = measured.counters;
+  record.statistics = measured.statistics;
+  record.image = measured.image;
+  record.data_hash = measured.data_hash;
+  record.kernel_hash = measured.kernel_hash;
+  record.precision = measured.precision;
+}
+
+}  // namespace
+
+PlanRun::PlanRun(const RunContext& context, const std::vector<std::string>& devices,
+                 const Tell& tell)
+    : context_(context), devices_(devices), tell_(tell) {
+  result_.run = context.run;
+  for (const Configuration& configuration : context.plan.configurations) {
+    by_key_[configuration_key(context.suite, configuration)] = &configuration;
+  }
+  if (context.options.resume) count_what_is_there();
+}
+
+RunResult PlanRun::measure_all() {
+  const Stopwatch stopwatch;
+  Report report(context_.plan.configurations.size() * devices_.size(), tell_);
+  std::vector<std::pair<std::string, std::vector<const Configuration*>>> work;
+  work.reserve(devices_.size());
+  for (const std::string& device : devices_) {
+    work.emplace_back(device, pending(device, report));
+  }
+  for (const auto& [device, configurations] : work) {
+    for (const Configuration* configuration : configurations) {
+      measure(device, *configuration, report);
+    }
+    leave(device);
+  }
+  result_.wall_ns = stopwatch.ns();
+  result_.overhead_ns = result_.wall_ns - work_ns_;
+  return std::move(result_);
+}
+
+DeviceRun& PlanRun::on(const std::string& device) {
+  auto& entry = open_[device];
+  if (!entry) entry = std::make_unique<DeviceRun>(context_, device);
+  return *entry;
+}
+
+SameFailure& PlanRun::failures_of(const std::string& device) {
+  return failures_.try_emplace(device, context_.plan.varied).first->second;
+}
+
+void PlanRun::leave(const std::string& device) {
+  const auto entry = open_.find(device);
+  if (entry == open_.end()) return;
+  entry->second->finish();
+  work_ns_ += entry->second->opening_ns();
+  open_.erase(entry);
+}
+
+void PlanRun::stop_if_asked() {
+  if (const auto signal = context_.interrupts.take()) throw Interrupted(*signal);
+}
+
+// The work of a device that a resumed run has not done yet.
+std::vector<const Configuration*> PlanRun::pending(const std::string& device,
+                                                   Report& report) const {
+  std::vector<const Configuration*> result;
+  for (const Configuration& configuration : context_.plan.configurations) {
+    const bool done = context_.options.resume &&
+                      context_.store.has_record(
+                          context_.run, configuration_key(context_.suite, configuration), device);
+    if (done) {
+      report.already_done();
+    } else {
+      result.push_back(&configuration);
+    }
+  }
+  return result;
+}
+
+void PlanRun::measure(const std::string& device, const Configuration& configuration,
+                      Report& report) {
+  stop_if_asked();
+  const std::string key = configuration_key(context_.suite, configuration);
+  Done done = attempt(device, configuration, key, report);
+  if (done.record.outcome == record::Outcome::measured) share_frames(done.record);
+  // The image first: a record must never name one that is not there.
+  if (!done.exr.empty()) context_.store.add_image(done.record.image, done.exr);
+  context_.store.add_record(done.record);
+  work_ns_ += done.work_ns;
+  count(done.record, result_);
+  failures_of(device).saw(configuration, done.record);
+  report.done(done.record);
+}
+
+// A driver may take the machine with it, and would again with each --resume.
+Done PlanRun::attempt(const std::string& device, const Configuration& configuration,
+                      const std::string& key, Report& report) {
+  if (const auto end = failures_of(device).foretold(configuration)) {
+    return on(device).pass_by(configuration, key, {end->outcome, end->reason});
+  }
+  constexpr int most_attempts = 2;
+  if (context_.store.begin_record(context_.run, key, device) > most_attempts) {
+    return on(device).pass_by(
+        configuration, key,
+        {record::Outcome::crashed,
+         fmt::format("{} times all ended while this was under way, triptych or the machine; a "
+                     "run without --resume tries again",
+                     most_attempts)});
+  }
+  try {
+    return on(device).perform(
+        configuration, key, [&](const Loading& loading) { report.loading(device, key, loading); });
+  } catch (...) {  // an end that is known, and no fault of the configuration
+    context_.store.unbegin_record(context_.run, key, device);
+    throw;
+  }
+}
+
+// A record of other frames tells what they told; one of its own may have to tell others.
+void PlanRun::share_frames(record::Record& record) {
+  if (record.same_as.empty()) {
+    record::Record& kept = measured_[{record.device, record.configuration}];
+    kept = record;
+    kept.benchmark_json.clear();  // the largest part, and never taken over
+  } else {
+    take_over(record, measured_.at({record.device, record.same_as}));
+  }
+}
+
+// Of the plan, on the run's devices: what it is resumed with may be less than it began with.
+bool PlanRun::is_ours(const record::Record& record) const {
+  return std::ranges::find(devices_, record.device) != devices_.end() &&
+         by_key_.contains(record.configuration);
+}
+
+void PlanRun::count_what_is_there() {
+  for (const record::Record& record : context_.store.records(context_.run)) {
+    if (!is_ours(record)) continue;
+    count(record, result_);
+    ++result_.there_before;
+    failures_of(record.device).saw(*by_key_.at(record.configuration), record);
+  }
+}
+
+}  // namespace triptych::measure

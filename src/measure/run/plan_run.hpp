@@ -1,0 +1,58 @@
+#pragma once
+// One of the plans that are measured together, on all its devices.
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "measure/run/device_run.hpp"
+#include "measure/run/runner.hpp"
+#include "measure/run/same_failure.hpp"
+#include "measure/system/stopwatch.hpp"
+#include "record/record.hpp"
+
+namespace triptych::measure {
+
+class Report;
+
+// Every record is in the store as soon as it is made. measure_all() throws what run_plans()
+// throws.
+class PlanRun {
+ public:
+  using Tell = std::function<void(const Progress&)>;
+
+  // All must live as long.
+  PlanRun(const RunContext& context, const std::vector<std::string>& devices, const Tell& tell);
+
+  // Everything by the whole protocol; what a resumed run holds is left alone.
+  [[nodiscard]] RunResult measure_all();
+
+ private:
+  DeviceRun& on(const std::string& device);
+  SameFailure& failures_of(const std::string& device);
+  void leave(const std::string& device);
+  void stop_if_asked();
+  [[nodiscard]] std::vector<const Configuration*> pending(const std::string& device,
+                                                          Report& report) const;
+  void measure(const std::string& device, const Configuration& configuration, Report& report);
+  [[nodiscard]] Done attempt(const std::string& device, const Configuration& configuration,
+                             const std::string& key, Report& report);
+  void share_frames(record::Record& record);
+  [[nodiscard]] bool is_ours(const record::Record& record) const;
+  void count_what_is_there();
+
+  const RunContext& context_;
+  const std::vector<std::string>& devices_;
+  const Tell& tell_;
+  RunResult result_;
+  double work_ns_ = 0;
+  std::map<std::string, std::unique_ptr<DeviceRun>> open_;
+  std::map<std::string, const Configuration*> by_key_;  // the plan's configurations
+  std::map<std::string, SameFailure> failures_;         // by device
+  std::map<std::pair<std::string, std::string>, record::Record> measured_;  // device, configuration
+};
+
+}  // namespace triptych::measure

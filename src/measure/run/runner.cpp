@@ -1,0 +1,243 @@
+#include "measure/run/runner.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <exception>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <random>
+#include <set>
+#include <thread>
+#include <utility>
+
+#include "measure/protocol/plant.hpp"
+#include "measure/run/plan_run.hpp"
+#include "measure/system/environment.hpp"
+#include "measure/system/interrupt.hpp"
+#include "measure/system/system_facts.hpp"
+
+namespace triptych::measure {
+namespace {
+
+std::string utc_now(const char* format) {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format(fmt::runtime(fmt::format("{{:{}}}", format)), fmt::gmtime(now));
+}
+
+record::Run new_run(const Plan& plan) {
+  std::random_device entropy;
+  return {.id = fmt::format("{}-{:08x}", utc_now("%Y%m%dT%H%M%SZ"), entropy()),
+          .plan = plan.name,
+          .started_at = utc_now("%Y-%m-%dT%H:%M:%SZ"),
+          .system = system_facts(),
+          .checks = plan.checks,
+          .plan_hash = plan.hash,
+          .configurations = plan.configurations.size()};
+}
+
+// The kinds of work of which clocks and statistics have to be calibrated.
+std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
+  const bool asked = protocol.timed || protocol.statistics;
+  return plan.timed() && asked ? work_kinds(plan) : std::vector<std::string>{};
+}
+
+// A file's runs are known by its name alone. Where its text is not the one that a run began with,
+// the run must hold nothing that the plan would not measure now.
+void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& suite,
+                         const record::Store& store) {
+  if (run.plan_hash == plan.hash) return;
+  std::set<std::string> keys;
+  for (const Configuration& each : plan.configurations) {
+    keys.insert(configuration_key(suite, each));
+  }
+  for (const record::Record& record : store.records(run.id)) {
+    if (keys.contains(record.configuration)) continue;
+    throw core::InputError(
+        fmt::format("run {} of {} holds {}, which this plan does not measure: it has changed since "
+                    "or is another of that name; without --resume it begins a run of its own",
+                    run.id, plan.name, record.configuration));
+  }
+}
+
+// The id of the run to add to: a new one, or the plan's latest when it is to be resumed.
+std::string open_run(const PlannedRun& planned, record::Store& store) {
+  const auto& [plan, suite, options] = planned;
+  const record::Run fresh = new_run(plan);
+  if (!options.resume) {
+    store.add_run(fresh);
+    return fresh.id;
+  }
+  const record::Run run = store.latest_run_or_add(fresh);
+  if (run.id != fresh.id) refuse_another_plan(run, plan, suite, store);
+  return run.id;
+}
+
+void refuse_bad_options(const RunOptions& options) {
+  if (const auto reason = forbids_measuring()) throw core::InputError(*reason);
+  if (const auto reason = forbids_measuring(options.worker_environment)) {
+    throw core::InputError(*reason);
+  }
+  for (const Plant& plant : options.plants) check_plant(plant.fault);
+}
+
+// Progress of several parts at once as one: sums, and the longest time left.
+class JointProgress {
+ public:
+  explicit JointProgress(const PlanRun::Tell& tell) : tell_(tell) {}
+
+  void add(std::size_t part, Progress progress) {
+    const std::scoped_lock lock(mutex_);
+    if (!tell_) return;
+    if (!progress.loading) of_[part] = {progress.done, progress.total, progress.left};
+    progress.done = progress.total = 0;
+    progress.left = {};
+    for (const auto& [number, each] : of_) {
+      progress.done += each.done;
+      progress.total += each.total;
+      progress.left = std::max(progress.left, each.left);
+    }
+    tell_(progress);
+  }
+
+ private:
+  struct Part {
+    int done;
+    int total;
+    std::chrono::seconds left;
+  };
+  const PlanRun::Tell& tell_;
+  std::mutex mutex_;
+  std::map<std::size_t, Part> of_;
+};
+
+void add(const RunResult& part, RunResult& sum) {
+  sum.measured += part.measured;
+  sum.taken_over += part.taken_over;
+  sum.skipped += part.skipped;
+  sum.failed += part.failed;
+  sum.there_before += part.there_before;
+  sum.overhead_ns += part.overhead_ns;
+}
+
+// A device of a run.
+struct Part {
+  const RunContext* context;
+  std::string device;
+};
+
+// Where no time is measured devices cannot disturb each other: as many at once as there are
+// processors. Each has a connection of its own to the store. The first error of one is thrown when
+// all have ended.
+std::vector<RunResult> measure_side_by_side(const std::vector<Part>& parts,
+                                            const PlanRun::Tell& on_progress) {
+  JointProgress joint(on_progress);
+  std::vector<RunResult> results(parts.size());
+  std::mutex mutex;
+  std::exception_ptr failure;
+  std::size_t next = 0;
+  const auto lane = [&] {
+    for (;;) {
+      std::unique_lock lock(mutex);
+      if (failure || next == parts.size()) return;
+      const std::size_t number = next++;
+      lock.unlock();
+      const auto& [context, device] = parts[number];
+      const PlanRun::Tell tell = [&](const Progress& progress) { joint.add(number, progress); };
+      try {
+        record::Store store(context->store.file(), record::Store::Mode::append);
+        const RunContext own{context->plan,       context->suite, store,         context->options,
+                             context->interrupts, context->run,   context->kinds};
+        results[number] = PlanRun(own, {device}, tell).measure_all();
+      } catch (...) {
+        lock.lock();
+        if (!failure) failure = std::current_exception();
+      }
+    }
+  };
+  const std::size_t lanes =
+      std::min<std::size_t>(parts.size(), std::max(1U, std::thread::hardware_concurrency()));
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < lanes; ++i) threads.emplace_back(lane);
+  }
+  if (failure) std::rethrow_exception(failure);
+  return results;
+}
+
+RunResult measure_devices_side_by_side(const RunContext& context,
+                                       const std::vector<std::string>& devices,
+                                       const PlanRun::Tell& on_progress) {
+  const Stopwatch stopwatch;
+  std::vector<Part> parts;
+  for (const std::string& device : devices) parts.push_back({&context, device});
+  RunResult sum;
+  for (const RunResult& part : measure_side_by_side(parts, on_progress)) add(part, sum);
+  sum.run = context.run;
+  sum.wall_ns = stopwatch.ns();
+  return sum;
+}
+
+}  // namespace
+
+std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
+                                 const std::vector<std::string>& devices, record::Store& store,
+                                 const std::function<void(const Progress&)>& on_progress) {
+  for (const PlannedRun& each : runs) refuse_bad_options(each.options);
+  InterruptGuard interrupts;
+  std::vector<RunResult> results;
+  results.reserve(runs.size());
+  for (const PlannedRun& each : runs) {
+    const auto& [plan, suite, options] = each;
+    const RunContext context{plan,
+                             suite,
+                             store,
+                             options,
+                             interrupts,
+                             open_run(each, store),
+                             kinds_of(plan, options.protocol)};
+    const bool timed = context.plan.timed() && options.protocol.timed;
+    const bool side_by_side = !timed && devices.size() > 1;
+    results.push_back(side_by_side ? measure_devices_side_by_side(context, devices, on_progress)
+                                   : PlanRun(context, devices, on_progress).measure_all());
+  }
+  return results;
+}
+
+std::array<RunResult, 2> run_sides(const SidesRun& sides, record::Store& store,
+                                   const std::function<void(const Progress&)>& on_progress) {
+  InterruptGuard interrupts;
+  std::vector<RunContext> contexts;
+  std::vector<Part> parts;
+  contexts.reserve(sides.options.size());
+  for (std::size_t i = 0; i < sides.options.size(); ++i) {
+    const PlannedRun planned{sides.plan, sides.suite, sides.options[i]};
+    refuse_bad_options(planned.options);
+    contexts.push_back({planned.plan, planned.suite, store, planned.options, interrupts,
+                        open_run(planned, store),
+                        kinds_of(planned.plan, planned.options.protocol)});
+    parts.push_back({&contexts.back(), sides.devices[i]});
+  }
+  if (!sides.plan.timed()) {
+    std::vector<RunResult> results = measure_side_by_side(parts, on_progress);
+    return {std::move(results[0]), std::move(results[1])};
+  }
+  std::array<RunResult, 2> results;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    results[i] = PlanRun(contexts[i], {parts[i].device}, on_progress).measure_all();
+  }
+  return results;
+}
+
+RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices, const Suite& suite,
+                   record::Store& store, const RunOptions& options,
+                   const std::function<void(const Progress&)>& on_progress) {
+  const PlannedRun alone{plan, suite, options};
+  return std::move(run_plans({&alone, 1}, devices, store, on_progress).front());
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,92 @@
+#pragma once
+// Runs a plan: one worker process per device, supervised; records are stored as they are made.
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/plan/plan.hpp"
+#include "measure/protocol/plant.hpp"
+#include "measure/protocol/protocol.hpp"
+#include "measure/system/interrupt.hpp"
+#include "record/store.hpp"
+
+namespace triptych::measure {
+
+struct RunOptions {
+  Protocol protocol;
+  std::chrono::seconds limit{60};  // of one configuration; a worker past it is killed and replaced
+  std::chrono::seconds start_limit{60};  // of opening a device and calibrating its clocks
+  bool resume = false;  // continue the plan's latest run: what has a record is left alone
+  std::vector<Plant> plants;
+  std::vector<std::string> worker_command;           // as SideOptions::command
+  std::vector<std::string> worker_environment = {};  // as SideOptions::environment
+};
+
+struct Progress {
+  std::string device;
+  std::string configuration;
+  int done = 0;
+  int total = 0;
+  std::chrono::seconds left{0};
+  const record::Record* record = nullptr;  // of the configuration just done
+  std::optional<Loading> loading;          // else: of the configuration under way
+};
+
+struct RunResult {
+  std::string run;  // id in the store
+  // What the run holds of the plan on its devices: with `resume`, from before too.
+  int measured = 0;
+  int taken_over = 0;  // of those, by another configuration's frames (measure/contract/twins.hpp)
+  int skipped = 0;
+  int failed = 0;        // failed, crashed, hung or lost
+  int there_before = 0;  // of all these, those that a resumed run held already
+  double wall_ns = 0;
+  double overhead_ns = 0;  // of wall_ns, what was neither opening devices, preparing nor frames
+};
+
+// One plan of those that are measured together.
+struct PlannedRun {
+  const Plan& plan;
+  const Suite& suite;
+  const RunOptions& options;
+};
+
+// Every configuration of each plan on every device, devices one after the other so that none
+// disturbs another's timing. A crash, a hang or a lost device costs one configuration; a device
+// whose worker cannot be started twice in a row costs the device, each of its configurations failed
+// with the reason. One result per plan, each of a run of its own. Throws InputError for an unknown
+// fault, for an environment that forbids measuring, and for a resumed run whose device has changed
+// or that holds what its plan, changed since, does not measure; IoError when the store cannot be
+// written; Interrupted.
+[[nodiscard]] std::vector<RunResult> run_plans(
+    std::span<const PlannedRun> runs, const std::vector<std::string>& devices, record::Store& store,
+    const std::function<void(const Progress&)>& on_progress);
+
+// A plan on two sides, each into a run of its own.
+struct SidesRun {
+  const Plan& plan;
+  const Suite& suite;
+  std::array<std::string, 2> devices;
+  std::array<RunOptions, 2> options;
+};
+
+// Side by side where nothing is timed, else one after the other. Throws as run_plans().
+[[nodiscard]] std::array<RunResult, 2> run_sides(
+    const SidesRun& sides, record::Store& store,
+    const std::function<void(const Progress&)>& on_progress);
+
+// One alone.
+[[nodiscard]] RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices,
+                                 const Suite& suite, record::Store& store,
+                                 const RunOptions& options,
+                                 const std::function<void(const Progress&)>& on_progress);
+
+}  // namespace triptych::measure

@@ -1,0 +1,236 @@
+#include "measure/run/turns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "measure/protocol/clock.hpp"
+#include "measure/protocol/count_to_fill.hpp"
+#include "measure/worker/worker_seat.hpp"
+
+namespace triptych::measure {
+namespace {
+
+constexpr std::array<Side, 2> both{Side::a, Side::b};
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double ln_mean(const std::array<double, 2>& times_ns) {
+  constexpr double least_ns = 1;
+  return 0.5 *
+         (std::log(std::max(times_ns[0], least_ns)) + std::log(std::max(times_ns[1], least_ns)));
+}
+
+}  // namespace
+
+std::string_view name_of(Side side) {
+  return side == Side::a ? "a" : "b";
+}
+
+SideEnded::SideEnded(Side side, record::Outcome outcome, const std::string& reason)
+    : Error(fmt::format("{} {}: {}", name_of(side), record::name_of(outcome), reason)),
+      side_(side),
+      outcome_(outcome) {}
+
+std::vector<double> differences(std::span<const Block> blocks, TurnClock clock) {
+  std::vector<double> result;
+  result.reserve(blocks.size());
+  for (const Block& block : blocks) {
+    const auto ln_time = [clock](const SideTimes& times) {
+      return ln_mean(clock == TurnClock::device ? times.device_ns.value() : times.wall_ns);
+    };
+    result.push_back(ln_time(block.b) - ln_time(block.a));
+  }
+  return result;
+}
+
+bool device_clock_holds(std::span<const Block> blocks) {
+  for (const auto side : {&Block::a, &Block::b}) {
+    std::vector<double> wall_ns;
+    std::vector<double> device_ns;
+    for (const Block& block : blocks) {
+      const SideTimes& times = block.*side;
+      if (!times.device_ns) return false;
+      wall_ns.insert(wall_ns.end(), times.wall_ns.begin(), times.wall_ns.end());
+      device_ns.insert(device_ns.end(), times.device_ns->begin(), times.device_ns->end());
+    }
+    if (!plausible(device_ns, wall_ns)) return false;
+  }
+  return true;
+}
+
+// A side with the worker that serves it just now.
+class Turns::Seat {
+ public:
+  Seat(Side side, const SideOptions& of, const TurnOptions& options, InterruptGuard& interrupts)
+      : side_(side),
+        options_(options),
+        cache_(cache_name(of, false)),
+        seat_(worker_setup(of, false, cache_, options.start_limit), interrupts) {}
+
+  [[nodiscard]] const Hello& hello() const { return hello_; }
+  [[nodiscard]] const std::string& why_closed() const { return seat_.why_closed(); }
+
+  // As WorkerSeat::open. Further workers rest on the first one's verdict on the clocks.
+  bool open() {
+    return seat_.open(
+        [this] {
+          return Start{.suite = options_.suite, .kinds = options_.kinds, .clocks = hello_.clocks};
+        },
+        [this](const Hello& hello) {
+          if (hello_.device.id.empty()) hello_ = hello;
+        });
+  }
+
+  void close() { seat_.finish(); }
+
+  // Throws SideEnded unless a message of the wanted kind comes back.
+  template <typename As>
+  auto ask(const Message& message, As as, const OnLoading& on_loading) {
+    if (!open()) throw SideEnded(side_, record::Outcome::failed, why_closed());
+    WorkerLink::Reply reply = seat_.worker().ask(message, options_.limit, on_loading);
+    if (const auto* died = std::get_if<WorkerLink::Died>(&reply)) {
+      give_up(record::Outcome::crashed, died->reason);
+    }
+    if (const auto* late = std::get_if<WorkerLink::Late>(&reply)) {
+      give_up(record::Outcome::hung, late->reason);
+    }
+    Message& answer = std::get<Message>(reply);
+    if (const auto refused = as_refused(answer)) give_up(record::Outcome::failed, refused->reason);
+    try {
+      if (auto wanted = as(std::move(answer))) return std::move(*wanted);
+    } catch (const core::InputError& error) {
+      give_up(record::Outcome::failed, error.what());
+    }
+    give_up(record::Outcome::failed, "the worker said something other than its answer");
+  }
+
+  // Throws SideEnded for an outcome that is none of a measured configuration.
+  void require_measured(record::Outcome outcome, const std::string& reason) {
+    if (outcome == record::Outcome::measured) return;
+    if (outcome == record::Outcome::lost) seat_.vacate();
+    throw SideEnded(side_, outcome, reason);
+  }
+
+  Turn turn(const Message& message, const OnLoading& on_loading = {}) {
+    Turn turn = ask(
+        message, [](const Message& answer) { return as_turn(answer); }, on_loading);
+    require_measured(turn.outcome, turn.reason);
+    return turn;
+  }
+
+  // The times of so many frames.
+  Turn draw(int frames) {
+    Turn drawn = turn(to_message(Frames{.count = frames}));
+    if (drawn.wall_ns.size() != static_cast<std::size_t>(frames)) {
+      give_up(record::Outcome::failed,
+              fmt::format("{} frames were asked for, {} drawn", frames, drawn.wall_ns.size()));
+    }
+    return drawn;
+  }
+
+  void release() {
+    if (seat_.occupied()) static_cast<void>(turn(to_message(Release{})));
+  }
+
+ private:
+  [[noreturn]] void give_up(record::Outcome outcome, const std::string& reason) {
+    seat_.vacate();
+    throw SideEnded(side_, outcome, reason);
+  }
+
+  Side side_;
+  const TurnOptions& options_;
+  CacheFolder cache_;
+  WorkerSeat seat_;
+  Hello hello_;
+};
+
+Turns::Turns(TurnOptions options, const SideOptions& a, const SideOptions& b)
+    : options_(std::move(options)), random_(options_.seed) {
+  if (const auto reason = forbids_measuring()) throw core::InputError(*reason);
+  for (const SideOptions* side : {&a, &b}) {
+    if (const auto reason = forbids_measuring(side->environment)) throw core::InputError(*reason);
+  }
+  seats_[0] = std::make_unique<Seat>(Side::a, a, options_, interrupts_);
+  seats_[1] = std::make_unique<Seat>(Side::b, b, options_, interrupts_);
+  // Clocks are calibrated one after the other: neither disturbs the other's.
+  for (const auto& each : seats_) {
+    if (!each->open()) throw core::NotSupported(each->why_closed());
+  }
+}
+
+Turns::~Turns() = default;
+
+const Hello& Turns::hello(Side side) const {
+  return seat(side).hello();
+}
+
+void Turns::hold(const Configuration& configuration,
+                 const std::array<std::vector<std::string>, 2>& plants, TurnClock clock,
+                 const OnLoading& on_loading) {
+  constexpr int warm_up_frames = 3;
+  constexpr int most_frames = 1000;
+  constexpr int most_times = 10;
+  for (const Side side : both) {
+    const Hold request{configuration, plants.at(side == Side::a ? 0 : 1)};
+    static_cast<void>(seat(side).turn(to_message(request), on_loading));
+  }
+  double fastest_ns = infinite;
+  for (const Side side : both) {
+    const Turn turn = seat(side).draw(warm_up_frames);
+    const bool by_device = clock == TurnClock::device && !turn.device_ns.empty();
+    fastest_ns = std::min(fastest_ns, std::ranges::min(by_device ? turn.device_ns : turn.wall_ns));
+  }
+  frames_per_turn_ = count_to_fill(options_.least_turn_ns, fastest_ns, most_frames);
+  times_per_block_ =
+      count_to_fill(options_.least_block_ns, 4 * frames_per_turn_ * fastest_ns, most_times);
+  for (const Side side : both) static_cast<void>(seat(side).draw(frames_per_turn_));
+}
+
+Block Turns::block() {
+  Block block{.b_first = random_.uniform() < 0.5, .a = {}, .b = {}};
+  for (SideTimes* times : {&block.a, &block.b}) {
+    times->wall_ns.fill(infinite);
+    times->device_ns.emplace().fill(infinite);
+  }
+  for (int i = 0; i < times_per_block_; ++i) take_turns(block);
+  return block;
+}
+
+void Turns::take_turns(Block& block) {
+  const Side first = block.b_first ? Side::b : Side::a;
+  const Side second = block.b_first ? Side::a : Side::b;
+  std::array<std::size_t, 2> turns{};
+  for (const Side side : {first, second, second, first}) {
+    const Turn turn = seat(side).draw(frames_per_turn_);
+    SideTimes& times = side == Side::a ? block.a : block.b;
+    const std::size_t number = turns.at(side == Side::a ? 0 : 1)++;
+    double& wall_ns = times.wall_ns.at(number);
+    wall_ns = std::min(wall_ns, mean_of(turn.wall_ns));
+    if (turn.device_ns.empty()) times.device_ns.reset();
+    if (!times.device_ns) continue;
+    double& device_ns = times.device_ns->at(number);
+    device_ns = std::min(device_ns, mean_of(turn.device_ns));
+  }
+}
+
+void Turns::release() {
+  for (const Side side : both) seat(side).release();
+}
+
+void Turns::relaunch() {
+  for (const auto& each : seats_) each->close();
+  for (const Side side : both) {
+    if (!seat(side).open()) throw SideEnded(side, record::Outcome::failed, seat(side).why_closed());
+  }
+}
+
+}  // namespace triptych::measure

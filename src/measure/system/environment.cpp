@@ -1,0 +1,137 @@
+#include "measure/system/environment.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <system_error>
+
+#include "core/error.hpp"
+
+namespace triptych::measure {
+namespace {
+
+constexpr std::array<EnvironmentDefault, 2> defaults{{
+    {"POCL_CACHE_DIR", "{cache}",
+     "opencl:", "PoCL processes that share a kernel cache at the same time crash"},
+    {"POCL_PTHREAD_MIN_WGS", "1", "opencl:",
+     "PoCL leaves launches of few work-groups on one thread otherwise: half the speed at 256x256"},
+}};
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? std::string() : std::string(value);
+}
+
+std::vector<std::filesystem::path> cache_roots() {
+  std::vector<std::filesystem::path> roots;
+  if (const std::string xdg = variable("XDG_CACHE_HOME"); !xdg.empty()) {
+    roots.emplace_back(std::filesystem::path(xdg) / "triptych");
+  }
+  if (const std::string home = variable("HOME"); !home.empty()) {
+    roots.emplace_back(std::filesystem::path(home) / ".cache" / "triptych");
+  }
+  // A name of this user's own: the folder for temporary files is everybody's.
+  std::error_code error;
+  const auto temporary = std::filesystem::temp_directory_path(error);
+  if (!error) roots.emplace_back(temporary / fmt::format("triptych-{}", ::getuid()));
+  return roots;
+}
+
+std::string as_file_name(std::string_view device_id) {
+  std::string name(device_id);
+  for (char& letter : name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+    if (!plain && letter != '.' && letter != '-' && letter != '_') letter = '-';
+  }
+  return name;
+}
+
+// The lock file in the folder, locked; empty when the folder cannot be used or is in use.
+FileDescriptor try_lock(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return {};
+  FileDescriptor lock(::open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+  if (lock && ::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) lock.reset();
+  return lock;
+}
+
+std::string with_cache(std::string entry, const CacheFolder& cache) {
+  constexpr std::string_view place = "{cache}";
+  if (const std::size_t at = entry.find(place); at != std::string::npos) {
+    entry.replace(at, place.size(), cache.path().string());
+  }
+  return entry;
+}
+
+std::string_view name_in(std::string_view entry) {
+  return entry.substr(0, entry.find('='));
+}
+
+}  // namespace
+
+std::span<const EnvironmentDefault> environment_defaults() {
+  return defaults;
+}
+
+CacheFolder::CacheFolder(std::string_view device_id) {
+  constexpr int most_at_once = 64;
+  for (const auto& root : cache_roots()) {
+    for (int n = 0; n < most_at_once; ++n) {
+      path_ = root / fmt::format("{}-{}", as_file_name(device_id), n);
+      lock_ = try_lock(path_);
+      if (lock_) return;
+    }
+  }
+  throw core::IoError(
+      fmt::format("no cache folder for {}: none can be written, or {} workers hold one each; set "
+                  "XDG_CACHE_HOME",
+                  device_id, most_at_once));
+}
+
+std::vector<std::string> worker_environment(std::string_view device_id, const CacheFolder& cache,
+                                            std::span<const std::string> overrides) {
+  std::vector<std::string> result;
+  for (const std::string& entry : overrides) result.push_back(with_cache(entry, cache));
+  const auto overridden = [&](std::string_view name) {
+    return std::ranges::any_of(overrides,
+                               [&](const std::string& entry) { return name_in(entry) == name; });
+  };
+  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+    const std::string_view text(*entry);
+    if (text.starts_with("BENCHMARK_") || overridden(name_in(text))) continue;
+    result.emplace_back(text);
+  }
+  for (const EnvironmentDefault& each : defaults) {
+    const bool set = std::ranges::any_of(
+        result, [&](const std::string& entry) { return name_in(entry) == each.name; });
+    if (set || !device_id.starts_with(each.api)) continue;
+    result.push_back(with_cache(fmt::format("{}={}", each.name, each.value), cache));
+  }
+  return result;
+}
+
+std::optional<std::string> forbids_measuring() {
+  if (std::getenv("LP_PERF") == nullptr) return std::nullopt;
+  const std::array<std::string, 1> set{"LP_PERF=" + variable("LP_PERF")};
+  return forbids_measuring(set);
+}
+
+std::optional<std::string> forbids_measuring(std::span<const std::string> environment) {
+  for (const std::string& entry : environment) {
+    if (name_in(entry) != "LP_PERF") continue;
+    return fmt::format(
+        "{} is set: it turns off parts of llvmpipe's and lavapipe's work, so that times and images "
+        "would be of something else; unset it",
+        entry);
+  }
+  return std::nullopt;
+}
+
+}  // namespace triptych::measure

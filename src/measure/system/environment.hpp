@@ -1,0 +1,54 @@
+#pragma once
+// The environment that drivers are run in: defaults that they need to work well in a worker
+// process, what must not reach one, and what forbids measuring.
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/system/process.hpp"
+
+namespace triptych::measure {
+
+// A variable given to workers unless the user has set it.
+struct EnvironmentDefault {
+  std::string_view name;
+  std::string_view value;  // "{cache}" stands for the worker's own cache folder
+  std::string_view api;    // prefix of the device ids concerned
+  std::string_view reason;
+};
+[[nodiscard]] std::span<const EnvironmentDefault> environment_defaults();
+
+// A cache folder that belongs to one worker at a time, kept from run to run so that drivers find
+// what they compiled before: $XDG_CACHE_HOME/triptych (or ~/.cache/triptych, or the folder for
+// temporary files) /<device>-<n>, n the first that nobody else holds. Held until destroyed, across
+// the worker's replacements.
+class CacheFolder {
+ public:
+  // Throws IoError when no such folder can be made anywhere.
+  explicit CacheFolder(std::string_view device_id);
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  FileDescriptor lock_;
+};
+
+// The whole environment of a worker for this device, "NAME=VALUE" each: the caller's own without
+// what would change how benchmarks are run (BENCHMARK_*), with the defaults it lacks. `overrides`,
+// "NAME=VALUE" each, win over both; "{cache}" in one stands for the folder.
+[[nodiscard]] std::vector<std::string> worker_environment(
+    std::string_view device_id, const CacheFolder& cache,
+    std::span<const std::string> overrides = {});
+
+// Why nothing may be measured in this process's environment; nullopt: it may. (LP_PERF turns off
+// parts of llvmpipe's work: what is timed would not be what is drawn.)
+[[nodiscard]] std::optional<std::string> forbids_measuring();
+// The same of a worker's environment, "NAME=VALUE" each.
+[[nodiscard]] std::optional<std::string> forbids_measuring(
+    std::span<const std::string> environment);
+
+}  // namespace triptych::measure

@@ -1,0 +1,82 @@
+#include "measure/system/system_facts.hpp"
+
+#include <fmt/format.h>
+#include <sched.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "measure/system/cpu_features.hpp"
+
+namespace triptych::measure {
+namespace {
+
+// The value of the first line "KEY<blanks><separator> VALUE", quotes taken off; empty when there is
+// none.
+std::string value_in(const char* file, std::string_view key, char separator) {
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);) {
+    const auto split = line.find(separator);
+    if (split == std::string::npos) continue;
+    if (line.substr(0, line.find_last_not_of(" \t", split - 1) + 1) != key) continue;
+    const auto first = line.find_first_not_of(" \t\"", split + 1);
+    const auto last = line.find_last_not_of(" \t\"");
+    return first == std::string::npos ? std::string() : line.substr(first, last - first + 1);
+  }
+  return {};
+}
+
+std::string first_line(const char* file) {
+  std::ifstream lines(file);
+  std::string line;
+  std::getline(lines, line);
+  return line;
+}
+
+// Cores this process may run on: what the drivers' thread pools see, not what the machine has.
+int usable_cores() {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  return ::sched_getaffinity(0, sizeof cores, &cores) == 0 ? CPU_COUNT(&cores) : 0;
+}
+
+std::string_view compiler() {
+#if defined(__clang__)
+  return "Clang " __clang_version__;
+#elif defined(__GNUC__)
+  return "GCC " __VERSION__;
+#else
+  return "";
+#endif
+}
+
+}  // namespace
+
+std::map<std::string, std::string> system_facts() {
+  std::map<std::string, std::string> facts{
+      {"processor", value_in("/proc/cpuinfo", "model name", ':')},
+      {"os", value_in("/etc/os-release", "PRETTY_NAME", '=')},
+      {"frequency_governor", first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor")},
+      {"compiler", std::string(compiler())},
+      {"triptych", TRIPTYCH_VERSION},
+      {"google_benchmark", TRIPTYCH_BENCHMARK_VERSION}};
+  if (const int cores = usable_cores(); cores > 0) facts["cores"] = fmt::format("{}", cores);
+  const long pages = ::sysconf(_SC_PHYS_PAGES);
+  const long page_bytes = ::sysconf(_SC_PAGESIZE);
+  if (pages > 0 && page_bytes > 0) {
+    facts["memory_bytes"] = fmt::format(
+        "{}", static_cast<unsigned long long>(pages) * static_cast<unsigned long long>(page_bytes));
+  }
+  if (utsname names{}; ::uname(&names) == 0) {
+    facts["host"] = names.nodename;
+    facts["kernel"] = fmt::format("{} {} {}", names.sysname, names.release, names.machine);
+  }
+  std::erase_if(facts, [](const auto& fact) { return fact.second.empty(); });
+  return facts;
+}
+
+}  // namespace triptych::measure

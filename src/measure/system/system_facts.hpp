@@ -1,0 +1,11 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace triptych::measure {
+
+// Processor, cores, memory, operating system, kernel, compiler, version of Triptych.
+[[nodiscard]] std::map<std::string, std::string> system_facts();
+
+}  // namespace triptych::measure

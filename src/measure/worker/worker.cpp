@@ -1,0 +1,336 @@
+#include "measure/worker/worker.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "measure/contract/twins.hpp"
+#include "measure/protocol/clock.hpp"
+#include "measure/protocol/dialect.hpp"
+#include "measure/protocol/plant.hpp"
+#include "measure/protocol/protocol.hpp"
+#include "measure/system/stopwatch.hpp"
+#include "measure/worker/wire.hpp"
+#include "record/bad_input.hpp"
+
+namespace triptych::measure {
+namespace {
+
+// Of this process since it began. Not ru_maxrss: that one survives exec, so that a worker would
+// start with its supervisor's peak.
+std::uint64_t peak_memory_bytes() {
+  std::ifstream lines("/proc/self/status");
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("VmHWM:")) return std::stoull(line.substr(6)) * 1024;
+  }
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+technique::Work kind_named(std::string_view name) {
+  for (const technique::Work kind : {technique::Work::compute, technique::Work::draw}) {
+    if (technique::name_of(kind) == name) return kind;
+  }
+  throw core::InputError(fmt::format("unknown kind of work '{}'", name));
+}
+
+// What is known of the data and of the path it takes, for judging the image.
+void describe_work(const Work& work, const Device& device, record::Record& record) {
+  if (const auto* volume = std::get_if<VolumeWork>(&work.scene)) {
+    record.data_hash = volume->scene.grid->hash;
+    record.precision["filter_weight_error"] = device.filter_weight_error(
+        {.voxel = volume->scene.grid->format, .sampler = volume->options.sampler});
+  } else if (const auto* particles = std::get_if<ParticleWork>(&work.scene)) {
+    record.data_hash = particles->scene.particles->hash;
+    if (const auto bits = device.sub_pixel_bits()) record.precision["sub_pixel_bits"] = *bits;
+  }
+}
+
+// "", or what a worker is held to by --memory or its user's limits.
+std::string memory_limit() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return {};
+  return fmt::format("; this worker may allocate {} MiB", limit.rlim_cur >> 20);
+}
+
+// Every typed error ends here, as the outcome of one configuration. `data`: what may have taken
+// too much memory.
+template <typename Act, typename OnFailure>
+void outcome_of(const Act& act, const std::string& data, const OnFailure& on_failure) {
+  try {
+    act();
+  } catch (const core::NotSupported& error) {
+    on_failure(record::Outcome::skipped, error.what());
+  } catch (const core::DeviceLost& error) {
+    on_failure(record::Outcome::lost, error.what());
+  } catch (const std::bad_alloc&) {
+    on_failure(record::Outcome::failed, "out of host memory with data " + data + memory_limit());
+  } catch (const std::exception& error) {
+    on_failure(record::Outcome::failed, error.what());
+  }
+}
+
+class Worker {
+ public:
+  Worker(std::unique_ptr<Device> device, Suite& suite, std::vector<record::ClockTrust> clocks)
+      : device_(std::move(device)),
+        suite_(suite),
+        info_(device_->info()),
+        clocks_(std::move(clocks)) {}
+
+  // With the dialects of the kinds of work that were calibrated here.
+  [[nodiscard]] const record::Device& info() const { return info_; }
+  [[nodiscard]] const std::vector<record::ClockTrust>& clocks() const { return clocks_; }
+
+  // Of a kind with a known clock the supervisor knows the dialect too.
+  void calibrate_for(const std::vector<std::string>& kinds) {
+    for (const std::string& kind : kinds) {
+      if (std::ranges::find(clocks_, kind, &record::ClockTrust::work) != clocks_.end()) continue;
+      clocks_.push_back(calibrate_clock(*device_, suite_, kind_named(kind)));
+      info_.statistics_dialect.merge(calibrate_dialect(*device_, kind_named(kind)));
+    }
+  }
+
+  [[nodiscard]] Answer answer(const Job& job) {
+    const Stopwatch whole;
+    Answer answer;
+    answer.record.factors = job.configuration;
+    outcome_of([&] { perform(job, answer); }, data_,
+               [&](record::Outcome outcome, const std::string& reason) {
+                 conclude(answer, outcome, reason);
+               });
+    answer.record.peak_memory_bytes = peak_memory_bytes();
+    answer.worker_ns = whole.ns();
+    answer.record.overhead_ns =
+        answer.worker_ns - answer.record.prepare_ns - measuring_ns_ + answer.record.overhead_ns;
+    return answer;
+  }
+
+  [[nodiscard]] Turn hold(const Hold& hold) {
+    return turn([&](Turn&) {
+      held_.reset();
+      Configuration configuration = hold.configuration;
+      held_ = device_->prepare(supported_work(configuration, hold.plants));
+    });
+  }
+
+  [[nodiscard]] Turn draw(const Frames& frames) {
+    return turn([&](Turn& turn) {
+      if (!held_) throw core::InputError("frames are asked for, but no configuration is held");
+      for (int i = 0; i < frames.count; ++i) {
+        const Frame frame = held_->frame(Purpose::timing);
+        turn.wall_ns.push_back(frame.wall_ns);
+        if (frame.device_ns) turn.device_ns.push_back(*frame.device_ns);
+      }
+      if (turn.device_ns.size() != turn.wall_ns.size()) turn.device_ns.clear();
+    });
+  }
+
+  [[nodiscard]] Turn release() {
+    return turn([this](Turn&) { held_.reset(); });
+  }
+
+ private:
+  template <typename Act>
+  Turn turn(const Act& act) {
+    Turn turn;
+    outcome_of([&] { act(turn); }, data_,
+               [&](record::Outcome outcome, const std::string& reason) {
+                 turn = {.outcome = outcome, .reason = reason, .wall_ns = {}, .device_ns = {}};
+                 // Freeing objects of a lost device is what drivers are worst at.
+                 if (outcome == record::Outcome::lost) {
+                   static_cast<void>(held_.release());
+                 } else {
+                   held_.reset();
+                 }
+               });
+    return turn;
+  }
+
+  // Of a configuration that was not measured nothing may look as if it had been.
+  static void conclude(Answer& answer, record::Outcome outcome, std::string reason) {
+    record::Record record;
+    record.factors = std::move(answer.record.factors);
+    record.prepare_ns = answer.record.prepare_ns;
+    record.outcome = outcome;
+    record.reason = std::move(reason);
+    answer.record = std::move(record);
+    answer.exr.clear();
+  }
+
+  // What the device can do of it. Resolves the configuration's "auto" levels.
+  Work supported_work(Configuration& configuration, const std::vector<std::string>& plants) {
+    const auto data = configuration.find("data");
+    data_ = data == configuration.end() ? "none" : data->second;
+    if (std::string reason = suite_.missing_data(configuration); !reason.empty()) {
+      throw core::NotSupported(reason);
+    }
+    Work work = suite_.work(configuration, *device_);
+    for (const std::string& plant : plants) apply_plant(plant, work);
+    if (const auto reason = device_->unsupported(work)) throw core::NotSupported(*reason);
+    return work;
+  }
+
+  // Broken input is no fault of the device's: a skip that says where it is broken.
+  Work work_or_skip(Configuration& configuration, const std::vector<std::string>& plants) {
+    try {
+      return supported_work(configuration, plants);
+    } catch (const core::InputError& error) {
+      throw core::NotSupported(fmt::format("{}{}", record::bad_input, error.what()));
+    }
+  }
+
+  void perform(const Job& job, Answer& answer) {
+    measuring_ns_ = 0;
+    const Stopwatch whole;
+    Configuration configuration = job.configuration;
+    const Work work = work_or_skip(configuration, job.plants);
+    const bool may_share = !job.protocol.measure_every && job.plants.empty();
+    std::optional<PlainWork> plain;
+    if (may_share) plain = suite_.plain(configuration, work);
+    if (const auto twin = plain ? twins_.find(*plain) : std::nullopt) {
+      answer.record.outcome = record::Outcome::measured;
+      answer.record.same_as = twin->key;
+      answer.record.reason = twin->reason;
+      answer.record.prepare_ns = whole.ns();
+      answer.record.factors = std::move(configuration);
+      return;
+    }
+    if (job.protocol.counted) return count(job, work, std::move(configuration), answer);
+    const auto prepared = device_->prepare(work);
+    const double prepare_ns = whole.ns();
+    answer.record.prepare_ns = prepare_ns;
+
+    const Stopwatch measuring;
+    Measurement measured = measure(*prepared, job.protocol,
+                                   technique::technique(work.technique).work, clocks_, job.name);
+    measuring_ns_ = measuring.ns();
+    answer.record = std::move(measured.record);
+    answer.record.memory = device_->memory();
+    answer.record.prepare_ns = prepare_ns;
+    answer.record.factors = std::move(configuration);
+    describe_work(work, *device_, answer.record);
+    if (plain) {
+      twins_.add(*plain, configuration_key(suite_, job.configuration), work, measured.image);
+    }
+    if (technique::technique(work.technique).picture) {
+      answer.exr = core::encode_exr(measured.image);
+    } else {
+      answer.record.image.clear();  // a sum, or nothing
+    }
+  }
+
+  // Under the emulator: instructions, and nothing that would need a clock.
+  void count(const Job&, const Work& work, Configuration configuration, Answer& answer) {
+    if (!counter_) counter_ = InstructionCounter::of_this_process();
+    if (!counter_) throw core::NotSupported("this worker's instructions are not counted");
+    record::Counts prepare_cost;
+    const auto prepared = counter_->counting(prepare_cost, [&] { return device_->prepare(work); });
+    answer.record = count_instructions(*prepared, *counter_);
+    answer.record.memory = device_->memory();
+    answer.record.prepare_cost = std::move(prepare_cost);
+    answer.record.factors = std::move(configuration);
+    describe_work(work, *device_, answer.record);
+  }
+
+  std::unique_ptr<Device> device_;
+  Suite& suite_;
+  record::Device info_;
+  std::vector<record::ClockTrust> clocks_;
+  std::optional<InstructionCounter> counter_;
+  std::unique_ptr<Prepared> held_;
+  Twins twins_;
+  std::string data_;         // of the configuration that is being worked on
+  double measuring_ns_ = 0;  // of the last job: what measure() accounts for itself
+};
+
+// A worker without a supervisor would hold the device for nobody, even from within a driver's call.
+void die_with_parent() {
+  const pid_t parent = ::getppid();
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) std::raise(SIGKILL);
+}
+
+// A process that a driver starts must not keep our pipes open after us.
+void keep_to_ourselves(int fd) {
+  if (const int flags = ::fcntl(fd, F_GETFD); flags >= 0) ::fcntl(fd, F_SETFD, flags | FD_CLOEXEC);
+}
+
+record::Outcome serve_one(Worker& worker, const Message& message, int answer_fd) {
+  if (const auto job = as_job(message)) {
+    Answer answer = worker.answer(*job);
+    const record::Outcome outcome = answer.record.outcome;
+    send(answer_fd, to_message(std::move(answer)));
+    return outcome;
+  }
+  Turn turn;
+  if (const auto hold = as_hold(message)) {
+    turn = worker.hold(*hold);
+  } else if (const auto frames = as_frames(message)) {
+    turn = worker.draw(*frames);
+  } else if (as_release(message)) {
+    turn = worker.release();
+  } else {
+    throw core::InputError(fmt::format("a worker is asked for what it does not know: '{}'",
+                                       message.json.value("type", "")));
+  }
+  send(answer_fd, to_message(turn));
+  return turn.outcome;
+}
+
+int serve(const Backend& backend, std::string_view device_id, const FindSuite& find_suite,
+          int request_fd, int answer_fd) {
+  const auto first = receive(request_fd);
+  if (!first) return 0;
+  const auto start = as_start(*first);
+  if (!start) throw core::InputError("a worker's first message must be 'start'");
+  Suite& suite = find_suite(start->suite);
+  suite.tell_of_loading(
+      paced([answer_fd](const Loading& loading) { send(answer_fd, to_message(loading)); }));
+  Worker worker(backend.open(device_id), suite, start->clocks);
+  worker.calibrate_for(start->kinds);
+  send(answer_fd, to_message(Hello{.device = worker.info(), .clocks = worker.clocks()}));
+
+  while (const auto message = receive(request_fd)) {
+    // Freeing objects of a lost device is what drivers are worst at: leave without it.
+    if (serve_one(worker, *message, answer_fd) == record::Outcome::lost) ::_exit(0);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int serve_worker(const Backend& backend, std::string_view device_id, const FindSuite& find_suite,
+                 int request_fd, int answer_fd) {
+  die_with_parent();
+  keep_to_ourselves(request_fd);
+  keep_to_ourselves(answer_fd);
+  Refused refused;
+  try {
+    return serve(backend, device_id, find_suite, request_fd, answer_fd);
+  } catch (const core::NotSupported& error) {
+    refused = {error.what(), true};
+  } catch (const std::exception& error) {
+    refused = {error.what()};
+  }
+  try {
+    send(answer_fd, to_message(refused));
+  } catch (const core::Error&) {
+    // Nobody is left to be told.
+  }
+  return static_cast<int>(core::ExitCode::usage);
+}
+
+}  // namespace triptych::measure

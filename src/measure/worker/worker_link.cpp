@@ -1,0 +1,171 @@
+#include "measure/worker/worker_link.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <span>
+
+#include "core/error.hpp"
+
+namespace triptych::measure {
+namespace {
+
+// Reads all there is from a non-blocking descriptor; false once the other side has closed it.
+template <typename Take>
+bool drain(int fd, Take take) {
+  std::array<char, 65536> piece;
+  for (;;) {
+    const ssize_t got = ::read(fd, piece.data(), piece.size());
+    if (got > 0) {
+      take(std::span<const char>(piece.data(), static_cast<std::size_t>(got)));
+    } else if (got == 0) {
+      return false;
+    } else if (errno != EINTR) {
+      return errno == EAGAIN || errno == EWOULDBLOCK;
+    }
+  }
+}
+
+}  // namespace
+
+void LogTail::append(std::string_view text) {
+  text_ += text;
+  if (text_.size() > most_bytes) text_.erase(0, text_.size() - most_bytes);
+}
+
+std::string LogTail::last_lines(std::size_t count) const {
+  std::vector<std::string_view> lines;
+  std::string_view rest = text_;
+  while (!rest.empty() && lines.size() < count) {
+    const auto split = rest.find_last_of("\r\n");
+    const auto line = split == std::string_view::npos ? rest : rest.substr(split + 1);
+    if (line.find_first_not_of(" \t") != std::string_view::npos) lines.push_back(line);
+    rest = split == std::string_view::npos ? std::string_view() : rest.substr(0, split);
+  }
+  std::string result;
+  for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+    if (!result.empty()) result += " | ";
+    result += *line;
+  }
+  return result;
+}
+
+WorkerLink::WorkerLink(const std::vector<std::string>& command,
+                       const std::vector<std::string>& environment, InterruptGuard& interrupts)
+    : process_(command, environment), interrupts_(interrupts) {}
+
+WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseconds limit,
+                                  const OnLoading& on_loading) {
+  log_.clear();
+  const Deadline deadline = std::chrono::steady_clock::now() + limit;
+  try {
+    send(process_.request_fd(), request);
+  } catch (const core::IoError&) {
+    return bury();
+  }
+  for (;;) {
+    const bool in_time = wait_for_event(deadline);
+    if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
+    const bool over = ended_;  // before reading: what it wrote before its end is then all there
+    read_answer();
+    read_log();
+    try {
+      if (auto message = next_answer(on_loading)) return std::move(*message);
+    } catch (const core::InputError& error) {
+      return bury(error.what());
+    }
+    if (over || !answers_open_) return bury();
+    if (!in_time) {
+      process_.kill();
+      static_cast<void>(bury());
+      return Late{with_last_words(
+          fmt::format("no answer within {:.3g} s", std::chrono::duration<double>(limit).count()))};
+    }
+  }
+}
+
+std::variant<Hello, Refused> WorkerLink::greet(const Start& start,
+                                               std::chrono::milliseconds limit) {
+  const Reply reply = ask(to_message(start), limit);
+  if (const auto* died = std::get_if<Died>(&reply)) {
+    return Refused{"its worker died: " + died->reason};
+  }
+  if (const auto* late = std::get_if<Late>(&reply)) return Refused{late->reason};
+  const Message& message = std::get<Message>(reply);
+  if (const auto refused = as_refused(message)) return *refused;
+  const auto hello = as_hello(message);
+  if (!hello) return Refused{"its worker did not greet"};
+  return *hello;
+}
+
+void WorkerLink::finish() {
+  constexpr std::chrono::seconds patience{5};
+  process_.close_requests();
+  if (process_.wait(patience)) return;
+  process_.kill();
+  static_cast<void>(process_.wait(patience));
+}
+
+void WorkerLink::read_answer() {
+  if (!answers_open_) return;
+  answers_open_ = drain(process_.answer_fd(), [this](std::span<const char> piece) {
+    answers_.append(std::as_bytes(piece));
+  });
+}
+
+std::optional<Message> WorkerLink::next_answer(const OnLoading& on_loading) {
+  while (auto message = answers_.next()) {
+    const auto loading = as_loading(*message);
+    if (!loading) return message;
+    if (on_loading) on_loading(*loading);
+  }
+  return std::nullopt;
+}
+
+void WorkerLink::read_log() {
+  if (!log_open_) return;
+  log_open_ = drain(process_.log_fd(), [this](std::span<const char> piece) {
+    log_.append({piece.data(), piece.size()});
+  });
+}
+
+bool WorkerLink::wait_for_event(Deadline deadline) {
+  std::array<pollfd, 4> events{{{answers_open_ ? process_.answer_fd() : -1, POLLIN, 0},
+                                {log_open_ ? process_.log_fd() : -1, POLLIN, 0},
+                                {process_.pid_fd(), POLLIN, 0},
+                                {interrupts_.fd(), POLLIN, 0}}};
+  const auto left =
+      std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+  const auto timeout = std::clamp<std::chrono::milliseconds::rep>(left.count(), 0, 1'000'000'000);
+  const int ready = ::poll(events.data(), events.size(), static_cast<int>(timeout));
+  if (ready < 0 && errno != EINTR) throw core::IoError("cannot wait for a worker's answer");
+  ended_ = events[2].revents != 0;
+  return ready != 0;
+}
+
+WorkerLink::Died WorkerLink::bury(std::string_view before) {
+  // A worker that closed its answers is as good as dead, and gets a moment to say how it ended.
+  constexpr std::chrono::seconds patience{2};
+  if (!before.empty()) process_.kill();
+  auto exit = process_.wait(patience);
+  if (!exit) {
+    process_.kill();
+    exit = process_.wait(patience);
+  }
+  read_log();
+  std::string reason = exit ? describe(*exit) : std::string("could not be killed");
+  if (!before.empty()) reason = fmt::format("{}; {}", before, reason);
+  return {with_last_words(std::move(reason))};
+}
+
+std::string WorkerLink::with_last_words(std::string reason) {
+  constexpr std::size_t lines = 5;
+  const std::string words = log_.last_lines(lines);
+  return words.empty() ? reason : fmt::format("{}; it last said: {}", reason, words);
+}
+
+}  // namespace triptych::measure

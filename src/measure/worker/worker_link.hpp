@@ -1,0 +1,80 @@
+#pragma once
+// The supervisor's end of one worker: ask, and get an answer, a death or a timeout.
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "measure/system/interrupt.hpp"
+#include "measure/system/process.hpp"
+#include "measure/worker/wire.hpp"
+
+namespace triptych::measure {
+
+// The end of what a worker printed, bounded however much it prints.
+class LogTail {
+ public:
+  void append(std::string_view text);
+  void clear() noexcept { text_.clear(); }
+  // The last lines, blank ones left out, " | " between them; empty when there are none.
+  [[nodiscard]] std::string last_lines(std::size_t count) const;
+
+ private:
+  static constexpr std::size_t most_bytes = 16384;
+  std::string text_;
+};
+
+class WorkerLink {
+ public:
+  struct Died {
+    std::string reason;  // "killed by SIGSEGV (Segmentation fault); it last said: …"
+  };
+  struct Late {
+    std::string reason;  // "no answer within 60 s; it last said: …"
+  };
+  using Reply = std::variant<Message, Died, Late>;
+
+  // Throws IoError when the command cannot be started.
+  WorkerLink(const std::vector<std::string>& command, const std::vector<std::string>& environment,
+             InterruptGuard& interrupts);
+
+  // After Died and Late the process is gone and reaped, and the link of no more use. Throws
+  // Interrupted when a signal asks the supervisor to stop. What the worker says of loading before
+  // it answers goes to `on_loading`, which may be empty.
+  [[nodiscard]] Reply ask(const Message& request, std::chrono::milliseconds limit,
+                          const OnLoading& on_loading = {});
+
+  // Begins to talk: what the worker greets with, or why its device cannot be opened.
+  [[nodiscard]] std::variant<Hello, Refused> greet(const Start& start,
+                                                   std::chrono::milliseconds limit);
+
+  // Lets an idle worker leave by itself, so that drivers can write their caches; kills it when it
+  // does not within a few seconds.
+  void finish();
+
+ private:
+  using Deadline = std::chrono::steady_clock::time_point;
+
+  void read_answer();
+  // The answer, if it is there; what comes before it is handed on.
+  [[nodiscard]] std::optional<Message> next_answer(const OnLoading& on_loading);
+  void read_log();
+  // Waits until something happened at one of the descriptors; false at the deadline.
+  [[nodiscard]] bool wait_for_event(Deadline deadline);
+  [[nodiscard]] Died bury(std::string_view before = {});
+  [[nodiscard]] std::string with_last_words(std::string reason);
+
+  Process process_;
+  InterruptGuard& interrupts_;
+  MessageBuffer answers_;
+  LogTail log_;
+  bool answers_open_ = true;
+  bool log_open_ = true;
+  bool ended_ = false;
+};
+
+}  // namespace triptych::measure

@@ -1,0 +1,51 @@
+#include "measure/worker/worker_seat.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/error.hpp"
+#include "measure/system/stopwatch.hpp"
+
+namespace triptych::measure {
+
+bool WorkerSeat::open(const std::function<Start()>& start,
+                      const std::function<void(const Hello&)>& greeted) {
+  constexpr int most_attempts = 2;
+  for (int attempt = 0; !occupied() && why_closed_.reason.empty(); ++attempt) {
+    Refused refused = try_to_open(start(), greeted);
+    const bool last = refused.unsupported || attempt + 1 >= most_attempts;
+    if (!refused.reason.empty() && last) why_closed_ = std::move(refused);
+  }
+  return occupied();
+}
+
+void WorkerSeat::finish() {
+  if (worker_) worker_->finish();
+  worker_.reset();
+}
+
+Refused WorkerSeat::try_to_open(const Start& start,
+                                const std::function<void(const Hello&)>& greeted) {
+  std::vector<std::string> command = setup_.command;
+  command.push_back(setup_.device);
+  const auto closed = [this](Refused refused) {
+    refused.reason = fmt::format("{} cannot be opened: {}", setup_.device, refused.reason);
+    return refused;
+  };
+  std::unique_ptr<WorkerLink> worker;
+  try {
+    worker = std::make_unique<WorkerLink>(command, setup_.environment, interrupts_);
+  } catch (const core::IoError& error) {
+    return closed({error.what()});
+  }
+  const Stopwatch opening;
+  const auto greeting = worker->greet(start, setup_.limit);
+  opening_ns_ += opening.ns();
+  if (const auto* refused = std::get_if<Refused>(&greeting)) return closed(*refused);
+  greeted(std::get<Hello>(greeting));
+  worker_ = std::move(worker);
+  return {};
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,56 @@
+#include "measure/worker/worker_setup.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+#include <variant>
+
+#include "core/hash.hpp"
+#include "measure/counting/emulator.hpp"
+
+namespace triptych::measure {
+namespace {
+
+// Mesa's own folder is everybody's: only with the variables that everybody has may it be used.
+void keep_shaders_apart(std::vector<std::string>& environment) {
+  constexpr const char* name = "MESA_SHADER_CACHE_DIR";
+  const auto sets_it = [&](const std::string& entry) {
+    return entry.starts_with(fmt::format("{}=", name));
+  };
+  if (std::getenv(name) != nullptr || std::ranges::any_of(environment, sets_it)) return;
+  environment.push_back(fmt::format("{}={{cache}}/mesa", name));
+}
+
+}  // namespace
+
+std::string cache_name(const SideOptions& side, bool counted) {
+  std::string name = side.device + (counted ? "-counted" : "");
+  if (side.environment.empty()) return name;
+  const std::string variables = fmt::format("{}", fmt::join(side.environment, " "));
+  return fmt::format("{}-{}", name, core::content_hash(variables).substr(0, 8));
+}
+
+WorkerSetup worker_setup(const SideOptions& side, bool counted, const CacheFolder& cache,
+                         std::chrono::milliseconds limit) {
+  WorkerSetup setup{.device = side.device,
+                    .command = side.command,
+                    .environment = {},
+                    .limit = counted ? counted_limit : limit};
+  std::vector<std::string> overrides = side.environment;
+  if (counted) {
+    for (const std::string_view each : counting_environment()) overrides.emplace_back(each);
+    if (const auto* emulator = std::get_if<Emulator>(&find_emulator())) {
+      setup.command = emulated(*emulator, std::move(setup.command), cache.path().string());
+      overrides.insert(overrides.end(), emulator->environment.begin(), emulator->environment.end());
+    }
+  } else if (!side.environment.empty()) {
+    keep_shaders_apart(overrides);
+  }
+  setup.environment = worker_environment(side.device, cache, overrides);
+  return setup;
+}
+
+}  // namespace triptych::measure
