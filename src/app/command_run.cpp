@@ -87,7 +87,8 @@ void tell(const RunArguments& arguments, const measure::Plan& plan,
   std::string text = fmt::format(
       "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n",
       plan.name, result.run, arguments.store, result.measured, result.skipped, result.failed,
-      result.wall_ns / 1e9, result.wall_ns > 0 ? 100 * result.overhead_ns / result.wall_ns : 0.0);
+      result.wall_ns / 1e9,
+      result.devices_ns > 0 ? 100 * result.overhead_ns / result.devices_ns : 0.0);
   if (result.there_before > 0) {
     text += fmt::format("{} of them were there before\n", result.there_before);
   }

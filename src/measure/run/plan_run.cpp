@@ -114,6 +114,7 @@ RunResult PlanRun::measure_all() {
     leave(device);
   }
   result_.wall_ns = stopwatch.ns();
+  result_.devices_ns = result_.wall_ns;
   result_.overhead_ns = result_.wall_ns - work_ns_;
   return std::move(result_);
 }

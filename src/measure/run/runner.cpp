@@ -121,6 +121,7 @@ void add(const RunResult& part, RunResult& sum) {
   sum.skipped += part.skipped;
   sum.failed += part.failed;
   sum.there_before += part.there_before;
+  sum.devices_ns += part.devices_ns;
   sum.overhead_ns += part.overhead_ns;
 }
 

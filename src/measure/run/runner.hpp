@@ -49,7 +49,8 @@ struct RunResult {
   int failed = 0;        // failed, crashed, hung or lost
   int there_before = 0;  // of all these, those that a resumed run held already
   double wall_ns = 0;
-  double overhead_ns = 0;  // of wall_ns, what was neither opening devices, preparing nor frames
+  double devices_ns = 0;   // wall clock of all devices' parts: more than wall_ns, side by side
+  double overhead_ns = 0;  // of devices_ns, what was neither opening devices, preparing nor frames
 };
 
 // One plan of those that are measured together.
