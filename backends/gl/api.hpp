@@ -32,6 +32,8 @@ struct Api : GladGLContext {
   [[nodiscard]] std::string text(GLenum name) const;  // glGetString; empty for null
   [[nodiscard]] std::int64_t limit(GLenum name) const;
   [[nodiscard]] std::int64_t limit(GLenum name, GLuint index) const;
+  // To whose grid of 2⁻ᵇ pixel the rasterizer moves vertices.
+  [[nodiscard]] int sub_pixel_bits() const { return static_cast<int>(limit(GL_SUBPIXEL_BITS)); }
   [[nodiscard]] bool at_least(int major, int minor) const;
 
  private:

@@ -25,8 +25,7 @@ std::string constant_lines(const Api& gl, const ParticleConstants& constants) {
       gl.at_least(4, 3) ? "layout(location = n)" : "", static_cast<int>(constants.colour),
       int{constants.transfer_at_pixel}, int{constants.ray_at_vertex},
       static_cast<int>(constants.fault), int{constants.count},
-      technique::sprite_growth(static_cast<int>(gl.limit(GL_SUBPIXEL_BITS))),
-      depth_promise(constants));
+      technique::sprite_growth(gl.sub_pixel_bits()), depth_promise(constants));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ double margin_of(const Api& gl) {
   GLfloat granularity = 0;
   gl.GetFloatv(GL_POINT_SIZE_GRANULARITY, &granularity);
   return technique::point_margin(gl.text(GL_RENDERER), static_cast<double>(granularity)) +
-         2 * technique::sprite_growth(static_cast<int>(gl.limit(GL_SUBPIXEL_BITS)));
+         2 * technique::sprite_growth(gl.sub_pixel_bits());
 }
 
 Sprites sprites(const Api& gl) {

@@ -12,7 +12,8 @@
 namespace triptych::comparison {
 namespace {
 
-using Records = std::map<std::string, std::map<std::string, const record::Record*>>;
+using Value = double (*)(const record::Record&);  // 0: there is none
+using ByDevice = std::map<std::string, const record::Record*>;
 
 // What a frame did, as every API counts it.
 constexpr std::array<const char*, 3> telling_work{"samples", "fragments", "primitives"};
@@ -26,79 +27,71 @@ double time_of(const record::Record& record) {
   return summary ? summary->median : 0;
 }
 
-double counter_of(const record::Record& record, const char* name) {
-  const auto found = record.counters.find(name);
-  return found == record.counters.end() ? 0 : static_cast<double>(found->second);
-}
-
-// Configuration → device → record that has a value.
-template <typename Value>
-Records measured_by(std::span<const record::Record> records, Value value) {
-  Records found;
+// Technique → configuration → those that several devices measured.
+std::map<std::string, std::vector<ByDevice>> measured_by(std::span<const record::Record> records,
+                                                         Value value) {
+  std::map<std::string, ByDevice> by_configuration;
   for (const record::Record& record : records) {
     if (record.outcome != record::Outcome::measured || !(value(record) > 0)) continue;
-    found[record.configuration][record.device] = &record;
+    by_configuration[record.configuration][record.device] = &record;
   }
-  std::erase_if(found, [](const auto& each) { return each.second.size() < 2; });
+  std::map<std::string, std::vector<ByDevice>> found;
+  for (auto& [configuration, devices] : by_configuration) {
+    if (devices.size() < 2) continue;
+    found[devices.begin()->second->technique].push_back(std::move(devices));
+  }
   return found;
 }
 
-class Table {
- public:
-  Table(const Records& records, std::string unit) : records_(records) {
-    table_.unit = std::move(unit);
-  }
+template <typename Number>
+double geometric_mean(const std::vector<ByDevice>& configurations, const std::string& device,
+                      Number number) {
+  double logs = 0;
+  for (const ByDevice& each : configurations) logs += std::log(number(*each.at(device)));
+  return std::exp(logs / static_cast<double>(configurations.size()));
+}
 
-  template <typename Value>
-  SideBySide make(Value value) {
-    std::map<std::string, std::set<std::string>> devices_of;  // by technique
-    std::set<std::string> all;
-    for (const auto& [key, by_device] : records_) {
-      for (const auto& [device, record] : by_device) {
-        devices_of[record->technique].insert(device);
-        all.insert(device);
-      }
-    }
-    table_.devices = {all.begin(), all.end()};
-    for (const auto& [technique, devices] : devices_of) add_row(technique, devices, value);
-    return std::move(table_);
+// `shared`: configurations that all `devices` measured, one at least.
+SideBySide::Row row_of(const std::string& technique, const std::vector<ByDevice>& shared,
+                       const std::set<std::string>& devices, Value value) {
+  SideBySide::Row row{technique, shared.size(), {}, {}};
+  for (const std::string& device : devices) {
+    row.cells[device].value = geometric_mean(shared, device, value);
   }
-
- private:
-  template <typename Value>
-  void add_row(const std::string& technique, const std::set<std::string>& devices, Value value) {
-    std::vector<const std::map<std::string, const record::Record*>*> shared;
-    for (const auto& [key, by_device] : records_) {
-      const bool mine = by_device.begin()->second->technique == technique;
-      if (mine && by_device.size() == devices.size()) shared.push_back(&by_device);
+  row.best = std::ranges::min_element(row.cells, {}, [](const auto& cell) {
+               return cell.second.value;
+             })->first;
+  for (auto& [device, cell] : row.cells) {
+    cell.ratio = cell.value / row.cells.at(row.best).value;
+    for (const char* name : telling_work) {
+      const auto count = [name](const record::Record& record) {
+        return judge::count_of(record.counters, name).value_or(0);
+      };
+      const double work =
+          geometric_mean(shared, device, count) / geometric_mean(shared, row.best, count);
+      if (std::isfinite(work) && work > 0) cell.work[name] = work;
     }
-    if (shared.empty()) return;
-    const auto mean_of = [&](const std::string& device, auto number) {
-      double logs = 0;
-      for (const auto* each : shared) logs += std::log(number(*each->at(device)));
-      return std::exp(logs / static_cast<double>(shared.size()));
-    };
-    SideBySide::Row row{technique, shared.size(), {}, {}};
-    for (const std::string& device : devices) {
-      row.cells[device].value = mean_of(device, value);
-    }
-    row.best = std::ranges::min_element(row.cells, {}, [](const auto& cell) {
-                 return cell.second.value;
-               })->first;
-    for (auto& [device, cell] : row.cells) {
-      cell.ratio = cell.value / row.cells.at(row.best).value;
-      for (const char* name : telling_work) {
-        const auto count = [&](const record::Record& record) { return counter_of(record, name); };
-        const double work = mean_of(device, count) / mean_of(row.best, count);
-        if (std::isfinite(work) && work > 0) cell.work[name] = work;
-      }
-    }
-    table_.rows.push_back(std::move(row));
   }
+  return row;
+}
 
-  const Records& records_;
-  SideBySide table_;
-};
+SideBySide table_of(std::span<const record::Record> records, std::string unit, Value value) {
+  SideBySide table{.unit = std::move(unit), .devices = {}, .rows = {}};
+  std::set<std::string> all;
+  for (auto& [technique, configurations] : measured_by(records, value)) {
+    std::set<std::string> devices;
+    for (const ByDevice& each : configurations) {
+      for (const auto& [device, record] : each) devices.insert(device);
+    }
+    all.insert(devices.begin(), devices.end());
+    std::erase_if(configurations,
+                  [&](const ByDevice& each) { return each.size() < devices.size(); });
+    if (configurations.empty()) continue;
+    table.rows.push_back(row_of(technique, configurations, devices, value));
+  }
+  table.devices = {all.begin(), all.end()};
+  return table;
+}
 
 // "1.32"; "1.32 (samples ×1.10)" where the work differs by a per cent or more.
 std::string text_of(const SideBySide::Cell& cell) {
@@ -112,10 +105,8 @@ std::string text_of(const SideBySide::Cell& cell) {
 }  // namespace
 
 std::optional<SideBySide> side_by_side(std::span<const record::Record> records) {
-  const Records counted = measured_by(records, instructions_of);
-  const Records timed = counted.empty() ? measured_by(records, time_of) : Records{};
-  SideBySide table = counted.empty() ? Table(timed, "ns").make(time_of)
-                                     : Table(counted, "instructions").make(instructions_of);
+  SideBySide table = table_of(records, "instructions", instructions_of);
+  if (table.devices.empty()) table = table_of(records, "ns", time_of);
   if (table.rows.empty()) return std::nullopt;
   return table;
 }
@@ -142,28 +133,25 @@ std::string SideBySide::sentence() const {
 }
 
 std::string to_text(const SideBySide& table) {
-  std::size_t first = 10;
-  for (const auto& row : table.rows) first = std::max(first, row.technique.size() + 2);
-  std::string text = fmt::format("{:<{}}", "", first);
-  std::map<std::string, std::size_t> width;
-  for (const std::string& device : table.devices) {
-    width[device] = device.size() + 2;
-    for (const auto& row : table.rows) {
-      const auto cell = row.cells.find(device);
-      if (cell == row.cells.end()) continue;
-      width[device] = std::max(width[device], text_of(cell->second).size() + 2);
-    }
-    text += fmt::format("{:<{}}", device, width[device]);
-  }
-  text += "configurations\n";
-  for (const auto& row : table.rows) {
-    text += fmt::format("{:<{}}", row.technique, first);
+  std::vector<std::vector<std::string>> lines{{""}};
+  lines.front().insert(lines.front().end(), table.devices.begin(), table.devices.end());
+  for (const SideBySide::Row& row : table.rows) {
+    std::vector<std::string>& line = lines.emplace_back(1, row.technique);
     for (const std::string& device : table.devices) {
       const auto cell = row.cells.find(device);
-      text += fmt::format("{:<{}}", cell == row.cells.end() ? "–" : text_of(cell->second),
-                          width[device]);
+      line.push_back(cell == row.cells.end() ? "–" : text_of(cell->second));
     }
-    text += fmt::format("{}\n", row.configurations);
+  }
+  std::vector<std::size_t> widths(lines.front().size());
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::string text;
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      text += fmt::format("{:<{}}", lines[n][i], widths[i] + 2);
+    }
+    text += n == 0 ? "configurations\n" : fmt::format("{}\n", table.rows[n - 1].configurations);
   }
   return text + fmt::format("\n{} a frame over the best device's. {}.\n",
                             table.unit == "ns" ? "Time of" : "Instructions of", table.sentence());

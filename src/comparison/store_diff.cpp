@@ -13,7 +13,6 @@
 namespace triptych::comparison {
 namespace {
 
-
 std::map<std::string, std::string> latest_runs(const record::Store& store) {
   std::map<std::string, std::string> runs;  // id by plan
   for (const record::Run& run : store.runs()) runs[run.plan] = run.id;

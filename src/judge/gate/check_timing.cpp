@@ -91,8 +91,8 @@ class DeviceTimes {
     findings_.push_back(finding_about(view_, device_, Check::timing, verdict, std::move(message)));
   }
   static bool is_time(const std::vector<double>& times) {
-    return !times.empty() && std::isfinite(estimation::median(times)) &&
-           estimation::median(times) > 0;
+    const double middle = estimation::median(times);  // NaN of none
+    return std::isfinite(middle) && middle > 0;
   }
 
   // Where the picture is judged as well, or excused, that is the verdict.

@@ -7,19 +7,16 @@
 #include <utility>
 
 #include "estimation/statistics.hpp"
+#include "judge/baselines/frame_change.hpp"
 #include "judge/correlation/line.hpp"
 
 namespace triptych::judge {
 namespace {
 
-double count_of(const record::Counts& counts, const char* part) {
-  const auto found = counts.find(part);
-  return found == counts.end() ? 0 : static_cast<double>(found->second);
-}
-
 // nullopt: not counted, or nothing of what repeats.
 std::optional<FrameCost> frame_cost(const record::Counts& counts) {
-  const FrameCost cost{count_of(counts, "device_code"), count_of(counts, "driver")};
+  const FrameCost cost{count_of(counts, "device_code").value_or(0),
+                       count_of(counts, "driver").value_or(0)};
   return cost.sum() > 0 ? std::optional(cost) : std::nullopt;
 }
 

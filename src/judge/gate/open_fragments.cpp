@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "judge/baselines/frame_change.hpp"
+
 namespace triptych::judge {
 namespace {
 
 // Where the API leaves the number open and the device does not tell, what was accepted has: eight
 // bits, as has our own rasterizer for OpenCL.
 constexpr double usual_bits = 8;
-
-double value_of(const record::Record& record, const char* counter) {
-  const auto found = record.counters.find(counter);
-  return found == record.counters.end() ? 0 : static_cast<double>(found->second);
-}
 
 bool is_open(const std::string& counter, const record::Record& record) {
   if (counter == "fragments" || counter == "fragments_discarded") return true;
@@ -41,9 +38,10 @@ double open_fragments(const std::string& counter, const record::Record& record) 
   const double bits = told == record.precision.end() ? usual_bits : told->second;
   const double larger = std::max(0.0, 2 * std::exp2(-bits) - 1.0 / 64);
   const double apart = std::exp2(-bits) + std::exp2(-usual_bits) + larger;
-  const double fragments = value_of(record, "fragments");
-  const double sprites = value_of(record, "sprites");
-  const double together = std::max(1.0, sprites / std::max(1.0, value_of(record, "visible_ids")));
+  const double fragments = count_of(record.counters, "fragments").value_or(0);
+  const double sprites = count_of(record.counters, "sprites").value_or(0);
+  const double in_sight = count_of(record.counters, "visible_ids").value_or(0);
+  const double together = std::max(1.0, sprites / std::max(1.0, in_sight));
   return apart * 4 * std::sqrt(sprites * fragments) + 4 * apart * apart * sprites +
          deviations * std::sqrt(4 * apart * fragments * together);
 }
