@@ -64,6 +64,7 @@ void add_compare_commands(Commands& commands);  // compare, diff
 void add_report_command(Commands& commands);
 void add_validate_command(Commands& commands);
 void add_analyze_command(Commands& commands);
+void add_export_command(Commands& commands);
 void add_test_commands(Commands& commands);      // what CTest calls
 void add_document_commands(Commands& commands);  // what the build calls
 

@@ -301,6 +301,28 @@ std::vector<Record> Store::records(std::string_view run) const {
   });
 }
 
+void Store::visit_records(std::string_view run,
+                          const std::function<void(const Record&)>& visit) const {
+  on_store(state_->file, [&] {
+    SQLite::Transaction snapshot(state_->database, SQLite::TransactionBehavior::DEFERRED);
+    record::visit_records(state_->database, run, visit);
+  });
+}
+
+std::set<std::string> Store::names(std::string_view run, std::string_view table) const {
+  return on_store(state_->file, [&] {
+    std::set<std::string> names;
+    SQLite::Statement rows =
+        prepared(state_->database,
+                 fmt::format("SELECT DISTINCT t.name FROM record r JOIN {} t ON t.record = r.seq "
+                             "WHERE r.run = ?",
+                             table),
+                 run);
+    while (rows.executeStep()) names.insert(rows.getColumn(0).getString());
+    return names;
+  });
+}
+
 bool Store::has_record(std::string_view run, std::string_view configuration,
                        std::string_view device) const {
   return on_store(state_->file, [&] {

@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,8 +57,8 @@ class Store {
   // What is already there under the same key is replaced. Devices and records of a run that was not
   // added are refused with InputError.
   void add_run(const Run& run);
-  // The latest run of the plan, or where there is none this one, now added. Of several processes that
-  // ask at once one adds, the others find its run.
+  // The latest run of the plan, or where there is none this one, now added. Of several processes
+  // that ask at once one adds, the others find its run.
   [[nodiscard]] Run latest_run_or_add(const Run& run);
   void add_device(const std::string& run, const Device& device,
                   const std::vector<ClockTrust>& clocks);
@@ -83,6 +85,11 @@ class Store {
   [[nodiscard]] std::vector<DeviceEntry> devices(std::string_view run) const;
   [[nodiscard]] std::vector<Record> records(
       std::string_view run) const;  // by device, then as added
+  // The same in the order in which they were added, one in memory at a time: a store may hold more
+  // than memory does. What `visit` throws ends it.
+  void visit_records(std::string_view run, const std::function<void(const Record&)>& visit) const;
+  // The names of values that the run's records have in a table of these: "factor", "cost", …
+  [[nodiscard]] std::set<std::string> names(std::string_view run, std::string_view table) const;
   [[nodiscard]] bool has_record(std::string_view run, std::string_view configuration,
                                 std::string_view device) const;
   [[nodiscard]] std::vector<std::byte> image(

@@ -122,6 +122,73 @@ void read_times(const SQLite::Database& database, std::string_view run,
             });
 }
 
+void require_record_seal(const Row& row, const Record& record) {
+  require_seal(row.seal, seal_of(record),
+               fmt::format("the record of {} on {}", record.configuration, record.device));
+}
+
+// A record's rows in one other table, by a statement that is prepared once.
+class RowsOf {
+ public:
+  RowsOf(const SQLite::Database& database, std::string_view table, std::string_view columns,
+         std::string_view order)
+      : rows_(database, fmt::format("SELECT {} FROM {} WHERE record = ? ORDER BY {}", columns,
+                                    table, order)) {}
+  template <typename Read>
+  void each(std::int64_t record, const Read& read) {
+    rows_.reset();
+    rows_.bind(1, record);
+    while (rows_.executeStep()) {
+      Reader reader(rows_);
+      read(reader);
+    }
+  }
+
+ private:
+  SQLite::Statement rows_;
+};
+
+// What a record has in the other tables.
+class PartsOf {
+ public:
+  explicit PartsOf(const SQLite::Database& database)
+      : database_(database),
+        samples_(database, "sample", "clock, ns", "clock, frame"),
+        same_as_(database, "same_as", "configuration", "record") {}
+
+  void read(std::int64_t record, Record& r) {
+    samples_.each(record, [&](Reader& row) {
+      std::string clock;
+      double ns = 0;
+      row >> clock >> ns;
+      (clock == "device" ? r.device_ns : r.wall_ns).push_back(ns);
+    });
+    read_map("factor", record, r.factors);
+    read_map("counter", record, r.counters);
+    read_map("cost", record, r.cost);
+    read_map("prepare_cost", record, r.prepare_cost);
+    read_map("memory", record, r.memory);
+    read_map("statistic", record, r.statistics);
+    read_map("precision", record, r.precision);
+    same_as_.each(record, [&](Reader& row) { row >> r.same_as; });
+  }
+
+ private:
+  template <typename Value>
+  void read_map(const std::string& table, std::int64_t record, std::map<std::string, Value>& map) {
+    const auto rows = maps_.try_emplace(table, database_, table, "name, value", "name").first;
+    rows->second.each(record, [&](Reader& row) {
+      std::string name;
+      row >> name;
+      row >> map[name];
+    });
+  }
+
+  const SQLite::Database& database_;
+  RowsOf samples_, same_as_;
+  std::map<std::string, RowsOf> maps_;
+};
+
 }  // namespace
 
 void insert_record(const SQLite::Database& database, const Record& r) {
@@ -158,12 +225,24 @@ std::vector<Record> read_records(const SQLite::Database& database, std::string_v
   read_map(database, "precision", run, by_seq, &Record::precision);
   read_rows(database, "same_as", "t.configuration", "t.record", run, by_seq,
             [](Record& record, Reader& row) { row >> record.same_as; });
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    require_seal(
-        of[i].seal, seal_of(records[i]),
-        fmt::format("the record of {} on {}", records[i].configuration, records[i].device));
-  }
+  for (std::size_t i = 0; i < records.size(); ++i) require_record_seal(of[i], records[i]);
   return records;
+}
+
+void visit_records(const SQLite::Database& database, std::string_view run,
+                   const std::function<void(const Record&)>& visit) {
+  PartsOf parts(database);
+  SQLite::Statement rows = prepared(
+      database,
+      fmt::format("SELECT seq, {} FROM record WHERE run = ? ORDER BY seq", record_columns), run);
+  while (rows.executeStep()) {
+    Row of;
+    Record record;
+    read_row(rows, of, record);
+    parts.read(of.seq, record);
+    require_record_seal(of, record);
+    visit(record);
+  }
 }
 
 }  // namespace triptych::record

@@ -3,6 +3,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -16,5 +17,9 @@ void insert_record(const SQLite::Database& database, const Record& record);
 // Store::records.
 [[nodiscard]] std::vector<Record> read_records(const SQLite::Database& database,
                                                std::string_view run);
+
+// Store::visit_records.
+void visit_records(const SQLite::Database& database, std::string_view run,
+                   const std::function<void(const Record&)>& visit);
 
 }  // namespace triptych::record

@@ -55,6 +55,13 @@ TEST_F(StoreDamage, NoneIsNone) {
   EXPECT_NO_THROW(read_all());
 }
 
+TEST_F(StoreDamage, AChangedValueIsFoundByAVisit) {
+  change("UPDATE counter SET value = value + 1 WHERE name = 'rays_hit'");
+  const Store store(file_, Mode::read);
+  EXPECT_THAT([&] { store.visit_records("run-1", [](const Record&) { FAIL(); }); },
+              ThrowsMessage<core::InputError>(HasSubstr("is not as it was written")));
+}
+
 TEST_F(StoreDamage, AChangedValueIsFoundWhereverItIs) {
   for (const char* sql :
        {"UPDATE run SET plan_hash = 'x'", "UPDATE run SET configurations = 2",

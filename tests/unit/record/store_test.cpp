@@ -55,6 +55,27 @@ TEST_F(StoreTest, EverythingComesBackFromTheFile) {
   EXPECT_EQ(truth->bound, bytes_of("bound"));
 }
 
+TEST_F(StoreTest, RecordsOneAtATimeAreThoseThatComeTogether) {
+  Store store(file_, Mode::append);
+  store.add_run(sample_run());
+  store.add_run(sample_run("run-2"));
+  Record second = sample_record("camera=b,data=b,technique=raycast");
+  second.wall_ns.pop_back();
+  second.counters = {};
+  second.same_as = {};
+  second.factors["skip"] = "none";
+  store.add_record(sample_record());
+  store.add_record(sample_record("camera=a", "null:scripted", "run-2"));
+  store.add_record(second);
+  std::vector<Record> visited;
+  store.visit_records("run-1", [&](const Record& each) { visited.push_back(each); });
+  EXPECT_EQ(Json(visited), Json(store.records("run-1")));
+  EXPECT_THAT(visited, SizeIs(2));
+  EXPECT_THAT(store.names("run-1", "factor"), ElementsAre("camera", "data", "skip", "step"));
+  EXPECT_THAT(store.names("run-2", "factor"), ElementsAre("camera", "data", "step"));
+  EXPECT_THAT(store.names("run-3", "cost"), IsEmpty());
+}
+
 TEST_F(StoreTest, WhatIsNotThere) {
   Store store(file_, Mode::append);
   EXPECT_THAT(store.runs(), IsEmpty());

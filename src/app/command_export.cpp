@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/arguments.hpp"
+#include "app/paths.hpp"
+#include "app/saying.hpp"
+#include "app/version.hpp"
+#include "core/json_text.hpp"
+#include "record/store.hpp"
+#include "report/export_tables.hpp"
+
+namespace triptych::app {
+namespace {
+
+struct ExportArguments {
+  std::vector<std::string> stores;
+  std::string out;
+  std::string plan;
+  bool json = false;
+};
+
+core::ExitCode write_tables(const ExportArguments& arguments) {
+  std::vector<record::Store> stores;
+  std::vector<const record::Store*> all;
+  for (const std::string& file : arguments.stores) {
+    require_store(file);
+    stores.emplace_back(file, record::Store::Mode::read).require_whole();
+  }
+  for (const record::Store& each : stores) all.push_back(&each);
+  require_writable(arguments.out);
+  const report::ExportedRows rows = report::export_tables(
+      all, {.plan = arguments.plan,
+            .folder = arguments.out,
+            .made_by = "triptych " + version(),
+            .begins = [](const record::Run& run) { say("{} of {}\n", run.id, run.plan); }});
+  if (arguments.json) {
+    fmt::print("{}\n", core::json_text({{"folder", arguments.out}, {"rows", rows}}, 1));
+    return core::ExitCode::pass;
+  }
+  for (const auto& [table, count] : rows)
+    fmt::print("{}/{}.csv: {} rows\n", arguments.out, table, count);
+  fmt::print("{}/dictionary.json: what each column is, with its unit\n", arguments.out);
+  return core::ExitCode::pass;
+}
+
+}  // namespace
+
+void add_export_command(Commands& commands) {
+  auto arguments = std::make_shared<ExportArguments>();
+  CLI::App* command =
+      commands.add("export", "Tidy tables of stores, as CSV with a dictionary of their columns",
+                   [arguments] { return write_tables(*arguments); });
+  command->add_option("STORE", arguments->stores, "SQLite files")->required();
+  command->add_option("--out", arguments->out, "Folder for the tables")->required();
+  command->add_option("--plan", arguments->plan,
+                      "SUITE/PLAN as it was run (default: all in the stores)");
+  command->add_flag("--json", arguments->json, "Print what was written as JSON");
+}
+
+}  // namespace triptych::app

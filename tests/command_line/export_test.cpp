@@ -1,0 +1,66 @@
+// Tables of stores, as `triptych export` is asked for them.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class Export : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Result result =
+        program.run(std::string("run volume/quick --store s.sqlite --set step=1,2 ") + tiny);
+    ASSERT_EQ(result.code, 0) << result.output;
+  }
+
+  Program program;
+};
+
+TEST_F(Export, WritesTablesAndSaysHowManyRows) {
+  EXPECT_THAT(program.run("export s.sqlite --out tables").output,
+              AllOf(HasSubstr("of volume/quick"), HasSubstr("tables/records.csv: 2 rows")));
+  const Result result = program.run("export s.sqlite --out tables --json 2>/dev/null | cat");
+  const auto rows = nlohmann::json::parse(result.output).at("rows");
+  EXPECT_EQ(rows.at("records"), 2);
+  EXPECT_EQ(rows.at("runs"), 1);
+  EXPECT_EQ(rows.at("devices"), 1);
+  for (const auto& [table, count] : rows.items()) {
+    const std::string text = program.read("tables/" + table + ".csv");
+    EXPECT_EQ(std::ranges::count(text, '\n'), count.get<int>() + 1) << table;
+  }
+  EXPECT_THAT(program.read("tables/records.csv"), HasSubstr(",factor_step,"));
+}
+
+TEST_F(Export, IsTheSameTwice) {
+  ASSERT_EQ(program.run("export s.sqlite --out a").code, 0);
+  ASSERT_EQ(program.run("export s.sqlite --out b").code, 0);
+  for (const char* file : {"records.csv", "samples.csv", "dictionary.json"}) {
+    EXPECT_EQ(program.read(std::string("a/") + file), program.read(std::string("b/") + file));
+  }
+}
+
+TEST_F(Export, WhatItCannotDoItSays) {
+  EXPECT_THAT(program.run("export none.sqlite --out t").output, HasSubstr("none.sqlite"));
+  EXPECT_EQ(program.run("export none.sqlite --out t").code, 2);
+  const Result of_no_plan = program.run("export s.sqlite --out t --plan volume/speed");
+  EXPECT_EQ(of_no_plan.code, 2);
+  EXPECT_THAT(of_no_plan.output, HasSubstr("plans in the stores: volume/quick"));
+  const Result twice = program.run("export s.sqlite s.sqlite --out t");
+  EXPECT_EQ(twice.code, 3);
+  EXPECT_THAT(twice.output, HasSubstr("leave out one"));
+  EXPECT_EQ(program.run("export s.sqlite --out s.sqlite").code, 3);
+  program.write("no_store", "text");
+  EXPECT_EQ(program.run("export no_store --out t").code, 3);
+  EXPECT_EQ(program.run("export s.sqlite").code, 3);
+}
+
+}  // namespace
+}  // namespace triptych::command_line
