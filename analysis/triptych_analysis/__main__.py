@@ -1,0 +1,63 @@
+"""python3 -m triptych_analysis SOURCE… --out FOLDER"""
+
+import argparse
+import os
+import sys
+
+from . import analysis, dataset, output, tables
+
+EXIT_NOTHING, EXIT_USAGE = 2, 3
+
+
+def arguments_of(words):
+    parser = argparse.ArgumentParser(
+        prog="analyze", description="Distributions, correlations, speed-ups, predictions and views from tables: "
+        "FOLDER/SUITE/SIGNAL holds a CSV file a table and an SVG file a figure.",
+        epilog="Exit codes: 0 done, 2 nothing could be computed, 3 usage or I/O.")
+    parser.add_argument("source", nargs="+", help="a folder of `triptych export`, or a store")
+    parser.add_argument("--out", required=True, help="folder for tables and figures")
+    parser.add_argument("--plan", help="SUITE/PLAN as it was run (default: all, joined by suite)")
+    parser.add_argument("--clock", choices=["auto", "device", "wall"], default="auto",
+                        help="auto: device where every record has one that is trusted")
+    parser.add_argument("--reference", action="append", default=[], metavar="FACTOR=LEVEL",
+                        help="what speed-ups are relative to (repeatable)")
+    parser.add_argument("--seed", type=int, default=1, help="of everything that draws")
+    return parser.parse_args(words)
+
+
+def references_of(words):
+    references = {}
+    for each in words:
+        factor, equals, level = each.partition("=")
+        if not (factor and equals and level):
+            raise tables.InputError(f"--reference {each}: expected FACTOR=LEVEL")
+        references[factor] = level
+    return references
+
+
+def run(arguments):
+    references = references_of(arguments.reference)
+    records = tables.read(arguments.source, arguments.plan)
+    nothing = True
+    for data in dataset.datasets(records, arguments.clock):
+        of = analysis.analyse(data, references, arguments.seed)
+        output.write(of, os.path.join(arguments.out, data.suite, data.signal))
+        print("\n".join(output.summary(of)), flush=True)
+        nothing = nothing and of.empty()
+    return EXIT_NOTHING if nothing else 0
+
+
+def main(words=None):
+    try:
+        arguments = arguments_of(words)
+    except SystemExit as left:  # argparse ends with 2, which is "could not judge" here
+        return left.code and EXIT_USAGE
+    try:
+        return run(arguments)
+    except (tables.InputError, OSError) as error:
+        print(f"analyze: {error}", file=sys.stderr)
+        return EXIT_USAGE
+
+
+if __name__ == "__main__":
+    sys.exit(main())

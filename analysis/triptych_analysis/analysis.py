@@ -1,0 +1,108 @@
+"""The paper's analysis of one data set, whole: what could be computed, and why the rest could not."""
+
+from dataclasses import dataclass
+
+import pandas as pd
+
+from . import choice, correlation, distribution, prediction, splits, views
+
+# The pairs of factors whose means are shown: devices, and what the paper's Figures 8 and 14 set against data.
+HEAT_MAPS = [("data", "device"), ("data", "camera_path"), ("data", "technique"), ("technique", "device"),
+             ("camera_path", "device")]
+
+
+@dataclass
+class Analysis:
+    dataset: object
+    tables: dict  # name → DataFrame; empty ones are not there
+    left_out: list  # (analysis, reason)
+
+    def table(self, name):
+        """Empty where there is none."""
+        return self.tables.get(name, pd.DataFrame())
+
+    def empty(self):
+        return not set(self.tables) - {"observations", "duplicates", "left_out"}
+
+
+def analyse(dataset, references=None, seed=1):
+    """`references`: factor → the level that speed-ups are relative to, else the first. Everything that draws goes by
+    `seed`. Raises tables.InputError for a reference whose level the factor does not have."""
+    left_out, tables = [], {}
+    tables["distributions"], tables["percentiles"], tables["histograms"] = distribution.distributions(dataset, seed)
+    if tables["distributions"].empty:
+        left_out.append(("distribution",
+                         f"{len(dataset)} observations, {distribution.LEAST} that differ are needed"))
+    tables.update(_correlate(dataset, references or {}, left_out))
+    tables["means"] = _average(dataset, left_out)
+    tables["predictions"], reason = prediction.predict(dataset, seed)
+    if reason:
+        left_out.append(("prediction", reason))
+    tables["camera_paths"] = views.path_tests(dataset, seed)
+    if tables["camera_paths"].empty:
+        left_out.append(("camera paths against all views", "fewer than two paths"))
+    tables.update(_stacks(dataset, left_out))
+    tables["by_count"] = choice.by_count(dataset) if dataset.suite == "particles" else pd.DataFrame()
+    tables["effects"] = choice.effects(dataset, splits.factors_of(dataset))
+    tables["observations"] = observations(dataset)
+    tables["duplicates"] = dataset.duplicates
+    tables["left_out"] = pd.DataFrame(left_out, columns=["analysis", "reason"])
+    return Analysis(dataset, {name: each for name, each in tables.items() if not each.empty}, left_out)
+
+
+def _correlate(dataset, references, left_out):
+    factors = splits.factors_of(dataset)
+    matrices, boxes, lines = [], [], []
+    for factor in factors:
+        by_factor = splits.split(dataset, factor)
+        lines.append(correlation.speed_ups(dataset, by_factor, correlation.reference_of(by_factor, references)))
+        matrix = correlation.correlations(dataset, by_factor)
+        box = correlation.box(matrix)
+        if box:
+            boxes.append({"factor": factor, **box})
+            matrices.append(matrix)
+        else:
+            left_out.append((f"correlation of {factor}", f"no two of its {len(by_factor.levels)} levels share "
+                             f"{correlation.LEAST_PAIRS} configurations in which both vary"))
+    if not factors:
+        left_out.append(("correlation", "every factor has one level only"))
+    for factor, level in references.items():
+        if factor not in factors:
+            left_out.append((f"speed-up relative to {factor}={level}",
+                             "this suite's records have no such factor with two levels"))
+    return {"correlations": _stacked(matrices), "correlation_boxes": pd.DataFrame(boxes), "speed_ups": _stacked(lines)}
+
+
+def _average(dataset, left_out):
+    found = []
+    for rows, columns in HEAT_MAPS:
+        each = choice.mean_values(dataset, rows, columns)
+        if each.empty:
+            left_out.append((f"means, {rows} by {columns}", "one of them has fewer than two levels in any block of "
+                             "comparable configurations"))
+        found.append(each)
+    return _stacked(found)
+
+
+def _stacks(dataset, left_out):
+    matrices = correlation.stacks(dataset)
+    if not matrices:
+        left_out.append(("stack of sizes", "no generate:NAME in two sizes that share configurations"))
+    return {"stacks": pd.DataFrame([{"name": name, **correlation.box(each)} for name, each in matrices.items()]),
+            "stack_correlations": _stacked([each.assign(name=name) for name, each in matrices.items()])}
+
+
+def _stacked(frames):
+    frames = [each for each in frames if not each.empty]
+    return pd.concat(frames, ignore_index=True) if frames else pd.DataFrame()
+
+
+def observations(dataset):
+    """One row per configuration and device."""
+    columns = {name: [factor.levels[each] if each >= 0 else None for each in factor.codes]
+               for name, factor in dataset.factors.items()}
+    table = pd.DataFrame(columns)
+    table[dataset.unit] = dataset.values
+    if dataset.signal == "time":
+        table["device_ms"], table["wall_ms"] = dataset.device_ms, dataset.wall_ms
+    return table

@@ -1,0 +1,109 @@
+"""What a researcher asks of the tables: which technique for N spheres, which factor moves a value most, what two
+factors' levels take on average (the paper's Figures 8 and 14)."""
+
+from fnmatch import fnmatchcase
+
+import numpy as np
+import pandas as pd
+
+from .correlation import LEAST_PAIRS
+from .dataset import number
+from .splits import fullest_block, levels_in, scope, split
+
+FARTHEST = 10
+
+
+def mean_values(dataset, rows, columns):
+    """Means by the levels of two factors, over the fullest block, so that cells differ in these two alone. Empty
+    when either factor has fewer than two levels there; a combination that nothing measured has no row."""
+    mean = f"mean_{dataset.unit}"
+    chosen = fullest_block(dataset, [rows, columns])
+    of_row, of_column = levels_in(dataset, rows, chosen), levels_in(dataset, columns, chosen)
+    cells = []
+    if len(of_row) > 1 and len(of_column) > 1:
+        held = scope(dataset, chosen)["held"]
+        for row, of in of_row.items():
+            for column, here in levels_in(dataset, columns, of).items():
+                cells.append((rows, columns, row, column, len(here), dataset.values[here].mean(), held))
+    return pd.DataFrame(cells, columns=["rows", "columns", "row", "column", "samples", mean, "held"])
+
+
+def by_count(dataset, generator="uniform"):
+    """Means per device, technique and count of `generate:GENERATOR:COUNT`: on each device over configurations that
+    have the same techniques and counts, so that these alone differ."""
+    mean = f"mean_{dataset.unit}"
+    data, prefix = dataset.factor("data"), f"generate:{generator}:"
+    counted = [i for i, each in enumerate(data.levels) if each.startswith(prefix)]
+    rows = []
+    for device, of_device in levels_in(dataset, "device", np.arange(len(dataset))).items():
+        own = of_device[np.isin(data.codes[of_device], counted)]
+        for technique, of in levels_in(dataset, "technique", fullest_block(dataset, ["data", "technique"], own)).items():
+            for level, here in levels_in(dataset, "data", of).items():
+                count = number(level[len(prefix):])
+                if count:
+                    rows.append((device, technique, int(count), len(here), dataset.values[here].mean()))
+    return pd.DataFrame(rows, columns=["device", "technique", "count", "samples", mean])
+
+
+def technique_for(counts, device, count):
+    """Techniques on the devices that a glob names, cheapest first, for so many spheres: as measured, or where that
+    count was not, by a line through the logarithms of the two nearest counts, which `from` names. `to_least`: over
+    the cheapest of the same device. What was measured at one count only, or a factor of more than FARTHEST away, has
+    no row."""
+    mean = counts.columns[-1]
+    rows = []
+    for (of_device, technique), of in counts.groupby(["device", "technique"]):
+        if fnmatchcase(of_device, device):
+            value, source = _at_count(of["count"].to_numpy(dtype=float), of[mean].to_numpy(), count)
+            if source:
+                rows.append((of_device, technique, value, source))
+    found = pd.DataFrame(rows, columns=["device", "technique", mean, "from"])
+    found["to_least"] = found[mean] / found.groupby("device")[mean].transform("min")
+    return found.sort_values(["device", mean]).reset_index(drop=True)
+
+
+def _at_count(counts, values, count):
+    if count in counts:
+        return values[counts == count][0], "measured"
+    distance = np.abs(np.log(counts / count))
+    if len(counts) < 2 or distance.min() > np.log(FARTHEST) * (1 + 1e-9):
+        return np.nan, None
+    low, high = sorted(np.argsort(distance, kind="stable")[:2], key=lambda each: counts[each])
+    logs = np.log(values)
+    slope = (logs[high] - logs[low]) / np.log(counts[high] / counts[low])
+    return float(np.exp(logs[low] + slope * np.log(count / counts[low]))), f"{counts[low]:.0f} and {counts[high]:.0f}"
+
+
+def effects(dataset, factors):
+    """How far each factor moves the value when all others stay: `share`, the mean variance of ln value along the
+    factor over the variance of ln value (the total-effect index of Homma & Saltelli 1996; shares may add up to more
+    than 1), and the largest geometric mean ratio between two levels, with these. Largest share first."""
+    total = np.log(dataset.values).var() if len(dataset) else 0
+    rows = []
+    for factor in factors:
+        of_split = split(dataset, factor)
+        logs = np.log(of_split.values(dataset))
+        paired = logs[np.isfinite(logs).sum(axis=1) > 1]
+        if not len(paired) or not total > 0:
+            continue
+        ratio, low, high, pairs = _largest_ratio(of_split.levels, logs)
+        rows.append((factor, len(of_split.levels), len(paired), np.nanvar(paired, axis=1).mean() / total,
+                     ratio, low, high, pairs))
+    found = pd.DataFrame(rows, columns=["factor", "levels", "keys", "share", "largest_ratio", "cheap", "dear", "pairs"])
+    return found.sort_values("share", ascending=False, kind="stable").reset_index(drop=True)
+
+
+def _largest_ratio(levels, logs):
+    """Geometric mean of value(dear)/value(cheap) over the pairs, the largest of all pairs of levels."""
+    best = (np.nan, None, None, 0)
+    for i in range(len(levels)):
+        for j in range(i + 1, len(levels)):
+            difference = logs[:, j] - logs[:, i]
+            difference = difference[np.isfinite(difference)]
+            if len(difference) < LEAST_PAIRS:
+                continue
+            ratio = float(np.exp(np.abs(difference.mean())))
+            if not ratio <= best[0]:
+                cheap, dear = (i, j) if difference.mean() >= 0 else (j, i)
+                best = (ratio, levels[cheap], levels[dear], len(difference))
+    return best

@@ -1,0 +1,102 @@
+"""How far the levels of a factor behave alike: Pearson's r between their values over the configurations that both
+have (the paper's Figures 4, 5, 11, 12, 13), and speed-ups by lines through the same pairs (Figures 6 and 7)."""
+
+import numpy as np
+import pandas as pd
+
+from .dataset import require_level
+from .splits import Split, scope, split
+
+# Fewer pairs say nothing: two points always lie on a line, and three nearly do by chance.
+LEAST_PAIRS = 4
+BOX = ["mean", "minimum", "lower_quartile", "median", "upper_quartile", "maximum"]
+
+
+def pearson(x, y):
+    """Pearson's r; not a number for fewer than two pairs, or where x or y is constant."""
+    if len(x) < 2 or np.ptp(x) == 0 or np.ptp(y) == 0:
+        return np.nan
+    x, y = x - x.mean(), y - y.mean()
+    return float(np.clip((x @ y) / np.sqrt((x @ x) * (y @ y)), -1, 1))
+
+
+def correlations(dataset, of_split):
+    """A row for every unordered pair of levels: factor, a, b, pairs, r, samples, held. No r where there are fewer
+    than LEAST_PAIRS pairs or a level is constant."""
+    values = of_split.values(dataset)
+    there = of_split.rows >= 0
+    entered = np.zeros_like(there)
+    cells = []
+    for i, a in enumerate(of_split.levels):
+        for j in range(i + 1, len(of_split.levels)):
+            both = there[:, i] & there[:, j]
+            pairs = int(both.sum())
+            r = pearson(values[both, i], values[both, j]) if pairs >= LEAST_PAIRS else np.nan
+            if np.isfinite(r):
+                entered[both, i] = entered[both, j] = True
+            cells.append((of_split.factor, a, of_split.levels[j], pairs, r))
+    matrix = pd.DataFrame(cells, columns=["factor", "a", "b", "pairs", "r"])
+    of = scope(dataset, of_split.rows[entered])
+    return matrix.assign(samples=of["samples"], held=of["held"])
+
+
+def box(matrix):
+    """One box of the overview, the r of a matrix; None without any."""
+    r = matrix["r"].dropna()
+    if r.empty:
+        return None
+    quartiles = np.percentile(r, [0, 25, 50, 75, 100])
+    levels = len(set(matrix["a"]) | set(matrix["b"]))
+    return {"levels": levels, "cells": len(r), "samples": matrix["samples"].iloc[0],
+            **dict(zip(BOX, [r.mean(), *quartiles])), "held": matrix["held"].iloc[0]}
+
+
+def speed_ups(dataset, of_split, reference):
+    """Of every level but the reference: value(reference) = intercept + speed_up · value(level), by least squares
+    through the pairs. The error is the paper's, (1 − r)·speed_up. mean_ratio, the geometric mean of
+    value(reference)/value(level), is free of the intercept."""
+    columns = ["factor", "level", "reference", "pairs", "speed_up", "error", "low", "high", "r",
+               f"intercept_{dataset.unit}", "mean_ratio", "held"]
+    rows = []
+    if reference not in of_split.levels:
+        return pd.DataFrame(rows, columns=columns)
+    values = of_split.values(dataset)
+    base = of_split.levels.index(reference)
+    for i, level in enumerate(of_split.levels):
+        both = (of_split.rows[:, i] >= 0) & (of_split.rows[:, base] >= 0)
+        x, y = values[both, i], values[both, base]
+        r = pearson(x, y) if i != base and len(x) >= LEAST_PAIRS else np.nan
+        if not np.isfinite(r):  # a line wants values that differ
+            continue
+        slope = float((x - x.mean()) @ (y - y.mean()) / ((x - x.mean()) @ (x - x.mean())))
+        error = (1 - r) * slope
+        of = scope(dataset, np.concatenate([of_split.rows[both, i], of_split.rows[both, base]]))
+        rows.append((of_split.factor, level, reference, len(x), slope, error, slope - error, slope + error, r,
+                     y.mean() - slope * x.mean(), float(np.exp(np.mean(np.log(y / x)))), of["held"]))
+    return pd.DataFrame(rows, columns=columns)
+
+
+def reference_of(of_split, references):
+    asked = references.get(of_split.factor)
+    if asked is None:
+        return of_split.levels[0]
+    require_level(of_split.levels, of_split.factor, asked)
+    return asked
+
+
+def stacks(dataset):
+    """Correlation along a stack of the same data in several sizes, levels generate:NAME:SIZE of `data`:
+    name → matrix."""
+    whole = split(dataset, "data")
+    by_name = {}
+    for i, level in enumerate(whole.levels):
+        name, _, size = level.rpartition(":")
+        if name.startswith("generate:") and size:
+            by_name.setdefault(name, []).append(i)
+    found = {}
+    for name in sorted(by_name):
+        places = by_name[name]
+        matrix = correlations(dataset, Split("data", [whole.levels[i] for i in places], whole.rows[:, places]))
+        if box(matrix):
+            found[name] = matrix
+    return found

@@ -1,0 +1,219 @@
+"""What the analysis works on: one observation per configuration and device, by suite and signal. Everything
+above it is plain numbers."""
+
+import hashlib
+import re
+from dataclasses import dataclass, field
+
+import numpy as np
+import pandas as pd
+
+from .tables import COST, FACTOR, InputError
+
+# Instructions of a frame that repeat and are judged; libc's and the program's are neither.
+COST_PARTS = ("device_code", "driver")
+# The camera's parts as the paper has them: the path, its position among the other factors; the position on an
+# orbit, the axis among the others; the position on a straight path, the axis among the others.
+CAMERA_PARTS = ("camera_path", "camera_rotation", "camera_distance")
+
+
+@dataclass
+class Factor:
+    """A level of each observation: levels[codes[i]], none where the code is -1."""
+
+    levels: list
+    codes: np.ndarray
+
+
+@dataclass
+class Dataset:
+    suite: str
+    signal: str  # "time" or "cost"
+    unit: str  # "ms" or "instructions"
+    clock: str  # "device" or "wall", one for all; of cost what counted
+    values: np.ndarray
+    factors: dict  # name → Factor, "device" among them
+    device_ms: np.ndarray  # not a number where that clock is not trusted; of times alone
+    wall_ms: np.ndarray
+    duplicates: pd.DataFrame
+    notes: list = field(default_factory=list)
+
+    def __len__(self):
+        return len(self.values)
+
+    def factor(self, name):
+        """A factor, or a part of the camera as something to average over: random views are a path of their own."""
+        if name not in CAMERA_PARTS:
+            return self.factors.get(name) or Factor([], np.full(len(self), -1))
+        return self.camera_part(name, of_all=True)[0]
+
+    def camera_part(self, part, of_all=False):
+        """The part, and what of the camera stays among the other factors."""
+        camera = self.factors.get("camera") or Factor([], np.full(len(self), -1))
+        places = [_place(*view_of(each), part, of_all) for each in camera.levels]
+        return (_recoded(camera.codes, [each and each[0] for each in places]),
+                _recoded(camera.codes, [each and each[1] for each in places]))
+
+
+def _place(path, position, part, of_all):
+    if part == "camera_path":
+        return (path, position) if path != "random" or of_all else None
+    if part == "camera_rotation":
+        return (position, path) if path.startswith("orbit_") else None
+    return (position, path) if path in ("path_x", "path_y", "path_z") else None
+
+
+def _recoded(codes, names):
+    """Factor of new names for old levels; None is no level."""
+    levels = natural_order({each for each in names if each is not None})
+    place = {each: i for i, each in enumerate(levels)}
+    new = np.array([place.get(each, -1) for each in names] + [-1])  # the last: of code -1
+    return Factor(levels, new[codes])
+
+
+def factor_of(texts):
+    """Factor of one text an observation, None for none."""
+    codes, names = pd.factorize(np.asarray(texts, dtype=object))  # None becomes -1
+    return _recoded(codes, list(names))
+
+
+def view_of(camera):
+    """"orbit_y:1/8" → ("orbit_y", "1/8")"""
+    path, _, position = camera.partition(":")
+    return path, position
+
+
+def number(text):
+    """The whole text as a number, or None."""
+    try:
+        return None if "_" in text or text != text.strip() else float(text)
+    except ValueError:
+        return None
+
+
+def natural_order(levels):
+    """Numbers, and runs of digits within other text, by value: "a10" after "a9"."""
+    levels = list(levels)
+    if all(number(each) is not None for each in levels):
+        return sorted(levels, key=lambda each: (number(each), each))
+    parts = {each: [int(part) if part.isdigit() else part for part in re.split("([0-9]+)", each)] for each in levels}
+    return sorted(levels, key=lambda each: (parts[each], each))
+
+
+def datasets(records, clock="auto"):
+    """The data sets that the records hold: times, and cost where it was counted, of each suite."""
+    found = []
+    for suite in sorted(records["suite"].unique()):
+        of_suite = records[records["suite"] == suite]
+        # Times of workers that were counted are an emulator's.
+        found.append(_times(suite, of_suite, clock))
+        counted = _cost(suite, of_suite)
+        if len(counted):
+            found.append(counted)
+    return found
+
+
+def _times(suite, records, choice):
+    notes = []
+    emulated = records["counted_by"].notna()
+    wall = np.where(records["median_wall_ns"] > 0, records["median_wall_ns"], np.nan)
+    fit = _aside(records, notes, [(~(wall > 0), "without a time")], emulated)
+    fit, duplicates = _latest(fit, notes)
+    trusted = (fit["device_clock_trusted"] == 1) & (fit["median_device_ns"] > 0)
+    device = np.where(trusted, fit["median_device_ns"] / 1e6, np.nan)
+    clock = _clock(fit, trusted, choice, notes)
+    if clock == "device":
+        if not trusted.all():
+            notes.append(f"{(~trusted).sum()} records without a trusted device time are left aside")
+        fit, device = fit[trusted], device[trusted.to_numpy()]
+    wall = fit["median_wall_ns"].to_numpy() / 1e6
+    return Dataset(suite, "time", "ms", clock, device if clock == "device" else wall, _factors(fit), device, wall,
+                   duplicates, notes)
+
+
+def _cost(suite, records):
+    notes = []
+    parts = [COST + each for each in COST_PARTS]
+    none = pd.Series(False, records.index)
+    if not set(parts) <= set(records.columns):
+        records = records.iloc[:0]
+    else:
+        records = records[records[parts].notna().all(axis=1)]
+    fit = _aside(records, notes, [], none.loc[records.index])
+    fit, duplicates = _latest(fit, notes)
+    values = fit[parts].sum(axis=1).to_numpy(dtype=float) if len(fit) else np.zeros(0)
+    nothing = np.full(len(fit), np.nan)
+    counted = ", ".join(natural_order(set(fit["counted_by"].dropna())))
+    return Dataset(suite, "cost", "instructions", counted, values, _factors(fit), nothing, nothing, duplicates, notes)
+
+
+def _aside(records, notes, more, emulated):
+    """Without what is no observation, which is told."""
+    outcome = records["outcome"].astype(str)
+    reasons = [(outcome != "measured", outcome + " on " + records["device"].astype(str)),
+               (records["planted"].notna(), "with a planted fault"),
+               (records["technique"] == "speed_of_light", "of a technique that makes no picture"),
+               (emulated, "counted, hence timed under an emulator, if at all")]
+    reasons += [(wrong, text + " on " + records["device"].astype(str)) for wrong, text in more]
+    aside = pd.Series(None, index=records.index, dtype=object)
+    for wrong, text in reversed(reasons):
+        text = text if isinstance(text, pd.Series) else pd.Series(text, index=records.index)
+        aside = aside.where(~np.asarray(wrong, dtype=bool), text)
+    for reason, count in aside.value_counts().sort_index().items():
+        notes.append(f"{count} records {reason} are left aside")
+    return records[aside.isna()]
+
+
+def _latest(records, notes):
+    """The latest record of every configuration on every device, with the device's level: its id alone where that
+    means one driver on one processor."""
+    identity = records["device_key"].fillna("") + records["processor"].map(lambda each: f"|{each}" if each else "")
+    level = records["device"].copy()
+    for device, of_device in identity.groupby(records["device"]):
+        names = sorted(of_device.unique())
+        if len(names) == 1:
+            continue
+        for name in names:
+            short = f"{device}@{hashlib.sha256(name.encode()).hexdigest()[:8]}"
+            notes.append(f"{short} is {name}")
+            level[of_device.index[of_device == name]] = short
+    records = records.assign(level=level, place=records["run"] + " in " + records["store"])
+    records = records.sort_values(["level", "configuration", "started_at", "run"], kind="stable")
+    taken = records.drop_duplicates(["level", "configuration"], keep="last")
+    dropped = records[records.duplicated(["level", "configuration"], keep="last")]
+    places = taken.set_index(["level", "configuration"])["place"]
+    keys = pd.MultiIndex.from_frame(dropped[["level", "configuration"]])
+    duplicates = pd.DataFrame({"device": dropped["level"].to_numpy(),
+                               "configuration": dropped["configuration"].to_numpy(),
+                               "taken": places.reindex(keys).to_numpy(), "dropped": dropped["place"].to_numpy()})
+    return taken, duplicates
+
+
+def _clock(fit, trusted, choice, notes):
+    if choice != "auto":
+        return choice
+    for device, count in (~trusted).groupby(fit["level"]).sum().items():
+        if count:
+            notes.append(f"wall-clock time for all: {count} records of {device} have no trusted device time")
+    return "device" if trusted.all() else "wall"
+
+
+def _factors(fit):
+    """Factors of the records. One that only the device chose, as an `auto` that no configuration names, is none."""
+    factors = {}
+    configurations = fit["configuration"].unique()
+    for column in sorted(each for each in fit.columns if each.startswith(FACTOR)):
+        name, texts = column[len(FACTOR):], fit[column]
+        if texts.isna().all():
+            continue
+        named = re.compile(f"(^|,){re.escape(name)}=")
+        if texts.nunique() > 1 and not any(named.search(each) for each in configurations):
+            continue
+        factors[name] = factor_of(texts)
+    factors["device"] = factor_of(fit["level"])
+    return dict(sorted(factors.items()))
+
+
+def require_level(levels, factor, level):
+    if level not in levels:
+        raise InputError(f"reference {factor}={level}: that factor's levels are {', '.join(levels)}")

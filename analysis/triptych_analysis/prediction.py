@@ -1,0 +1,128 @@
+"""How well values are predicted (section 5.3 of the paper): one linear regression per data structure against one
+random forest over everything, on a seeded split."""
+
+import numpy as np
+import pandas as pd
+from sklearn.ensemble import RandomForestRegressor
+from sklearn.linear_model import LinearRegression
+
+from .dataset import number
+from .splits import combined, scope
+
+TRAIN_SHARE = 0.7
+LEAST = 40
+# What decides the structure of what is drawn, in both suites: as in the paper data, transfer function, acceleration
+# and camera, and for particles what else changes the scene.
+STRUCTURE = {"adapt", "camera", "colour", "culling", "data", "ert", "fov", "precision", "radius_scale", "skip",
+             "transfer_function"}
+COLUMNS = ["data", "models", "held_out", "line_r2", "forest_r2", "trained", "structures", "structures_left_out",
+           "line_features", "structure", "held"]
+
+
+def r_squared(values, predicted):
+    """1 − Σ(y − ŷ)²/Σ(y − ȳ)²; not a number for fewer than two values or constant ones."""
+    total = ((values - values.mean()) ** 2).sum() if len(values) > 1 else 0
+    return 1 - ((values - predicted) ** 2).sum() / total if total > 0 else np.nan
+
+
+class Encoder:
+    """Turns a factor into numbers: viewport into its pixels and step into samples per voxel, as values follow both
+    linearly; a category into its place among the levels."""
+
+    def __init__(self, dataset, name):
+        self.name, self.factor = name, dataset.factors[name]
+        numbers = [_number(name, each) for each in self.factor.levels]
+        self.numeric = all(each is not None for each in numbers)
+        self.of_level = np.array([*(numbers if self.numeric else range(len(numbers))), -1.0])
+
+    def title(self):
+        if not self.numeric:
+            return f"{self.name} (category)"
+        return {"viewport": "viewport (pixels)", "step": "step (samples per voxel)"}.get(self.name, self.name)
+
+    def codes(self, rows):
+        return self.of_level[self.factor.codes[rows]][:, None]
+
+    def indicators(self, rows, among):
+        """The number, or indicators of every level but the first that occurs among these."""
+        if self.numeric:
+            return self.codes(rows)
+        present = np.unique(self.factor.codes[among])
+        return (self.factor.codes[rows][:, None] == present[1:]).astype(float)
+
+
+def _number(name, level):
+    if name == "viewport":
+        sides = [number(each) for each in level.split("x")]
+        return None if None in sides else sides[0] * sides[-1]
+    value = number(level)
+    return 1 / value if name == "step" and value else value
+
+
+def predict(dataset, seed):
+    """The scores by data set, then "all", the mean, least and largest over data sets and the forest's on every
+    held-out observation; and why there are none."""
+    everything = np.arange(len(dataset))
+    if len(dataset) < LEAST:
+        return pd.DataFrame(columns=COLUMNS), f"{len(dataset)} observations, {LEAST} are needed"
+    varied = scope(dataset, everything)["varied"]
+    if not varied:
+        return pd.DataFrame(columns=COLUMNS), "no factor varies"
+    order = np.random.default_rng(seed).permutation(len(dataset))
+    cut = int(TRAIN_SHARE * len(dataset))
+    predicted = _predicted(dataset, varied, order[:cut], order[cut:], seed)
+    return _scores(dataset, varied, predicted, cut), ""
+
+
+def _predicted(dataset, varied, trained, held_out, seed):
+    """A row for each held-out observation: data, structure, value, forest, line (not a number where its structure
+    had too few training rows)."""
+    encoders = [Encoder(dataset, each) for each in varied]
+    forest = RandomForestRegressor(200, max_depth=25, max_features="sqrt", random_state=seed)
+    forest.fit(np.hstack([each.codes(trained) for each in encoders]), dataset.values[trained])
+    structures, _ = combined([each.codes for name, each in dataset.factors.items() if name in STRUCTURE], len(dataset))
+    line = np.full(len(dataset), np.nan)
+    for structure in np.unique(structures[held_out]):
+        _predict_structure(dataset, trained[structures[trained] == structure],
+                           held_out[structures[held_out] == structure], line)
+    data = dataset.factor("data")
+    return pd.DataFrame({"data": [data.levels[each] for each in data.codes[held_out]], "structure": structures[held_out],
+                         "value": dataset.values[held_out], "line": line[held_out],
+                         "forest": forest.predict(np.hstack([each.codes(held_out) for each in encoders]))})
+
+
+def _predict_structure(dataset, trained, held_out, line):
+    """One linear model for the observations of one structure, with the features that vary there."""
+    both = np.concatenate([trained, held_out])
+    encoders = [Encoder(dataset, each) for each in scope(dataset, both)["varied"] if each not in STRUCTURE]
+    learned, asked = (np.hstack([np.zeros((len(rows), 0)), *(each.indicators(rows, both) for each in encoders)])
+                      for rows in (trained, held_out))
+    if len(trained) < learned.shape[1] + 3:
+        return
+    if not learned.shape[1]:
+        line[held_out] = dataset.values[trained].mean()
+        return
+    line[held_out] = LinearRegression().fit(learned, dataset.values[trained]).predict(asked)
+
+
+def _scores(dataset, varied, predicted, trained):
+    lined = predicted.dropna(subset=["line"])
+    structures = predicted["structure"].nunique()
+    titles = [Encoder(dataset, each).title() for each in varied if each not in STRUCTURE]
+    about = (trained, structures, structures - lined["structure"].nunique(), ", ".join(titles),
+             ", ".join(each for each in varied if each in STRUCTURE), scope(dataset, np.arange(len(dataset)))["held"])
+    rows = [(data, *_score(of_data), *about) for data, of_data in lined.groupby("data")]
+    lines = [each[3] for each in rows if np.isfinite(each[3])]
+    if len(lined):
+        rows.append(("all", *_score(lined), *about))
+    for name, of in (("mean", np.mean), ("least", min), ("largest", max)):
+        rows.append((f"{name} of data sets", None, None, of(lines) if lines else np.nan, np.nan, *about))
+    rows.append(("every held-out observation", None, len(predicted), np.nan,
+                 r_squared(predicted["value"].to_numpy(), predicted["forest"].to_numpy()), *about))
+    return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def _score(of):
+    value = of["value"].to_numpy()
+    return (of["structure"].nunique(), len(of), r_squared(value, of["line"].to_numpy()),
+            r_squared(value, of["forest"].to_numpy()))

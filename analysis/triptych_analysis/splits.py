@@ -1,0 +1,100 @@
+"""How a factor divides observations into levels, and what pairs them across levels."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .dataset import CAMERA_PARTS, natural_order
+
+
+@dataclass
+class Split:
+    """rows[key, level]: the observation of that level, -1 for none. A key is a combination of all other factors."""
+
+    factor: str
+    levels: list  # in natural order
+    rows: np.ndarray
+
+    def values(self, dataset):
+        return np.where(self.rows >= 0, dataset.values[self.rows], np.nan)
+
+
+def split(dataset, factor):
+    if factor in CAMERA_PARTS:
+        own, stays = dataset.camera_part(factor)
+        others = [each.codes for name, each in dataset.factors.items() if name != "camera"] + [stays.codes]
+    else:
+        own = dataset.factor(factor)
+        others = [each.codes for name, each in dataset.factors.items() if name != factor]
+    here = np.flatnonzero(own.codes >= 0)
+    keys, count = combined([each[here] for each in others], len(here))
+    # Levels that no observation has are none.
+    present, codes = np.unique(own.codes[here], return_inverse=True)
+    rows = np.full((count, len(present)), -1)
+    rows[keys[::-1], codes[::-1]] = here[::-1]  # of several at one place the first
+    return Split(factor, [own.levels[each] for each in present], rows)
+
+
+def combined(columns, length):
+    """One number for each combination of codes, from 0 on, and how many there are."""
+    keys = np.zeros(length, dtype=np.int64)
+    count = 1
+    for column in columns:
+        width = int(column.max(initial=-1)) + 2
+        _, keys = np.unique(keys * width + column + 1, return_inverse=True)
+        count = int(keys.max(initial=-1)) + 1
+    return keys, count if length else 0
+
+
+def factors_of(dataset):
+    """The factors with at least two levels, "camera" replaced by its parts; by name."""
+    found = []
+    for name in scope(dataset, np.arange(len(dataset)))["varied"]:
+        if name == "camera":
+            found += [part for part in CAMERA_PARTS if len(split(dataset, part).levels) > 1]
+        else:
+            found.append(name)
+    return sorted(found)
+
+
+def scope(dataset, rows):
+    """What a number was computed from: how many observations, which factors they vary and which they hold fixed."""
+    held, varied = {}, []
+    for name, factor in dataset.factors.items():
+        present = np.unique(factor.codes[rows])
+        present = present[present >= 0]
+        if len(present) == 1:
+            held[name] = factor.levels[present[0]]
+        elif len(present):
+            varied.append(name)
+    return {"samples": len(rows), "varied": varied, "held": ", ".join(f"{name}={held[name]}" for name in sorted(held))}
+
+
+def fullest_block(dataset, factors, among=None):
+    """Of all observations, or of those among, the ones whose key (all factors but these) occurs with the largest number
+    of combinations of these factors' levels, the same of each; of several such sets the one with the most
+    observations: what is compared then differs in these factors alone. A part of the camera leaves out all of it."""
+    own = [dataset.factor(each).codes for each in factors]
+    here = np.arange(len(dataset)) if among is None else among
+    here = here[np.all([each[here] >= 0 for each in own], axis=0)]
+    if not len(here):
+        return here
+    out = {"camera" if each in CAMERA_PARTS else each for each in factors}
+    keys, key_count = combined([each.codes[here] for name, each in dataset.factors.items() if name not in out], len(here))
+    combinations, combination_count = combined([each[here] for each in own], len(here))
+    has = np.zeros((key_count, combination_count), dtype=bool)
+    has[keys, combinations] = True
+    sets, set_of_key = np.unique(np.packbits(has, axis=1), axis=0, return_inverse=True)
+    set_of_key = set_of_key.reshape(-1)
+    sizes = np.unpackbits(sets, axis=1).sum(axis=1)
+    members = np.bincount(set_of_key[keys], minlength=len(sets))
+    fullest = max(range(len(sets)), key=lambda each: (sizes[each], members[each]))
+    return here[set_of_key[keys] == fullest]
+
+
+def levels_in(dataset, factor, rows):
+    """The levels that these observations have, in natural order, each with its observations."""
+    of = dataset.factor(factor)
+    codes = of.codes[rows]
+    return {level: rows[codes == of.levels.index(level)]
+            for level in natural_order({of.levels[each] for each in np.unique(codes) if each >= 0})}

@@ -1,0 +1,68 @@
+"""Whether a camera path stands for all views (sections 5.3 and 6.3 of the paper): two-sample Kolmogorov–Smirnov
+tests of its values against all, beside random subsets."""
+
+import warnings
+
+import numpy as np
+import pandas as pd
+from scipy import stats
+
+from .dataset import view_of
+from .splits import fullest_block, levels_in, scope
+
+SUBSETS = 100
+REJECTED_BELOW = 0.05
+MOST_FOR_EXACT = 4_000_000  # n · m
+
+
+def ks_two_samples(a, b):
+    """(D, p), two-sided; p is exact where sizes allow, as if there were no ties."""
+    method = "exact" if len(a) * len(b) <= MOST_FOR_EXACT else "asymp"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # where the exact count overflows, the limit is taken
+        test = stats.ks_2samp(a, b, **{_METHOD: method})
+    return float(test.statistic), float(test.pvalue)
+
+
+# SciPy 1.10 has `method`; 1.7 had `mode`.
+_METHOD = "method" if "method" in stats.ks_2samp.__code__.co_varnames else "mode"
+
+
+def path_tests(dataset, seed):
+    """Over the configurations that were measured from the most views. Of every path two rows: beside random subsets
+    of as many values of any view, as the paper has it, and beside all values of as many views. Subsets are part of
+    all, hence closer to it than independent samples: their p lie above uniform. Empty when there is one path only."""
+    columns = ["path", "views", "samples", "all_views", "all_samples", "d", "p", "subsets_of", "subsets", "rejected",
+               "d_mean", "p_minimum", "p_mean", "p_median", "p_maximum", "held"]
+    values, by_view = values_by_view(dataset)
+    paths = {}
+    for view in by_view:
+        paths.setdefault(view_of(view)[0], []).append(view)
+    if len(paths) < 2:
+        return pd.DataFrame(columns=columns)
+    held = scope(dataset, fullest_block(dataset, ["camera"]))["held"]
+    random = np.random.default_rng(seed)
+    rows = []
+    for path, views in sorted(paths.items()):
+        of_path = np.concatenate([by_view[each] for each in views])
+        about = (path, len(views), len(of_path), len(by_view), len(values), *ks_two_samples(of_path, values))
+        samples = [ks_two_samples(random.choice(values, len(of_path), replace=False), values) for _ in range(SUBSETS)]
+        rows.append((*about, "samples", *_summary(samples), held))
+        names = list(by_view)
+        of_views = [ks_two_samples(np.concatenate([by_view[names[i]] for i in
+                                                   random.choice(len(names), len(views), replace=False)]), values)
+                    for _ in range(SUBSETS)]
+        rows.append((*about, "views", *_summary(of_views), held))
+    return pd.DataFrame(rows, columns=columns)
+
+
+def values_by_view(dataset):
+    """All values over the configurations that were measured from the most views, and those of each view."""
+    rows = fullest_block(dataset, ["camera"])
+    return dataset.values[rows], {view: dataset.values[each]
+                                  for view, each in levels_in(dataset, "camera", rows).items()}
+
+
+def _summary(tests):
+    d, p = np.array(tests).T
+    return len(p), int((p < REJECTED_BELOW).sum()), d.mean(), p.min(), p.mean(), np.median(p), p.max()

@@ -1,0 +1,90 @@
+"""Techniques by count, and which factor moves a value most."""
+
+import unittest
+
+import numpy as np
+
+import synthetic
+from triptych_analysis import analysis, choice, tables
+
+
+def spheres(**more):
+    """quad takes 1 + N/1000 ms, tiles 3 + N/4000 ms: cheapest below 2667 spheres and above."""
+    def value(at):
+        count = int(at["data"].split(":")[2])
+        return 1 + count / 1e3 if at["technique"] == "quad" else 3 + count / 4e3
+    return synthetic.factorial({"device": ["gl:x", "gl:y"], "technique": ["quad", "tiles"],
+                                "data": ["generate:uniform:1000", "generate:uniform:16000", "generate:layer:1000"],
+                                "camera": ["orbit_y:0/2", "orbit_y:1/2"]}, value, suite="particles", **more)
+
+
+class Techniques(unittest.TestCase):
+    def test_as_measured(self):
+        counts = choice.by_count(spheres())
+        of = choice.technique_for(counts, "gl:x", 1000)
+        self.assertEqual(list(of["technique"]), ["quad", "tiles"])
+        self.assertEqual(list(of["mean_ms"]), [2, 3.25])
+        self.assertEqual(list(of["from"]), ["measured"] * 2)
+        self.assertEqual(list(choice.technique_for(counts, "gl:*", 16000)["technique"]), ["tiles", "quad"] * 2)
+
+    def test_by_a_line_where_nothing_was_measured_and_it_says_so(self):
+        of = choice.technique_for(choice.by_count(spheres()), "gl:y", 4000)
+        self.assertEqual(set(of["from"]), {"1000 and 16000"})
+        quad = of.set_index("technique").loc["quad", "mean_ms"]
+        self.assertAlmostEqual(quad, np.sqrt(2 * 17))  # 4000 is halfway on a logarithmic axis
+
+    def test_nothing_far_from_what_was_measured(self):
+        counts = choice.by_count(spheres())
+        self.assertEqual(len(choice.technique_for(counts, "gl:*", 160_000)), 4)
+        self.assertEqual(len(choice.technique_for(counts, "gl:*", 161_000)), 0)
+        self.assertEqual(len(choice.technique_for(counts[counts["count"] == 1000], "gl:*", 2000)), 0)
+
+    def test_a_technique_without_a_count_is_not_compared(self):
+        """Else its mean would be of other configurations."""
+        data = spheres(without=lambda at: at["technique"] == "tiles" and at["camera"] == "orbit_y:1/2"
+                       and at["data"] == "generate:uniform:16000" and at["device"] == "gl:x")
+        counts = choice.by_count(data)
+        self.assertEqual(set(counts[counts["device"] == "gl:x"]["samples"]), {1})
+        self.assertEqual(set(counts[counts["device"] == "gl:y"]["samples"]), {2})
+
+    def test_means_come_from_comparable_configurations(self):
+        data = synthetic.factorial({"device": ["a", "b"], "data": ["x", "y"], "step": ["1", "2"]},
+                                   lambda at: float(at["step"]),
+                                   without=lambda at: at == {"device": "b", "data": "y", "step": "2"})
+        means = choice.mean_values(data, "data", "device")
+        self.assertEqual(list(means["mean_ms"]), [1] * 4)  # step 2 would make the other cells dearer
+        self.assertEqual(set(means["held"]), {"step=1"})
+        self.assertTrue(choice.mean_values(data, "data", "technique").empty)
+
+
+class Effects(unittest.TestCase):
+    def test_shares_of_a_product(self):
+        """ln value = i·ln 2 + j·ln 3 over i of 0, 1 and j of 0, 1, 2: variances (ln 2)²/4 and (ln 3)²·2/3."""
+        data = synthetic.factorial({"device": ["0", "1"], "step": ["0", "1", "2"], "data": list("abcd")},
+                                   lambda at: 2.0 ** int(at["device"]) * 3.0 ** int(at["step"]))
+        effects = choice.effects(data, ["data", "device", "step"]).set_index("factor")
+        first, second = np.log(2) ** 2 / 4, np.log(3) ** 2 * 2 / 3
+        self.assertAlmostEqual(effects.loc["step", "share"], second / (first + second))
+        self.assertAlmostEqual(effects.loc["device", "share"], first / (first + second))
+        self.assertAlmostEqual(effects.loc["data", "share"], 0)
+        self.assertEqual(effects.index[0], "step")
+        self.assertAlmostEqual(effects.loc["step", "largest_ratio"], 9)
+        self.assertEqual((effects.loc["step", "cheap"], effects.loc["step", "dear"]), ("0", "2"))
+
+
+class Whole(unittest.TestCase):
+    def test_says_what_is_left_out_and_why(self):
+        of = analysis.analyse(synthetic.factorial({"device": ["a"], "data": ["x"]}, lambda at: 1.0))
+        self.assertTrue(of.empty())
+        self.assertGreaterEqual(len(of.left_out), 5)
+        self.assertTrue(all(why for _, why in of.left_out))
+
+    def test_a_reference_that_is_no_level_is_refused(self):
+        with self.assertRaisesRegex(tables.InputError, "reference device=z: that factor's levels are x, y"):
+            analysis.analyse(synthetic.anscombe(), {"device": "z"})
+        of = analysis.analyse(synthetic.anscombe(), {"device": "y"})
+        self.assertIn("y", set(of.table("speed_ups")["reference"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
