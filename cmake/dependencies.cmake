@@ -14,11 +14,3 @@ find_package(CLI11 REQUIRED)
 find_package(Boost 1.74 REQUIRED CONFIG)
 # Not by find_package: Debian's Imath package file asks for its Python binding as well.
 pkg_check_modules(openexr REQUIRED IMPORTED_TARGET OpenEXR)
-# Random forests (judge/analysis/learners.cpp). Not by find_package: Debian's package file is in
-# libopencv-dev, which brings every module and their GUI with it.
-find_path(OPENCV_INCLUDE opencv2/ml.hpp PATH_SUFFIXES opencv4 REQUIRED)
-find_library(OPENCV_CORE opencv_core REQUIRED)
-find_library(OPENCV_ML opencv_ml REQUIRED)
-add_library(opencv_ml INTERFACE)
-target_include_directories(opencv_ml SYSTEM INTERFACE ${OPENCV_INCLUDE})
-target_link_libraries(opencv_ml INTERFACE ${OPENCV_ML} ${OPENCV_CORE})

@@ -2,6 +2,7 @@
 include(GNUInstallDirs)
 install(TARGETS triptych RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY baselines DESTINATION ${TRIPTYCH_DATA_FOLDER})
+install(DIRECTORY analysis DESTINATION ${TRIPTYCH_DATA_FOLDER} USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${TRIPTYCH_DOCUMENTS}/triptych.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${TRIPTYCH_DOCUMENTS}/triptych.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
@@ -31,5 +32,6 @@ find_library(OSMESA_LIBRARY NAMES libOSMesa.so.8)
 if(OSMESA_LIBRARY)
   list(APPEND depends libosmesa6)
 endif()
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-matplotlib, python3-pandas, python3-scipy, python3-sklearn")  # of analysis
 list(JOIN depends ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
 include(CPack)

@@ -66,13 +66,12 @@ void add_baselines_option(CLI::App& command, std::string& folder) {
       });
 }
 
-measure::Overrides parse_overrides(const std::vector<std::string>& set, std::string_view option) {
+measure::Overrides parse_overrides(const std::vector<std::string>& set) {
   measure::Overrides overrides;
   for (const std::string& each : set) {
     const auto equals = each.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == each.size()) {
-      throw core::InputError(
-          fmt::format("{} {}: expected factor=value or factor=a,b", option, each));
+      throw core::InputError(fmt::format("--set {}: expected factor=value or factor=a,b", each));
     }
     std::vector<std::string> values;
     for (std::size_t begin = equals + 1; begin <= each.size();) {

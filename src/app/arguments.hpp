@@ -48,9 +48,8 @@ struct PlanArguments {
 void add_baselines_option(CLI::App& command, std::string& folder);
 
 // "factor=a,b" → {factor, {a, b}}, each value as record::escaped spells it or plainly; throws
-// core::InputError naming the option that they were given by.
-[[nodiscard]] measure::Overrides parse_overrides(const std::vector<std::string>& set,
-                                                 std::string_view option = "--set");
+// core::InputError.
+[[nodiscard]] measure::Overrides parse_overrides(const std::vector<std::string>& set);
 
 // "FAULT" or "FAULT@GLOB".
 [[nodiscard]] std::vector<measure::Plant> parse_plants(const std::vector<std::string>& plants);
@@ -63,7 +62,6 @@ void add_gate_commands(Commands& commands);     // gate, accept
 void add_compare_commands(Commands& commands);  // compare, diff
 void add_report_command(Commands& commands);
 void add_validate_command(Commands& commands);
-void add_analyze_command(Commands& commands);
 void add_export_command(Commands& commands);
 void add_test_commands(Commands& commands);      // what CTest calls
 void add_document_commands(Commands& commands);  // what the build calls

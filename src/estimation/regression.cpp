@@ -252,22 +252,14 @@ LeastSquares least_squares(Points x, Points y) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> ones(x.size(), 1);
   const Design design = design_of(x, ones);
-  if (!(design.spread > 0)) return {{none, none}, none, none, none, none, none};
-  LeastSquares fit;
-  fit.line = weighted_line(x, y, ones);
-  fit.r = pearson_r(x, y);
-  fit.r_squared = fit.r * fit.r;
-  const auto residuals = residuals_of(x, y, fit.line);
+  if (!(design.spread > 0)) return {{none, none}, none};
+  const Line line = weighted_line(x, y, ones);
+  if (x.size() <= parameters) return {line, none};
+  const auto residuals = residuals_of(x, y, line);
   const double squares =
       std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
-  fit.residual_scale = x.size() > parameters
-                           ? std::sqrt(squares / static_cast<double>(x.size() - parameters))
-                           : none;
-  fit.slope_error = fit.residual_scale / std::sqrt(design.spread);
-  fit.intercept_error =
-      fit.residual_scale *
-      std::sqrt(1 / design.weight + design.centre * design.centre / design.spread);
-  return fit;
+  const double variance = squares / static_cast<double>(x.size() - parameters);
+  return {line, std::sqrt(variance / design.spread)};
 }
 
 Line theil_sen(Points x, Points y) {

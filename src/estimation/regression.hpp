@@ -20,14 +20,9 @@ struct Line {
 
 struct LeastSquares {
   Line line;
-  double r = 0;
-  double r_squared = 0;
-  double residual_scale = 0;  // √(Σ residual²/(n − 2))
-  double intercept_error = 0;
-  double slope_error = 0;
+  double slope_error = 0;  // standard error
 };
-// Of y on x; every number is NaN where x is constant, the scale and the errors also for fewer than
-// three pairs.
+// Of y on x; every number is NaN where x is constant, the error also for fewer than three pairs.
 [[nodiscard]] LeastSquares least_squares(std::span<const double> x, std::span<const double> y);
 
 // The robust lines below refuse with InputError fewer than four points, values that are not finite

@@ -246,9 +246,6 @@ class Figure::Drawing {
       case Kind::label:
         place_label(shape);
         break;
-      case Kind::number:
-        labels_ += text_element(x_of(first.x), y_of(first.y) + 4, "middle", escape(shape.text));
-        break;
     }
     return {};
   }
@@ -364,10 +361,6 @@ void Figure::upright(double across) {
 
 void Figure::label(Place at, std::string_view text) {
   add({Kind::label, {at}, {}, shortened(text)});
-}
-
-void Figure::number(Place at, std::string_view text) {
-  add({Kind::number, {at}, {}, shortened(text)});
 }
 
 void Figure::legend(std::string_view text, const Style& style, bool line) {

@@ -61,8 +61,6 @@ class Figure {
   void upright(double across);
   // Beside a point, inside the frame; left out where another stands already.
   void label(Place at, std::string_view text);
-  // In the middle of a cell.
-  void number(Place at, std::string_view text);
   void legend(std::string_view text, const Style& style, bool line = false);
 
   [[nodiscard]] std::string svg() const;
@@ -70,7 +68,7 @@ class Figure {
   [[nodiscard]] bool empty() const { return shapes_.empty(); }
 
  private:
-  enum class Kind { point, line, box, strokes, upright, label, number };
+  enum class Kind { point, line, box, strokes, upright, label };
   struct Shape {
     Kind kind;
     std::vector<Place> places;

@@ -74,10 +74,6 @@ TEST(Usage, AnOverrideThatIsWrong) {
                    "expected i/n");
   }
   EXPECT_EQ(program.run("list volume/quick --shard 2/2").code, 0);
-  ASSERT_EQ(program.run(std::string("run volume/quick --untimed --store s.sqlite ") + tiny).code,
-            0);
-  expect_refused(program.run("analyze --store s.sqlite --reference step"), 3,
-                 "--reference step: expected factor=value");
 }
 
 TEST(Usage, AGeneratorThatCannotMakeIt) {

@@ -4,8 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include "core/json.hpp"
-#include "report/analysis_charts.hpp"
 #include "report/page_sections.hpp"
 #include "report/scatter_figure.hpp"
 #include "support/well_formed.hpp"
@@ -13,7 +11,6 @@
 namespace triptych::report {
 namespace {
 
-using core::Json;
 using test::xml_fault;
 using testing::HasSubstr;
 using testing::Not;
@@ -75,41 +72,6 @@ TEST(TimeChart, HasAFigureForEachSceneAndARowForEachDevice) {
   EXPECT_EQ(count(html, "<svg class=\"figure\""), 2U);
   EXPECT_THAT(html, HasSubstr("gl:&lt;y&gt; raycast: median 2.00 ms"));
   EXPECT_EQ(time_chart({}), "");
-}
-
-TEST(AnalysisCharts, DrawRowsAndLeaveOutNull) {
-  const Json bins =
-      Json::array({{{"from_ms", 1.0}, {"to_ms", 2.0}, {"count", 3}, {"expected", 2.5}},
-                   {{"from_ms", 2.0}, {"to_ms", 4.0}, {"count", 1}, {"expected", nullptr}}});
-  for (const bool logarithmic : {false, true}) {
-    const std::string svg = histogram_chart(bins, logarithmic);
-    EXPECT_EQ(xml_fault(svg), "") << svg;
-    EXPECT_THAT(svg, HasSubstr("1 to 2 ms: 3, expected 2.5"));
-  }
-  const Json cells =
-      Json::array({{{"factor", "step"}, {"a", "1"}, {"b", "2"}, {"r", 0.5}, {"pairs", 4}},
-                   {{"factor", "step"}, {"a", "1"}, {"b", "4"}, {"r", nullptr}, {"pairs", 0}},
-                   {{"factor", "step"}, {"a", "2"}, {"b", "4"}, {"r", 0.25}, {"pairs", 4}}});
-  const std::string matrix = correlation_matrix_chart(cells);
-  EXPECT_EQ(xml_fault(matrix), "") << matrix;
-  EXPECT_EQ(count(matrix, ">0.50<"), 2U);  // both ways
-  EXPECT_EQ(count(matrix, ">0.00<"), 0U);
-  const std::string boxes = correlation_boxes_chart(cells);
-  EXPECT_EQ(xml_fault(boxes), "");
-  EXPECT_EQ(count(boxes, "<rect class=\"fill"), 0U);  // two values are no box
-  const Json means =
-      Json::array({{{"row", "a"}, {"column", "b"}, {"mean_ms", 1.5}, {"samples", 2}},
-                   {{"row", "c"}, {"column", "b"}, {"mean_ms", nullptr}, {"samples", 0}}});
-  EXPECT_EQ(count(mean_times_chart(means), "<rect class=\"fill"), 1U);
-  const Json speed_ups = Json::array({{{"level", "2"},
-                                       {"reference", "1"},
-                                       {"speed_up", 1.8},
-                                       {"error", 0.1},
-                                       {"low", 1.7},
-                                       {"high", 1.9},
-                                       {"r", 0.9}}});
-  EXPECT_THAT(speed_ups_chart(speed_ups), HasSubstr("2 against 1: 1.8 ± 0.1, r 0.900"));
-  EXPECT_EQ(correlation_boxes_chart(Json::array()), "");
 }
 
 // What moved stands in sight, the other pairs are folded away.

@@ -48,7 +48,6 @@ Figure some_figure(const std::string& text) {
   figure.line(std::array{Figure::Place{1, 2}, Figure::Place{10, 4}}, {.dashed = true}, text);
   figure.box({2, 0}, {3, 4}, {.opacity = 0.5}, text);
   figure.label({10, 4}, text);
-  figure.number({2, 2}, text);
   figure.upright(5);
   figure.legend(text, {});
   return figure;
