@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+import numpy as np
 import pandas as pd
 
 from . import choice, correlation, distribution, prediction, splits, views
@@ -99,9 +100,8 @@ def _stacked(frames):
 
 def observations(dataset):
     """One row per configuration and device."""
-    columns = {name: [factor.levels[each] if each >= 0 else None for each in factor.codes]
-               for name, factor in dataset.factors.items()}
-    table = pd.DataFrame(columns)
+    table = pd.DataFrame({name: np.array([*factor.levels, None], dtype=object)[factor.codes]
+                          for name, factor in dataset.factors.items()})
     table[dataset.unit] = dataset.values
     if dataset.signal == "time":
         table["device_ms"], table["wall_ms"] = dataset.device_ms, dataset.wall_ms

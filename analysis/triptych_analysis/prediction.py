@@ -11,6 +11,7 @@ from .splits import combined, scope
 
 TRAIN_SHARE = 0.7
 LEAST = 40
+MOST_FOR_A_TREE = 100_000  # rows of the bootstrap of one tree
 # What decides the structure of what is drawn, in both suites: as in the paper data, transfer function, acceleration
 # and camera, and for particles what else changes the scene.
 STRUCTURE = {"adapt", "camera", "colour", "culling", "data", "ert", "fov", "precision", "radius_scale", "skip",
@@ -78,17 +79,26 @@ def _predicted(dataset, varied, trained, held_out, seed):
     """A row for each held-out observation: data, structure, value, forest, line (not a number where its structure
     had too few training rows)."""
     encoders = [Encoder(dataset, each) for each in varied]
-    forest = RandomForestRegressor(200, max_depth=25, max_features="sqrt", random_state=seed)
+    forest = RandomForestRegressor(200, max_depth=25, max_features="sqrt", random_state=seed, n_jobs=-1,
+                                   max_samples=MOST_FOR_A_TREE if len(trained) > MOST_FOR_A_TREE else None)
     forest.fit(np.hstack([each.codes(trained) for each in encoders]), dataset.values[trained])
+    forest.set_params(n_jobs=1)  # several add up in any order, which moves the last digit
     structures, _ = combined([each.codes for name, each in dataset.factors.items() if name in STRUCTURE], len(dataset))
     line = np.full(len(dataset), np.nan)
-    for structure in np.unique(structures[held_out]):
-        _predict_structure(dataset, trained[structures[trained] == structure],
-                           held_out[structures[held_out] == structure], line)
+    to_learn = _by_structure(structures, trained)
+    for structure, rows in _by_structure(structures, held_out).items():
+        _predict_structure(dataset, to_learn.get(structure, trained[:0]), rows, line)
     data = dataset.factor("data")
     return pd.DataFrame({"data": [data.levels[each] for each in data.codes[held_out]], "structure": structures[held_out],
                          "value": dataset.values[held_out], "line": line[held_out],
                          "forest": forest.predict(np.hstack([each.codes(held_out) for each in encoders]))})
+
+
+def _by_structure(structures, rows):
+    """structure → its rows"""
+    rows = rows[np.argsort(structures[rows], kind="stable")]
+    names, starts = np.unique(structures[rows], return_index=True)
+    return dict(zip(names, np.split(rows, starts[1:])))
 
 
 def _predict_structure(dataset, trained, held_out, line):

@@ -22,6 +22,17 @@ class KolmogorovSmirnov(unittest.TestCase):
             as_far += np.abs(steps).max() >= 0.5 - 1e-9
         self.assertAlmostEqual(p, as_far / len(orders))
 
+    def test_large_samples_have_the_same_distance(self):
+        random = np.random.default_rng(2)
+        a, b = random.integers(0, 50, 3000) * 1.0, np.sort(random.integers(3, 55, 4000) * 1.0)  # with ties
+        d, p = views.ks_two_samples(a, b)
+        values = np.arange(0, 60)
+        by_hand = max(abs((a <= x).mean() - (b <= x).mean()) for x in values)
+        self.assertAlmostEqual(d, by_hand)
+        self.assertLess(p, 1e-6)
+        d, p = views.ks_two_samples(random.random(3000), np.sort(random.random(4000)))
+        self.assertGreater(p, 0.01)
+
     def test_one_sample_by_hand(self):
         # ln x = −1, 0, 1 have the fitted deviation √(2/3); Φ(−1.2247) = 0.11034.
         d, _ = distribution.ks_log_normal(np.exp([-1.0, 0.0, 1.0]))
