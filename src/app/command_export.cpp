@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/arguments.hpp"
@@ -22,12 +23,12 @@ struct ExportArguments {
 
 core::ExitCode write_tables(const ExportArguments& arguments) {
   std::vector<record::Store> stores;
-  std::vector<const record::Store*> all;
   for (const std::string& file : arguments.stores) {
     require_store(file);
     stores.emplace_back(file, record::Store::Mode::read).require_whole();
   }
-  for (const record::Store& each : stores) all.push_back(&each);
+  std::vector<const record::Store*> all(stores.size());
+  std::ranges::transform(stores, all.begin(), [](const record::Store& each) { return &each; });
   require_writable(arguments.out);
   const report::ExportedRows rows = report::export_tables(
       all, {.plan = arguments.plan,
