@@ -49,7 +49,9 @@ def technique_for(counts, device, count):
     """Techniques on the devices that a glob names, cheapest first, for so many spheres: as measured, or where that
     count was not, by a line through the logarithms of the two nearest counts, which `from` names. `to_least`: over
     the cheapest of the same device. What was measured at one count only, or a factor of more than FARTHEST away, has
-    no row."""
+    no row; nor has anything where no technique was measured by count."""
+    if counts is None or counts.empty:
+        return pd.DataFrame(columns=["device", "technique", "from", "to_least"])
     mean = counts.columns[-1]
     rows = []
     for (of_device, technique), of in counts.groupby(["device", "technique"]):

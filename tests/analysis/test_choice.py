@@ -38,6 +38,7 @@ class Techniques(unittest.TestCase):
         self.assertEqual(len(choice.technique_for(counts, "gl:*", 160_000)), 4)
         self.assertEqual(len(choice.technique_for(counts, "gl:*", 161_000)), 0)
         self.assertEqual(len(choice.technique_for(counts[counts["count"] == 1000], "gl:*", 2000)), 0)
+        self.assertEqual(len(choice.technique_for(None, "gl:*", 2000)), 0)
 
     def test_a_technique_without_a_count_is_not_compared(self):
         """Else its mean would be of other configurations."""
