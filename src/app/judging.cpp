@@ -54,14 +54,6 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
                   name, core::shell_quoted(plan), core::shell_quoted(file)));
 }
 
-std::vector<record::Run> latest_runs(const record::Store& store) {
-  std::map<std::string, record::Run> by_plan;
-  for (record::Run& run : store.runs()) by_plan.insert_or_assign(run.plan, std::move(run));
-  std::vector<record::Run> runs;
-  for (auto& [plan, run] : by_plan) runs.push_back(std::move(run));
-  return runs;
-}
-
 judge::GateResult judge_named(const record::Store& store, const std::string& run,
                               const std::string& baselines, const judge::GateRequest& request) {
   return core::naming(fmt::format("{}: run {}", store.file().string(), run), [&] {

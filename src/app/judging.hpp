@@ -26,9 +26,6 @@ namespace triptych::app {
                                             const std::string& baselines,
                                             const judge::GateRequest& request);
 
-// The latest run of each plan in a store, by the plans' names.
-[[nodiscard]] std::vector<record::Run> latest_runs(const record::Store& store);
-
 // What is asked of a plan as it is now, beside request_of(): which configurations it has.
 [[nodiscard]] judge::GateRequest request_of(Truths& truths, const measure::Plan& plan,
                                             const measure::Suite& suite);

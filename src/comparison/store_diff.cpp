@@ -13,9 +13,9 @@
 namespace triptych::comparison {
 namespace {
 
-std::map<std::string, std::string> latest_runs(const record::Store& store) {
+std::map<std::string, std::string> latest_by_plan(const record::Store& store) {
   std::map<std::string, std::string> runs;  // id by plan
-  for (const record::Run& run : store.runs()) runs[run.plan] = run.id;
+  for (const record::Run& run : latest_runs(store)) runs[run.plan] = run.id;
   return runs;
 }
 
@@ -70,8 +70,8 @@ class Diffing {
   }
 
   void add_plans() {
-    const auto of_a = latest_runs(a_);
-    const auto of_b = latest_runs(b_);
+    const auto of_a = latest_by_plan(a_);
+    const auto of_b = latest_by_plan(b_);
     add_only_one(of_a, of_b, "plan", only_one_);
     for (const auto& [plan, run] : of_a) {
       if (const auto found = of_b.find(plan); found != of_b.end()) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -323,6 +325,16 @@ std::set<std::string> Store::names(std::string_view run, std::string_view table)
   });
 }
 
+std::uint64_t Store::count_records(std::string_view run, std::string_view device) const {
+  return on_store(state_->file, [&] {
+    SQLite::Statement row =
+        prepared(state_->database, "SELECT count(*) FROM record WHERE run = ? AND device = ?", run,
+                 device);
+    row.executeStep();
+    return static_cast<std::uint64_t>(row.getColumn(0).getInt64());
+  });
+}
+
 bool Store::has_record(std::string_view run, std::string_view configuration,
                        std::string_view device) const {
   return on_store(state_->file, [&] {
@@ -366,6 +378,14 @@ std::optional<TruthImage> Store::truth(std::string_view scene, std::string_view 
     require_seal(seal, seal_of(truth), fmt::format("the truth of {}", scene));
     return truth;
   });
+}
+
+std::vector<Run> latest_runs(const Store& store) {
+  std::map<std::string, Run> by_plan;
+  for (Run& run : store.runs()) by_plan.insert_or_assign(run.plan, std::move(run));
+  std::vector<Run> runs;
+  for (auto& [plan, run] : by_plan) runs.push_back(std::move(run));
+  return runs;
 }
 
 }  // namespace triptych::record

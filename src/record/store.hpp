@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -30,7 +31,7 @@ struct TruthImage {
 
 class Store {
  public:
-  static constexpr int schema_version = 3;
+  static constexpr int schema_version = 4;
   enum class Mode { read, append };  // append creates the file when it is missing
 
   // Throws IoError (cannot open, read-only, disk full) and InputError (not a store, or of another
@@ -90,6 +91,7 @@ class Store {
   void visit_records(std::string_view run, const std::function<void(const Record&)>& visit) const;
   // The names of values that the run's records have in a table of these: "factor", "cost", …
   [[nodiscard]] std::set<std::string> names(std::string_view run, std::string_view table) const;
+  [[nodiscard]] std::uint64_t count_records(std::string_view run, std::string_view device) const;
   [[nodiscard]] bool has_record(std::string_view run, std::string_view configuration,
                                 std::string_view device) const;
   [[nodiscard]] std::vector<std::byte> image(
@@ -103,5 +105,8 @@ class Store {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+// The latest run of each plan, by the plans' names.
+[[nodiscard]] std::vector<Run> latest_runs(const Store& store);
 
 }  // namespace triptych::record

@@ -14,6 +14,9 @@ namespace {
 
 constexpr int application_id = 0x54524950;  // "TRIP": tells a store from other SQLite files
 
+// A connection is used by one thread at a time: it needs no lock around every value.
+constexpr int one_thread = SQLITE_OPEN_NOMUTEX;
+
 // docs/store.md explains the tables. STRICT keeps a column to its type for whoever else writes
 // here. A number that is NaN is kept as NULL, which is what SQLite makes of it.
 constexpr const char* schema = R"sql(
@@ -241,7 +244,8 @@ int milliseconds_of(std::chrono::milliseconds limit) {
 SQLite::Database open_to_read(const std::filesystem::path& file,
                               std::chrono::milliseconds busy_limit) {
   try {
-    SQLite::Database database(file_name(file), SQLite::OPEN_READONLY, milliseconds_of(busy_limit));
+    SQLite::Database database(file_name(file), SQLite::OPEN_READONLY | one_thread,
+                              milliseconds_of(busy_limit));
     require_our_schema(database, file);
     return database;
   } catch (const SQLite::Exception& error) {
@@ -257,7 +261,8 @@ SQLite::Database open_to_read(const std::filesystem::path& file,
   }
   // A WAL file needs two files beside it even to be read; without them only a promise that nobody
   // writes lets SQLite open it. Where the folder cannot be written, that holds.
-  SQLite::Database database(immutable_uri(file), SQLite::OPEN_READONLY | SQLite::OPEN_URI,
+  SQLite::Database database(immutable_uri(file),
+                            SQLite::OPEN_READONLY | SQLite::OPEN_URI | one_thread,
                             milliseconds_of(busy_limit));
   require_our_schema(database, file);
   return database;
@@ -275,7 +280,8 @@ void create_schema(SQLite::Database& database) {
 
 SQLite::Database open_to_append(const std::filesystem::path& file,
                                 std::chrono::milliseconds busy_limit) {
-  SQLite::Database database(file_name(file), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+  SQLite::Database database(file_name(file),
+                            SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE | one_thread,
                             milliseconds_of(busy_limit));
   // SQLite opens a file that it may not write for reading, without a word.
   if (sqlite3_db_readonly(database.getHandle(), "main") == 1) {

@@ -17,7 +17,9 @@ std::string seal_of(const Device& device, const std::vector<ClockTrust>& clocks)
 }
 
 std::string seal_of(const Record& record) {
-  return core::json_hash(Json(record));
+  Json json = record;
+  json.erase("run");
+  return core::json_hash(json);
 }
 
 std::string seal_of(const TruthImage& truth) {

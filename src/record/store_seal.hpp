@@ -13,6 +13,7 @@ namespace triptych::record {
 
 [[nodiscard]] std::string seal_of(const Run& run);
 [[nodiscard]] std::string seal_of(const Device& device, const std::vector<ClockTrust>& clocks);
+// Of what was measured, whichever run holds it: the same record in two stores has one seal.
 [[nodiscard]] std::string seal_of(const Record& record);
 [[nodiscard]] std::string seal_of(const TruthImage& truth);
 
