@@ -1,0 +1,138 @@
+// merge: what a farm measured, as if one machine had.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/arguments.hpp"
+#include "app/paths.hpp"
+#include "app/saying.hpp"
+#include "record/merge/merge.hpp"
+
+namespace triptych::app {
+namespace {
+
+struct MergeArguments {
+  std::vector<std::string> stores;
+  std::string out;
+  bool check = false;
+  std::vector<std::string> plans;  // that each store has to hold
+};
+
+// On a terminal, now and then.
+class Counting {
+ public:
+  void operator()(std::uint64_t records) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!terminal_ || now - last_ < std::chrono::milliseconds(200)) return;
+    last_ = now;
+    say("\r\033[K{} records", records);
+    shown_ = true;
+  }
+  void end() const {
+    if (shown_) say("\r\033[K");
+  }
+
+ private:
+  bool terminal_ = ::isatty(STDERR_FILENO) == 1;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point last_;
+};
+
+void tell_left_out(const record::RecordCounts& counts) {
+  if (counts.repeated > 0) fmt::print("  {} records were in several stores\n", counts.repeated);
+  if (counts.measured_anew > 0) {
+    fmt::print("  {} that had failed or were skipped are measured in another store: that is kept\n",
+               counts.measured_anew);
+  }
+  if (counts.not_chosen > 0) {
+    fmt::print(
+        "  {} had another record elsewhere: of each configuration and device one is kept, by "
+        "its seal\n",
+        counts.not_chosen);
+  }
+}
+
+void tell(const record::MergeResult::Plan& plan, const std::string& out) {
+  fmt::print("{}: run {} in {}: {} configurations\n", plan.run.plan, plan.run.id, out,
+             plan.run.configurations);
+  for (const auto& [device, records] : plan.counts.records) {
+    fmt::print("  {}: {}{}\n", device, records,
+               records < plan.run.configurations
+                   ? fmt::format(", {} missing", plan.run.configurations - records)
+                   : "");
+  }
+  tell_left_out(plan.counts);
+}
+
+std::vector<std::string> gaps_in(const record::Store& store,
+                                 const std::vector<std::string>& plans) {
+  std::vector<std::string> told;
+  for (const std::string& each : plans) {
+    const std::string name = measure::plan_name(each);
+    if (!store.latest_run(name)) told.push_back(name + ": not begun");
+  }
+  for (const record::Gap& gap : record::gaps_of(store)) {
+    told.push_back(fmt::format("{}{}: {} of {} configurations", gap.plan,
+                               gap.device.empty() ? "" : " on " + gap.device, gap.records,
+                               gap.configurations));
+  }
+  if (told.empty() && store.runs().empty()) told.emplace_back("holds no run");
+  return told;
+}
+
+core::ExitCode check(const MergeArguments& arguments) {
+  core::ExitCode code = core::ExitCode::pass;
+  for (const std::string& file : arguments.stores) {
+    const record::Store store(file, record::Store::Mode::read);
+    for (const std::string& gap : gaps_in(store, arguments.plans)) {
+      fmt::print("{}: {}\n", file, gap);
+      code = core::ExitCode::cannot_judge;
+    }
+  }
+  return code;
+}
+
+core::ExitCode merge(const MergeArguments& arguments) {
+  if (arguments.check) return check(arguments);
+  if (arguments.out.empty()) throw core::InputError("--out is required: the store to be written");
+  require_writable(std::filesystem::path(arguments.out).parent_path());
+  Counting counting;
+  const record::MergeResult result =
+      record::merge_stores({arguments.stores.begin(), arguments.stores.end()}, arguments.out,
+                           [&](std::uint64_t records) { counting(records); });
+  counting.end();
+  for (const record::MergeResult::Plan& each : result.plans) tell(each, arguments.out);
+  if (result.older_runs > 0) {
+    fmt::print("{} older runs were left out: of each plan a store gives its latest\n",
+               result.older_runs);
+  }
+  return core::ExitCode::pass;
+}
+
+}  // namespace
+
+void add_merge_command(Commands& commands) {
+  auto arguments = std::make_shared<MergeArguments>();
+  CLI::App* command = commands.add("merge", "Make one store of several: shards, hosts, devices",
+                                   [arguments] { return merge(*arguments); });
+  command->add_option("STORE", arguments->stores, "What `triptych run` wrote")->required();
+  CLI::Option* out =
+      command->add_option("--out", arguments->out, "Store to be written; none may be there");
+  CLI::Option* check =
+      command
+          ->add_flag("--check", arguments->check,
+                     "Merge nothing: name the stores that are not complete, and end with 2 for one")
+          ->excludes(out);
+  command
+      ->add_option("--plan", arguments->plans,
+                   "A plan of which each store has to hold a run (repeatable)")
+      ->needs(check);
+}
+
+}  // namespace triptych::app

@@ -1,0 +1,267 @@
+#include "record/merge/merge.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+#include "record/merge/merged_runs.hpp"
+#include "record/store_file.hpp"
+
+namespace triptych::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Each open store takes three files and a share of the memory. More are merged in groups, and those
+// in turn.
+constexpr std::size_t most_at_once = 64;
+constexpr int source_cache_kib = 96 << 10;  // all sources together
+constexpr int out_cache_kib = 96 << 10;
+constexpr std::chrono::seconds busy_limit{10};
+
+// Stores that are not what was asked for, removed with this.
+class Aside {
+ public:
+  explicit Aside(const fs::path& out) : out_(out) {}
+  ~Aside() {
+    for (const fs::path& each : files_) remove(each);
+  }
+  Aside(const Aside&) = delete;
+  Aside& operator=(const Aside&) = delete;
+
+  fs::path add() {
+    files_.push_back(out_);
+    files_.back() += fmt::format(".{}-{}.part", ::getpid(), files_.size());
+    remove(files_.back());
+    return files_.back();
+  }
+  static void remove(const fs::path& store) {
+    std::error_code ignored;
+    for (const char* part : {"", "-wal", "-shm", "-journal"}) {
+      fs::remove(store.string() + part, ignored);
+    }
+  }
+
+ private:
+  fs::path out_;
+  std::vector<fs::path> files_;
+};
+
+// A file to merge from, by the run that it has for each plan.
+struct Input {
+  fs::path file;
+  std::vector<std::string> runs;
+};
+
+// One merge into one file, which nobody else sees.
+class Writing {
+ public:
+  Writing(const std::vector<Input>& inputs, const fs::path& out) : out_file_(out) {
+    static_cast<void>(open_store_file(out, Store::Mode::append, busy_limit));  // makes the tables
+    out_.emplace(open_store_file(out, Store::Mode::append, busy_limit));
+    // What ends before its end is thrown away as a whole.
+    for (const std::string& pragma :
+         {std::string("foreign_keys = OFF"), std::string("journal_mode = OFF"),
+          std::string("synchronous = OFF"), std::string("locking_mode = EXCLUSIVE"),
+          fmt::format("cache_size = -{}", out_cache_kib)}) {
+      out_->exec("PRAGMA " + pragma);
+    }
+    sources_.reserve(inputs.size());
+    const int share = source_cache_kib / static_cast<int>(std::max<std::size_t>(1, inputs.size()));
+    for (const Input& each : inputs) {
+      Source& source = sources_.emplace_back(
+          Source{each.file, open_store_file(each.file, Store::Mode::read, busy_limit)});
+      // One view of the file for all queries, whoever writes meanwhile.
+      on_store(each.file, [&] {
+        source.database.exec(fmt::format("PRAGMA cache_size = -{}", share));
+        source.database.exec("BEGIN");
+      });
+    }
+  }
+
+  // What becomes of the records of each run.
+  std::vector<RecordCounts> write(const std::vector<Input>& inputs, const std::vector<Run>& runs,
+                                  DataSeen& data, const RecordCopy::Tell& tell) {
+    return on_store(out_file_, [&] {
+      out_->exec("BEGIN");
+      std::vector<RecordCounts> counts;
+      {
+        RecordCopy copy(sources_, *out_, data, tell);
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+          std::vector<std::string> parts;
+          for (const Input& each : inputs) parts.push_back(each.runs[i]);
+          counts.push_back(copy.copy(parts, runs[i].id));
+          copy_begun(parts, runs[i].id);
+        }
+      }
+      copy_named("image", {"hash"}, {"exr"});
+      copy_named("truth", {"scene", "version"}, {"image", "bound"});
+      out_->exec("COMMIT");
+      return counts;
+    });
+  }
+
+ private:
+  // What has a record is under way no more.
+  void copy_begun(const std::vector<std::string>& parts, const std::string& run) {
+    MergedRows rows(
+        sources_,
+        "SELECT configuration, device, times FROM begun WHERE run = ?1 ORDER BY configuration, "
+        "device",
+        2, [](const Query& a, const Query& b) { return a.integer(2) > b.integer(2); }, parts);
+    Query insert(*out_,
+                 "INSERT INTO begun SELECT ?1, ?2, ?3, ?4 WHERE NOT EXISTS (SELECT 1 FROM record "
+                 "WHERE run = ?1 AND configuration = ?2 AND device = ?3)");
+    while (const MergedRows::Row* row = rows.next()) {
+      insert.bind(1, std::string_view(run));
+      for (int i = 0; i < 3; ++i) insert.bind(i + 2, rows.query(row->source), i);
+      insert.execute();
+    }
+  }
+
+  // Rows that are large, each read once it is known to be taken.
+  void copy_named(const std::string& table, const std::vector<std::string>& key,
+                  const std::vector<std::string>& content) {
+    const int keys = static_cast<int>(key.size());
+    const std::string names = fmt::format("{}", fmt::join(key, ", "));
+    const auto before = [keys](const Query& a, const Query& b) {
+      return a.text(keys) < b.text(keys);
+    };
+    MergedRows rows(sources_,
+                    fmt::format("SELECT {}, seal, rowid FROM {} ORDER BY {}", names, table, names),
+                    keys, before);
+    const std::string columns = fmt::format("{}, {}, seal", names, fmt::join(content, ", "));
+    const int count = keys + static_cast<int>(content.size()) + 1;
+    const std::vector<std::string> places(static_cast<std::size_t>(count), "?");
+    Query insert(*out_, fmt::format("INSERT INTO {} ({}) VALUES ({})", table, columns,
+                                    fmt::join(places, ", ")));
+    while (const MergedRows::Row* row = rows.next()) {
+      const Source& source = sources_[row->source];
+      on_store(source.file, [&] {
+        Query read(source.database,
+                   fmt::format("SELECT {} FROM {} WHERE rowid = ?1", columns, table));
+        read.bind(1, rows.query(row->source).integer(keys + 1));
+        read.step();
+        for (int i = 0; i < count; ++i) insert.bind(i + 1, read, i);
+      });
+      insert.execute();
+    }
+  }
+
+  fs::path out_file_;
+  std::optional<SQLite::Database> out_;
+  std::vector<Source> sources_;
+};
+
+void require_no_store(const fs::path& out) {
+  if (out.empty()) throw core::InputError("a store needs the name of a file");
+  std::error_code ignored;
+  if (fs::exists(out, ignored)) {
+    throw core::InputError({.file = out.string()},
+                           "is there already: give another name, or remove it when all that it "
+                           "holds is in the stores that are merged");
+  }
+  // SQLite would take it for the new store's.
+  if (fs::exists(out.string() + "-wal", ignored) && !fs::is_empty(out.string() + "-wal", ignored)) {
+    throw core::InputError({.file = out.string() + "-wal"},
+                           "is the log of a store that is gone: remove it, or give another name");
+  }
+}
+
+void add(const std::vector<RecordCounts>& part, std::vector<RecordCounts>& sum) {
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    sum[i].configurations = part[i].configurations;
+    sum[i].records = part[i].records;
+    sum[i].repeated += part[i].repeated;
+    sum[i].not_chosen += part[i].not_chosen;
+    sum[i].measured_anew += part[i].measured_anew;
+  }
+}
+
+// Writes records and pictures of all inputs to a file aside, by as many steps as it takes.
+struct Stepwise {
+  const std::vector<Run>& runs;
+  const RecordCopy::Tell& tell;
+  Aside& aside;
+  DataSeen data;
+  std::vector<RecordCounts> counts;  // of what was left out in any step, of records in the last
+
+  fs::path merge(std::vector<Input> inputs) {
+    while (inputs.size() > most_at_once) {
+      std::vector<Input> merged;
+      for (std::size_t begin = 0; begin < inputs.size(); begin += most_at_once) {
+        const std::size_t end = std::min(begin + most_at_once, inputs.size());
+        Input& group = merged.emplace_back();
+        group.file = step({inputs.begin() + static_cast<std::ptrdiff_t>(begin),
+                           inputs.begin() + static_cast<std::ptrdiff_t>(end)});
+        for (const Run& each : runs) group.runs.push_back(each.id);
+      }
+      inputs = std::move(merged);
+    }
+    return step(inputs);
+  }
+
+  fs::path step(const std::vector<Input>& inputs) {
+    fs::path file = aside.add();
+    add(Writing(inputs, file).write(inputs, runs, data, tell), counts);
+    return file;
+  }
+};
+
+}  // namespace
+
+std::vector<Gap> gaps_of(const Store& store) {
+  std::vector<Gap> gaps;
+  for (const Run& run : latest_runs(store)) {
+    const std::vector<Store::DeviceEntry> devices = store.devices(run.id);
+    if (devices.empty() && run.configurations > 0) {
+      gaps.push_back({run.plan, "", 0, run.configurations});
+    }
+    for (const Store::DeviceEntry& each : devices) {
+      const std::uint64_t records = store.count_records(run.id, each.device.id);
+      if (records >= run.configurations) continue;
+      gaps.push_back({run.plan, each.device.id, records, run.configurations});
+    }
+  }
+  return gaps;
+}
+
+MergeResult merge_stores(const std::vector<fs::path>& stores, const fs::path& out,
+                         const RecordCopy::Tell& tell) {
+  require_no_store(out);
+  MergedRuns merged = merged_runs(stores);
+  std::vector<Run> runs;
+  std::vector<Input> inputs;
+  for (const fs::path& each : stores) inputs.push_back({each, {}});
+  for (MergedRun& each : merged.runs) {
+    for (std::size_t i = 0; i < stores.size(); ++i) inputs[i].runs.push_back(each.parts[i]);
+    runs.push_back(each.run);
+  }
+  Aside aside(out);
+  Stepwise steps{runs, tell, aside, {}, std::vector<RecordCounts>(runs.size())};
+  const fs::path file = steps.merge(std::move(inputs));
+  MergeResult result{.plans = {}, .older_runs = merged.older};
+  {
+    Store store(file, Store::Mode::append);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      runs[i].configurations = std::max(runs[i].configurations, steps.counts[i].configurations);
+      store.add_run(runs[i]);
+      for (const auto& [device, clocks] : merged.runs[i].devices) {
+        store.add_device(runs[i].id, device, clocks);
+      }
+      result.plans.push_back({runs[i], std::move(steps.counts[i])});
+    }
+  }
+  require_no_store(out);
+  fs::rename(file, out);
+  return result;
+}
+
+}  // namespace triptych::record

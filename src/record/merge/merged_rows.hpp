@@ -1,0 +1,54 @@
+#pragma once
+// Rows of one table from many stores as one sorted sequence.
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "record/merge/query.hpp"
+
+namespace triptych::record {
+
+// A store that is read.
+struct Source {
+  std::filesystem::path file;
+  SQLite::Database database;
+};
+
+class MergedRows {
+ public:
+  // Whether `a` is taken before `b`, two rows of one key. Total but for rows that are the same.
+  using Before = std::function<bool(const Query& a, const Query& b)>;
+
+  // `select` sorts by its first `keys` columns, all texts. Of its parameter, where it has one, each
+  // source has its own value. All must live as long.
+  MergedRows(const std::vector<Source>& sources, std::string_view select, int keys, Before before,
+             const std::vector<std::string>& parameters = {});
+
+  // One row of the next key.
+  struct Row {
+    std::size_t source;             // whose query it is
+    std::vector<std::size_t> rest;  // whose rows of the same key were not taken
+  };
+  // nullptr behind the last. Valid until the next call. Throws as reading a Store does.
+  [[nodiscard]] const Row* next();
+  [[nodiscard]] const Query& query(std::size_t source) const { return queries_[source]; }
+
+ private:
+  [[nodiscard]] int compare(std::size_t a, std::size_t b) const;
+  void advance(std::size_t source);
+  [[nodiscard]] std::size_t take_first();
+
+  const std::vector<Source>& sources_;
+  std::vector<Query> queries_;
+  int keys_;
+  Before before_;
+  std::vector<std::size_t> waiting_;  // a heap, the smallest key on top
+  std::optional<Row> row_;
+};
+
+}  // namespace triptych::record

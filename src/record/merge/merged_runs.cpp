@@ -1,0 +1,140 @@
+#include "record/merge/merged_runs.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+#include "record/store_seal.hpp"
+
+namespace triptych::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Between what several machines say of themselves.
+constexpr std::string_view separator = " | ";
+
+void add_parts(std::string_view text, std::set<std::string>& parts) {
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.emplace(text.substr(begin, end - begin));
+    if (end == std::string_view::npos) return;
+    begin = end + separator.size();
+  }
+}
+
+// All that either says, each once.
+std::string all_of(const std::string& a, const std::string& b) {
+  if (a == b) return a;
+  std::set<std::string> parts;
+  add_parts(a, parts);
+  add_parts(b, parts);
+  return fmt::format("{}", fmt::join(parts, separator));
+}
+
+// The first of a kind, and where it was found.
+template <typename T>
+struct Found {
+  T value;
+  fs::path file;
+};
+
+void require_same_plan(const Found<Run>& known, const Run& run, const fs::path& file) {
+  if (run.plan_hash != known.value.plan_hash) {
+    throw core::InputError(
+        {.file = file.string()},
+        fmt::format("measured another text of plan {} (hash {}) than {} (hash {}): merge only "
+                    "stores of one text, and measure the others again with it",
+                    run.plan, run.plan_hash, known.file.string(), known.value.plan_hash));
+  }
+  if (run.checks != known.value.checks) {
+    throw core::InputError(
+        {.file = file.string()},
+        fmt::format("measured {} for {}, but {} for {}: measure both with --timed, or none",
+                    run.plan, text_of(run.checks), known.file.string(),
+                    text_of(known.value.checks)));
+  }
+}
+
+void add(const Run& run, Run& sum) {
+  sum.id = std::min(sum.id, run.id);
+  sum.started_at = std::min(sum.started_at, run.started_at);
+  sum.configurations = std::max(sum.configurations, run.configurations);
+  for (const auto& [fact, value] : run.system) {
+    const auto [known, is_new] = sum.system.try_emplace(fact, value);
+    if (!is_new) known->second = all_of(known->second, value);
+  }
+}
+
+using Devices = std::map<std::string, Found<Store::DeviceEntry>>;
+
+// One device is described by one of its parts, whichever; it tells of clocks what it saw.
+void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
+  const std::string id = entry.device.id;
+  const auto found = devices.find(id);
+  if (found == devices.end()) {
+    devices.emplace(id, Found<Store::DeviceEntry>{std::move(entry), file});
+    return;
+  }
+  auto& [known, known_file] = found->second;
+  if (entry.device.key() != known.device.key()) {
+    throw core::InputError(
+        {.file = file.string()},
+        fmt::format("{} is not the one of {} (here {}; there {}): merge the stores of each driver "
+                    "and machine by themselves; `triptych diff` compares what comes out",
+                    id, known_file.string(), entry.device.key(), known.device.key()));
+  }
+  if (seal_of(entry.device, entry.clocks) < seal_of(known.device, known.clocks)) {
+    known = std::move(entry);
+  }
+}
+
+// A plan's run while stores are read.
+struct Growing {
+  Found<Run> first;
+  Run sum;
+  std::vector<std::string> parts;
+  Devices devices;
+};
+
+void add_store(const fs::path& file, std::size_t index, std::size_t count,
+               std::map<std::string, Growing>& plans, std::uint64_t& older) {
+  const Store store(file, Store::Mode::read);
+  const std::vector<Run> latest = latest_runs(store);
+  older += store.runs().size() - latest.size();
+  for (const Run& run : latest) {
+    const auto [found, is_new] =
+        plans.try_emplace(run.plan, Growing{{run, file}, run, std::vector<std::string>(count), {}});
+    Growing& plan = found->second;
+    require_same_plan(plan.first, run, file);
+    add(run, plan.sum);
+    plan.parts[index] = run.id;
+    for (Store::DeviceEntry& each : store.devices(run.id)) {
+      add(std::move(each), file, plan.devices);
+    }
+  }
+}
+
+}  // namespace
+
+MergedRuns merged_runs(const std::vector<fs::path>& stores) {
+  MergedRuns merged;
+  std::map<std::string, Growing> plans;
+  for (std::size_t i = 0; i < stores.size(); ++i) {
+    add_store(stores[i], i, stores.size(), plans, merged.older);
+  }
+  for (auto& [name, plan] : plans) {
+    MergedRun& run =
+        merged.runs.emplace_back(MergedRun{std::move(plan.sum), std::move(plan.parts), {}});
+    for (auto& [id, entry] : plan.devices) run.devices.push_back(std::move(entry.value));
+  }
+  return merged;
+}
+
+}  // namespace triptych::record

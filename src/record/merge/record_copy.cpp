@@ -1,0 +1,242 @@
+#include "record/merge/record_copy.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <future>
+#include <utility>
+
+#include "core/error.hpp"
+#include "record/store_file.hpp"
+
+namespace triptych::record {
+namespace {
+
+// Columns that the merge looks at, in front of the others.
+constexpr std::array<std::string_view, 7> named{"configuration", "device", "outcome", "seal",
+                                                "data_hash",     "suite",  "seq"};
+namespace column {
+enum : int { configuration, device, outcome, seal, data_hash, suite, seq };
+}
+
+std::vector<std::string> texts(const SQLite::Database& database, const std::string& sql) {
+  std::vector<std::string> result;
+  Query rows(database, sql);
+  while (rows.step()) result.emplace_back(rows.text(0));
+  return result;
+}
+
+std::vector<std::string> other_columns(const SQLite::Database& database) {
+  std::vector<std::string> columns =
+      texts(database, "SELECT name FROM pragma_table_info('record')");
+  std::erase_if(columns, [](const std::string& each) {
+    return each == "run" || std::ranges::find(named, each) != named.end();
+  });
+  return columns;
+}
+
+// As a writer has them: seq, run, then all but seq as they are read.
+std::vector<std::string> record_columns(const std::vector<std::string>& others) {
+  std::vector<std::string> columns{"seq", "run"};
+  columns.insert(columns.end(), named.begin(), named.end() - 1);
+  columns.insert(columns.end(), others.begin(), others.end());
+  return columns;
+}
+
+int rank_of(std::string_view outcome) {
+  if (outcome == "measured") return 0;
+  return outcome == "skipped" ? 1 : 2;
+}
+
+// A record that was measured counts more than one that was not: a job is sent again for that. Else
+// any rule will do that has no order of stores in it.
+bool is_before(const Query& a, const Query& b) {
+  const int rank_a = rank_of(a.text(column::outcome));
+  const int rank_b = rank_of(b.text(column::outcome));
+  return rank_a != rank_b ? rank_a < rank_b : a.text(column::seal) < b.text(column::seal);
+}
+
+// What the content of data depends on, as a device resolved it.
+std::string add_factors(RowBatch& rows, Query& factors, std::int64_t record) {
+  std::string data;
+  while (factors.step()) {
+    rows.add(record);
+    rows.add(factors, 0, 2);
+    const std::string_view name = factors.text(0);
+    if (name != "data" && name != "voxel" && name != "colour") continue;
+    data.append(" ").append(name).append("=").append(factors.text(1));
+  }
+  return data;
+}
+
+}  // namespace
+
+void DataSeen::saw(const std::string& name, std::string_view hash,
+                   const std::filesystem::path& file) {
+  const auto [known, is_new] = contents_.try_emplace(name, Content{std::string(hash), file});
+  if (is_new || known->second.hash == hash) return;
+  throw core::InputError(
+      {.file = file.string()},
+      fmt::format("measured other data under one name: {} has content hash {}, in {} it has {}; "
+                  "give all machines the same files and measure the shards of one of them again",
+                  name, hash, known->second.file.string(), known->second.hash));
+}
+
+std::size_t RecordCopy::Batch::bytes() const {
+  std::size_t sum = records.bytes();
+  for (const RowBatch& each : parts) sum += each.bytes();
+  return sum;
+}
+
+void RecordCopy::Batch::clear() {
+  count = 0;
+  records.clear();
+  for (RowBatch& each : parts) each.clear();
+}
+
+RecordCopy::RecordCopy(const std::vector<Source>& sources, const SQLite::Database& out,
+                       DataSeen& data, const Tell& tell)
+    : sources_(sources),
+      data_(data),
+      tell_(tell),
+      others_(other_columns(out)),
+      parts_(parts_of(out)),
+      record_writer_(out, "record", record_columns(others_)) {
+  for (const Part& part : parts_) {
+    std::vector<std::string> columns{"record"};
+    columns.insert(columns.end(), part.columns.begin(), part.columns.end());
+    part_writers_.emplace_back(out, part.table, columns);
+  }
+  prepare_parts();
+}
+
+// Every table that refers to a record, each in the order of its primary key.
+std::vector<RecordCopy::Part> RecordCopy::parts_of(const SQLite::Database& database) {
+  std::vector<Part> parts;
+  for (std::string& table :
+       texts(database,
+             "SELECT t.name FROM sqlite_schema t JOIN pragma_foreign_key_list(t.name) k "
+             "WHERE t.type = 'table' AND k.\"table\" = 'record' ORDER BY t.name")) {
+    const std::string of =
+        fmt::format("FROM pragma_table_info('{}') WHERE name != 'record'", table);
+    std::vector<std::string> columns = texts(database, "SELECT name " + of);
+    std::vector<std::string> order =
+        texts(database, "SELECT name " + of + " AND pk > 0 ORDER BY pk");
+    order.insert(order.begin(), "record");
+    std::string select = fmt::format("SELECT {} FROM {} WHERE record = ?1 ORDER BY {}",
+                                     fmt::join(columns, ", "), table, fmt::join(order, ", "));
+    parts.push_back({std::move(table), std::move(columns), std::move(select)});
+  }
+  return parts;
+}
+
+void RecordCopy::prepare_parts() {
+  for (const Source& source : sources_) {
+    auto& queries = queries_.emplace_back(parts_.size());
+    on_store(source.file, [&] {
+      for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const std::string any = fmt::format("SELECT 1 FROM {} LIMIT 1", parts_[i].table);
+        if (Query(source.database, any).step())
+          queries[i].emplace(source.database, parts_[i].select);
+      }
+    });
+  }
+}
+
+// Reading and writing take as long: the next batch is read while one is written.
+RecordCounts RecordCopy::copy(const std::vector<std::string>& runs, const std::string& run) {
+  const std::string select =
+      fmt::format("SELECT {}, {} FROM record WHERE run = ?1 ORDER BY configuration, device",
+                  fmt::join(named, ", "), fmt::join(others_, ", "));
+  MergedRows rows(sources_, select, 2, is_before, runs);
+  RecordCounts counts;
+  last_configuration_.clear();
+  std::array<Batch, 2> batches;
+  for (Batch& each : batches) each.parts.resize(parts_.size());
+  std::future<void> writing;  // a future waits when it goes
+  for (std::size_t turn = 0;; turn = 1 - turn) {
+    fill(batches[turn], rows, run, counts);
+    if (writing.valid()) writing.get();
+    if (tell_) tell_(static_cast<std::uint64_t>(seq_));
+    if (batches[turn].count == 0) return counts;
+    writing = std::async(std::launch::async, [this, &batch = batches[turn]] { write(batch); });
+  }
+}
+
+void RecordCopy::fill(Batch& batch, MergedRows& rows, const std::string& run,
+                      RecordCounts& counts) {
+  constexpr std::size_t most_records = 4096;
+  constexpr std::size_t most_bytes = std::size_t{8} << 20;
+  batch.clear();
+  while (batch.count < most_records && batch.bytes() < most_bytes) {
+    const MergedRows::Row* row = rows.next();
+    if (row == nullptr) return;
+    count(rows, *row, counts);
+    const Query& record = rows.query(row->source);
+    if (record.text(column::configuration) != last_configuration_ || counts.configurations == 0) {
+      last_configuration_ = record.text(column::configuration);
+      ++counts.configurations;
+    }
+    on_store(sources_[row->source].file, [&] { add(batch, record, row->source, run); });
+    ++batch.count;
+  }
+}
+
+void RecordCopy::add(Batch& batch, const Query& record, std::size_t source,
+                     const std::string& run) {
+  batch.records.add(++seq_);
+  batch.records.add(std::string_view(run));
+  batch.records.add(record, 0, column::seq);
+  batch.records.add(record, static_cast<int>(named.size()), static_cast<int>(others_.size()));
+  std::string data = std::string(record.text(column::suite));
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    if (!queries_[source][i]) continue;
+    Query& part = *queries_[source][i];
+    part.bind(1, record.integer(column::seq));
+    RowBatch& rows = batch.parts[i];
+    if (parts_[i].table == "factor") {
+      data += add_factors(rows, part, seq_);
+    } else {
+      while (part.step()) {
+        rows.add(seq_);
+        rows.add(part, 0, static_cast<int>(parts_[i].columns.size()));
+      }
+    }
+    part.reset();
+  }
+  if (const std::string_view hash = record.text(column::data_hash); !hash.empty()) {
+    data_.saw(data, hash, sources_[source].file);
+  }
+}
+
+void RecordCopy::count(const MergedRows& rows, const MergedRows::Row& row,
+                       RecordCounts& counts) const {
+  const Query& taken = rows.query(row.source);
+  ++counts.records[std::string(taken.text(column::device))];
+  for (const std::size_t each : row.rest) {
+    const Query& other = rows.query(each);
+    if (other.text(column::seal) == taken.text(column::seal)) {
+      ++counts.repeated;
+    } else if (rank_of(other.text(column::outcome)) > rank_of(taken.text(column::outcome))) {
+      ++counts.measured_anew;
+    } else {
+      ++counts.not_chosen;
+    }
+    const std::string_view hash = other.text(column::data_hash);
+    if (hash.empty() || taken.text(column::data_hash).empty() ||
+        hash == taken.text(column::data_hash))
+      continue;
+    DataSeen seen;
+    const std::string name(taken.text(column::configuration));
+    seen.saw(name, taken.text(column::data_hash), sources_[row.source].file);
+    seen.saw(name, hash, sources_[each].file);
+  }
+}
+
+void RecordCopy::write(const Batch& batch) {
+  record_writer_.write(batch.records);
+  for (std::size_t i = 0; i < parts_.size(); ++i) part_writers_[i].write(batch.parts[i]);
+}
+
+}  // namespace triptych::record

@@ -1,0 +1,59 @@
+#pragma once
+// Rows on their way from a store into another.
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "record/merge/query.hpp"
+
+namespace triptych::record {
+
+// Of one table, value after value.
+class RowBatch {
+ public:
+  void add(std::int64_t number) { cells_.emplace_back(number); }
+  void add(std::string_view text) { cells_.push_back(kept(text)); }
+  void add(const Query& row, int first_column, int columns);
+  void clear();
+
+  [[nodiscard]] std::size_t cells() const { return cells_.size(); }
+  [[nodiscard]] std::size_t bytes() const { return texts_.size(); }
+  // As a parameter of a statement, to be stepped before the batch changes.
+  void bind(Query& statement, int index, std::size_t cell) const;
+
+ private:
+  struct Text {
+    std::size_t begin;
+    std::size_t length;
+  };
+  using Cell = std::variant<std::nullptr_t, std::int64_t, double, Text>;
+
+  [[nodiscard]] Cell cell_of(const Query& row, int column);
+  [[nodiscard]] Text kept(std::string_view text);
+
+  std::vector<Cell> cells_;
+  std::string texts_;
+};
+
+// Inserts the rows of batches into a table.
+class RowWriter {
+ public:
+  RowWriter(const SQLite::Database& database, std::string_view table,
+            const std::vector<std::string>& columns);
+
+  // A batch has whole rows of as many columns.
+  void write(const RowBatch& rows);
+
+ private:
+  std::size_t columns_;
+  Query several_;  // a statement costs more than a row
+  Query one_;
+};
+
+}  // namespace triptych::record

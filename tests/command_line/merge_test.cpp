@@ -1,0 +1,111 @@
+// Shards measured by themselves and merged: judged as a run by one machine is.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "core/file.hpp"
+#include "killed.hpp"
+#include "program.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class MergeCommand : public testing::Test {
+ protected:
+  MergeCommand() {
+    program.write("p.yaml",
+                  std::string(tiny_plan) +
+                      "checks: [counters, statistics]\n"
+                      "step: [0.5, 0.7]\ncamera: [random:1, random:2, random:3, random:4]\n");
+    for (int i = 1; i <= 3; ++i) {
+      const std::string number = std::to_string(i);
+      const Result measured = run("run p.yaml --device 'null:*' --store " + number +
+                                  ".sqlite --shard " + number + "/3");
+      EXPECT_EQ(measured.code, 0) << measured.output;
+    }
+  }
+  [[nodiscard]] Result run(const std::string& arguments) const {
+    return program.run(arguments, R"({"devices": [1, 2]})");
+  }
+  // The last screen, without what the run's times and files say.
+  [[nodiscard]] std::string verdict_on(const std::string& store) const {
+    const Result judged = run("gate p.yaml --baselines b --json --store " + store);
+    return std::to_string(judged.code) +
+           std::regex_replace(judged.output, std::regex(store + "|\"run\": \"[^\"]*\"|[0-9.]+ ms"),
+                              "");
+  }
+  const Program program;
+};
+
+TEST_F(MergeCommand, IsJudgedAsOneRun) {
+  ASSERT_EQ(run("run p.yaml --device 'null:*' --store whole.sqlite").code, 0);
+  const Result merged = run("merge 3.sqlite 1.sqlite 2.sqlite --out m.sqlite");
+  EXPECT_EQ(merged.code, 0) << merged.output;
+  EXPECT_THAT(merged.output, AllOf(HasSubstr(" in m.sqlite: 8 configurations\n"),
+                                   HasSubstr("  null:scripted: 8\n  null:scripted#2: 8\n")));
+  const Result accepted = run("accept p.yaml --reason x --baselines b --store m.sqlite");
+  EXPECT_EQ(accepted.code, 0) << accepted.output;
+  EXPECT_THAT(verdict_on("m.sqlite"), testing::StartsWith("0"));
+  EXPECT_EQ(verdict_on("m.sqlite"), verdict_on("whole.sqlite"));
+  EXPECT_EQ(run("report --store m.sqlite --out r.html --baselines b").code, 0);
+  EXPECT_THAT(run("run p.yaml --device 'null:*' --resume --store m.sqlite").output,
+              HasSubstr("16 of them were there before"));
+}
+
+TEST_F(MergeCommand, AShardTooFewIsMissed) {
+  const Result merged = run("merge 1.sqlite 2.sqlite --out m.sqlite");
+  EXPECT_EQ(merged.code, 0) << merged.output;
+  EXPECT_THAT(run("gate p.yaml --baselines b --store m.sqlite").output, HasSubstr("missing rows"));
+}
+
+TEST_F(MergeCommand, CheckNamesWhatIsNotComplete) {
+  EXPECT_EQ(run("merge --check 1.sqlite 2.sqlite 3.sqlite --plan p.yaml").code, 0);
+  ASSERT_EQ(
+      run("run p.yaml --device 'null:*' --resume --set camera=random:1 --store 4.sqlite").code, 0);
+  ASSERT_EQ(run("run p.yaml --device null:scripted --set camera=random:1 --store 5.sqlite").code,
+            0);
+  // What a kill leaves: a run that knows of more than it holds.
+  ASSERT_EQ(run("run volume/quick --device 'null:*' --store 5.sqlite --shard 90/90").code, 2);
+  const Result checked = run("merge --check 4.sqlite 5.sqlite --plan p.yaml --plan volume/quick");
+  EXPECT_EQ(checked.code, 2);
+  EXPECT_EQ(checked.output, "4.sqlite: volume/quick: not begun\n");
+  EXPECT_THAT(run("merge --check none.sqlite").output, HasSubstr("there is no such file"));
+}
+
+TEST_F(MergeCommand, BadUseIsRefused) {
+  EXPECT_THAT(run("merge 1.sqlite").output, HasSubstr("--out is required"));
+  EXPECT_THAT(run("merge --check --out x 1.sqlite").output, HasSubstr("excludes"));
+  EXPECT_EQ(run("merge 1.sqlite 2.sqlite --out 1.sqlite").code, 3);
+  program.write("text", "no store");
+  const Result text = run("merge 1.sqlite text --out m.sqlite");
+  EXPECT_EQ(text.code, 3);
+  EXPECT_THAT(text.output, HasSubstr("text: is not an SQLite file"));
+  EXPECT_FALSE(fs::exists(program.folder() / "m.sqlite"));
+}
+
+TEST_F(MergeCommand, KilledLeavesAllOrNothing) {
+  const std::vector<std::string> command{"merge", "1.sqlite", "2.sqlite", "--out", "m.sqlite"};
+  const Ending whole = run_killed(program.folder(), "{}", command, "told");
+  if (!whole.traced) GTEST_SKIP() << "this machine lets no process trace its child";
+  const auto expected = core::read_file(program.folder() / "m.sqlite");
+  for (int i = 1; i < 12; ++i) {
+    fs::remove(program.folder() / "m.sqlite");
+    const Ending ending = run_killed(program.folder(), "{}", command, "told", whole.calls * i / 12);
+    SCOPED_TRACE(i);
+    if (fs::exists(program.folder() / "m.sqlite")) {
+      EXPECT_EQ(core::read_file(program.folder() / "m.sqlite"), expected);
+    } else {
+      EXPECT_TRUE(ending.killed);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace triptych::command_line
