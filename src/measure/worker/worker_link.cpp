@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <span>
 
 #include "core/error.hpp"
@@ -28,6 +29,11 @@ bool drain(int fd, Take take) {
       return errno == EAGAIN || errno == EWOULDBLOCK;
     }
   }
+}
+
+// By a signal that no driver raises.
+bool is_ordered(const Exit& exit) {
+  return exit.signal == SIGKILL || exit.signal == SIGTERM || exit.signal == SIGINT;
 }
 
 }  // namespace
@@ -80,8 +86,7 @@ WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseco
     }
     if (over || !answers_open_) return bury();
     if (!in_time) {
-      process_.kill();
-      static_cast<void>(bury());
+      static_cast<void>(bury("late"));
       return Late{with_last_words(
           fmt::format("no answer within {:.3g} s", std::chrono::duration<double>(limit).count()))};
     }
@@ -157,9 +162,19 @@ WorkerLink::Died WorkerLink::bury(std::string_view before) {
     exit = process_.wait(patience);
   }
   read_log();
+  if (before.empty() && exit && is_ordered(*exit)) await_own_end();
   std::string reason = exit ? describe(*exit) : std::string("could not be killed");
   if (!before.empty()) reason = fmt::format("{}; {}", before, reason);
   return {with_last_words(std::move(reason))};
+}
+
+// Who ends a whole job, as a batch system does, ends the worker and us at once: that it went first
+// is no fault of its configuration.
+void WorkerLink::await_own_end() {
+  constexpr int patience_ms = 300;
+  pollfd event{interrupts_.fd(), POLLIN, 0};
+  ::poll(&event, 1, patience_ms);
+  if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
 }
 
 std::string WorkerLink::with_last_words(std::string reason) {

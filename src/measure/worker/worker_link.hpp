@@ -66,6 +66,7 @@ class WorkerLink {
   // Waits until something happened at one of the descriptors; false at the deadline.
   [[nodiscard]] bool wait_for_event(Deadline deadline);
   [[nodiscard]] Died bury(std::string_view before = {});
+  void await_own_end();
   [[nodiscard]] std::string with_last_words(std::string reason);
 
   Process process_;
