@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <system_error>
 
@@ -33,14 +32,15 @@ void PlanChoice::add_to(CLI::App& command) {
 
 namespace {
 
-// "i/n" → {i, n}; throws core::InputError.
-std::array<int, 2> parse_shard(std::string_view text) {
-  std::array<int, 2> shard{};
+// Throws core::InputError.
+measure::Shard parse_shard(std::string_view text) {
+  measure::Shard shard;
   const char* const end = text.data() + text.size();
-  const auto [slash, index_error] = std::from_chars(text.data(), end, shard[0]);
+  const auto [slash, index_error] = std::from_chars(text.data(), end, shard.index);
   if (index_error == std::errc{} && slash != end && *slash == '/') {
-    const auto [rest, count_error] = std::from_chars(slash + 1, end, shard[1]);
-    if (count_error == std::errc{} && rest == end && shard[0] >= 1 && shard[0] <= shard[1]) {
+    const auto [rest, count_error] = std::from_chars(slash + 1, end, shard.count);
+    if (count_error == std::errc{} && rest == end && shard.index >= 1 &&
+        shard.index <= shard.count) {
       return shard;
     }
   }
@@ -49,14 +49,13 @@ std::array<int, 2> parse_shard(std::string_view text) {
 
 }  // namespace
 
+measure::Shard PlanChoice::shard_chosen() const {
+  return shard.empty() ? measure::Shard{} : parse_shard(shard);
+}
+
 measure::Plan PlanChoice::load(const std::string& plan,
                                const measure::FindSuite& find_suite) const {
-  measure::Plan loaded = measure::load_plan(plan, parse_overrides(set), find_suite);
-  if (!shard.empty()) {
-    const auto [index, count] = parse_shard(shard);
-    measure::keep_shard(loaded, index, count);
-  }
-  return loaded;
+  return measure::load_plan(plan, parse_overrides(set), find_suite, shard_chosen());
 }
 
 void add_baselines_option(CLI::App& command, std::string& folder) {

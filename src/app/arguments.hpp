@@ -29,9 +29,10 @@ struct PlanChoice {
   std::string shard;             // "i/n"
 
   void add_to(CLI::App& command);
-  // Throws core::InputError.
+  // Both throw core::InputError.
   [[nodiscard]] measure::Plan load(const std::string& plan,
                                    const measure::FindSuite& find_suite) const;
+  [[nodiscard]] measure::Shard shard_chosen() const;
 };
 
 struct PlanArguments {

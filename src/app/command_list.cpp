@@ -2,6 +2,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/arguments.hpp"
 #include "app/registry.hpp"
@@ -45,16 +49,24 @@ core::Json json_of(const measure::Factor& factor) {
   return json;
 }
 
-std::vector<measure::Plan> plans_of(const measure::Suite& suite, const Registry& registry) {
-  std::vector<measure::Plan> plans;
+struct CountedPlan {
+  measure::Plan plan;  // without configurations
+  std::size_t configurations;
+};
+
+std::vector<CountedPlan> plans_of(const measure::Suite& suite, const Registry& registry) {
+  std::vector<CountedPlan> plans;
   for (const std::string_view name : suite.plan_names()) {
-    plans.push_back(
-        measure::load_plan(fmt::format("{}/{}", suite.name(), name), {}, registry.find_suite()));
+    std::size_t count = 0;
+    measure::Plan plan =
+        measure::list_plan(fmt::format("{}/{}", suite.name(), name), {}, registry.find_suite(), {},
+                           [&](const measure::Suite&, const measure::Configuration&) { ++count; });
+    plans.push_back({std::move(plan), count});
   }
   return plans;
 }
 
-void print(const measure::Suite& suite, const std::vector<measure::Plan>& plans) {
+void print(const measure::Suite& suite, const std::vector<CountedPlan>& plans) {
   fmt::print("factors of {}\n", suite.name());
   for (const measure::Factor& factor : suite.factors()) print_factor(factor);
   if (!suite.generators().empty()) fmt::print("generated data\n");
@@ -62,13 +74,12 @@ void print(const measure::Suite& suite, const std::vector<measure::Plan>& plans)
     fmt::print("  generate:{}\n      {}\n", name, summary);
   }
   fmt::print("plans\n");
-  for (const measure::Plan& plan : plans) {
-    fmt::print("  {}: {} configurations\n      {}\n", plan.name, plan.configurations.size(),
-               plan.summary);
+  for (const auto& [plan, count] : plans) {
+    fmt::print("  {}: {} configurations\n      {}\n", plan.name, count, plan.summary);
   }
 }
 
-core::Json json_of(const measure::Suite& suite, const std::vector<measure::Plan>& plans) {
+core::Json json_of(const measure::Suite& suite, const std::vector<CountedPlan>& plans) {
   core::Json json{{"suite", suite.name()},
                   {"factors", core::Json::array()},
                   {"generators", core::Json::array()},
@@ -77,17 +88,16 @@ core::Json json_of(const measure::Suite& suite, const std::vector<measure::Plan>
   for (const auto& [name, summary] : suite.generators()) {
     json["generators"].push_back({{"name", name}, {"summary", summary}});
   }
-  for (const measure::Plan& plan : plans) {
-    json["plans"].push_back({{"name", plan.name},
-                             {"configurations", plan.configurations.size()},
-                             {"summary", plan.summary}});
+  for (const auto& [plan, count] : plans) {
+    json["plans"].push_back(
+        {{"name", plan.name}, {"configurations", count}, {"summary", plan.summary}});
   }
   return json;
 }
 
 // What a plan of the suite may hold, and the plans that come with it.
 core::ExitCode list_suite(const measure::Suite& suite, const Registry& registry, bool as_json) {
-  const std::vector<measure::Plan> plans = plans_of(suite, registry);
+  const std::vector<CountedPlan> plans = plans_of(suite, registry);
   if (as_json) {
     fmt::print("{}\n", core::json_text(json_of(suite, plans), 2));
   } else {
@@ -96,23 +106,28 @@ core::ExitCode list_suite(const measure::Suite& suite, const Registry& registry,
   return core::ExitCode::pass;
 }
 
+core::ExitCode print_json(const measure::Plan& plan) {
+  core::Json configurations = core::Json::array();
+  for (const measure::Configuration& each : plan.configurations) configurations.push_back(each);
+  fmt::print("{}\n", core::json_text({{"plan", plan.name},
+                                      {"suite", plan.suite},
+                                      {"varied", plan.varied},
+                                      {"configurations", configurations}},
+                                     2));
+  return core::ExitCode::pass;
+}
+
 core::ExitCode list_plan(const ListArguments& arguments, const Registry& registry) {
-  const measure::Plan plan = arguments.plan.load(registry.find_suite());
-  const measure::Suite& suite = registry.suite(plan.suite);
-  if (arguments.json) {
-    core::Json configurations = core::Json::array();
-    for (const measure::Configuration& each : plan.configurations) configurations.push_back(each);
-    fmt::print("{}\n", core::json_text({{"plan", plan.name},
-                                        {"suite", plan.suite},
-                                        {"varied", plan.varied},
-                                        {"configurations", configurations}},
-                                       2));
-    return core::ExitCode::pass;
-  }
-  for (const measure::Configuration& each : plan.configurations) {
-    fmt::print("{}\n", measure::configuration_key(suite, each));
-  }
-  say("{}: {} configurations\n", plan.name, plan.configurations.size());
+  const auto& [name, choice] = arguments.plan;
+  if (arguments.json) return print_json(arguments.plan.load(registry.find_suite()));
+  std::size_t count = 0;
+  const measure::Plan plan = measure::list_plan(
+      name, parse_overrides(choice.set), registry.find_suite(), choice.shard_chosen(),
+      [&](const measure::Suite& suite, const measure::Configuration& each) {
+        fmt::print("{}\n", measure::configuration_key(suite, each));
+        ++count;
+      });
+  say("{}: {} configurations\n", plan.name, count);
   return core::ExitCode::pass;
 }
 

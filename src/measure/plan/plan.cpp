@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -134,36 +135,66 @@ core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& va
   return place;
 }
 
-// One set of values, each with all its combinations.
-struct Block {
-  ValuesByFactor values;
-  core::FilePlace place;  // of the longest list in it
+// More in one run is a slip of the pen: at a tenth of a second each these would take a day.
+constexpr std::size_t most_configurations = 1'000'000;
+
+// What a plan's text says, before any configuration is made.
+struct OpenPlan {
+  Plan plan;  // without configurations
+  const Suite& suite;
+  Combinations combinations;
+  std::vector<core::FilePlace> places;  // by block, of the longest list in it
 };
 
-// Of one block or more; no combination is there twice.
-Plan make_plan(const std::string& name, const Suite& suite, const std::vector<Block>& blocks) {
-  Plan plan{.name = name,
-            .suite = std::string(suite.name()),
-            .summary = {},
-            .configurations = {},
-            .varied = {},
-            .checks = Plan::standard_checks(),
-            .hash = {}};
-  for (const auto& [values, place] : blocks) {
-    std::vector<Configuration> all = all_combinations(suite, values, place);
-    if (plan.configurations.empty()) {
-      plan.configurations = std::move(all);
-    } else {
-      add_combinations(all, plan.configurations);
+Plan plan_of(const std::string& name, const Suite& suite, const Combinations& combinations) {
+  return {.name = name,
+          .suite = std::string(suite.name()),
+          .summary = {},
+          .configurations = {},
+          .varied = combinations.varied(),
+          .checks = Plan::standard_checks(),
+          .hash = {}};
+}
+
+OpenPlan open_plan(std::string_view name_or_file, const Overrides& overrides,
+                   const FindSuite& find_suite) {
+  const PlanSource source = find_plan(name_or_file, find_suite);
+  const PlanText text = parse_plan(source.yaml, source.file);
+  const Suite& suite = suite_of(source, text, find_suite);
+  std::vector<ValuesByFactor> blocks(1 + text.also.size());
+  std::vector<core::FilePlace> places;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    std::vector<const std::vector<PlanEntry>*> entries{&text.entries};
+    if (i > 0) entries.push_back(&text.also[i - 1]);
+    for (const auto* each : entries) set_values(suite, *each, blocks[i]);
+    apply(overrides, suite, blocks[i]);
+    places.push_back(longest_place(source, blocks[i], entries, overrides));
+  }
+  Combinations combinations(suite, blocks);
+  Plan plan = plan_of(source.name, suite, combinations);
+  plan.summary = text.summary;
+  if (!text.checks.empty()) plan.checks = text.checks;
+  plan.hash = core::content_hash(source.yaml);
+  return {std::move(plan), suite, std::move(combinations), std::move(places)};
+}
+
+void require_few(const Combinations& combinations, const std::vector<core::FilePlace>& places,
+                 const Shard& shard) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (combinations.most_of(i) / static_cast<std::size_t>(std::max(1, shard.count)) <=
+        most_configurations) {
+      continue;
     }
+    throw core::InputError(
+        places[i], fmt::format("more than {} combinations, most of this factor; take shards of the "
+                               "plan (--shard i/n), or split it",
+                               most_configurations));
   }
-  for (const Factor* each : slowest_first(suite)) {
-    const std::string& factor = each->name;
-    const std::string& first = plan.configurations.front().at(factor);
-    const auto differs = [&](const Configuration& one) { return one.at(factor) != first; };
-    if (std::ranges::any_of(plan.configurations, differs)) plan.varied.push_back(factor);
-  }
-  return plan;
+}
+
+void hold(const Combinations& combinations, const Shard& shard, Plan& plan) {
+  combinations.for_each(shard,
+                        [&](const Configuration& each) { plan.configurations.push_back(each); });
 }
 
 }  // namespace
@@ -179,30 +210,29 @@ std::string plan_name(std::string_view name_or_file) {
 }
 
 Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
-               const FindSuite& find_suite) {
-  const PlanSource source = find_plan(name_or_file, find_suite);
-  const PlanText text = parse_plan(source.yaml, source.file);
-  const Suite& suite = suite_of(source, text, find_suite);
-  std::vector<Block> blocks(1 + text.also.size());
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    std::vector<const std::vector<PlanEntry>*> entries{&text.entries};
-    if (i > 0) entries.push_back(&text.also[i - 1]);
-    auto& [values, place] = blocks[i];
-    for (const auto* each : entries) set_values(suite, *each, values);
-    apply(overrides, suite, values);
-    place = longest_place(source, values, entries, overrides);
-  }
-  Plan plan = make_plan(source.name, suite, blocks);
-  plan.summary = text.summary;
-  if (!text.checks.empty()) plan.checks = text.checks;
-  plan.hash = core::content_hash(source.yaml);
-  return plan;
+               const FindSuite& find_suite, const Shard& shard) {
+  OpenPlan open = open_plan(name_or_file, overrides, find_suite);
+  require_few(open.combinations, open.places, shard);
+  hold(open.combinations, shard, open.plan);
+  return std::move(open.plan);
+}
+
+Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
+               const FindSuite& find_suite, const Shard& shard,
+               const std::function<void(const Suite&, const Configuration&)>& use) {
+  OpenPlan open = open_plan(name_or_file, overrides, find_suite);
+  open.combinations.for_each(shard, [&](const Configuration& each) { use(open.suite, each); });
+  return std::move(open.plan);
 }
 
 Plan default_plan(const Suite& suite, const Overrides& overrides) {
   ValuesByFactor values;
   apply(overrides, suite, values);
-  return make_plan(std::string(suite.name()) + "/defaults", suite, {{values, {.file = "--set"}}});
+  const Combinations combinations(suite, {values});
+  require_few(combinations, {{.file = "--set"}}, {});
+  Plan plan = plan_of(std::string(suite.name()) + "/defaults", suite, combinations);
+  hold(combinations, {}, plan);
+  return plan;
 }
 
 std::string configuration_key(const Suite& suite, const Configuration& configuration) {
@@ -222,34 +252,6 @@ std::vector<std::string> work_kinds(const Plan& plan) {
     kinds.emplace(technique::name_of(technique::technique(each.at("technique")).work));
   }
   return {kinds.begin(), kinds.end()};
-}
-
-void keep_shard(Plan& plan, int index, int count) {
-  if (count < 1 || index < 1 || index > count) {
-    throw core::InputError(fmt::format("shard {}/{}: expected i/n with 1 ≤ i ≤ n", index, count));
-  }
-  const auto data_of = [](const Configuration& configuration) {
-    const auto data = configuration.find("data");
-    return data == configuration.end() ? std::string() : data->second;
-  };
-  std::vector<std::string> data_sets;
-  for (const Configuration& each : plan.configurations) {
-    if (data_sets.empty() || data_sets.back() != data_of(each)) data_sets.push_back(data_of(each));
-  }
-  // Data sets are dealt out whole as long as there is one for every shard; the rest is dealt out by
-  // configuration, so that no shard has more than one above another.
-  const auto shards = static_cast<std::size_t>(count);
-  const auto mine = static_cast<std::size_t>(index - 1);
-  const std::size_t whole = data_sets.size() / shards * shards;
-  std::vector<Configuration> kept;
-  std::size_t data_set = 0;
-  std::size_t rest = 0;
-  for (Configuration& each : plan.configurations) {
-    while (data_sets[data_set] != data_of(each)) ++data_set;
-    const std::size_t owner = (data_set < whole ? data_set : rest++) % shards;
-    if (owner == mine) kept.push_back(std::move(each));
-  }
-  plan.configurations = std::move(kept);
 }
 
 }  // namespace triptych::measure

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "measure/contract/suite.hpp"
+#include "measure/plan/shard.hpp"
 #include "record/check.hpp"
 
 namespace triptych::measure {
@@ -36,9 +37,15 @@ using FindSuite = std::function<Suite&(std::string_view name)>;  // throws Input
 
 // `name_or_file`: "SUITE/PLAN" or a YAML file. Throws InputError with file, line and column for an
 // unknown or duplicate factor, a wrong type or level (the nearest known name is suggested), an
-// empty list, a duplicate value.
+// empty list, a duplicate value, and for more than a million configurations. Of a shard only its
+// own configurations are held.
 [[nodiscard]] Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
-                             const FindSuite& find_suite);
+                             const FindSuite& find_suite, const Shard& shard = {});
+
+// The same plan of any size without its configurations, each handed to `use` in their order.
+Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
+               const FindSuite& find_suite, const Shard& shard,
+               const std::function<void(const Suite&, const Configuration&)>& use);
 
 // The name under which a plan's runs are stored: of a short name itself, of a file its name without
 // the ending. Reads nothing.
@@ -54,9 +61,5 @@ using FindSuite = std::function<Suite&(std::string_view name)>;  // throws Input
 // The kinds of work that its configurations are (technique::name_of), each once: those whose clocks
 // its times need.
 [[nodiscard]] std::vector<std::string> work_kinds(const Plan& plan);
-
-// "i/n" → every n-th configuration beginning with the i-th, 1 ≤ i ≤ n, cut along data sets where it
-// can.
-void keep_shard(Plan& plan, int index, int count);
 
 }  // namespace triptych::measure

@@ -3,21 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <limits>
 
+#include "core/error.hpp"
 #include "measure/plan/plan_values.hpp"
 
 namespace triptych::measure {
 namespace {
-
-// More is a slip of the pen: at a tenth of a second each these would take a day.
-constexpr std::size_t most_configurations = 1'000'000;
-
-// A factor and its values; those before it vary more slowly.
-struct Axis {
-  const Factor* factor;
-  std::vector<std::string> values;
-};
 
 // Loading data costs most, then building a pipeline, then moving the camera.
 int speed_of(const Factor& factor) {
@@ -27,43 +19,8 @@ int speed_of(const Factor& factor) {
   return 1;
 }
 
-std::vector<Axis> axes_of(const Suite& suite, const ValuesByFactor& values) {
-  std::vector<Axis> axes;
-  for (const Factor* factor : slowest_first(suite)) {
-    const auto given = values.find(factor->name);
-    axes.push_back(
-        {factor, given == values.end() ? std::vector{standard_of(*factor)} : given->second});
-  }
-  return axes;
-}
-
-void require_few(const std::vector<Axis>& axes, const core::FilePlace& place) {
-  std::size_t count = 1;
-  for (const Axis& axis : axes) {
-    count *= axis.values.size();
-    if (count > most_configurations) {
-      throw core::InputError(
-          place, fmt::format("more than {} combinations, most of this factor; split the plan",
-                             most_configurations));
-    }
-  }
-}
-
-// As an odometer: the last axis turns at every step.
-std::vector<Configuration> combine(const std::vector<Axis>& axes) {
-  std::vector<Configuration> configurations;
-  std::vector<std::size_t> place(axes.size(), 0);
-  for (;;) {
-    Configuration& configuration = configurations.emplace_back();
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-      configuration[axes[i].factor->name] = axes[i].values[place[i]];
-    }
-    std::size_t turning = axes.size();
-    while (turning > 0 && ++place[turning - 1] == axes[turning - 1].values.size()) {
-      place[--turning] = 0;
-    }
-    if (turning == 0) return configurations;
-  }
+bool contains(const std::vector<std::string>& values, const std::string& value) {
+  return std::ranges::find(values, value) != values.end();
 }
 
 }  // namespace
@@ -75,23 +32,95 @@ std::vector<const Factor*> slowest_first(const Suite& suite) {
   return factors;
 }
 
-std::vector<Configuration> all_combinations(const Suite& suite, const ValuesByFactor& values,
-                                            const core::FilePlace& place) {
-  const std::vector<Axis> axes = axes_of(suite, values);
-  require_few(axes, place);
-  return combine(axes);
+Combinations::Combinations(const Suite& suite, const std::vector<ValuesByFactor>& blocks) {
+  for (const ValuesByFactor& values : blocks) {
+    Block& block = blocks_.emplace_back();
+    for (const Factor* factor : slowest_first(suite)) {
+      const auto given = values.find(factor->name);
+      block.push_back({factor->name,
+                       given == values.end() ? std::vector{standard_of(*factor)} : given->second});
+    }
+    for (const std::string& each : data_of(block)) {
+      if (!contains(data_, each)) data_.push_back(each);
+    }
+  }
 }
 
-void add_combinations(const std::vector<Configuration>& more,
-                      std::vector<Configuration>& configurations) {
-  const std::set<Configuration> known(configurations.begin(), configurations.end());
-  for (const Configuration& each : more) {
-    if (!known.contains(each)) configurations.push_back(each);
+void Combinations::for_each(const Shard& shard, const Use& use) const {
+  const auto [index, count] = shard;
+  if (count < 1 || index < 1 || index > count) {
+    throw core::InputError(fmt::format("shard {}/{}: expected i/n with 1 ≤ i ≤ n", index, count));
   }
-  std::map<std::string, std::size_t> rank;
-  for (const Configuration& each : configurations) rank.emplace(each.at("data"), rank.size());
-  std::ranges::stable_sort(configurations, {},
-                           [&](const Configuration& each) { return rank.at(each.at("data")); });
+  const auto shards = static_cast<std::size_t>(count);
+  const auto mine = static_cast<std::size_t>(index - 1);
+  const std::size_t whole = data_.size() / shards * shards;
+  std::size_t rest = 0;
+  for (std::size_t i = 0; i < data_.size(); ++i) {
+    if (i >= whole) {
+      for_each_of(data_[i], [&](const Configuration& each) {
+        if (rest++ % shards == mine) use(each);
+      });
+    } else if (i % shards == mine) {
+      for_each_of(data_[i], use);
+    }
+  }
+}
+
+std::size_t Combinations::most_of(std::size_t block) const {
+  constexpr std::size_t largest = std::numeric_limits<std::size_t>::max();
+  std::size_t count = 1;
+  for (const Axis& axis : blocks_[block]) {
+    count = count > largest / axis.values.size() ? largest : count * axis.values.size();
+  }
+  return count;
+}
+
+std::vector<std::string> Combinations::varied() const {
+  std::vector<std::string> varied;
+  for (std::size_t i = 0; i < blocks_.front().size(); ++i) {
+    const std::string& first = blocks_.front()[i].values.front();
+    const auto differs = [&](const std::string& value) { return value != first; };
+    const auto any_differs = [&](const Block& block) {
+      return std::ranges::any_of(block[i].values, differs);
+    };
+    if (std::ranges::any_of(blocks_, any_differs)) varied.push_back(blocks_.front()[i].factor);
+  }
+  return varied;
+}
+
+// The slowest, where the suite has any.
+const std::vector<std::string>& Combinations::data_of(const Block& block) {
+  static const std::vector<std::string> none{""};
+  return block.empty() || block.front().factor != "data" ? none : block.front().values;
+}
+
+bool Combinations::has(const Block& block, const Configuration& configuration) {
+  return std::ranges::all_of(block, [&](const Axis& axis) {
+    return contains(axis.values, configuration.at(axis.factor));
+  });
+}
+
+// As an odometer: the last axis turns at every step.
+void Combinations::for_each_of(const std::string& data, const Use& use) const {
+  for (auto block = blocks_.begin(); block != blocks_.end(); ++block) {
+    if (!contains(data_of(*block), data)) continue;
+    Configuration configuration;
+    for (const Axis& axis : *block) configuration[axis.factor] = axis.values.front();
+    const std::size_t first = block->empty() || block->front().factor != "data" ? 0 : 1;
+    if (first == 1) configuration["data"] = data;
+    std::vector<std::size_t> place(block->size(), 0);
+    for (std::size_t turning = first + 1; turning > first;) {
+      const auto known = [&](const Block& before) { return has(before, configuration); };
+      if (std::none_of(blocks_.begin(), block, known)) use(configuration);
+      for (turning = block->size(); turning > first; --turning) {
+        const Axis& axis = (*block)[turning - 1];
+        std::size_t& at = place[turning - 1];
+        at = at + 1 == axis.values.size() ? 0 : at + 1;
+        configuration[axis.factor] = axis.values[at];
+        if (at != 0) break;
+      }
+    }
+  }
 }
 
 }  // namespace triptych::measure

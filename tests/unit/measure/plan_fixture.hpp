@@ -17,9 +17,9 @@ class PlanTest : public ::testing::Test {
  protected:
   ~PlanTest() override { std::filesystem::remove(file_); }
 
-  Plan load(const std::string& yaml, const Overrides& overrides = {}) {
+  Plan load(const std::string& yaml, const Overrides& overrides = {}, const Shard& shard = {}) {
     std::ofstream(file_) << yaml;
-    return load_plan(file_.string(), overrides, find_);
+    return load_plan(file_.string(), overrides, find_, shard);
   }
 
   // What the plan is refused with, without the file's folder: "FILE:LINE:COLUMN: MESSAGE".

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <set>
 
@@ -172,14 +173,15 @@ TEST_F(PlanTest, KeysOfAPlanAreDistinct) {
 }
 
 TEST_F(PlanTest, ShardsAreAPartition) {
-  const Plan plan = load("suite: fake\ndata: [a, b, c, d, e]\ncamera: [p, q, r]\n");
+  const std::string yaml = "suite: fake\ndata: [a, b, c, d, e]\ncamera: [p, q, r]\n";
+  const Plan plan = load(yaml);
   for (int count = 1; count <= 17; ++count) {
     std::multiset<Configuration> all;
     std::size_t least = plan.configurations.size();
     std::size_t most = 0;
     for (int index = 1; index <= count; ++index) {
-      Plan shard = plan;
-      keep_shard(shard, index, count);
+      const Plan shard = load(yaml, {}, {index, count});
+      EXPECT_EQ(shard.varied, plan.varied);
       least = std::min(least, shard.configurations.size());
       most = std::max(most, shard.configurations.size());
       all.insert(shard.configurations.begin(), shard.configurations.end());
@@ -192,16 +194,38 @@ TEST_F(PlanTest, ShardsAreAPartition) {
 }
 
 TEST_F(PlanTest, ShardsCutAlongDataSets) {
-  Plan plan = load("suite: fake\ndata: [a, b, c, d]\ncamera: [p, q]\n");
-  keep_shard(plan, 2, 2);
+  const Plan plan = load("suite: fake\ndata: [a, b, c, d]\ncamera: [p, q]\n", {}, {2, 2});
   EXPECT_THAT(values(plan, "data"), ElementsAre("b", "b", "d", "d"));
 }
 
 TEST_F(PlanTest, ShardOutOfRange) {
-  Plan plan = load("suite: fake\n");
   for (const auto& [index, count] : {std::pair{0, 2}, {3, 2}, {1, 0}, {-1, 2}}) {
-    EXPECT_THROW(keep_shard(plan, index, count), core::InputError) << index << "/" << count;
+    EXPECT_THROW(static_cast<void>(load("suite: fake\n", {}, {index, count})), core::InputError)
+        << index << "/" << count;
   }
+}
+
+// Five million, of which a shard holds its own, and a list none.
+TEST_F(PlanTest, MillionsAreListedAndCutWithoutBeingHeld) {
+  std::string cameras;
+  for (int i = 0; i < 250; ++i) cameras += "random:" + std::to_string(i) + ", ";
+  std::string steps;
+  for (int i = 1; i <= 200; ++i) steps += std::to_string(0.05 * i) + ", ";
+  std::string data;
+  for (int i = 0; i < 101; ++i) data += "d" + std::to_string(i) + ", ";
+  const std::string yaml =
+      "suite: fake\ndata: [" + data + "]\nstep: [" + steps + "]\ncamera: [" + cameras + "]\n";
+  EXPECT_THAT(refusal(yaml), HasSubstr("--shard i/n"));
+  const Plan shard = load(yaml, {}, {7, 1000});
+  EXPECT_THAT(shard.configurations, SizeIs(5050));
+  rusage before{};
+  getrusage(RUSAGE_SELF, &before);
+  std::size_t count = 0;
+  list_plan(file_.string(), {}, find_, {}, [&](const Suite&, const Configuration&) { ++count; });
+  EXPECT_EQ(count, 5'050'000U);
+  rusage after{};
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 20 << 10) << "KiB";
 }
 
 TEST_F(PlanTest, ChecksSayWhatIsMeasured) {
