@@ -1,4 +1,5 @@
 #include "fuzzed.hpp"
+#include "record/merge/merge.hpp"
 #include "record/store.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -15,5 +16,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       }
     }
   });
+  // Which hands on what it does not look at.
+  const std::filesystem::path out = fuzz::folder() / "out.sqlite";
+  fuzz::expect_ours([&] { static_cast<void>(record::merge_stores({file}, out)); });
+  std::filesystem::remove(out);
   return fuzz::judged;
 }

@@ -171,10 +171,16 @@ WorkerLink::Died WorkerLink::bury(std::string_view before) {
 // Who ends a whole job, as a batch system does, ends the worker and us at once: that it went first
 // is no fault of its configuration.
 void WorkerLink::await_own_end() {
-  constexpr int patience_ms = 300;
-  pollfd event{interrupts_.fd(), POLLIN, 0};
-  ::poll(&event, 1, patience_ms);
-  if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
+  const Deadline deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
+  for (;;) {
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+    pollfd event{interrupts_.fd(), POLLIN, 0};
+    ::poll(&event, 1, static_cast<int>(std::max<std::int64_t>(0, left.count())));
+    if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
+    // Another thread may be about to tell of what it took.
+    if (std::chrono::steady_clock::now() >= deadline) return;
+  }
 }
 
 std::string WorkerLink::with_last_words(std::string reason) {

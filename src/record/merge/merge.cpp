@@ -96,6 +96,7 @@ class Writing {
         RecordCopy copy(sources_, *out_, data, tell);
         for (std::size_t i = 0; i < runs.size(); ++i) {
           std::vector<std::string> parts;
+          parts.reserve(inputs.size());
           for (const Input& each : inputs) parts.push_back(each.runs[i]);
           counts.push_back(copy.copy(parts, runs[i].id));
           copy_begun(parts, runs[i].id);
@@ -239,6 +240,7 @@ MergeResult merge_stores(const std::vector<fs::path>& stores, const fs::path& ou
   MergedRuns merged = merged_runs(stores);
   std::vector<Run> runs;
   std::vector<Input> inputs;
+  inputs.reserve(stores.size());
   for (const fs::path& each : stores) inputs.push_back({each, {}});
   for (MergedRun& each : merged.runs) {
     for (std::size_t i = 0; i < stores.size(); ++i) inputs[i].runs.push_back(each.parts[i]);
