@@ -100,9 +100,13 @@ std::string shared_source(const Api& gl, std::string_view constant_lines,
 }
 
 std::string volume_source(const Api& gl, const Constants& constants, std::string_view main_file) {
-  static constexpr std::array<std::string_view, 5> files{"volume_math.h", "volume_preintegration.h",
-                                                         "volume/raycast/parameters.glsl",
-                                                         "preintegrated.glsl", "raycast.glsl"};
+  std::vector<std::string_view> files{"volume_math.h", "volume_preintegration.h",
+                                      "volume/raycast/parameters.glsl"};
+  if (constants.cells) {
+    files.emplace_back("raycast_cells.glsl");
+  } else {
+    files.insert(files.end(), {"preintegrated.glsl", "raycast.glsl"});
+  }
   return shared_source(gl, constant_lines(constants), files).append(embedded(main_file));
 }
 

@@ -16,6 +16,7 @@ struct Constants {
   int fault = 0;
   int opacity_form = 0;  // technique::opacity_form of the step
   bool preintegrated = false;
+  bool cells = false;  // a source of its own
   bool leaps = false;
   bool adapt = false;
   int precision = 32;      // bits of a number: 32 or 64

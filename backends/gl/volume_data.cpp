@@ -1,11 +1,10 @@
 #include "backends/gl/volume_data.hpp"
 
-#include <array>
 #include <span>
 #include <vector>
 
 #include "technique/volume/brick_map.hpp"
-#include "technique/volume/preintegration.hpp"
+#include "technique/volume/quadrature_table.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -44,13 +43,9 @@ Buffer brick_buffer(const Api& gl, const measure::VolumeWork& work) {
   return constant_buffer(gl, std::as_bytes(std::span(map)));
 }
 
-// The same for a quadrature that does not look pairs up.
-Buffer pair_buffer(const Api& gl, const scene::VolumeScene& scene) {
-  std::vector<std::array<float, 4>> pairs(1);
-  if (scene.quadrature == scene::Quadrature::preintegrated) {
-    pairs = technique::preintegrated_pairs(scene.transfer_function);
-  }
-  return constant_buffer(gl, std::as_bytes(std::span(pairs)));
+Buffer quadrature_buffer(const Api& gl, const scene::VolumeScene& scene) {
+  const technique::QuadratureTable table = technique::quadrature_table(scene);
+  return constant_buffer(gl, std::as_bytes(std::span(table)));
 }
 
 }  // namespace
@@ -104,7 +99,7 @@ VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work)
                              work.options.sampler == technique::Sampler::hardware)),
       transfer_(transfer_texture(gl, work.scene.transfer_function)),
       bricks_(brick_buffer(gl, work)),
-      pairs_(pair_buffer(gl, work.scene)) {
+      pairs_(quadrature_buffer(gl, work.scene)) {
   parameters_ = constant_buffer(
       gl, technique::raycast_parameters(work.scene, work.options,
                                         scene::largest_stored(work.scene.grid->format)));

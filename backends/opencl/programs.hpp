@@ -21,6 +21,7 @@ struct Constants {
   bool count = false;
   bool speed_of_light = false;
   bool preintegrated = false;
+  bool cells = false;  // a source of its own
   bool leaps = false;  // technique::Skip::distance
   bool adapt = false;
   technique::Precision precision = technique::Precision::fp32;

@@ -7,15 +7,20 @@
 #include "technique/volume/brick_map.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/extra_work.hpp"
-#include "technique/volume/preintegration.hpp"
+#include "technique/volume/quadrature_table.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
 
-const std::vector<std::string_view> source_files{
-    "volume_preintegration.h", "parameters.cl", "volume.cl", "ray.cl",
-    "preintegrated.cl",        "raycast.cl"};
+std::vector<std::string_view> source_files(const Constants& constants) {
+  if (constants.cells) {
+    return {
+        "volume_preintegration.h", "parameters.cl", "volume.cl", "ray.cl", "shade.cl", "cells.cl"};
+  }
+  return {"volume_preintegration.h", "parameters.cl", "volume.cl", "ray.cl", "shade.cl",
+          "preintegrated.cl",        "raycast.cl"};
+}
 
 // Pixels of a work-group: wide enough for a GPU's waves; a CPU is indifferent.
 constexpr std::size_t group_width = 16;
@@ -28,6 +33,7 @@ Constants constants_of(const Session& session, const measure::VolumeWork& work) 
           .voxel = work.scene.grid->format,
           .shading = work.scene.shading.enabled,
           .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated,
+          .cells = work.scene.quadrature == scene::Quadrature::cells,
           .leaps = work.options.skip == technique::Skip::distance,
           .adapt = work.options.adapt > 0,
           .precision = work.options.precision,
@@ -40,12 +46,14 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
     : session_(session),
       width_(work.scene.width),
       height_(work.scene.height),
-      hash_(Programs::hash(program_source(source_files), constants.options())),
+      hash_(Programs::hash(program_source(source_files(constants)), constants.options())),
       counts_(technique::raycast_counter_stride * static_cast<std::size_t>(width_) *
               static_cast<std::size_t>(height_)) {
-  const cl::Program timed = programs.get(program_source(source_files), constants.options());
+  const cl::Program timed =
+      programs.get(program_source(source_files(constants)), constants.options());
   constants.count = true;
-  const cl::Program counting = programs.get(program_source(source_files), constants.options());
+  const cl::Program counting =
+      programs.get(program_source(source_files(constants)), constants.options());
   const VolumeCache::Entry& volume =
       volumes.get(session, *work.scene.grid, constants.sampler,
                   technique::brick_layout(work.scene, work.options.skip, work.options.adapt));
@@ -56,11 +64,8 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
     table_ = upload_bytes(session, std::as_bytes(std::span(work.scene.transfer_function.entries)));
     const std::vector<std::int32_t> map =
         technique::brick_map(volume.ranges, work.scene, work.options.skip, work.options.adapt);
-    std::vector<std::array<float, 4>> pairs(1);  // read by nothing with another quadrature
-    if (constants.preintegrated) {
-      pairs = technique::preintegrated_pairs(work.scene.transfer_function);
-    }
-    pairs_ = upload_bytes(session, std::as_bytes(std::span(pairs)));
+    const technique::QuadratureTable table = technique::quadrature_table(work.scene);
+    pairs_ = upload_bytes(session, std::as_bytes(std::span(table)));
     bricks_ = upload_bytes(session, std::as_bytes(std::span(map)));
     const int stride = work.options.extra_work_stride;
     image_ =

@@ -9,7 +9,7 @@
 #include "technique/volume/brick_map.hpp"
 #include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
-#include "technique/volume/preintegration.hpp"
+#include "technique/volume/quadrature_table.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::vulkan_backend {
@@ -33,11 +33,8 @@ Buffer upload_bricks(const Gpu& gpu, const measure::VolumeWork& work) {
 }
 
 Buffer upload_pairs(const Gpu& gpu, const scene::VolumeScene& scene) {
-  std::vector<std::array<float, 4>> pairs(1);  // read by nothing with another quadrature
-  if (scene.quadrature == scene::Quadrature::preintegrated) {
-    pairs = technique::preintegrated_pairs(scene.transfer_function);
-  }
-  return make_buffer(gpu, std::as_bytes(std::span(pairs)), vk::BufferUsageFlagBits::eStorageBuffer);
+  const technique::QuadratureTable table = technique::quadrature_table(scene);
+  return make_buffer(gpu, std::as_bytes(std::span(table)), vk::BufferUsageFlagBits::eStorageBuffer);
 }
 
 Image upload_table(const Gpu& gpu, const scene::TransferFunction& function) {
@@ -166,6 +163,11 @@ Constants constants_of(const measure::VolumeWork& work) {
 std::string_view raycast_spirv(std::string_view shader, const measure::VolumeWork& work,
                                Pass pass) {
   const std::size_t dot = shader.find('.');
+  // Cells are drawn in single precision, and in few passes (technique::raycast_reason).
+  if (work.scene.quadrature == scene::Quadrature::cells) {
+    return spirv(fmt::format("{}_cells{}{}.spv", shader.substr(0, dot),
+                             pass == Pass::counting ? "_counting" : "", shader.substr(dot)));
+  }
   return spirv(fmt::format("{}{}{}{}{}.spv", shader.substr(0, dot),
                            work.options.precision == technique::Precision::fp64 ? "_fp64" : "",
                            technique::has_long_rays(work.scene) ? "_long" : "",

@@ -24,8 +24,10 @@ struct Cubic {
 
   [[nodiscard]] double operator()(double s) const { return c0 + s * (c1 + s * (c2 + s * c3)); }
 
-  // Appends, ascending, every s in (0, 1) where the cubic passes one of 0, 1, …, 255.
-  void append_knots(std::vector<double>& at) const {
+  // Appends, ascending, every s in (0, 1) where the cubic passes one of 0, 1, …, 255 that `keep`
+  // returns true for.
+  template <typename Keep>
+  void append_knots(std::vector<double>& at, Keep keep) const {
     const std::array<double, 4> ends = monotone_ends();
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       const double lo = (*this)(ends[i]);
@@ -33,12 +35,15 @@ struct Cubic {
       const double first = std::max(std::ceil(std::min(lo, hi)), 0.0);
       const double last = std::min(std::floor(std::max(lo, hi)), 255.0);
       for (double n = 0.0; n <= last - first; n += 1.0) {
-        at.push_back(solve(lo < hi ? first + n : last - n, ends[i], ends[i + 1]));
+        const double knot = lo < hi ? first + n : last - n;
+        if (keep(knot)) at.push_back(solve(knot, ends[i], ends[i + 1]));
       }
     }
   }
+  void append_knots(std::vector<double>& at) const {
+    append_knots(at, [](double) { return true; });
+  }
 
- private:
   // 0, the extrema inside (0, 1) and 1, ascending; 0 or 1 repeated where there are fewer.
   [[nodiscard]] std::array<double, 4> monotone_ends() const {
     std::array<double, 4> ends{0.0, 0.0, 1.0, 1.0};
@@ -56,6 +61,7 @@ struct Cubic {
     return ends;
   }
 
+ private:
   // Bisection on a monotone stretch, to 2⁻⁴⁰ of it.
   [[nodiscard]] double solve(double value, double a, double b) const {
     const bool rising = (*this)(a) < (*this)(b);

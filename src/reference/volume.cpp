@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "reference/cell_rule.hpp"
 #include "reference/composite.hpp"
 #include "reference/drawing.hpp"
 #include "reference/field.hpp"
@@ -32,23 +33,33 @@ class Raycaster {
         rays_(scene, model.position_error_voxels),
         compositor_(model, scene.background),
         segments_(table, model),
+        cells_(scene, model, field, table),
         smallest_spacing_(scene.smallest_spacing()),
         gradient_scale_(gradient_scale(*scene.grid)) {}
 
   [[nodiscard]] Pixel operator()(int x, int y) {
     compositor_.start();
     const std::optional<Ray> ray = rays_(x, y);
-    if (ray && scene_.quadrature == scene::Quadrature::preintegrated) {
-      walk_segments(*ray);
-    } else if (ray) {
-      walk(*ray);
-    }
+    if (ray) walk(*ray, scene_.quadrature);
     return compositor_.finish();
   }
 
  private:
+  void walk(const Ray& ray, scene::Quadrature quadrature) {
+    switch (quadrature) {
+      case scene::Quadrature::midpoint:
+        return walk_samples(ray);
+      case scene::Quadrature::preintegrated:
+        return walk_segments(ray);
+      case scene::Quadrature::cells:
+        return cells_.walk(ray, [&](const Looked& looked, const StepOpacity& opacity) {
+          return compositor_.add(looked, opacity);
+        });
+    }
+  }
+
   // All lengths below are in voxel lengths, so that they are the exponents of the opacity.
-  void walk(const Ray& ray) {
+  void walk_samples(const Ray& ray) {
     const double step = scene_.step_voxels;
     const StepLength chord{ray.length / smallest_spacing_, ray.shortest / smallest_spacing_,
                            ray.longest / smallest_spacing_};
@@ -66,7 +77,7 @@ class Raycaster {
     }
   }
 
-  // As walk, by values at the ends of the steps. The last step ends where the ray does, which is as
+  // The same by values at the ends of the steps. The last step ends where the ray does, which is as
   // uncertain as its length is.
   void walk_segments(const Ray& ray) {
     const double step = scene_.step_voxels;
@@ -118,6 +129,7 @@ class Raycaster {
   RayMaker rays_;
   Compositor compositor_;
   Preintegration segments_;
+  CellRule<Stored> cells_;
   double smallest_spacing_;
   glm::dvec3 gradient_scale_;
 };

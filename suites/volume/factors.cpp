@@ -37,10 +37,11 @@ const std::vector<Factor>& volume_factors() {
              "distance of samples in smallest voxel spacings; own, here and below: a stress case's "
              "own, the default for all other data",
              {std::string(own_level)}),
-      choice("quadrature", {"midpoint", "preintegrated", std::string(own_level)}, "midpoint",
-             Decides::the_picture,
-             "rule for the ray integral: one sample for a step, or the transfer function "
-             "integrated between the values at its ends"),
+      choice("quadrature", {"midpoint", "preintegrated", "cells", std::string(own_level)},
+             "midpoint", Decides::the_picture,
+             "rule for the ray integral: one sample for a step; the transfer function integrated "
+             "between the values at its ends; or, of fourth order, from voxel plane to voxel plane "
+             "in ⌈1/step⌉ parts and at the kinks of the transfer function"),
       choice("shading", {"none", "gradient", std::string(own_level)}, "none", Decides::the_picture,
              "headlight from central differences"),
       choice("skip", {"none", "bricks", "distance"},

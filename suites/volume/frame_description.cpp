@@ -26,8 +26,7 @@ Json describe_frame(const scene::VolumeScene& scene, double ert, double adapt) {
                {"spacing", grid.spacing},
                {"range", {grid.range_lo, grid.range_hi}},
                {"step_voxels", scene.step_voxels},
-               {"quadrature", scene.quadrature == scene::Quadrature::preintegrated ? "preintegrated"
-                                                                                   : "midpoint"},
+               {"quadrature", scene::name_of(scene.quadrature)},
                {"transfer_function", scene.transfer_function.entries},
                {"background", scene.background},
                {"ert", ert},

@@ -34,8 +34,7 @@ bool OwnLevels::shaded() const {
 
 scene::Quadrature OwnLevels::quadrature() const {
   if (is_stress("quadrature")) return stress_->quadrature;
-  return value("quadrature") == "preintegrated" ? scene::Quadrature::preintegrated
-                                                : scene::Quadrature::midpoint;
+  return scene::quadrature(value("quadrature"));
 }
 
 std::array<int, 2> OwnLevels::viewport() const {

@@ -25,6 +25,11 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
     plain.levels["skip"] = technique::name_of(technique::Skip::none);
     plain.why["skip"] = "no brick of this scene is empty";
   }
+  const bool cells = work.scene.quadrature == scene::Quadrature::cells;
+  if (cells && work.scene.step_voxels > 1) {
+    plain.levels["step"] = "1";
+    plain.why["step"] = "a step longer than a cell cuts none of it";
+  }
   return plain;
 }
 

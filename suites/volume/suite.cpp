@@ -153,18 +153,22 @@ scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
   };
 }
 
-// No device's sampler interpolates in double precision, and floats would round integers.
+// No device's sampler interpolates in double precision, and floats would round integers. Quadrature
+// cells asks no sampler.
 measure::VolumePath default_path(const measure::Device& device, scene::VoxelFormat native,
-                                 technique::Precision precision) {
-  if (precision == technique::Precision::fp64) return {native, technique::Sampler::manual};
+                                 technique::Precision precision, scene::Quadrature quadrature) {
+  if (precision == technique::Precision::fp64 || quadrature == scene::Quadrature::cells) {
+    return {native, technique::Sampler::manual};
+  }
   return device.default_path(native);
 }
 
 measure::Work VolumeSuite::work(Configuration& configuration, const measure::Device& device) {
   const technique::Precision precision = technique::precision(configuration.at("precision"));
+  const scene::Quadrature quadrature = levels_of(configuration, {}).quadrature();
   measure::VolumePath path;
   const auto choose = [&](scene::VoxelFormat native) {
-    path = default_path(device, native, precision);
+    path = default_path(device, native, precision, quadrature);
     if (configuration.at("voxel") != "auto")
       path.voxel = scene::voxel_format(configuration.at("voxel"));
     return path.voxel;

@@ -66,17 +66,19 @@ reference::ErrorModel error_model(const scene::VolumeScene& scene, const PathPre
   const scene::VoxelGrid& grid = *scene.grid;
   const double format_range = std::abs(grid.scale) * scene::largest_stored(grid.format);
   const double magnitude = format_range + std::abs(grid.offset);
+  const bool midpoint = scene.quadrature == scene::Quadrature::midpoint;
   const bool preintegrated = scene.quadrature == scene::Quadrature::preintegrated;
+  const bool cells = scene.quadrature == scene::Quadrature::cells;
   const double filter = next_power_of_two(std::max(path.filter_weight_error, u));
   return {
       .position_error_voxels = position_error(scene, u),
-      .value_error =
-          13 * u * std::max(magnitude, 1.0) + path.storage_step / 2 + filter * format_range,
+      .value_error = 13 * u * std::max(magnitude, 1.0) + (cells ? 84 * u * format_range : 0) +
+                     path.storage_step / 2 + filter * format_range,
       .filter_weight_error = filter,
       .table_error = (preintegrated ? 4 : 3) * u,
-      .opacity_error = (preintegrated ? 32
-                        : fp64        ? 18
-                                      : 14) *
+      .opacity_error = (!midpoint ? 32
+                        : fp64    ? 18
+                                  : 14) *
                        u,
       .compositing_error = 4 * u,
       .ert = path.ert,

@@ -44,7 +44,9 @@ struct PathPrecision {
 // value, normalised. Three nested interpolations a + f·(b − a), 3u each of the largest stored
 // value, then
 //   stored·scale + offset, 2u: 11u·M, M = |scale|·stored_max + |offset|; a u of the table position
-//   256·x − ½ twice more: 13u·M. Half a storage step where the voxel format loses values.
+//   256·x − ½ twice more: 13u·M. Half a storage step where the voxel format loses values. Cells
+//   make a cubic of the eight voxels: its terms are products of at most four factors, summed in
+//   turn, 6u each, and together at most 14 times the range R of the format: 84u·R more.
 // filter. The probed error of the weights, rounded up to a power of two; never less than u. A
 // sampler
 //   that rounds its result to the steps of the format errs by that much between equal voxels too;
@@ -56,7 +58,9 @@ struct PathPrecision {
 // the
 //   step 2u: 14u. Preintegrated: the logarithm's mean (8u and 3u of its series), a piece's length
 //   (share 2u, division by the difference of two positions 4u, product 2u), the exponential 8u, and
-//   three pieces put together, 1u each for product and sum: 32u.
+//   three pieces put together, 1u each for product and sum: 32u. Cells: two logarithms, 9u, their
+//   sum and three products of lengths 5u, the exponential 3u, and as much again for the lengths
+//   themselves, whose differences cancel from piece to piece: below the same 32u.
 // adapt. Itself: technique/volume/brick_kinds.hpp derives it between two pictures of one device,
 // and
 //   the one without is what all other terms are about. A merged sample's own arithmetic is theirs:

@@ -174,11 +174,15 @@ TEST(CountedAsTimed, VolumesHaveOnePicture) {
     for (const char* technique : {"raycast", "raycast_fragment"}) {
       for (const Skip skip : all_skips) {
         for (const double adapt : {0.0, 1.0 / 255}) {
-          SCOPED_TRACE(technique);
-          work.technique = technique;
-          std::get<VolumeWork>(work.scene).options.skip = skip;
-          std::get<VolumeWork>(work.scene).options.adapt = adapt;
-          if (!device.unsupported(work)) expect_one_picture(device, work);
+          for (const auto rule : {scene::Quadrature::midpoint, scene::Quadrature::cells}) {
+            SCOPED_TRACE(technique);
+            work.technique = technique;
+            auto& volume = std::get<VolumeWork>(work.scene);
+            volume.options.skip = skip;
+            volume.options.adapt = adapt;
+            volume.scene.quadrature = rule;
+            if (!device.unsupported(work)) expect_one_picture(device, work);
+          }
         }
       }
     }

@@ -6,8 +6,12 @@
 #include "portable/volume_math.h"
 #include "portable/volume_preintegration.h"
 #include "volume/raycast/parameters.glsl"
+#if TRI_CELLS
+#include "volume/raycast/raycast_cells.glsl"
+#else
 #include "volume/raycast/preintegrated.glsl"
 #include "volume/raycast/raycast.glsl"
+#endif
 
 // A group takes a tile of 8×8 pixels, in an order that gives every 8, 16 or 32 consecutive invocations,
 // whichever a device runs in step, a compact block: rays of one block walk alike.

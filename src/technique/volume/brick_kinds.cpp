@@ -177,8 +177,8 @@ std::optional<std::string> adapt_reason(std::string_view technique, const scene:
   if (technique == "speed_of_light") {
     return "speed_of_light takes every sample of the lattice: adapt merges some";
   }
-  if (scene.quadrature == scene::Quadrature::preintegrated) {
-    return "adapt merges samples of the midpoint rule: a preintegrated step ends at its own values";
+  if (scene.quadrature != scene::Quadrature::midpoint) {
+    return "adapt merges samples of the midpoint rule: other quadratures have none in the middle";
   }
   if (options.skip == Skip::none) return "adapt merges samples by bricks, and skip none has none";
   if (options.skip == Skip::distance) {

@@ -131,7 +131,9 @@ BrickLayout bricks_of_cells(const std::array<int, 3>& size) {
 
 BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip, double adapt) {
   BrickLayout layout;
+  const bool cells = scene.quadrature == scene::Quadrature::cells;
   if (skip == Skip::distance) layout = bricks_of_cells(scene.grid->size);
+  if (cells) layout = {.edge = layout.edge, .border = 0, .of_cells = true};
   if (adapt > 0 && scene.shading.enabled) layout.border += 1;
   if (scene.quadrature == scene::Quadrature::preintegrated) {
     const double half = scene.step_voxels / 2;

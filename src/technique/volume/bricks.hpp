@@ -31,6 +31,7 @@ struct BrickLayout {
 //   rounding takes across a face reads others with a weight of that rounding, at most 1e-3,
 //   which is less than the table entry by which visibility is widened. The edge is 2, and doubled
 //   while the map would take more than 128 MiB.
+// Quadrature::cells reads a cell's own eight voxels: bricks of cells either way.
 // `adapt` (RaycastOptions): shading reads one voxel farther, and what it reads has to lie in the
 //   range as well where samples are merged.
 [[nodiscard]] BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip,

@@ -7,7 +7,7 @@
 
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/extra_work.hpp"
-#include "technique/volume/preintegration.hpp"
+#include "technique/volume/quadrature_table.hpp"
 
 namespace triptych::technique {
 namespace {
@@ -17,17 +17,15 @@ constexpr std::uint64_t word = sizeof(std::uint32_t);
 }  // namespace
 
 RaycastBuffers raycast_buffers(const scene::VolumeScene& scene, const RaycastOptions& options) {
-  const std::uint64_t entries = scene.transfer_function.entries.size();
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
   const auto drawn = static_cast<std::uint64_t>(
       drawn_pixels(scene.width, scene.height, options.extra_work_stride));
-  const bool looks_up_pairs = scene.quadrature == scene::Quadrature::preintegrated;
   return {
       .picture = 4 * word * drawn,
       .counters = raycast_counter_stride * word * pixels,
       .bricks = brick_map_bytes(scene.grid->size, brick_layout(scene, options.skip, options.adapt)),
-      .pairs = looks_up_pairs ? 4 * word * texels_per_pair * entries * entries : 4 * word};
+      .table = quadrature_table_bytes(scene.quadrature)};
 }
 
 std::optional<std::string> buffer_reason(const RaycastBuffers& buffers, std::uint64_t most,
@@ -36,7 +34,7 @@ std::optional<std::string> buffer_reason(const RaycastBuffers& buffers, std::uin
            {{"picture", buffers.picture},
             {"counters", buffers.counters},
             {"brick map", buffers.bricks},
-            {"table of pairs", buffers.pairs}})) {
+            {"table of its quadrature", buffers.table}})) {
     if (bytes <= most) continue;
     return fmt::format("the raycaster needs {} bytes for its {}; {} = {}", bytes, name, limit,
                        most);

@@ -16,9 +16,9 @@ struct RaycastBuffers {
   std::uint64_t picture = 0;   // with what planted work leaves behind (extra_work.hpp)
   std::uint64_t counters = 0;  // of the frame that counts
   std::uint64_t bricks = 0;    // a word per brick; held though not read where nothing is skipped
-  std::uint64_t pairs = 0;     // of quadrature preintegrated
+  std::uint64_t table = 0;     // of its quadrature (quadrature_table.hpp)
 
-  [[nodiscard]] std::uint64_t all() const { return picture + counters + bricks + pairs; }
+  [[nodiscard]] std::uint64_t all() const { return picture + counters + bricks + table; }
 };
 [[nodiscard]] RaycastBuffers raycast_buffers(const scene::VolumeScene& scene,
                                              const RaycastOptions& options);

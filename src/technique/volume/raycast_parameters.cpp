@@ -57,7 +57,7 @@ BasicRaycastParameters<Real> parameters_of(const scene::VolumeScene& scene,
       .ray_up = pack<Real>(scene.camera.up * half, light.gradient_floor),
       .inverse_spacing = pack<Real>(1.0 / spacing, scene.smallest_spacing()),
       .value_map = value_map<Real>(grid, stored_maximum, plane),
-      .shading = pack<Real>(light.ambient, light.diffuse, light.specular, 0),
+      .shading = pack<Real>(light.ambient, light.diffuse, light.specular, scene.parts_of_cell()),
       .background = {background[0], background[1], background[2], background[3]},
       .volume_size = {grid.size[0], grid.size[1], grid.size[2],
                       std::countr_zero(static_cast<unsigned>(light.exponent))},
@@ -70,6 +70,24 @@ template <class Real>
 std::vector<std::byte> bytes_of(const BasicRaycastParameters<Real>& parameters) {
   const auto bytes = std::as_bytes(std::span(&parameters, 1));
   return {bytes.begin(), bytes.end()};
+}
+
+// A pass of the raycaster's loop takes a piece of a cell, and long_rays.hpp says why they are
+// counted. A ray crosses as many planes as all axes have voxels, at most.
+std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
+                                        const RaycastOptions& options) {
+  if (options.sampler == Sampler::hardware) {
+    return "quadrature cells reads the voxels of a cell itself: it is for sampler manual";
+  }
+  constexpr std::int64_t most_passes = 32'768;
+  const auto [nx, ny, nz] = scene.grid->size;
+  const std::int64_t cells = std::int64_t{nx} + ny + nz;
+  if (cells * (1 + scene.parts_of_cell()) <= most_passes) return std::nullopt;
+  return fmt::format(
+      "quadrature cells would cut a ray into {} cells of {} parts, and some drivers end loops of "
+      "so "
+      "many passes: take a longer step",
+      cells, scene.parts_of_cell());
 }
 
 }  // namespace
@@ -114,19 +132,26 @@ Precision precision(std::string_view name) {
 std::optional<std::string> raycast_reason(std::string_view technique,
                                           const scene::VolumeScene& scene,
                                           const RaycastOptions& options) {
-  const bool preintegrated = scene.quadrature == scene::Quadrature::preintegrated;
-  if (technique == "speed_of_light" && preintegrated) {
-    return "speed_of_light bounds the midpoint rule: its fetches and look-ups are not those of "
-           "quadrature preintegrated";
+  const bool midpoint = scene.quadrature == scene::Quadrature::midpoint;
+  const std::string_view quadrature = scene::name_of(scene.quadrature);
+  if (technique == "speed_of_light" && !midpoint) {
+    return fmt::format(
+        "speed_of_light bounds the midpoint rule: its fetches and look-ups are not those of "
+        "quadrature {}",
+        quadrature);
+  }
+  if (scene.quadrature == scene::Quadrature::cells) {
+    if (auto reason = cells_reason(scene, options)) return reason;
   }
   if (auto reason = adapt_reason(technique, scene, options)) return reason;
   if (options.precision == Precision::fp32) return std::nullopt;
   if (technique == "speed_of_light") {
     return "speed_of_light bounds precision fp32: it fetches, and computes nothing of note";
   }
-  if (preintegrated) {
-    return "quadrature preintegrated looks up integrals in single precision: precision fp64 is for "
-           "quadrature midpoint";
+  if (!midpoint) {
+    return fmt::format(
+        "quadrature {} computes in single precision: precision fp64 is for quadrature midpoint",
+        quadrature);
   }
   if (options.sampler == Sampler::hardware) {
     return "a device's sampler interpolates in single precision at best: precision fp64 is for "

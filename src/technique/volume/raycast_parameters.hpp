@@ -71,7 +71,7 @@ struct BasicRaycastParameters {
   // x, y: normalised = stored·x + y; z: ray_plane; w: with doubles, what a texel is to be
   // multiplied by to be the integer that is stored, and 0 where it is that already; else 0
   Four value_map;
-  Four shading;                             // ambient, diffuse, specular, 0
+  Four shading;                             // ambient, diffuse, specular; w: parts of a cell
   Four background;                          // premultiplied RGBA
   std::array<std::int32_t, 4> volume_size;  // voxels; w: log2 of the specular exponent
   std::array<std::int32_t, 4>

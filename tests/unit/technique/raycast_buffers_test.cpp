@@ -7,7 +7,7 @@
 #include "scene/generators.hpp"
 #include "technique/volume/brick_map.hpp"
 #include "technique/volume/extra_work.hpp"
-#include "technique/volume/preintegration.hpp"
+#include "technique/volume/quadrature_table.hpp"
 
 namespace triptych::technique {
 namespace {
@@ -25,7 +25,8 @@ scene::VolumeScene scene_of(std::array<int, 3> size) {
 TEST(RaycastBuffers, AreThoseThatAreMade) {
   for (const std::array<int, 3> size : {std::array{1, 1, 1}, {2, 3, 4}, {24, 17, 9}}) {
     scene::VolumeScene scene = scene_of(size);
-    for (const auto quadrature : {scene::Quadrature::midpoint, scene::Quadrature::preintegrated}) {
+    for (const auto quadrature : {scene::Quadrature::midpoint, scene::Quadrature::preintegrated,
+                                  scene::Quadrature::cells}) {
       scene.quadrature = quadrature;
       for (const Skip skip : {Skip::bricks, Skip::distance}) {
         const auto map = brick_map(scene, skip);
@@ -34,12 +35,11 @@ TEST(RaycastBuffers, AreThoseThatAreMade) {
             << size[0] << ' ' << name_of(skip);
       }
     }
-    const auto pairs = preintegrated_pairs(scene.transfer_function);
     const RaycastBuffers buffers = raycast_buffers(scene, {.extra_work_stride = 5});
-    EXPECT_EQ(buffers.pairs, std::as_bytes(std::span(pairs)).size());
+    EXPECT_EQ(buffers.table, quadrature_table_bytes(scene.quadrature));
     EXPECT_EQ(buffers.counters, 61U * 40U * 32U);
     EXPECT_EQ(buffers.picture, 16U * static_cast<std::uint64_t>(drawn_pixels(61, 40, 5)));
-    EXPECT_EQ(buffers.all(), buffers.pairs + buffers.counters + buffers.picture + buffers.bricks);
+    EXPECT_EQ(buffers.all(), buffers.table + buffers.counters + buffers.picture + buffers.bricks);
   }
 }
 

@@ -1,0 +1,274 @@
+#pragma once
+// Quadrature::cells along one ray, with its error.
+//
+// A piece is integrated by Gauss's rule with two points: its depth is its length times the mean of
+// their extinctions τ₁ and τ₂; its colour c₁ + f·(c₂ − c₁), as colour is taken to run straight in
+// the share y of the depth passed. Collocation puts the points at y = ½ ∓ (1 ± δ)/(2√3), with
+// δ = (τ₂ − τ₁)/(τ₁ + τ₂), and the mean of y under e^(−Dy) is ½ − ½·L(D/2), L(z) = coth z − 1/z:
+//   f = ½·(1 + δ − √3·L(D/2)), within [0, 1].
+//
+// A device cuts and looks elsewhere than this one, by its errors of position and value. The exact
+// integral does not depend on the cuts, so what its picture may differ by is
+//   how the integrand changes along the way: errors of the values at the points, as of a sample;
+//   plus the rule's own error here and there. It is measured: halving a piece leaves a sixteenth of
+//   it, so the change by that is 15/16 of it. Where an extremum of the field stands within the
+//   error of a kink, a device may leave a piece whole that is cut in two here, which multiplies it
+//   by 16.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <limits>
+#include <vector>
+
+#include "reference/cubic.hpp"
+#include "reference/drawing.hpp"
+#include "reference/field.hpp"
+#include "reference/opacity.hpp"
+#include "reference/ray.hpp"
+#include "reference/shading.hpp"
+#include "reference/table.hpp"
+#include "reference/volume.hpp"
+#include "scene/kinks.hpp"
+
+namespace triptych::reference {
+
+template <typename Stored>
+class CellRule {
+ public:
+  CellRule(const scene::VolumeScene& scene, const ErrorModel& model, const Field<Stored>& field,
+           const Table& table)
+      : scene_(scene),
+        model_(model),
+        field_(field),
+        table_(table),
+        kinks_(scene::kinks(scene.transfer_function)),
+        parts_(scene.parts_of_cell()),
+        smallest_spacing_(scene.smallest_spacing()),
+        gradient_scale_(gradient_scale(*scene.grid)) {}
+
+  // Calls take(looked, opacity) for every piece that a device may see, front to back, until it
+  // returns false. Of `looked` the alpha is not used.
+  template <typename Take>
+  void walk(const Ray& ray, Take take) {
+    cut_at_planes(ray);
+    for (std::size_t i = 0; i + 1 < planes_.size(); ++i) {
+      for (int part = 0; part < parts_; ++part) {
+        const double width = planes_[i + 1] - planes_[i];
+        const double begin = planes_[i] + width * part / parts_;
+        const double end =
+            part + 1 < parts_ ? planes_[i] + width * (part + 1) / parts_ : planes_[i + 1];
+        if (!walk_part(ray, begin, end, take)) return;
+      }
+    }
+  }
+
+ private:
+  // Light and opacity of a piece, and the errors of both.
+  struct Piece {
+    Looked looked;
+    StepOpacity opacity;
+    bool visible = false;
+  };
+
+  // Distances from the entry, ascending, both ends included.
+  void cut_at_planes(const Ray& ray) {
+    planes_.assign({0.0, ray.length});
+    for (int axis = 0; axis < 3; ++axis) {
+      const double speed = ray.voxels_per_unit[axis];
+      if (speed == 0.0) continue;
+      const double a = ray.entry[axis];
+      const double b = a + ray.length * speed;
+      const int last = scene_.grid->size[static_cast<std::size_t>(axis)] - 1;
+      const int from = std::max(static_cast<int>(std::floor(std::min(a, b))), 0);
+      const int to = std::min(static_cast<int>(std::ceil(std::max(a, b))), last);
+      for (int k = from; k <= to; ++k) {
+        const double t = (k + 0.5 - a) / speed;
+        if (t > 0.0 && t < ray.length) planes_.push_back(t);
+      }
+    }
+    std::sort(planes_.begin(), planes_.end());
+  }
+
+  // Positions among the table's entries along a part of a cell.
+  [[nodiscard]] Cubic cubic_of(const Ray& ray, double begin, double end) const {
+    std::array<double, 4> u;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const double t = begin + (end - begin) * static_cast<double>(i) / 3.0;
+      u[i] = Table::knot_of(field_.at(ray.entry + t * ray.voxels_per_unit));
+    }
+    return Cubic::through(u);
+  }
+
+  [[nodiscard]] bool is_kink(double knot) const { return kinks_[static_cast<std::size_t>(knot)]; }
+
+  // Whether a device may see an extremum pass a kink that it does not pass here, or the reverse.
+  [[nodiscard]] bool touches_a_kink(const Cubic& cubic, double error) const {
+    const std::array<double, 4> ends = cubic.monotone_ends();
+    return std::any_of(ends.begin() + 1, ends.end() - 1, [&](double s) {
+      if (s <= 0.0 || s >= 1.0) return false;
+      const double lowest = std::clamp(std::ceil(cubic(s) - error), 0.0, 256.0);
+      const double highest = std::clamp(std::floor(cubic(s) + error), -1.0, 255.0);
+      for (double k = lowest; k <= highest; k += 1.0) {
+        if (is_kink(k)) return true;
+      }
+      return false;
+    });
+  }
+
+  template <typename Take>
+  bool walk_part(const Ray& ray, double begin, double end, Take& take) {
+    const Cubic cubic = cubic_of(ray, begin, end);
+    const auto [lowest, highest] = bounds(cubic);
+    const glm::dvec3 middle = ray.entry + 0.5 * (begin + end) * ray.voxels_per_unit;
+    const double error = 256.0 * field_.at(middle, ray.position_error).error;
+    const auto place = [](double u) { return std::clamp(u, 0.0, 255.0); };
+    if (table_.transparent({place(lowest), place(lowest - error), place(highest + error)}))
+      return true;
+    const double doubt = touches_a_kink(cubic, error) ? 18.0 : 2.2;
+    cuts_.assign({0.0});
+    cubic.append_knots(cuts_, [&](double knot) { return is_kink(knot); });
+    cuts_.push_back(1.0);
+    for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
+      const double from = begin + (end - begin) * cuts_[i];
+      const double to = i + 2 < cuts_.size() ? begin + (end - begin) * cuts_[i + 1] : end;
+      const Piece piece = judged_piece(ray, from, to, doubt);
+      if (piece.visible && !take(piece.looked, piece.opacity)) return false;
+    }
+    return true;
+  }
+
+  // Least and largest value on the part, by the cubic's Bernstein coefficients.
+  [[nodiscard]] static std::pair<double, double> bounds(const Cubic& cubic) {
+    const double b0 = cubic.c0;
+    const double b1 = b0 + cubic.c1 / 3.0;
+    const double b2 = b1 + (cubic.c1 + cubic.c2) / 3.0;
+    const double b3 = b0 + cubic.c1 + cubic.c2 + cubic.c3;
+    return std::minmax({b0, b1, b2, b3});
+  }
+
+  // The ends of the chord are uncertain, by as much for the first piece as for the last.
+  [[nodiscard]] StepLength length_of(const Ray& ray, double from, double to) const {
+    const double nominal = (to - from) / smallest_spacing_;
+    double slack = 0.0;
+    if (from <= 0.0 || to >= ray.length) {
+      slack = std::max(ray.longest - ray.length, ray.length - ray.shortest) / smallest_spacing_;
+    }
+    return {nominal, std::max(nominal - slack, 0.0), nominal + slack};
+  }
+
+  [[nodiscard]] Piece judged_piece(const Ray& ray, double from, double to, double doubt) const {
+    Piece piece = gauss(ray, from, to, length_of(ray, from, to));
+    if (!piece.visible) return piece;
+    const double middle = 0.5 * (from + to);
+    const double half = 0.5 * (to - from) / smallest_spacing_;
+    const Piece front = gauss(ray, from, middle, {half, half, half});
+    const Piece back = gauss(ray, middle, to, {half, half, half});
+    const double left = 1.0 - front.opacity.nominal;
+    StepOpacity& opacity = piece.opacity;
+    const double change =
+        doubt * std::abs(front.opacity.nominal + left * back.opacity.nominal - opacity.nominal);
+    opacity.lo = std::max(opacity.lo - change, 0.0);
+    opacity.hi = std::min(opacity.hi + change, 1.0);
+    if (!(opacity.hi > 0.0)) return piece;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double light = opacity.nominal * piece.looked.colour[i];
+      const double halved = front.opacity.nominal * front.looked.colour[i] +
+                            left * back.opacity.nominal * back.looked.colour[i];
+      piece.looked.colour_error[i] += doubt * std::abs(halved - light) / opacity.hi;
+    }
+    return piece;
+  }
+
+  // An extinction that a point finds, and the least and most that a device may.
+  struct Extinction {
+    double nominal;
+    double lo;
+    double hi;
+  };
+  [[nodiscard]] static Extinction extinction(const Looked& looked) {
+    const auto of = [](double alpha) {
+      constexpr double opaque = 8192 * 0.693147180559945309;
+      return alpha < 1.0 ? -std::log1p(-alpha) : opaque;
+    };
+    return {of(looked.alpha), of(looked.alpha_lo), of(looked.alpha_hi)};
+  }
+
+  [[nodiscard]] Looked look(const Ray& ray, double t) const {
+    const glm::dvec3 p = ray.entry + t * ray.voxels_per_unit;
+    return table_.look_up(Table::span_of(field_.at(p, ray.position_error)));
+  }
+
+  // Both points of a visible piece, even one without opacity: the colour between them is.
+  void shade_at(const Ray& ray, double t, Looked& looked) const {
+    const glm::dvec3 p = ray.entry + t * ray.voxels_per_unit;
+    const double rounding = model_.compositing_error;
+    shade(
+        looked,
+        headlight_cosine(field_, ray, p, gradient_scale_, scene_.shading.gradient_floor, rounding),
+        scene_.shading, rounding);
+  }
+
+  [[nodiscard]] static double opacity_of(double depth) { return -std::expm1(-depth); }
+
+  // coth z − 1/z, by its series where that cancels: below 1e-15 for z < 0.05.
+  [[nodiscard]] static double langevin(double z) {
+    if (z < 0.05) return z * (1.0 / 3.0 - z * z * (1.0 / 45.0 - z * z * 2.0 / 945.0));
+    return 1.0 / std::tanh(z) - 1.0 / z;
+  }
+
+  [[nodiscard]] static double share(double a, double b, double attenuation) {
+    const double sum = a + b;
+    const double tilt = sum > 0.0 ? (b - a) / sum : 0.0;
+    return std::clamp(0.5 * (1.0 + tilt - std::sqrt(3.0) * attenuation), 0.0, 1.0);
+  }
+
+  [[nodiscard]] Piece gauss(const Ray& ray, double from, double to,
+                            const StepLength& length) const {
+    const double middle = 0.5 * (from + to);
+    const double apart = (to - from) * (0.5 / std::sqrt(3.0));
+    Looked a = look(ray, middle - apart);
+    Looked b = look(ray, middle + apart);
+    Piece piece;
+    piece.visible = a.alpha_hi > 0.0 || b.alpha_hi > 0.0;
+    if (!piece.visible) return piece;
+    if (scene_.shading.enabled) {
+      shade_at(ray, middle - apart, a);
+      shade_at(ray, middle + apart, b);
+    }
+    const Extinction ta = extinction(a);
+    const Extinction tb = extinction(b);
+    const double depth = 0.5 * length.nominal * (ta.nominal + tb.nominal);
+    const double depth_lo = 0.5 * length.shortest * (ta.lo + tb.lo);
+    const double depth_hi = 0.5 * length.longest * (ta.hi + tb.hi);
+    piece.opacity.nominal = opacity_of(depth);
+    piece.opacity.lo = opacity_of(depth_lo) * std::max(1.0 - model_.opacity_error, 0.0);
+    piece.opacity.hi = std::min(opacity_of(depth_hi) * (1.0 + model_.opacity_error), 1.0);
+    const double f = share(ta.nominal, tb.nominal, langevin(0.5 * depth));
+    const double f_lo = share(ta.hi, tb.lo, langevin(0.5 * depth_hi));
+    const double f_hi = share(ta.lo, tb.hi, langevin(0.5 * depth_lo));
+    const double rounding = 8.0 * model_.compositing_error;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double range = std::abs(b.colour[i] - a.colour[i]);
+      piece.looked.colour[i] = a.colour[i] + f * (b.colour[i] - a.colour[i]);
+      piece.looked.colour_error[i] = std::max(a.colour_error[i], b.colour_error[i]) +
+                                     range * std::max(f_hi - f, f - f_lo) + rounding;
+    }
+    return piece;
+  }
+
+  const scene::VolumeScene& scene_;
+  const ErrorModel& model_;
+  const Field<Stored>& field_;
+  const Table& table_;
+  std::array<bool, 256> kinks_;
+  int parts_;
+  double smallest_spacing_;
+  glm::dvec3 gradient_scale_;
+  std::vector<double> planes_;
+  std::vector<double> cuts_;
+};
+
+}  // namespace triptych::reference

@@ -1,0 +1,141 @@
+// What every raycaster reads: rays, values of the field, the transfer function, shading. Positions are in
+// voxels, lengths along the ray in steps. Also what it counts and gathers.
+
+const int fault_half_voxel_shift = 1;
+const int fault_flipped_axis = 2;
+const int fault_extra_sample = 3;
+const int fault_uncorrected_opacity = 4;
+const int fault_coarse_filter = 5;
+
+// Counted only where TRI_COUNT is 1; the timed build drops it.
+uint count_samples = 0u;
+uint count_nonzero = 0u;
+uint count_bricks_visited = 0u;
+uint count_bricks_skipped = 0u;
+uint count_terminated = 0u;
+
+// What every sample needs of the parameters, loaded once per ray: a uniform named inside the loop is
+// loaded again for every sample by compilers that do not move loads out of loops.
+struct Grid {
+  real3 inverse_size;
+  ivec3 last;           // largest index per axis
+  real2 value_map;
+  real stored_maximum;  // in double precision, of voxels that are integers; else 0
+};
+
+Grid load_grid() {
+  Grid grid;
+  grid.inverse_size = 1.0 / real3(u.volume_size.xyz);
+  grid.last = u.volume_size.xyz - 1;
+  grid.value_map = u.value_map.xy;
+  grid.stored_maximum = u.value_map.w;
+  return grid;
+}
+
+// What is stored. A texel of u8 or u16 is its integer over the largest one, rounded to float: doubles get
+// the integer itself.
+real voxel(Grid grid, ivec3 at) {
+  float texel = texelFetch(volume_texture, at, 0).r;
+#if TRI_PRECISION == 64
+  if (grid.stored_maximum > 0.0) return floor(real(texel) * grid.stored_maximum + 0.5);
+#endif
+  return texel;
+}
+
+// Trilinear by hand: texels floor(q), floor(q)+1 with q = p − ½, clamped to the edge.
+real fetch_manual(Grid grid, real3 p) {
+  real3 q = p - 0.5;
+  real3 base = floor(q);
+  real3 f = q - base;
+  if (TRI_FAULT == fault_coarse_filter) f = floor(f * 256.0 + 0.5) / 256.0;
+  ivec3 a = clamp(ivec3(base), ivec3(0), grid.last);
+  ivec3 b = clamp(ivec3(base) + 1, ivec3(0), grid.last);
+  real v000 = voxel(grid, ivec3(a.x, a.y, a.z));
+  real v100 = voxel(grid, ivec3(b.x, a.y, a.z));
+  real v010 = voxel(grid, ivec3(a.x, b.y, a.z));
+  real v110 = voxel(grid, ivec3(b.x, b.y, a.z));
+  real v001 = voxel(grid, ivec3(a.x, a.y, b.z));
+  real v101 = voxel(grid, ivec3(b.x, a.y, b.z));
+  real v011 = voxel(grid, ivec3(a.x, b.y, b.z));
+  real v111 = voxel(grid, ivec3(b.x, b.y, b.z));
+  real4 x0 = real4(v000, v010, v001, v011);
+  real4 x1 = real4(v100, v110, v101, v111);
+  real4 x = x0 + f.x * (x1 - x0);
+  real2 y = x.xz + f.y * (x.yw - x.xz);
+  return y.x + f.z * (y.y - y.x);
+}
+
+real fetch_hardware(Grid grid, real3 p) {
+  if (TRI_FAULT == fault_coarse_filter) {
+    real3 q = p - 0.5;
+    p = floor(q) + floor(fract(q) * 256.0 + 0.5) / 256.0 + 0.5;
+  }
+  return textureLod(volume_texture, vec3(p * grid.inverse_size), 0.0).r;
+}
+
+// Normalised value at p.
+real field(Grid grid, real3 p) {
+  if (TRI_FAULT == fault_half_voxel_shift) p.x += 0.5;
+  if (TRI_FAULT == fault_flipped_axis) p.y = real(grid.last.y + 1) - p.y;
+  real stored = TRI_MANUAL_SAMPLER == 1 ? fetch_manual(grid, p) : fetch_hardware(grid, p);
+  return stored * grid.value_map.x + grid.value_map.y;
+}
+
+real4 transfer(real x) {
+  real position = tri_table_position(x);
+  int k = min(int(position), 254);
+  real4 a = real4(texelFetch(transfer_texture, k, 0));
+  real4 b = real4(texelFetch(transfer_texture, k + 1, 0));
+  return a + (position - real(k)) * (b - a);
+}
+
+// Headlight shading (scene::Shading): d is the world direction of the ray.
+real3 shade(Grid grid, real3 colour, real3 p, real3 d) {
+  real3 g = real3(field(grid, p + real3(1, 0, 0)) - field(grid, p - real3(1, 0, 0)),
+                  field(grid, p + real3(0, 1, 0)) - field(grid, p - real3(0, 1, 0)),
+                  field(grid, p + real3(0, 0, 1)) - field(grid, p - real3(0, 0, 1)));
+  g *= 0.5 * u.inverse_spacing.w * u.inverse_spacing.xyz;
+  real cosine = abs(dot(g, d)) / max(sqrt(dot(g, g)), u.ray_up.w);
+  real highlight = cosine;
+#if TRI_LONG_RAYS
+  // Of constant length, hence written out by compilers: no pass of a loop (raycast()).
+  for (int i = 0; i < 31; ++i) highlight *= i < u.volume_size.w ? highlight : 1.0;
+#else
+  for (int i = 0; i < u.volume_size.w; ++i) highlight *= highlight;
+#endif
+  return colour * (u.shading.x + u.shading.y * cosine) + u.shading.z * highlight;
+}
+
+struct Ray {
+  real3 p0;    // where the ray enters the box, voxels
+  real3 g;     // one step, voxels
+  real3 d;     // unit direction, world
+  real steps;  // length inside the box, steps
+};
+
+Ray make_ray(ivec2 pixel) {
+  real2 ndc = (2.0 * (real2(pixel) + 0.5)) / real2(u.viewport.xy) - 1.0;
+  real3 d = u.ray_centre.xyz + ndc.x * u.ray_right.xyz - ndc.y * u.ray_up.xyz;
+  d = d / sqrt(dot(d, d));
+  real3 v = d * u.inverse_spacing.xyz;
+  real3 size = real3(u.volume_size.xyz);
+  // Where the ray begins: on a plane between eye and box where that is far away, else at the eye.
+  real3 origin = u.eye.xyz +
+                 (u.value_map.z * (ndc.x * u.ray_right.xyz - ndc.y * u.ray_up.xyz)) * u.inverse_spacing.xyz;
+  real2 x = tri_slab(origin.x, v.x, size.x);
+  real2 y = tri_slab(origin.y, v.y, size.y);
+  real2 z = tri_slab(origin.z, v.z, size.z);
+  real t0 = max(max(x.x, y.x), max(z.x, 0.0));
+  real t1 = min(min(x.y, y.y), z.y);
+  Ray ray;
+  ray.d = d;
+  ray.g = v * u.eye.w;
+  ray.p0 = origin + t0 * v;
+  ray.steps = t1 > t0 ? (t1 - t0) / u.eye.w : 0.0;
+  return ray;
+}
+
+struct Light {
+  real3 colour;          // premultiplied
+  real transmittance;
+};

@@ -1,0 +1,254 @@
+// Quadrature cells (scene::Quadrature): the ray goes from cell to cell, a cell being what lies between eight
+// voxel centres, in which the field along the ray is a cubic. Times of crossings are computed from a cell's
+// index, not accumulated: what a cell adds does not depend on how the ray got there, so skipping changes no
+// bit. Single precision only. The loops obey what raycast.glsl says of compilers.
+#include "volume/raycast/field.glsl"
+
+// What the walk needs of a ray. Cell i lies between voxels i and i+1; cells −1 and the last voxel's own are
+// the halves of a voxel at the faces of the volume, where values are clamped.
+struct Way {
+  vec3 p0;         // where the ray enters, from the first voxel's centre
+  vec3 g;          // one step, voxels
+  vec3 inverse_g;
+  ivec3 forward;   // 1 where the ray runs towards higher indices, else 0
+};
+
+Way make_way(Ray ray) {
+  Way way;
+  way.p0 = ray.p0 - 0.5;
+  way.g = ray.g;
+  // A ray that runs along a face takes 10²⁰ steps to the next: never, without dividing by zero.
+  way.inverse_g = 1.0 / mix(ray.g, vec3(1.0e-20), lessThan(abs(ray.g), vec3(1.0e-20)));
+  way.forward = ivec3(greaterThan(way.inverse_g, vec3(0.0)));
+  return way;
+}
+
+vec3 crossings(Way way, ivec3 planes) { return (vec3(planes) - way.p0) * way.inverse_g; }
+vec3 entries(Way way, ivec3 cell) { return crossings(way, cell + 1 - way.forward); }
+vec3 exits(Way way, ivec3 cell) { return crossings(way, cell + way.forward); }
+float least(vec3 v) { return min(v.x, min(v.y, v.z)); }
+float most(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+// The cell behind the nearest of the planes, which are crossed at `at`; the others' cells are those that hold
+// the ray there by the very times that a walk would compare.
+ivec3 cell_behind(Way way, ivec3 planes, vec3 at) {
+  float t = least(at);
+  ivec3 direction = 2 * way.forward - 1;
+  ivec3 cell = ivec3(floor(way.p0 + t * way.g));
+  cell += direction * ivec3(lessThanEqual(exits(way, cell), vec3(t)));
+  cell -= direction * ivec3(greaterThan(entries(way, cell), vec3(t)));
+  ivec3 crossed = ivec3(lessThanEqual(at, vec3(t)));
+  return crossed * (planes - 1 + way.forward) + (1 - crossed) * cell;
+}
+
+// c.x + c.y·s + c.z·s² + c.w·s³
+float cubic(vec4 c, float s) { return c.x + s * (c.y + s * (c.z + s * c.w)); }
+
+// Positions among the transfer function's entries along the ray's way through a cell, 0 ≤ s ≤ 1, from the
+// local coordinates a to a + b: x, y and z of the eight voxels are interpolated one after the other.
+vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
+  if (TRI_FAULT == fault_half_voxel_shift) a.x += 0.5;
+  if (TRI_FAULT == fault_coarse_filter) a = floor(a * 256.0 + 0.5) / 256.0;
+  ivec3 lo = clamp(cell, ivec3(0), grid.last);
+  ivec3 hi = clamp(cell + 1, ivec3(0), grid.last);
+  if (TRI_FAULT == fault_flipped_axis) { lo.y = grid.last.y - lo.y; hi.y = grid.last.y - hi.y; }
+  vec4 v0 = vec4(voxel(grid, lo), voxel(grid, ivec3(lo.x, hi.y, lo.z)), voxel(grid, ivec3(lo.x, lo.y, hi.z)),
+                 voxel(grid, ivec3(lo.x, hi.y, hi.z)));
+  vec4 v1 = vec4(voxel(grid, ivec3(hi.x, lo.y, lo.z)), voxel(grid, ivec3(hi.x, hi.y, lo.z)),
+                 voxel(grid, ivec3(hi.x, lo.y, hi.z)), voxel(grid, hi));
+  vec4 x0 = v0 + a.x * (v1 - v0);  // along x: constant terms for the four edges, …
+  vec4 x1 = b.x * (v1 - v0);       // … and those in s
+  vec2 rise0 = x0.yw - x0.xz;
+  vec2 rise1 = x1.yw - x1.xz;
+  vec2 y0 = x0.xz + a.y * rise0;
+  vec2 y1 = x1.xz + a.y * rise1 + b.y * rise0;
+  vec2 y2 = b.y * rise1;
+  float z0 = y0.y - y0.x;
+  float z1 = y1.y - y1.x;
+  float z2 = y2.y - y2.x;
+  vec4 c = vec4(y0.x + a.z * z0, y1.x + a.z * z1 + b.z * z0, y2.x + a.z * z2 + b.z * z1, b.z * z2);
+  c *= 256.0 * grid.value_map.x;
+  c.x += 256.0 * grid.value_map.y - 0.5;
+  return c;
+}
+
+// technique::kink_table: of row i the least kink ≥ i, the greatest < i, and the first visible entry ≥ i.
+vec4 kink_row(float i) { return pairs[int(clamp(i, 0.0, 256.0))]; }
+
+// Whether any value on the way has opacity: between the least and the greatest of the cubic's Bernstein
+// coefficients.
+bool shows(vec4 c) {
+  vec4 b = vec4(c.x, c.x + c.y / 3.0, c.x + (2.0 * c.y + c.z) / 3.0, c.x + c.y + c.z + c.w);
+  float lowest = clamp(min(min(b.x, b.y), min(b.z, b.w)), 0.0, 255.0);
+  float highest = clamp(max(max(b.x, b.y), max(b.z, b.w)), 0.0, 255.0);
+  return kink_row(floor(lowest)).z <= ceil(highest);
+}
+
+// Where the cubic has its extrema, ascending; beyond 1 where it has none there.
+vec2 extrema(vec4 c) {
+  float discriminant = c.z * c.z - 3.0 * c.w * c.y;
+  if (!(discriminant > 0.0)) return vec2(2.0);
+  // The roots by the sum that does not cancel.
+  float q = 0.0 - (c.z + (c.z < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
+  float e = c.w == 0.0 ? 2.0 : q / (3.0 * c.w);
+  float f = q == 0.0 ? 2.0 : c.y / q;
+  return vec2(min(e, f), max(e, f));
+}
+
+// Where the cubic is `value`, between `from` and `to`, on which it is monotone with the values at_from and
+// at_to at the ends. Begins on the parabola with those values and the cubic's slope at `from`, which is right
+// beside an extremum, too; then Newton's method, and a bisection where it leaves the bracket.
+float where_it_is(vec4 c, float value, float from, float to, float at_from, float at_to) {
+  bool rising = at_to > at_from;
+  float r = (value - at_from) / (at_to - at_from);
+  float slope = (c.y + from * (2.0 * c.z + from * (3.0 * c.w))) * (to - from) / (at_to - at_from);
+  float root = sqrt(max(slope * slope + 4.0 * (1.0 - slope) * r, 0.0));
+  float s = from + (to - from) * clamp(2.0 * r / (slope + root), 0.0, 1.0);
+  for (int i = 0; i < 4; ++i) {
+    float error = cubic(c, s) - value;
+    if ((error < 0.0) == rising) from = s; else to = s;
+    float newton = s - error / (c.y + s * (2.0 * c.z + s * (3.0 * c.w)));
+    s = newton >= from && newton <= to ? newton : 0.5 * (from + to);
+  }
+  return s;
+}
+
+// −log2(1 − alpha), by which an opacity of 1 counts as 8192.
+float extinction(float alpha) { return alpha < 1.0 ? 0.0 - tri_log2_1m(alpha) : 8192.0; }
+
+// A piece of `length` voxels with the colours of its two points (reference/cell_rule.hpp has the formulas).
+void add_piece(inout Light light, vec4 a, vec4 b, float length) {
+  float first = extinction(a.a);
+  float second = extinction(b.a);
+  float depth = 0.5 * length * (first + second);
+  if (depth > 0.0) {
+    float opacity = tri_1m_exp2(-depth);
+    float z = 0.3465735903 * depth;
+    float langevin = z / (3.0 + tri_attenuation(z, opacity));
+    float tilt = (second - first) / (first + second);
+    float share = clamp(0.5 * (1.0 + tilt - 1.7320508076 * langevin), 0.0, 1.0);
+    float weight = light.transmittance * opacity;
+    light.colour += weight * (a.rgb + share * (b.rgb - a.rgb));
+    light.transmittance -= weight;
+  }
+}
+
+// The part of the way through a cell between s and `next`, which lies between `begin` and `end`, in steps.
+void add_part(inout Light light, Grid grid, Ray ray, vec4 c, float s, float next, float begin, float end,
+              float step_voxels) {
+  float middle = 0.5 * (s + next);
+  float apart = 0.2886751346 * (next - s);
+  // transfer() takes values, whose position is 256·x − ½.
+  vec4 a = transfer((cubic(c, middle - apart) + 0.5) / 256.0);
+  vec4 b = transfer((cubic(c, middle + apart) + 0.5) / 256.0);
+  if (TRI_COUNT == 1) count_samples += 2u;
+  if (a.a > 0.0 || b.a > 0.0) {
+    if (TRI_COUNT == 1) count_nonzero += (a.a > 0.0 ? 1u : 0u) + (b.a > 0.0 ? 1u : 0u);
+    if (TRI_SHADING == 1) {
+      vec3 at_a = ray.p0 + (begin + (middle - apart) * (end - begin)) * ray.g;
+      vec3 at_b = ray.p0 + (begin + (middle + apart) * (end - begin)) * ray.g;
+      a.rgb = shade(grid, a.rgb, at_a, ray.d);
+      b.rgb = shade(grid, b.rgb, at_b, ray.d);
+    }
+    add_piece(light, a, b, step_voxels * (end - begin) * (next - s));
+  }
+}
+
+// A cell between the times `begin` and `end`.
+void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float begin, float end,
+              float step_voxels) {
+  vec4 c = cubic_of_cell(grid, cell, way.p0 + begin * way.g - vec3(cell), (end - begin) * way.g);
+  vec2 turn = extrema(c);
+  float part = 1.0;
+  float from = c.x;
+  float start = 0.0;  // of the piece
+  // How far it has got: behind the end where there is nothing to see.
+  float s = end > begin && shows(c) ? 0.0 : 1.0;
+  while (s < 1.0) {
+    // To the end of the part, an extremum, between which the value is monotone, or a kink.
+    float stop = min(part / u.shading.w, 1.0);
+    bool whole = !(turn.x > s && turn.x < stop) && !(turn.y > s && turn.y < stop);
+    if (turn.y > s && turn.y < stop) stop = turn.y;
+    if (turn.x > s && turn.x < stop) stop = turn.x;
+    float to = cubic(c, stop);
+    float kink = to > from ? kink_row(floor(from) + 1.0).x : kink_row(ceil(from)).y;
+    // A fragment that llvmpipe (Mesa 22.3) draws for its neighbours' sake reads 0 for a kink: it must not stay
+    // where it is, for they would wait for it.
+    bool cut = to > from ? kink > from && kink < to : kink < from && kink > to;
+    float next = cut ? where_it_is(c, kink, s, stop, from, to) : stop;
+    if (cut || whole) {
+      add_part(light, grid, ray, c, start, next, begin, end, step_voxels);
+      start = next;
+    }
+    part += !cut && whole ? 1.0 : 0.0;
+    from = cut ? kink : to;
+    s = next;
+  }
+}
+
+// What the bricks say of a cell: whether its brick is visible, and the planes, at a corner that the ray can
+// only leave by, up to which all is as it is. Those at the volume's own faces take in the half cells there.
+struct Around {
+  bool visible;
+  ivec3 planes;
+};
+
+Around look_around(Way way, Grid grid, ivec3 cell) {
+  int edge = u.brick_grid.w;
+  ivec3 bricks = u.brick_grid.xyz;
+  ivec3 brick = clamp(cell, ivec3(0), bricks * edge - 1) / edge;
+  int reach = brick_visible[brick.x + bricks.x * (brick.y + bricks.y * brick.z)];
+  ivec3 beyond = ivec3(max(abs(reach), 1));
+  ivec3 low = (brick + 1 - beyond) * edge;
+  ivec3 high = (brick + beyond) * edge;
+  low -= ivec3(lessThanEqual(low, ivec3(0))) * (low + 1);
+  high += ivec3(greaterThanEqual(high, grid.last)) * (grid.last + 1 - high);
+  return Around(reach > 0, low + way.forward * (high - low));
+}
+
+// Premultiplied RGBA of the pixel.
+vec4 raycast(ivec2 pixel) {
+  Ray ray = make_ray(pixel);
+  Grid grid = load_grid();
+  Way way = make_way(ray);
+  if (TRI_FAULT == fault_extra_sample && ray.steps > 0.0) ray.steps += 1.0;
+  float step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
+  float enough = u.ray_right.w;
+  Light light = Light(vec3(0.0), 1.0);
+  // Dressed up as something of the ray, as in walk.glsl.
+  bool skipping = u.brick_grid.w > min(0, int(ray.steps));
+  ivec3 cell = clamp(ivec3(floor(way.p0)), ivec3(-1), grid.last);
+  float begin = 0.0;
+  float seen = skipping ? 0.0 : 3.0e38;  // up to here all bricks are visible
+  float end = ray.steps;
+  while (begin < end) {
+    Around around = Around(true, cell + way.forward);
+    if (begin >= seen) {
+      around = look_around(way, grid, cell);
+      if (TRI_COUNT == 1) { count_bricks_visited++; count_bricks_skipped += around.visible ? 0u : 1u; }
+      if (around.visible) {
+        seen = least(crossings(way, around.planes));
+        around.planes = cell + way.forward;
+      }
+    }
+    vec3 at = crossings(way, around.planes);
+    float leave = least(at);
+    if (around.visible) add_cell(light, grid, ray, way, cell, begin, min(leave, ray.steps), step_voxels);
+    ivec3 crossed = ivec3(lessThanEqual(at, vec3(leave)));
+    cell = around.visible ? cell + crossed * (2 * way.forward - 1) : cell_behind(way, around.planes, at);
+    begin = max(leave, 0.0);
+    if (light.transmittance < enough) end = 0.0;
+  }
+  if (TRI_COUNT == 1 && light.transmittance < enough) count_terminated = 1u;
+#if TRI_COUNT
+  int at = 8 * (pixel.y * u.viewport.x + pixel.x);
+  counters[at] = ray.steps > 0.0 ? 1u : 0u;
+  counters[at + 1] = count_samples;
+  counters[at + 2] = count_nonzero;
+  counters[at + 3] = count_bricks_visited;
+  counters[at + 4] = count_bricks_skipped;
+  counters[at + 5] = count_terminated;
+  counters[at + 6] = 0u;
+#endif
+  return vec4(light.colour, 1.0 - light.transmittance) + light.transmittance * u.background;
+}

@@ -1,0 +1,172 @@
+// Quadrature cells on real devices: exact where nothing bends, within its bound everywhere, the
+// same bits however empty space is skipped, and nearer to the limit than the midpoint rule of an
+// eighth of its step.
+
+#include <algorithm>
+#include <cmath>
+
+#include "data_folder.hpp"
+#include "reference/analytic_scenes.hpp"
+#include "under_test.hpp"
+#include "volume_truth.hpp"
+
+namespace triptych::contract {
+namespace {
+
+using measure::VolumeWork;
+using reference::AnalyticProblem;
+using technique::Skip;
+
+scene::VolumeScene cells_scene(std::string_view function) {
+  scene::VolumeScene scene = small_scene(function);
+  scene.quadrature = scene::Quadrature::cells;
+  return scene;
+}
+
+measure::Work cells_work(const scene::Volume& data, scene::VolumeScene scene) {
+  scene.grid = std::make_shared<const scene::VoxelGrid>(
+      scene::encode(scene::Volume(data), scene::lossless_format(data.type)));
+  scene.camera = scene::camera_at("orbit_y:1/8", scene.box(), 60);
+  return {.technique = "raycast",
+          .scene = VolumeWork{.scene = std::move(scene),
+                              .options = {.sampler = technique::Sampler::manual}}};
+}
+
+double rms_from(const core::Image& image, const reference::Truth& limit) {
+  double sum = 0;
+  for (std::size_t i = 0; i < limit.rgba.size(); ++i) {
+    sum += std::pow(static_cast<double>(image.rgba[i]) - limit.rgba[i], 2);
+  }
+  return std::sqrt(sum / static_cast<double>(limit.rgba.size()));
+}
+
+TEST(Cells, StayWithinTheirBound) {
+  on_every_device([](measure::Device& device) {
+    for (const char* data : {"mandelbulb", "marschner_lobb", "sparse_field", "uniform_box"}) {
+      for (const std::string_view function : scene::transfer_function_presets()) {
+        for (const bool shaded : {false, true}) {
+          for (const double step : {0.5, 1.0}) {
+            SCOPED_TRACE(std::string(data) + " " + std::string(function));
+            scene::VolumeScene scene = cells_scene(function);
+            scene.shading.enabled = shaded;
+            scene.step_voxels = step;
+            expect_within_bound(device,
+                                cells_work(scene::generate_volume(data, {40, 33, 27}), scene));
+          }
+        }
+      }
+    }
+  });
+}
+
+// A table that holds 1, jumps and a spike of one entry.
+TEST(Cells, SteepTransferFunctionsStayWithinTheBound) {
+  on_every_device([](measure::Device& device) {
+    scene::VolumeScene scene = cells_scene("haze");
+    auto& entries = scene.transfer_function.entries;
+    entries[60] = {1, 0, 0, 0.9F};
+    for (std::size_t k = 180; k < 200; ++k) entries[k] = {0, 1, 0, 1};
+    expect_within_bound(device,
+                        cells_work(scene::generate_volume("mandelbulb", {40, 40, 40}), scene));
+  });
+}
+
+TEST(Cells, SkippingChangesNoBit) {
+  on_every_device([](measure::Device& device) {
+    for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
+      for (const std::string_view function : scene::transfer_function_presets()) {
+        for (const char* technique : {"raycast", "raycast_fragment"}) {
+          SCOPED_TRACE(std::string(generator.name) + " " + std::string(function));
+          measure::Work work = cells_work(scene::generate_volume(generator.name, {37, 41, 23}),
+                                          cells_scene(function));
+          work.technique = technique;
+          if (device.unsupported(work)) continue;
+          auto& options = std::get<VolumeWork>(work.scene).options;
+          options.skip = Skip::none;
+          const core::Image without = draw(device, work);
+          for (const Skip skip : {Skip::bricks, Skip::distance}) {
+            options.skip = skip;
+            EXPECT_EQ(draw(device, work), without) << technique::name_of(skip);
+          }
+        }
+      }
+    }
+  });
+}
+
+TEST(Cells, RealVolumesStayWithinTheBoundAndKeepTheirBits) {
+  const auto files = real_volumes();
+  if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";
+  on_every_device([&](measure::Device& device) {
+    for (const auto& file : files) {
+      SCOPED_TRACE(file.filename().string());
+      measure::Work work = cells_work(scene::load_volume(file.string()), cells_scene("surfaces"));
+      expect_within_bound(device, work);
+      auto& options = std::get<VolumeWork>(work.scene).options;
+      const core::Image leaping = draw(device, work);
+      options.skip = Skip::none;
+      EXPECT_EQ(draw(device, work), leaping);
+    }
+  });
+}
+
+// V1: one value, one piece a cell, a constant integrand. What is left is rounding.
+TEST(Cells, V1IsExact) {
+  on_every_device([](measure::Device& device) {
+    reference::AnalyticOptions options;
+    options.size = {16, 16, 16};
+    reference::AnalyticScene analytic = analytic_scene(AnalyticProblem::v1_constant, options);
+    analytic.scene.quadrature = scene::Quadrature::cells;
+    expect_closed_form(
+        device,
+        {.technique = "raycast",
+         .scene = VolumeWork{.scene = analytic.scene,
+                             .options = {.sampler = technique::Sampler::manual, .ert = 0}}},
+        analytic);
+  });
+}
+
+// A rule of second order would need steps of a hundredth.
+TEST(Cells, AreNearerToTheLimitThanManySamples) {
+  on_every_device([](measure::Device& device) {
+    scene::VolumeScene scene = cells_scene("surfaces");
+    measure::Work work = cells_work(scene::generate_volume("mandelbulb", {40, 40, 40}), scene);
+    auto& volume = std::get<VolumeWork>(work.scene);
+    volume.options.ert = 0;
+    volume.scene.step_voxels = 1;
+    const reference::Truth limit = reference::render_volume_converged(volume.scene, 1e-7);
+    const double cells = rms_from(draw(device, work), limit);
+    const auto nonzero = device.prepare(work)->frame(measure::Purpose::counters).counts;
+    volume.scene.quadrature = scene::Quadrature::midpoint;
+    volume.scene.step_voxels = 0.125;
+    const double midpoint = rms_from(draw(device, work), limit);
+    const auto samples = device.prepare(work)->frame(measure::Purpose::counters).counts;
+    EXPECT_LT(cells, midpoint / 2);
+    EXPECT_LT(nonzero.at("samples"), samples.at("samples"));
+  });
+}
+
+TEST(Cells, AreRefusedWhereTheyCannotBeDrawn) {
+  on_every_device([](measure::Device& device) {
+    const measure::Work work =
+        cells_work(scene::generate_volume("uniform_box", {8, 8, 8}), cells_scene("haze"));
+    const auto refused = [&](auto change) {
+      measure::Work changed = work;
+      change(changed, std::get<VolumeWork>(changed.scene));
+      return device.unsupported(changed).has_value();
+    };
+    EXPECT_FALSE(refused([](auto&, auto&) {}));
+    EXPECT_TRUE(refused([](auto& each, auto&) { each.technique = "speed_of_light"; }));
+    EXPECT_TRUE(refused(
+        [](auto&, auto& volume) { volume.options.sampler = technique::Sampler::hardware; }));
+    EXPECT_TRUE(refused(
+        [](auto&, auto& volume) { volume.options.precision = technique::Precision::fp64; }));
+    EXPECT_TRUE(refused([](auto&, auto& volume) {
+      volume.options.skip = Skip::bricks;
+      volume.options.adapt = 0.01;
+    }));
+  });
+}
+
+}  // namespace
+}  // namespace triptych::contract
