@@ -150,8 +150,12 @@ TEST_F(ExportTest, TheDictionaryDescribesEveryColumn) {
       header += (header.empty() ? "" : ",") + column.at("name").get<std::string>();
       EXPECT_FALSE(column.at("description").get<std::string>().empty()) << column;
       const auto name = column.at("name").get<std::string>();
-      if (name.ends_with("_ns")) EXPECT_EQ(column.at("unit"), "ns") << name;
-      if (name.find("bytes") != std::string::npos) EXPECT_EQ(column.at("unit"), "bytes") << name;
+      if (name.ends_with("_ns")) {
+        EXPECT_EQ(column.at("unit"), "ns") << name;
+      }
+      if (name.find("bytes") != std::string::npos) {
+        EXPECT_EQ(column.at("unit"), "bytes") << name;
+      }
     }
     const std::string text = folder_.read(table + ".csv");
     EXPECT_EQ(text.substr(0, text.find('\n')), header);
