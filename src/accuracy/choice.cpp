@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace triptych::accuracy {
 
-std::optional<StepError> longest_step(double error, const StepLimits& limits,
-                                      const std::function<double(double)>& error_of) {
+StepError longest_step(double error, const StepLimits& limits, const ErrorOfStep& error_of) {
   std::map<double, double> known;
   const auto holds = [&](double step) {
     const auto [entry, fresh] = known.try_emplace(step, 0.0);
@@ -20,7 +20,7 @@ std::optional<StepError> longest_step(double error, const StepLimits& limits,
   // From a few voxels, where steps of ordinary pictures lie, up or down by octaves.
   double step = std::clamp(4.0, limits.shortest, limits.longest);
   while (!holds_from(step)) {
-    if (step / 2 < limits.shortest) return std::nullopt;
+    if (step / 2 < limits.shortest) return {.step = step, .error = known.at(step)};
     step /= 2;
   }
   while (2 * step <= limits.longest && holds(2 * step)) step *= 2;
@@ -31,13 +31,41 @@ std::optional<StepError> longest_step(double error, const StepLimits& limits,
       break;
     }
   }
-  return StepError{.step = step, .error = known.at(step)};
+  return {.step = step, .error = known.at(step)};
 }
 
-std::optional<std::size_t> cheapest(std::span<const AccuracyCase> cases, double error) {
+StepError shortened_step(double step, double error, const StepLimits& limits,
+                         const ErrorOfStep& error_of) {
+  // A little more than second order asks for, and never so little that it takes for ever.
+  constexpr double margin = 0.97;
+  constexpr double least_shortening = 0.84;  // a quarter of an octave
+  constexpr double most_shortening = 1.0 / 16;
+  for (;;) {
+    const double found = error_of(step);
+    if (found <= error || !(step > limits.shortest)) return {.step = step, .error = found};
+    const double wanted = margin * std::sqrt(error / found);
+    const double factor =
+        wanted >= most_shortening ? std::min(wanted, least_shortening) : most_shortening;
+    step = std::max(step * factor, limits.shortest);
+  }
+}
+
+PictureSize search_size(const PictureSize& picture) {
+  constexpr double most_pixels = 48.0 * 48.0;
+  constexpr int shortest_side = 8;
+  const int longer = std::max(picture.width, picture.height);
+  const int shorter = std::min(picture.width, picture.height);
+  const double scale = std::min(std::sqrt(most_pixels / longer / shorter), 1.0);
+  const int side = std::max(static_cast<int>(shorter * scale), std::min(shorter, shortest_side));
+  const int other =
+      std::clamp(static_cast<int>(std::min(longer * scale, most_pixels / side)), side, longer);
+  return picture.width >= picture.height ? PictureSize{other, side} : PictureSize{side, other};
+}
+
+std::optional<std::size_t> cheapest(std::span<const TimedError> cases, double error) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (!cases[i].time_ns || !(cases[i].rmse <= error)) continue;
+    if (!cases[i].time_ns || !(cases[i].error <= error)) continue;
     if (!best || *cases[i].time_ns < *cases[*best].time_ns) best = i;
   }
   return best;

@@ -2,12 +2,12 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 
 #include "accuracy/image_fault.hpp"
 #include "app/arguments.hpp"
-#include "app/error_request.hpp"
 #include "app/listing.hpp"
 #include "app/loading.hpp"
 #include "app/paths.hpp"
@@ -16,6 +16,7 @@
 #include "core/image_io.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
+#include "measure/request/error_request.hpp"
 #include "record/bad_input.hpp"
 
 namespace triptych::app {
@@ -28,7 +29,7 @@ struct RenderArguments {
   std::string device;
   std::vector<std::string> set;
   std::string out;
-  std::optional<double> error;
+  std::optional<std::string> error;  // as it was typed
   bool truth = false;
   std::vector<std::string> plants;
 };
@@ -90,6 +91,52 @@ core::ExitCode hold_against_truth(const core::Image& image, const judge::TruthPa
   return wrong.empty() ? core::ExitCode::pass : core::ExitCode::regression;
 }
 
+struct Drawing {
+  const RenderArguments& arguments;
+  std::vector<std::string> devices;
+  measure::SuiteWithTruth& suite;
+  record::Store& store;
+};
+
+struct Drawn {
+  std::string run;
+  record::Record record;
+};
+
+std::string measure_in(const Drawing& drawing, const measure::Plan& plan) {
+  const measure::RunResult result =
+      measure::run_plan(plan, drawing.devices, drawing.suite, drawing.store,
+                        {.plants = parse_plants(drawing.arguments.plants),
+                         .worker_command = {own_program(), "worker", "--device"}},
+                        [](const measure::Progress& progress) {
+                          if (progress.loading) show_loading(*progress.loading);
+                        });
+  return result.run;
+}
+
+Drawn draw_one(const Drawing& drawing, const measure::Plan& plan) {
+  const std::string run = measure_in(drawing, plan);
+  return {run, drawing.store.records(run).at(0)};
+}
+
+// The fastest that keeps the requested error; of a device that could draw nothing, why.
+Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
+                        const measure::RequestPictures& pictures) {
+  const auto wanted = accuracy::parse_requested_error(*drawing.arguments.error);
+  const measure::ErrorRequest request =
+      measure::request_error(plan, drawing.suite, wanted, pictures, [](const std::string&) {});
+  if (!request.out_of_reach.empty()) throw core::NotSupported(request.out_of_reach.front());
+  const std::string run = measure_in(drawing, request.plan);
+  const std::vector<record::Record> records = drawing.store.records(run);
+  const auto answers = measure::answer_error(records, drawing.suite, wanted, pictures);
+  if (answers.empty()) return {run, records.at(0)};
+  if (answers.front().record == nullptr) {
+    throw core::NotSupported(describe(answers.front(), wanted));
+  }
+  fmt::print("{}\n", describe(answers.front(), wanted));
+  return {run, *answers.front().record};
+}
+
 core::ExitCode render(const RenderArguments& arguments) {
   const Registry registry = make_registry();
   measure::SuiteWithTruth& suite = registry.suite(arguments.suite);
@@ -108,31 +155,13 @@ core::ExitCode render(const RenderArguments& arguments) {
     throw core::InputError(
         fmt::format("--device {} matches {} devices; name one", arguments.device, devices.size()));
   }
-  if (arguments.error) {
-    plan = plan_within_error(plan, suite, *arguments.error, [](const std::string&) {});
-  }
   const ScratchFile file(out / ".render.sqlite");
   record::Store store(file.path(), record::Store::Mode::append);
-  const measure::RunResult result =
-      measure::run_plan(plan, devices, suite, store,
-                        {.plants = parse_plants(arguments.plants),
-                         .worker_command = {own_program(), "worker", "--device"}},
-                        [](const measure::Progress& progress) {
-                          if (progress.loading) show_loading(*progress.loading);
-                        });
-  const std::vector<record::Record> records = store.records(result.run);
-  record::Record record = records.at(0);
-  if (arguments.error) {
-    Truths truths(registry, store);
-    const auto answers = answer_error(records, suite, truths, *arguments.error);
-    if (!answers.empty() && answers.front().record == nullptr) {
-      throw core::NotSupported(describe(answers.front(), *arguments.error));
-    }
-    if (!answers.empty()) {
-      record = *answers.front().record;
-      fmt::print("{}\n", describe(answers.front(), *arguments.error));
-    }
-  }
+  Truths truths(registry, store);
+  const Drawing drawing{arguments, devices, suite, store};
+  const auto [run, record] = !arguments.error
+                                 ? draw_one(drawing, plan)
+                                 : draw_within_error(drawing, plan, pictures_of(truths));
   const bool cannot = record.outcome == record::Outcome::skipped && !record::has_bad_input(record);
   if (cannot) throw core::NotSupported(record.reason);
   if (record.outcome != record::Outcome::measured) throw core::InputError(record.reason);
@@ -140,12 +169,10 @@ core::ExitCode render(const RenderArguments& arguments) {
   const core::Image image = store.picture(record.image);
   core::write_exr(image, out / "image.exr");
   core::write_png(image, out / "image.png");
-  write_text(
-      out / "frame.json",
-      core::json_text(frame_json(suite, record, store.devices(result.run).at(0).device), 2) + "\n");
+  write_text(out / "frame.json",
+             core::json_text(frame_json(suite, record, store.devices(run).at(0).device), 2) + "\n");
   fmt::print("{}\n", (out / "image.exr").string());
   if (!arguments.truth) return core::ExitCode::pass;
-  Truths truths(registry, store);
   return hold_against_truth(image, truths.of(record), out);
 }
 
@@ -162,8 +189,9 @@ void add_render_command(Commands& commands) {
                       "factor=value (repeatable); a comma in it is spelled %2C");
   command->add_option("--out", arguments->out, "Folder to write into")->required();
   command->add_option("--error", arguments->error,
-                      "Root mean square error against the scene's limit: chooses the fastest step, "
-                      "quadrature, ert, adapt and skip that keep it");
+                      "E or E:METRIC, with rms (the default), covered, p99.9 or max: the error "
+                      "against the scene's limit. Chooses the fastest step, quadrature, ert, adapt "
+                      "and skip that keep it");
   command->add_flag("--truth", arguments->truth,
                     "Hold it against the reference: writes truth.exr, truth.png and "
                     "difference.png, ends with 1 where it is wrong");

@@ -10,14 +10,15 @@
 #include <optional>
 
 #include "app/arguments.hpp"
-#include "app/error_request.hpp"
 #include "app/listing.hpp"
 #include "app/loading.hpp"
 #include "app/measuring.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/saying.hpp"
+#include "app/truth.hpp"
 #include "measure/protocol/plant.hpp"
+#include "measure/request/error_request.hpp"
 #include "measure/system/process.hpp"
 #include "measure/worker/worker.hpp"
 
@@ -38,7 +39,7 @@ struct RunArguments {
   bool statistics = false;  // of an untimed run, too
   bool timed = false;
   std::vector<std::string> plants;
-  std::optional<double> error;
+  std::optional<std::string> error;  // as it was typed
   std::FILE* told_to = stdout;
 };
 
@@ -67,19 +68,6 @@ void show(const measure::Progress& progress) {
     say("{}/{} {} {}: {}\n", progress.done, progress.total, progress.device, progress.configuration,
         what);
   }
-}
-
-// The cheapest within the requested error per scene and device; false where one has none.
-bool tell_cheapest(const Registry& registry, const measure::Suite& suite, record::Store& store,
-                   const std::string& run, double error) {
-  Truths truths(registry, store);
-  const std::vector<record::Record> records = store.records(run);
-  bool all = true;
-  for (const ErrorAnswer& answer : answer_error(records, suite, truths, error)) {
-    fmt::print("{}\n", describe(answer, error));
-    all = all && answer.record != nullptr;
-  }
-  return all;
 }
 
 void tell(const RunArguments& arguments, const measure::Plan& plan,
@@ -121,10 +109,6 @@ std::vector<measure::Plan> load_plans(const RunArguments& arguments, const Regis
     }
     if (arguments.timed && !plan.counted()) plan.checks.insert(record::Check::timing);
     plans.push_back(std::move(plan));
-    if (!arguments.error) continue;
-    plans.back() =
-        plan_within_error(plans.back(), registry.suite(plans.back().suite), *arguments.error,
-                          [](const std::string& what) { say("{}\n", what); });
   }
   return plans;
 }
@@ -158,6 +142,51 @@ struct Told {
   bool error_kept = true;                   // a requested error, by every device in every scene
 };
 
+// Where and with what plans are measured.
+struct Bench {
+  const RunArguments& arguments;
+  const Registry& registry;
+  std::vector<std::string> devices;
+  record::Store& store;
+};
+
+std::vector<measure::RunResult> measure_and_tell(const Bench& bench,
+                                                 const std::vector<measure::Plan>& plans) {
+  const measure::RunOptions options = options_of(bench.arguments);
+  std::vector<measure::PlannedRun> runs;
+  runs.reserve(plans.size());
+  for (const measure::Plan& plan : plans) {
+    runs.push_back({plan, bench.registry.suite(plan.suite), options});
+  }
+  std::vector<measure::RunResult> results =
+      measure::run_plans(runs, bench.devices, bench.store, show);
+  for (std::size_t i = 0; i < plans.size(); ++i) tell(bench.arguments, plans[i], results[i]);
+  return results;
+}
+
+// What keeps the requested error, and of it the fastest per scene and device.
+Told measure_within_error(const Bench& bench, const measure::Plan& plan) {
+  const auto wanted = accuracy::parse_requested_error(*bench.arguments.error);
+  measure::SuiteWithTruth& suite = bench.registry.suite(plan.suite);
+  Truths truths(bench.registry, bench.store);
+  const measure::RequestPictures pictures = pictures_of(truths);
+  const measure::ErrorRequest request = measure::request_error(
+      plan, suite, wanted, pictures, [](const std::string& what) { say("{}\n", what); });
+  Told told{.error_kept = request.out_of_reach.empty()};
+  std::vector<record::Record> records;
+  if (!request.plan.configurations.empty()) {
+    told.results = measure_and_tell(bench, {request.plan});
+    records = bench.store.records(told.results.front().run);
+  }
+  for (const measure::ErrorAnswer& answer :
+       measure::answer_error(records, suite, wanted, pictures)) {
+    fmt::print("{}\n", describe(answer, wanted));
+    told.error_kept = told.error_kept && answer.record != nullptr;
+  }
+  for (const std::string& scene : request.out_of_reach) fmt::print("{}\n", scene);
+  return told;
+}
+
 // Measures as the arguments say and says in a few lines how it went.
 Told run_and_tell(const RunArguments& arguments) {
   const Registry registry = make_registry();
@@ -166,22 +195,11 @@ Told run_and_tell(const RunArguments& arguments) {
       choose_devices(list_devices(registry), arguments.devices);
   require_writable(std::filesystem::path(arguments.store).parent_path());
   record::Store store(arguments.store, record::Store::Mode::append);
-  const measure::RunOptions options = options_of(arguments);
-  std::vector<measure::PlannedRun> runs;
-  runs.reserve(plans.size());
-  for (const measure::Plan& plan : plans) {
-    runs.push_back({plan, registry.suite(plan.suite), options});
-  }
-  Told told{.results = measure::run_plans(runs, devices, store, show)};
+  const Bench bench{arguments, registry, devices, store};
+  if (arguments.error) return measure_within_error(bench, plans.front());
+  Told told{.results = measure_and_tell(bench, plans)};
   told.scored = std::ranges::any_of(
       plans, [](const measure::Plan& plan) { return plan.checks.contains(record::Check::stress); });
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    tell(arguments, plans[i], told.results[i]);
-  }
-  if (arguments.error) {
-    told.error_kept = tell_cheapest(registry, runs.front().suite, store, told.results.front().run,
-                                    *arguments.error);
-  }
   return told;
 }
 
@@ -314,8 +332,9 @@ void add_run_commands(Commands& commands) {
   command->add_flag("--resume", arguments->resume, "Go on with the plan's latest run in the store");
   command
       ->add_option("--error", arguments->error,
-                   "Root mean square error against the limit of each scene: measures only what "
-                   "keeps it, chooses step, quadrature, ert, adapt and skip, and tells the fastest")
+                   "E or E:METRIC, with rms (the default), covered, p99.9 or max: the error "
+                   "against the limit of each scene. Measures only what keeps it, chooses step, "
+                   "quadrature, ert, adapt and skip, and tells the fastest")
       ->excludes("--untimed");
 
   auto tested = std::make_shared<RunArguments>();

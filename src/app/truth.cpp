@@ -120,4 +120,10 @@ judge::GateRequest request_of(Truths& truths, const std::string& plan) {
       .data_hash = [&truths](const record::Record& record) { return truths.data_hash_of(record); }};
 }
 
+measure::RequestPictures pictures_of(Truths& truths) {
+  return {.limit = [&truths](const record::Record& record) { return truths.limit_of(record); },
+          .truth = [&truths](const record::Record& record) { return truths.of(record).truth; },
+          .drawn = [&truths](const record::Record& record) { return truths.picture_of(record); }};
+}
+
 }  // namespace triptych::app

@@ -5,6 +5,7 @@
 #include "app/registry.hpp"
 #include "core/image_io.hpp"
 #include "judge/gate/gate.hpp"
+#include "measure/request/error_request.hpp"
 #include "record/store.hpp"
 
 namespace triptych::app {
@@ -47,5 +48,8 @@ class Truths {
 // A request to judge a plan on all devices by every check that is made for it, with these truths,
 // today.
 [[nodiscard]] judge::GateRequest request_of(Truths& truths, const std::string& plan);
+
+// What a requested error is told from.
+[[nodiscard]] measure::RequestPictures pictures_of(Truths& truths);
 
 }  // namespace triptych::app

@@ -1,6 +1,10 @@
 // A requested error: the cheapest configuration that keeps it, or why there is none.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
 
 #include "core/image_io.hpp"
 #include "measure/plan/plan.hpp"
@@ -10,33 +14,100 @@
 namespace triptych::command_line {
 namespace {
 
-// What the tiny plan's scene tends to, as a file for a device to replay.
-std::filesystem::path limit_picture(const Program& program) {
+// A script of devices that draw what each of these scenes tends to. Where there are several, their
+// data tell them apart.
+std::string drawing_the_limit(const Program& program, const std::vector<std::string>& data,
+                              const std::string& viewport) {
   const auto suite = volume_suite::make_suite({});
-  const measure::Plan plan = measure::default_plan(
-      *suite, {{"data", {"generate:gaussian_blob:16"}}, {"viewport", {"16"}}});
-  const auto file = program.folder() / "limit.exr";
-  core::write_exr(suite->limit(plan.configurations.at(0)).image, file);
-  return file;
+  std::string images;
+  for (const std::string& each : data) {
+    const measure::Plan plan =
+        measure::default_plan(*suite, {{"data", {each}}, {"viewport", {viewport}}});
+    const auto file = program.folder() / fmt::format("limit_{}.exr", images.size());
+    core::write_exr(suite->limit(plan.configurations.at(0)).image, file);
+    images += fmt::format(R"({}"*{}*": "{}")", images.empty() ? "" : ", ", each, file.string());
+  }
+  return R"({"images": {)" + images + "}}";
 }
+
+constexpr const char* blob = "generate:gaussian_blob:16";
 
 TEST(Error, IsKeptByTheFastestOfItsCandidates) {
   const Program program;
-  const std::string script = R"({"images": {"*": ")" + limit_picture(program).string() + "\"}}";
-  const Result kept =
-      program.run("run volume/quick " + std::string(tiny) + " --error 0.001", script);
+  const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.001",
+                                  drawing_the_limit(program, {blob}, "16"));
   EXPECT_EQ(kept.code, 0) << kept.output;
   EXPECT_NE(kept.output.find("midpoint keeps it with step"), std::string::npos) << kept.output;
   EXPECT_NE(kept.output.find("preintegrated keeps it with step"), std::string::npos);
   EXPECT_EQ(kept.output.find("own keeps it"), std::string::npos) << kept.output;
-  EXPECT_NE(kept.output.find("of 0.001"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("of 0.001:rms"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("% of drawing nothing, covered"), std::string::npos) << kept.output;
+}
+
+// A picture of a few rows is no line of few pixels: that showed nothing of it.
+TEST(Error, OfALongPictureIsKept) {
+  const Program program;
+  const Result kept = program.run(
+      "run volume/quick --device 'null:*' --set technique=raycast --set transfer_function=haze "
+      "--set data=generate:mandelbulb:32 --set viewport=512x8 --error 0.001",
+      drawing_the_limit(program, {"generate:mandelbulb:32"}, "512x8"));
+  EXPECT_EQ(kept.code, 0) << kept.output;
+  EXPECT_EQ(kept.output.find("step=4096"), std::string::npos) << kept.output;
+}
+
+TEST(Error, IsOfTheMetricThatIsNamed) {
+  const Program program;
+  const std::string script = drawing_the_limit(program, {blob}, "16");
+  for (const char* metric : {"rms", "covered", "p99.9", "max"}) {
+    const Result kept =
+        program.run(fmt::format("run volume/quick {} --error 0.003:{}", tiny, metric), script);
+    EXPECT_EQ(kept.code, 0) << kept.output;
+    EXPECT_NE(kept.output.find(fmt::format("({})", metric)), std::string::npos) << kept.output;
+    EXPECT_NE(kept.output.find(fmt::format("of 0.003:{}", metric)), std::string::npos);
+  }
+}
+
+TEST(Error, ThatDrawingNothingKeepsIsNoChoice) {
+  const Program program;
+  const Result empty = program.run("run volume/quick " + std::string(tiny) + " --error 0.9");
+  EXPECT_EQ(empty.code, 2) << empty.output;
+  EXPECT_NE(empty.output.find("drawing nothing keeps 0.9:rms, it errs by"), std::string::npos)
+      << empty.output;
+  EXPECT_NE(empty.output.find("of 256 pixels show anything"), std::string::npos) << empty.output;
+}
+
+TEST(Error, OutOfReachInOneSceneIsToldAndAllOthersAreMeasured) {
+  const Program program;
+  const std::string constant = "analytic:v1_constant:8";
+  const std::string plan = fmt::format(
+      "run volume/quick --device 'null:*' --set technique=raycast --set transfer_function=haze "
+      "--set data={},generate:mandelbulb:16 --set viewport=16 --error 1e-7:max",
+      constant);
+  const Result result = program.run(plan, drawing_the_limit(program, {constant}, "16"));
+  EXPECT_EQ(result.code, 2) << result.output;
+  EXPECT_NE(result.output.find("data=generate:mandelbulb:16,technique=raycast,viewport=16: no step "
+                               "keeps 7e-08, the step's share of 1e-07:max; the least error is"),
+            std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find("of 1e-07:max"), std::string::npos) << result.output;
+}
+
+TEST(Error, OfAStressCaseIsRefusedForItHasNoLimit) {
+  const Program program;
+  const Result result = program.run(
+      "run volume/stress --device 'null:*' --set data=stress:inside:middle --set "
+      "technique=raycast --error 0.01");
+  EXPECT_EQ(result.code, 2) << result.output;
+  EXPECT_NE(result.output.find("has no limit that an error could be told from"), std::string::npos)
+      << result.output;
 }
 
 TEST(Error, ThatADeviceDoesNotKeepIsToldWithTheLeast) {
   const Program program;
   const Result missed = program.run("run volume/quick " + std::string(tiny) + " --error 0.001");
   EXPECT_EQ(missed.code, 2) << missed.output;
-  EXPECT_NE(missed.output.find("no candidate keeps 0.001; the least error is"), std::string::npos)
+  EXPECT_NE(missed.output.find("no candidate keeps 0.001:rms; the least error is"),
+            std::string::npos)
       << missed.output;
 }
 
@@ -48,6 +119,12 @@ TEST(Error, MustBePositiveAndOfASuiteWithAStep) {
     EXPECT_EQ(result.code, 3) << result.output;
     EXPECT_NE(result.output.find("expected a positive number"), std::string::npos) << result.output;
   }
+  const Result unknown =
+      program.run("run volume/quick " + std::string(tiny) + " --error 0.1:median");
+  EXPECT_EQ(unknown.code, 3) << unknown.output;
+  EXPECT_NE(unknown.output.find("no metric 'median'; there are rms, covered, p99.9, max"),
+            std::string::npos)
+      << unknown.output;
   const Result particles = program.run("run particles/quick --device 'null:*' --error 0.01");
   EXPECT_EQ(particles.code, 3) << particles.output;
   EXPECT_NE(particles.output.find("suite particles has no step"), std::string::npos)

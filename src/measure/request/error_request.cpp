@@ -1,0 +1,284 @@
+#include "measure/request/error_request.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "accuracy/choice.hpp"
+#include "core/error.hpp"
+#include "measure/contract/factor.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using accuracy::RequestedError;
+
+constexpr std::array<const char*, 5> chosen_factors{"adapt", "ert", "quadrature", "skip", "step"};
+
+const Factor& factor_of(const Suite& suite, std::string_view name) {
+  const auto found = std::ranges::find(suite.factors(), name, &Factor::name);
+  if (found == suite.factors().end()) {
+    throw core::InputError(
+        fmt::format("--error chooses step, quadrature, ert, skip and adapt; suite {} has no {}",
+                    suite.name(), name));
+  }
+  return *found;
+}
+
+// Its levels but for the one by which data bring their own: it stands for another of them.
+std::vector<std::string> levels_of(const Suite& suite, std::string_view name) {
+  std::vector<std::string> levels = factor_of(suite, name).levels;
+  std::erase(levels, "own");
+  return levels;
+}
+
+// "camera=…,data=…" of all that the request leaves as it is.
+std::string scene_of(const Suite& suite, Configuration configuration) {
+  for (const char* name : chosen_factors) configuration[name] = factor_of(suite, name).standard;
+  return configuration_key(suite, configuration);
+}
+
+// No more digits than the text of a plan needs, and never more than the value.
+double rounded_down(double value) {
+  const double unit = std::exp2(std::floor(std::log2(value)) - 8);
+  return std::floor(value / unit) * unit;
+}
+
+std::string text_of_step(double step) {
+  return fmt::format("{}", rounded_down(step));
+}
+
+// The candidates of a plan's scenes.
+class Search {
+ public:
+  Search(SuiteWithTruth& suite, const RequestedError& request, const RequestPictures& pictures,
+         const std::function<void(const std::string&)>& tell)
+      : suite_(suite),
+        request_(request),
+        pictures_(pictures),
+        tell_(tell),
+        limits_{factor_of(suite, "step").minimum, factor_of(suite, "step").maximum},
+        step_error_(accuracy::step_share * request.error) {}
+
+  // Its candidates, or why there are none.
+  void add(const Configuration& scene, ErrorRequest& result) {
+    const std::string name = scene_of(suite_, scene);
+    const accuracy::LimitPicture* limit = pictures_.limit(record_of(scene));
+    if (limit == nullptr) {
+      result.out_of_reach.push_back(name + ": has no limit that an error could be told from");
+      return;
+    }
+    const auto nothing = accuracy::errors_of_nothing(limit->image);
+    if (nothing.of(request_.metric) <= request_.error) {
+      result.out_of_reach.push_back(fmt::format(
+          "{}: drawing nothing keeps {}, it errs by {:.3g}; {} of {} pixels show anything: ask for "
+          "less, by another metric, or for what shows more",
+          name, text_of(request_), nothing.of(request_.metric), nothing.covered,
+          limit->image.pixel_count()));
+      return;
+    }
+    search_on_few_pixels(scene);
+    std::optional<Found> least;
+    const std::size_t before = result.plan.configurations.size();
+    for (const std::string& quadrature : levels_of(suite_, "quadrature")) {
+      Configuration candidate = scene;
+      candidate["quadrature"] = quadrature;
+      const Found found = longest_step(candidate, limit->image);
+      candidate["step"] = text_of_step(found.step);
+      const bool keeps = found.error <= step_error_;
+      tell_(fmt::format("{}: {} {} with step {}, which errs by {:.2g} ({})", name, quadrature,
+                        keeps ? "keeps it" : "does not keep it even", candidate.at("step"),
+                        found.error, name_of(request_.metric)));
+      if (keeps) add_candidates(candidate, result.plan);
+      if (!least || found.error < least->error) least = found;
+    }
+    if (result.plan.configurations.size() > before) return;
+    result.out_of_reach.push_back(fmt::format(
+        "{}: no step keeps {:.3g}, the step's share of {}; the least error is {:.3g}, on {} pixels",
+        name, step_error_, text_of(request_), least->error, least->viewport));
+  }
+
+ private:
+  // A step, what it errs by, and the picture that says so.
+  struct Found {
+    double step = 0;
+    double error = 0;
+    std::string viewport;
+  };
+
+  [[nodiscard]] record::Record record_of(const Configuration& configuration) const {
+    record::Record record;
+    record.suite = suite_.name();
+    record.scene = scene_key(suite_, configuration);
+    record.factors = configuration;
+    return record;
+  }
+
+  [[nodiscard]] double error(const core::Image& limit, const core::Image& picture) const {
+    return accuracy::errors_against(limit, picture).of(request_.metric);
+  }
+
+  void search_on_few_pixels(const Configuration& scene) {
+    const auto [width, height] = parse_viewport(scene.at("viewport"));
+    const accuracy::PictureSize size = accuracy::search_size({width, height});
+    few_pixels_ = fmt::format("{}x{}", size.width, size.height);
+    Configuration coarse = scene;
+    coarse["viewport"] = few_pixels_;
+    limit_of_few_pixels_ = suite_.limit(coarse).image;
+  }
+
+  // Of the candidate's quadrature: guessed on few pixels, held against the whole picture.
+  [[nodiscard]] Found longest_step(Configuration candidate, const core::Image& limit) {
+    const std::string viewport = std::exchange(candidate["viewport"], few_pixels_);
+    const accuracy::StepError guess =
+        accuracy::longest_step(step_error_, limits_, [&](double step) {
+          candidate["step"] = text_of_step(step);
+          return error(limit_of_few_pixels_, suite_.truth(candidate, {}).image);
+        });
+    // Few pixels tell little of many; but an error far beyond the request is beyond it on all.
+    constexpr double far = 4;
+    if (!(guess.error <= far * step_error_)) return {guess.step, guess.error, few_pixels_};
+    candidate["viewport"] = viewport;
+    const accuracy::StepError found =
+        accuracy::shortened_step(guess.step, step_error_, limits_, [&](double step) {
+          candidate["step"] = text_of_step(step);
+          return error(limit, pictures_.truth(record_of(candidate)));
+        });
+    return {found.step, found.error, viewport};
+  }
+
+  void add_candidates(Configuration candidate, Plan& plan) const {
+    const Factor& ert = factor_of(suite_, "ert");
+    const double enough = rounded_down(accuracy::termination_share * request_.error);
+    candidate["ert"] = fmt::format("{}", std::clamp(enough, ert.minimum, ert.maximum));
+    for (const std::string& skip : levels_of(suite_, "skip")) {
+      candidate["skip"] = skip;
+      plan.configurations.push_back(candidate);
+    }
+    // No other has samples to merge, nor any other skip.
+    if (candidate.at("quadrature") != "midpoint") return;
+    const double merged = rounded_down(accuracy::merging_share * request_.error);
+    candidate["skip"] = "bricks";
+    candidate["adapt"] = fmt::format("{}", std::min(merged, factor_of(suite_, "adapt").maximum));
+    plan.configurations.push_back(candidate);
+  }
+
+  SuiteWithTruth& suite_;
+  RequestedError request_;
+  const RequestPictures& pictures_;
+  const std::function<void(const std::string&)>& tell_;
+  accuracy::StepLimits limits_;
+  double step_error_;
+  std::string few_pixels_;
+  core::Image limit_of_few_pixels_;
+};
+
+// What a device made of a scene.
+struct Group {
+  std::vector<accuracy::TimedError> cases;
+  std::vector<accuracy::PictureErrors> errors;
+  std::vector<const record::Record*> records;
+  accuracy::PictureErrors nothing;
+};
+
+ErrorAnswer answer_of(const Group& group, const RequestedError& request) {
+  ErrorAnswer answer{.nothing = group.nothing};
+  if (group.cases.empty()) return answer;
+  const auto best = accuracy::cheapest(group.cases, request.error);
+  const auto nearest = std::ranges::min_element(group.cases, {}, &accuracy::TimedError::error);
+  answer.errors =
+      group.errors[best.value_or(static_cast<std::size_t>(nearest - group.cases.begin()))];
+  if (best) {
+    answer.record = group.records[*best];
+    answer.time_ns = *group.cases[*best].time_ns;
+  }
+  return answer;
+}
+
+}  // namespace
+
+ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite, const RequestedError& request,
+                           const RequestPictures& pictures,
+                           const std::function<void(const std::string&)>& tell) {
+  if (plan.counted()) {
+    throw core::InputError(fmt::format(
+        "--error asks for the fastest, and {} counts instructions in place of times", plan.name));
+  }
+  ErrorRequest result{.plan = plan, .out_of_reach = {}};
+  result.plan.checks.insert(record::Check::timing);
+  result.plan.name = fmt::format("{} within {}", plan.name, text_of(request));
+  result.plan.configurations.clear();
+  result.plan.varied.assign(chosen_factors.begin(), chosen_factors.end());
+  Search search(suite, request, pictures, tell);
+  std::set<std::string> seen;
+  for (Configuration scene : plan.configurations) {
+    scene["adapt"] = "0";
+    scene["ert"] = "0";
+    if (!seen.insert(scene_of(suite, scene)).second) continue;
+    if (suite.missing_data(scene).empty()) {
+      search.add(scene, result);
+    } else {
+      result.plan.configurations.push_back(scene);  // told of as skipped when it is measured
+    }
+  }
+  return result;
+}
+
+std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records,
+                                      const Suite& suite, const RequestedError& request,
+                                      const RequestPictures& pictures) {
+  std::map<std::pair<std::string, std::string>, Group> groups;
+  for (const record::Record& record : records) {
+    if (record.outcome == record::Outcome::skipped) continue;
+    Group& group = groups[{record.device, scene_of(suite, record.factors)}];
+    if (record.outcome != record::Outcome::measured || record.image.empty()) continue;
+    const accuracy::LimitPicture* limit = pictures.limit(record);
+    if (limit == nullptr) continue;
+    const auto errors = accuracy::errors_against(limit->image, pictures.drawn(record));
+    if (!std::isfinite(errors.of(request.metric))) continue;
+    const auto summary = record::summarise(record.time_ns());
+    group.cases.push_back(
+        {summary ? std::optional(summary->median) : std::nullopt, errors.of(request.metric)});
+    group.errors.push_back(errors);
+    group.records.push_back(&record);
+    group.nothing = accuracy::errors_of_nothing(limit->image);
+  }
+  std::vector<ErrorAnswer> answers;
+  for (const auto& [key, group] : groups) {
+    answers.push_back(answer_of(group, request));
+    answers.back().device = key.first;
+    answers.back().scene = key.second;
+  }
+  return answers;
+}
+
+std::string describe(const ErrorAnswer& answer, const RequestedError& request) {
+  const double error = answer.errors.of(request.metric);
+  const double nothing = answer.nothing.of(request.metric);
+  if (answer.record == nullptr) {
+    const std::string why = nothing > 0 ? fmt::format("the least error is {:.3g}", error)
+                                        : std::string("no picture was drawn");
+    return fmt::format("{} {}: no candidate keeps {}; {}", answer.device, answer.scene,
+                       text_of(request), why);
+  }
+  std::string factors;
+  for (const char* name : chosen_factors) {
+    factors += fmt::format("{}={}, ", name, answer.record->factors.at(name));
+  }
+  std::string text = fmt::format(
+      "{} {}: {}{:.3f} ms, error {:.3g} of {}, {:.2g} % of drawing nothing", answer.device,
+      answer.scene, factors, answer.time_ns / 1e6, error, text_of(request), 100 * error / nothing);
+  for (const accuracy::Metric metric : accuracy::all_metrics) {
+    if (metric == request.metric) continue;
+    text += fmt::format(", {} {:.3g}", name_of(metric), answer.errors.of(metric));
+  }
+  return text;
+}
+
+}  // namespace triptych::measure
