@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "reference/opacity.hpp"
@@ -14,6 +15,7 @@ namespace triptych::reference {
 struct Pixel {
   std::array<double, 4> rgba{};
   double bound = 0;
+  std::uint64_t samples = 0;  // of Truth::samples
 };
 
 // Samples are added front to back, then finish() folds them back to front, which yields the colour

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <numeric>
+#include <vector>
 
 #include "core/error.hpp"
 #include "reference/composite.hpp"
@@ -61,19 +63,22 @@ Truth draw(const scene::VolumeScene& scene, int threads, const MakeCaster& make_
   const auto pixels = width * static_cast<std::size_t>(scene.height);
   truth.rgba.resize(4 * pixels);
   truth.bound.resize(pixels);
+  std::vector<std::uint64_t> samples(static_cast<std::size_t>(scene.height));
   for_each_row(scene.height, threads, [&]() -> RowWorker {
     // Shared, for std::function asks for a copyable callable.
     auto caster = std::make_shared<decltype(make_caster())>(make_caster());
-    return [&truth, width, caster](int y) {
+    return [&truth, &samples, width, caster](int y) {
       for (std::size_t x = 0; x < width; ++x) {
         const Pixel pixel = (*caster)(static_cast<int>(x), y);
         const std::size_t index = static_cast<std::size_t>(y) * width + x;
         std::copy(pixel.rgba.begin(), pixel.rgba.end(),
                   truth.rgba.begin() + static_cast<std::ptrdiff_t>(4 * index));
         truth.bound[index] = pixel.bound;
+        samples[static_cast<std::size_t>(y)] += pixel.samples;
       }
     };
   });
+  truth.samples = std::accumulate(samples.begin(), samples.end(), std::uint64_t{0});
   return truth;
 }
 

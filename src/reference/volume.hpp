@@ -2,6 +2,7 @@
 // The truth for volumes: the emission–absorption integral on the scene's sample lattice, in double
 // precision, one voxel value and one table entry at a time. Shares no code with the techniques.
 
+#include <cstdint>
 #include <vector>
 
 #include "core/image.hpp"
@@ -31,7 +32,8 @@ struct Truth {
   int height = 0;
   std::vector<double> rgba;   // as core::Image, premultiplied, top row first
   std::vector<double> bound;  // per pixel: the largest error of any channel that the model allows;
-                              // of render_volume_converged: the change by its last halving
+                              // of render_volume_converged: the change by its last halvings
+  std::uint64_t samples = 0;  // of render_volume_converged: points of rays that were looked up
 
   [[nodiscard]] core::Image image() const;        // rounded to float
   [[nodiscard]] core::Image bound_image() const;  // the bound in all four channels, rounded up
@@ -43,13 +45,14 @@ struct Truth {
 [[nodiscard]] Truth render_volume(const scene::VolumeScene& scene, const ErrorModel& model = {},
                                   int threads = 0);
 
-// The same ray integral with the step refined until two halvings change no channel by more than
-// `tolerance`, extrapolated: the limit of step → 0 for this grid and table. For orders of
-// convergence.
+// The same ray integral with every step refined until halving them all changes no channel by more
+// than `tolerance`: the limit of step → 0 for this grid and table. For orders of convergence.
 [[nodiscard]] Truth render_volume_converged(const scene::VolumeScene& scene, double tolerance,
                                             int threads = 0);
 
 // Version of this renderer: changes whenever its pictures may.
 inline constexpr const char* volume_version = "2";
+// And of its limits.
+inline constexpr const char* converged_version = "3";
 
 }  // namespace triptych::reference

@@ -315,7 +315,7 @@ std::string VolumeSuite::limit_key(const Configuration& configuration) {
   return fmt::format(
       "converged {} data {} {}, transfer_function {}, shading {}, camera {}, "
       "viewport {}{}",
-      reference::volume_version, configuration.at("data"), loaded.grid->hash,
+      reference::converged_version, configuration.at("data"), loaded.grid->hash,
       configuration.at("transfer_function"), configuration.at("shading"),
       configuration.at("camera"), configuration.at("viewport"),
       table_text(configuration, function));
