@@ -14,9 +14,9 @@ struct Constants {
   bool count = false;
   bool speed_of_light = false;
   int fault = 0;
-  int opacity_form = 0;  // technique::opacity_form of the step
-  bool preintegrated = false;
-  bool cells = false;  // a source of its own
+  int opacity_form = 0;   // technique::opacity_form of the step
+  int preintegrated = 0;  // technique::preintegration_form
+  bool cells = false;     // a source of its own
   bool leaps = false;
   bool adapt = false;
   int precision = 32;      // bits of a number: 32 or 64

@@ -10,6 +10,7 @@
 #include "backends/gl/prepared.hpp"
 #include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
+#include "technique/volume/preintegration.hpp"
 #include "technique/volume/raycast_buffers.hpp"
 
 namespace triptych::gl_backend {
@@ -111,7 +112,7 @@ Constants constants_of(const measure::VolumeWork& work) {
       .fault = static_cast<int>(work.options.fault),
       .opacity_form = technique::opacity_form(
           work.options.fault == technique::Fault::uncorrected_opacity ? 1 : work.scene.step_voxels),
-      .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated,
+      .preintegrated = technique::preintegration_form(work.scene),
       .cells = work.scene.quadrature == scene::Quadrature::cells,
       .leaps = work.options.skip == technique::Skip::distance,
       .adapt = work.options.adapt > 0,

@@ -35,6 +35,20 @@ TRI_FN float4 with_part_of_cell(__constant float4* table, float4 gathered, int c
                     (tilt * (0.071428571f * square - 0.16666667f)) * change);
 }
 
+TRI_FN bool are_too_deep(__global const float4* pairs, int first, int last, float per_cell) {
+  return abs(last - first) > 1 && per_cell * pairs[3 * (256 * first + last)].x > TRI_DEEPEST_CHUNK;
+}
+
+// The entry up to which cells that are too deep are taken at once: as many as would not be if all were
+// alike, and half of them until they are not, but one cell at least.
+TRI_FN int end_of_chunk(__global const float4* pairs, int first, int last, float per_cell) {
+  int direction = last > first ? 1 : -1;
+  float share = TRI_DEEPEST_CHUNK / (per_cell * pairs[3 * (256 * first + last)].x);
+  int taken = max(1, (int)(share * (float)abs(last - first)));
+  while (are_too_deep(pairs, first, first + direction * taken, per_cell)) taken /= 2;
+  return first + direction * taken;
+}
+
 // Premultiplied colour and opacity of a step of `length` voxels.
 TRI_FN float4 preintegrated(__constant float4* table, __global const float4* pairs, float front,
                             float back, float length) {
@@ -55,6 +69,14 @@ TRI_FN float4 preintegrated(__constant float4* table, __global const float4* pai
   float per_cell = length / fabs(to - from);
   gathered = with_part_of_cell(table, gathered, first_cell, from, (float)first,
                                per_cell * fabs((float)first - from));
+#if TRI_PREINTEGRATED == 2
+  while (1.0f - gathered.w > TRI_LEAST_LEFT && are_too_deep(pairs, first, last, per_cell)) {
+    int there = end_of_chunk(pairs, first, last, per_cell);
+    __global const float4* chunk = pairs + 3 * (256 * first + there);
+    gathered = with_piece(gathered, per_cell * chunk[0].x, chunk[0].yzw, chunk[1].xyz, chunk[2].xyz);
+    first = there;
+  }
+#endif
   __global const float4* pair = pairs + 3 * (256 * first + last);
   gathered = with_piece(gathered, per_cell * pair[0].x, pair[0].yzw, pair[1].xyz, pair[2].xyz);
   return with_part_of_cell(table, gathered, last_cell, (float)last, to,

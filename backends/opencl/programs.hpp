@@ -20,9 +20,9 @@ struct Constants {
   bool shading = false;
   bool count = false;
   bool speed_of_light = false;
-  bool preintegrated = false;
-  bool cells = false;  // a source of its own
-  bool leaps = false;  // technique::Skip::distance
+  int preintegrated = 0;  // technique::preintegration_form
+  bool cells = false;     // a source of its own
+  bool leaps = false;     // technique::Skip::distance
   bool adapt = false;
   technique::Precision precision = technique::Precision::fp32;
   technique::Fault fault = technique::Fault::none;

@@ -5,8 +5,8 @@
 // A batch is fetched and classified whole and composited sample by sample, so a ray may fetch a few
 // samples beyond its end; what is composited and counted is the same for every size of the batch.
 //
-// Compile-time constants: TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, TRI_PREINTEGRATED, TRI_LEAPS,
-// TRI_ADAPT, and those of volume.cl.
+// Compile-time constants: TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, TRI_PREINTEGRATED
+// (technique::preintegration_form), TRI_LEAPS, TRI_ADAPT, and those of volume.cl.
 
 // Colours and opacities per voxel length of n values, linear between the table's 256 entries.
 TRI_FN void classify(__constant float4* table, const real* value, int n, real4* colour,

@@ -7,6 +7,7 @@
 #include "technique/volume/brick_map.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/extra_work.hpp"
+#include "technique/volume/preintegration.hpp"
 #include "technique/volume/quadrature_table.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
@@ -32,7 +33,7 @@ Constants constants_of(const Session& session, const measure::VolumeWork& work) 
   return {.sampler = work.options.sampler,
           .voxel = work.scene.grid->format,
           .shading = work.scene.shading.enabled,
-          .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated,
+          .preintegrated = technique::preintegration_form(work.scene),
           .cells = work.scene.quadrature == scene::Quadrature::cells,
           .leaps = work.options.skip == technique::Skip::distance,
           .adapt = work.options.adapt > 0,

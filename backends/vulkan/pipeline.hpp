@@ -44,7 +44,7 @@ struct Constants {
   std::int32_t speed_of_light = 0;
   std::int32_t fault = 0;
   std::int32_t opacity_form = 0;
-  std::int32_t preintegrated = 0;
+  std::int32_t preintegrated = 0;  // technique::preintegration_form
   std::int32_t leaps = 0;
   std::int32_t adapt = 0;
 };

@@ -9,6 +9,7 @@
 #include "technique/volume/brick_map.hpp"
 #include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
+#include "technique/volume/preintegration.hpp"
 #include "technique/volume/quadrature_table.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
@@ -155,7 +156,7 @@ Constants constants_of(const measure::VolumeWork& work) {
           .opacity_form = work.options.fault == technique::Fault::uncorrected_opacity
                               ? technique::opacity_form(1)
                               : technique::opacity_form(work.scene.step_voxels),
-          .preintegrated = work.scene.quadrature == scene::Quadrature::preintegrated ? 1 : 0,
+          .preintegrated = technique::preintegration_form(work.scene),
           .leaps = work.options.skip == technique::Skip::distance ? 1 : 0,
           .adapt = work.options.adapt > 0 ? 1 : 0};
 }

@@ -4,34 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/extinction.hpp"
+
 namespace triptych::reference {
 
 namespace {
 
 constexpr double last_entry = 255;
-
-// −ln(1 − alpha) averaged while alpha runs straight from a to b: by F(α) = (1 − α)·ln(1 − α) + α,
-// whose derivative it is, or where that cancels by its series around the middle.
-double mean_extinction(double a, double b) {
-  const double middle = 0.5 * (a + b);
-  const double left = 1.0 - middle;
-  if (!(left > 0.0)) return std::numeric_limits<double>::infinity();
-  const double r = 0.5 * std::abs(b - a) / left;
-  if (r < 0.2) {
-    const double q = r * r;
-    double sum = 0.0;
-    for (int n = 10; n > 0; --n) sum = q * (sum + 1.0 / (2.0 * n * (2.0 * n + 1.0)));
-    return sum - std::log1p(-middle);
-  }
-  const auto integral = [](double alpha) {
-    return alpha < 1.0 ? (1.0 - alpha) * std::log1p(-alpha) + alpha : 1.0;
-  };
-  return (integral(b) - integral(a)) / (b - a);
-}
-
-double opacity_of(double depth) {
-  return -std::expm1(-depth);
-}
 
 }  // namespace
 
@@ -42,21 +21,6 @@ Preintegration::Rgba Preintegration::at(double position) const {
   return table_.at(std::clamp(position, 0.0, last_entry));
 }
 
-Preintegration::Reach Preintegration::reach(double lo, double hi) const {
-  const double first = std::clamp(std::floor(lo), 0.0, last_entry - 1);
-  const double last = std::clamp(std::floor(hi), 0.0, last_entry - 1);
-  Reach reach;
-  for (double k = first; k <= last; k += 1.0) {
-    const Rgba a = at(k);
-    const Rgba b = at(k + 1);
-    for (std::size_t i = 0; i < 4; ++i) {
-      reach.slope[i] = std::max(reach.slope[i], std::abs(b[i] - a[i]));
-    }
-    reach.most_alpha = std::max({reach.most_alpha, a[3], b[3]});
-  }
-  return reach;
-}
-
 bool Preintegration::transparent(const Bounded& front, const Bounded& back) const {
   const Span a = Table::span_of(front);
   const Span b = Table::span_of(back);
@@ -65,16 +29,16 @@ bool Preintegration::transparent(const Bounded& front, const Bounded& back) cons
 }
 
 // Beyond the table the function is constant: there the ends are cut at as the entries are.
-std::vector<Preintegration::Piece> Preintegration::cut(double from, double to,
-                                                       double length) const {
-  std::vector<Piece> pieces;
+std::vector<PathPiece> Preintegration::cut(double from, double to, double length) const {
+  std::vector<PathPiece> pieces;
   const double direction = to < from ? -1.0 : 1.0;
   const double per_entry = from == to ? 0.0 : length / std::abs(to - from);
   const double lowest = std::max(std::floor(std::min(from, to)) + 1.0, 0.0);
   const double highest = std::min(std::ceil(std::max(from, to)) - 1.0, last_entry);
   double here = from;
   const auto go_to = [&](double there) {
-    pieces.push_back({at(here), at(there), per_entry * std::abs(there - here)});
+    pieces.push_back(
+        {at(here), at(there), per_entry * std::abs(there - here), 0.5 * (here + there)});
     here = there;
   };
   for (double n = 0.0; n <= highest - lowest; n += 1.0) {
@@ -85,7 +49,7 @@ std::vector<Preintegration::Piece> Preintegration::cut(double from, double to,
   return pieces;
 }
 
-void Preintegration::add(const Piece& piece, int level, Light& light) {
+void Preintegration::add(const PathPiece& piece, int level, Light& light) {
   constexpr int deepest = 24;
   if (!(piece.length > 0.0)) return;
   const double mean = mean_extinction(piece.a[3], piece.b[3]);
@@ -95,8 +59,8 @@ void Preintegration::add(const Piece& piece, int level, Light& light) {
   if (steep && level < deepest && light.depth < 60.0 && left > 0.0) {
     Rgba middle{};
     for (std::size_t i = 0; i < 4; ++i) middle[i] = 0.5 * (piece.a[i] + piece.b[i]);
-    add({piece.a, middle, 0.5 * piece.length}, level + 1, light);
-    add({middle, piece.b, 0.5 * piece.length}, level + 1, light);
+    add({piece.a, middle, 0.5 * piece.length, piece.middle}, level + 1, light);
+    add({middle, piece.b, 0.5 * piece.length, piece.middle}, level + 1, light);
     return;
   }
   // Gauss's rule with four points; its weights are scaled so that a constant colour is exact.
@@ -131,65 +95,27 @@ Segment Preintegration::operator()(const Bounded& front, const Bounded& back,
                                    const StepLength& length) const {
   const double from = Table::knot_of(front.value);
   const double to = Table::knot_of(back.value);
-  const double e = 256.0 * std::max(front.error, back.error);
-  const Reach around = reach(std::min(from, to) - e, std::max(from, to) + e);
-  const double alpha_error = e * around.slope[3] + model_.table_error;
-
-  // Per voxel length, averaged along the path: the optical depth, its least and its most.
-  const std::vector<Piece> pieces = cut(from, to, 1.0);
+  const std::vector<PathPiece> pieces = cut(from, to, 1.0);
+  PreintegrationBound bound(table_, model_,
+                            {.from = from,
+                             .to = to,
+                             .error = 256.0 * std::max(front.error, back.error),
+                             .length = length,
+                             .pieces = pieces.size()});
   Light light;
-  double least = 0.0;
-  double most = 0.0;
-  Rgba lowest = pieces.front().a;
-  Rgba highest = lowest;
-  for (const Piece& piece : pieces) {
-    add({piece.a, piece.b, piece.length * length.nominal}, 0, light);
-    const auto changed = [&](double by) {
-      return piece.length > 0.0
-                 ? piece.length * mean_extinction(std::clamp(piece.a[3] + by, 0.0, 1.0),
-                                                  std::clamp(piece.b[3] + by, 0.0, 1.0))
-                 : 0.0;
-    };
-    least += changed(-alpha_error);
-    most += changed(alpha_error);
-    for (std::size_t i = 0; i < 3; ++i) {
-      lowest[i] = std::min(lowest[i], piece.b[i]);
-      highest[i] = std::max(highest[i], piece.b[i]);
-    }
+  for (const PathPiece& piece : pieces) {
+    const double before = light.depth;
+    add({piece.a, piece.b, piece.length * length.nominal, piece.middle}, 0, light);
+    // Behind what is opaque there is none that could be told.
+    bound.add(piece, std::isfinite(before) ? light.depth - before : 0.0);
   }
-  const double left = std::max(1.0 - around.most_alpha, 0.0);
-  const double r = left > 0.0 ? std::min(0.5 * around.slope[3] / left, 1.0) : 1.0;
-  const double tail = std::min(std::pow(r, 14) / (210.0 * (1.0 - r * r)), 0.038);
-
-  // Extinction may be infinite, a length zero.
-  const auto depth_of = [](double voxels, double tau) { return voxels > 0.0 ? voxels * tau : 0.0; };
-  const double depth_lo = depth_of(length.shortest, std::max(least - tail, 0.0));
-  const double depth_hi = depth_of(length.longest, most + tail);
   Segment segment;
-  StepOpacity& opacity = segment.opacity;
-  opacity.nominal = opacity_of(light.depth);
-  opacity.lo = opacity_of(depth_lo) * std::max(1.0 - model_.opacity_error, 0.0);
-  opacity.hi = std::min(opacity_of(depth_hi) * (1.0 + model_.opacity_error), 1.0);
-  const double error = std::max(opacity.hi - opacity.nominal, opacity.nominal - opacity.lo);
-  const double opacity_hi = std::min(opacity.nominal + error, 1.0);
-  // Infinite where a device may find opacity 1: then only the range of the colour bounds the light.
-  const double depth_change =
-      std::isfinite(depth_hi) ? std::max(depth_hi - light.depth, light.depth - depth_lo) : depth_hi;
-  const double bend = left > 0.0 ? around.slope[3] * around.slope[3] / (8.0 * left * left)
-                                 : std::numeric_limits<double>::infinity();
+  segment.opacity = bound.opacity(opacity_of(light.depth));
   for (std::size_t i = 0; i < 3; ++i) {
-    const double value_error = e * around.slope[i] + model_.table_error;
-    const double range = highest[i] - lowest[i] + 2.0 * value_error;
-    const double weights = std::min(2.0 * range * depth_change, range * opacity_hi);
-    const double cut_off = range * std::min(std::pow(depth_hi, 4) / 635.0, opacity_hi);
-    const double cells = around.slope[i] * std::min(2.0 * length.longest * bend, opacity_hi);
-    Looked& looked = segment.looked;
-    looked.colour[i] =
-        opacity.nominal > 0.0 ? light.colour[i] / opacity.nominal : pieces.front().a[i];
-    looked.colour_error[i] = value_error + 8.0 * model_.compositing_error;
-    if (opacity_hi > 0.0) {
-      looked.colour_error[i] += (weights + cut_off + cells) / opacity_hi;
-    }
+    segment.looked.colour[i] = segment.opacity.nominal > 0.0
+                                   ? light.colour[i] / segment.opacity.nominal
+                                   : pieces.front().a[i];
+    segment.looked.colour_error[i] = bound.colour_error(i, segment.opacity);
   }
   return segment;
 }

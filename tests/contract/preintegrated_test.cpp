@@ -103,6 +103,30 @@ TEST(Preintegrated, StaysWithinItsBound) {
   });
 }
 
+// Whole cells of the table are taken in chunks: at once, these steps erred by up to 0.3, and by
+// more than their bound.
+TEST(Preintegrated, OpaqueStepsAreExact) {
+  on_every_device([](measure::Device& device) {
+    for (const double step : {2.0, 64.0}) {
+      scene::VolumeScene scene = small_scene("surfaces");
+      scene.quadrature = scene::Quadrature::preintegrated;
+      scene.step_voxels = step;
+      measure::Work work = default_work(
+          device, scene::generate_volume("marschner_lobb", {40, 40, 40}), std::move(scene));
+      auto& volume = std::get<VolumeWork>(work.scene);
+      volume.options.ert = 0;
+      expect_within_bound(device, work);
+      const core::Image truth = reference::render_volume(volume.scene).image();
+      const core::Image image = draw(device, work);
+      double largest = 0;
+      for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
+        largest = std::max(largest, std::abs(static_cast<double>(image.rgba[i] - truth.rgba[i])));
+      }
+      EXPECT_LT(largest, 3e-5) << "step " << step;
+    }
+  });
+}
+
 // A table that holds 1, jumps and a spike of one entry.
 TEST(Preintegrated, SteepTransferFunctionsStayWithinTheBound) {
   on_every_device([](measure::Device& device) {

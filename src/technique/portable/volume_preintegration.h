@@ -8,8 +8,15 @@
 // c(y) = a0 + a1·P1(y) + a2·P2(y). The light of the piece is then
 //   D·∫c(y)·e^(−Dy) dy = (1 − e^(−D))·(a0 − a1·L + a2·(1 − 3L/z)),   z = D/2,  L = coth z − 1/z,
 // for ∫Pn(y)·e^(−Dy) dy = (−1)ⁿ·e^(−z)·i_n(z), i_n the modified spherical Bessel functions.
+// Three coefficients carry the light of a depth of 1 to R·D⁴/635, R the range of the colour, and little of
+// one much deeper. So whole cells that are deeper than TRI_DEEPEST_CHUNK, in powers of two, are taken front
+// to back in chunks that are not, or are one cell, along which colours run straight; and as one again once
+// less than TRI_LEAST_LEFT of the step's light is left.
 // In single precision only: what it looks up is tabulated in floats.
 #if TRI_PRECISION == 32
+
+#define TRI_DEEPEST_CHUNK 0.5f
+#define TRI_LEAST_LEFT 9.5367432e-7f
 
 // log2(1 − alpha) averaged while alpha runs straight from a to b. With m what is left of 1 in the middle
 // and r = |b − a|/2m, the mean of ln(m·(1 − r·x)) over −1 ≤ x ≤ 1 is ln m − Σ r^2n/(2n(2n+1)); six terms

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scene/exact_math.hpp"
+#include "technique/portable/prelude.hpp"
 
 namespace triptych::technique {
 namespace {
@@ -152,6 +153,16 @@ std::vector<std::array<float, 4>> preintegrated_pairs(const scene::TransferFunct
     }
   }
   return pairs;
+}
+
+int preintegration_form(const scene::VolumeScene& scene) {
+  if (scene.quadrature != scene::Quadrature::preintegrated) return 0;
+  double most = 0;
+  for (const Entry& entry : scene.transfer_function.entries) {
+    most = std::max(most, extinction(static_cast<double>(entry[3])));
+  }
+  const double deepest = most * std::numbers::log2e * scene.step_voxels;
+  return deepest > static_cast<double>(TRI_DEEPEST_CHUNK) ? 2 : 1;
 }
 
 }  // namespace triptych::technique

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/transfer_function.hpp"
+#include "scene/volume_scene.hpp"
 
 namespace triptych::technique {
 
@@ -20,5 +21,9 @@ namespace triptych::technique {
 inline constexpr std::size_t texels_per_pair = 3;
 [[nodiscard]] std::vector<std::array<float, 4>> preintegrated_pairs(
     const scene::TransferFunction& function);
+
+// The raycasters' TRI_PREINTEGRATED: 0 with another quadrature, 1 where all whole cells of any step
+// may be taken at once, 2 where they may be too deep for that (TRI_DEEPEST_CHUNK).
+[[nodiscard]] int preintegration_form(const scene::VolumeScene& scene);
 
 }  // namespace triptych::technique

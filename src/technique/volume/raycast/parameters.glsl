@@ -3,7 +3,7 @@
 //   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT, TRI_PREINTEGRATED, TRI_LEAPS, TRI_ADAPT (integers),
 // which may be specialization constants, and the macros TRI_PRECISION (bits of a `real`: 32 or 64), TRI_COUNT (0 or 1)
 // and TRI_LONG_RAYS (0 or 1: technique::has_long_rays). Where it also defines the macro TRI_OPACITY_FORM, that is
-// technique::opacity_form of the step.
+// technique::opacity_form of the step. TRI_PREINTEGRATED is technique::preintegration_form.
 #ifndef TRI_OPACITY_FORM
 #define TRI_OPACITY_FORM 0
 #endif

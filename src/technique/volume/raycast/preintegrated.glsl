@@ -1,5 +1,11 @@
 // Quadrature preintegrated: one step along which the value runs straight from front to back
 // (portable/volume_preintegration.h, technique::preintegrated_pairs).
+// A step of which a part is taken, because whole cells of it are too deep for one look-up.
+struct Cut {
+  float per_cell;  // voxels that one cell takes; 0: the step is not begun
+  float left;      // of the light at its front
+};
+
 #if TRI_PRECISION == 32
 
 // Puts a piece of the step behind what is gathered: premultiplied colour and opacity. `depth` is its optical
@@ -31,28 +37,74 @@ void add_part_of_cell(inout vec4 gathered, int cell, float a, float b, float len
             (0.5 - 0.1 * square) * change.rgb, (tilt * (0.071428571 * square - 0.16666667)) * change.rgb);
 }
 
-// Premultiplied colour and opacity of a step of `length` voxels.
-vec4 preintegrated(float front, float back, float length) {
+// The optical depth of the whole cells from entry `first` to `last`.
+float depth_of_cells(int first, int last, float per_cell) {
+  return per_cell * pairs[3 * (256 * first + last)].x;
+}
+
+void add_cells(inout vec4 gathered, int first, int last, float per_cell) {
+  int pair = 3 * (256 * first + last);
+  add_piece(gathered, per_cell * pairs[pair].x, pairs[pair].yzw, pairs[pair + 1].xyz, pairs[pair + 2].xyz);
+}
+
+bool are_too_deep(int first, int last, float per_cell) {
+  return abs(last - first) > 1 && depth_of_cells(first, last, per_cell) > TRI_DEEPEST_CHUNK;
+}
+
+// The entry up to which cells that are too deep are taken at once: as many as would not be if all were alike, and
+// half of them until they are not, but one cell at least.
+int end_of_chunk(int first, int last, float per_cell) {
+  int direction = last > first ? 1 : -1;
+  float share = TRI_DEEPEST_CHUNK / depth_of_cells(first, last, per_cell);
+  int taken = max(1, int(share * float(abs(last - first))));
+#if TRI_LONG_RAYS
+  for (int i = 0; i < 8; ++i) {  // of constant length: no pass of a loop
+    if (are_too_deep(first, first + direction * taken, per_cell)) taken /= 2;
+  }
+#else
+  while (are_too_deep(first, first + direction * taken, per_cell)) taken /= 2;
+#endif
+  return first + direction * taken;
+}
+
+// Premultiplied colour and opacity of a step of `length` voxels from value `front` to `back`; with
+// TRI_PREINTEGRATED 2 of its next part: the step is taken where `cut` is not begun afterwards, else it goes on
+// from the new `front`. A pass of the loop over steps, and not of one in here: those are counted (raycast()).
+vec4 preintegrated(inout float front, float back, float length, inout Cut cut) {
   // Not-a-number is the lowest value, as for the midpoint rule.
   float from = front * 256.0 - 0.5;
   float to = back * 256.0 - 0.5;
   from = from > -0.75 ? min(from, 255.75) : -0.75;
   to = to > -0.75 ? min(to, 255.75) : -0.75;
+  bool begun = TRI_PREINTEGRATED == 2 && cut.per_cell > 0.0;  // then it goes on from an entry
   int first_cell = int(floor(from));
   int last_cell = int(floor(to));
   bool one_cell = first_cell == last_cell;
   bool rising = last_cell > first_cell;
-  int first = rising ? first_cell + 1 : first_cell;  // entries passed
+  int first = rising && !begun ? first_cell + 1 : first_cell;  // entries passed
   int last = rising ? last_cell : last_cell + 1;
-  float per_cell = length / max(abs(to - from), 1.0e-30);
+  float per_cell = begun ? cut.per_cell : length / max(abs(to - from), 1.0e-30);
   vec4 gathered = vec4(0.0);
+  if (begun) length = per_cell * abs(to - from);
   add_part_of_cell(gathered, first_cell, from, one_cell ? to : float(first),
                    one_cell ? length : per_cell * abs(float(first) - from));
+  cut.per_cell = 0.0;
+  front = back;
   if (!one_cell) {
-    int pair = 3 * (256 * first + last);
-    add_piece(gathered, per_cell * pairs[pair].x, pairs[pair].yzw, pairs[pair + 1].xyz, pairs[pair + 2].xyz);
-    add_part_of_cell(gathered, last_cell, float(last), to, per_cell * abs(to - float(last)));
+    int there = last;
+    if (TRI_PREINTEGRATED == 2 && cut.left > TRI_LEAST_LEFT && are_too_deep(first, last, per_cell)) {
+      there = end_of_chunk(first, last, per_cell);
+    }
+    add_cells(gathered, first, there, per_cell);
+    bool whole = TRI_PREINTEGRATED != 2 || there == last;
+    add_part_of_cell(gathered, last_cell, float(last), whole ? to : float(last),
+                     whole ? per_cell * abs(to - float(last)) : 0.0);
+    if (!whole) {
+      cut.per_cell = per_cell;
+      front = (float(there) + 0.5) / 256.0;
+    }
   }
+  cut.left = cut.per_cell > 0.0 ? cut.left * (1.0 - gathered.a) : 1.0;
   return gathered;
 }
 

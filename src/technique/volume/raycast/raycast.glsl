@@ -21,34 +21,39 @@ void add_sample(inout Light light, Grid grid, Ray ray, real3 p, bool whole, real
   }
 }
 
-#if TRI_PRECISION == 32
-// The step of the ray from `begin` to `end`, in steps, between whose values the field runs straight; it is
-// `length` voxels long, which is not always what `begin` and `end` say (a planted fault).
-void add_segment(inout Light light, Grid grid, Ray ray, real begin, real end, real front, real back,
-                 real length) {
-  real4 segment = preintegrated(front, back, length);
-  if (TRI_COUNT == 1) count_samples++;
-  if (segment.a > 0.0) {
-    if (TRI_COUNT == 1) count_nonzero++;
-    if (TRI_SHADING == 1) {
-      real3 middle = ray.p0 + (0.5 * (begin + end)) * ray.g;
-      segment.rgb = segment.a * shade(grid, segment.rgb / segment.a, middle, ray.d);
-    }
-    light.colour += light.transmittance * segment.rgb;
-    light.transmittance -= light.transmittance * segment.a;
-  }
-}
-#endif
-
 // How far a ray has got.
 struct March {
   Light light;
-  real front;         // the value where the next step begins; with TRI_PREINTEGRATED only
+  real front;         // the value where the next step begins or goes on; with TRI_PREINTEGRATED only
   int i;              // the next sample
   int stop;           // the end of the run of visible samples
   int count;          // the end of the ray; 0 once nothing more is to be taken, as is `stop`
   bool last_visible;  // the ray's last sample lies in the run
 };
+
+#if TRI_PRECISION == 32
+// The next step, or the next part of it, between whose values the field runs straight.
+void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels) {
+  real end = min(real(m.i + 1), ray.steps);
+  real back = field(grid, ray.p0 + end * ray.g);
+  // Not always what begin and end say (a planted fault).
+  real length = step_voxels * tri_step_share(ray.steps, m.i);
+  bool fresh = TRI_PREINTEGRATED != 2 || cut.per_cell == 0.0;
+  if (TRI_PREINTEGRATED == 2 && m.light.transmittance == 0.0) cut.left = 0.0;  // no passes for what nobody sees
+  vec4 segment = preintegrated(m.front, back, length, cut);
+  bool visible = segment.a > 0.0 || cut.per_cell > 0.0;
+  if (TRI_COUNT == 1 && fresh) count_samples++;
+  if (TRI_COUNT == 1 && fresh && visible) count_nonzero++;
+  if (segment.a > 0.0) {
+    if (TRI_SHADING == 1) {
+      real3 middle = ray.p0 + (0.5 * (real(m.i) + end)) * ray.g;
+      segment.rgb = segment.a * shade(grid, segment.rgb / segment.a, middle, ray.d);
+    }
+    m.light.colour += m.light.transmittance * segment.rgb;
+    m.light.transmittance -= m.light.transmittance * segment.a;
+  }
+}
+#endif
 
 // Ends the ray where nothing behind can be seen any more.
 void end_in_the_dark(inout March m, real enough) {
@@ -61,21 +66,16 @@ void end_in_the_dark(inout March m, real enough) {
 }
 
 // The i-th sample or step.
-void advance(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
+void advance(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels, real enough) {
 #if TRI_PRECISION == 32
-  if (TRI_PREINTEGRATED == 1) {
-    real end = min(real(m.i + 1), ray.steps);
-    real back = field(grid, ray.p0 + end * ray.g);
-    real length = step_voxels * tri_step_share(ray.steps, m.i);
-    add_segment(m.light, grid, ray, real(m.i), end, m.front, back, length);
-    m.front = back;
-  }
+  if (TRI_PREINTEGRATED != 0) advance_segment(m, cut, grid, ray, step_voxels);
 #endif
   if (TRI_PREINTEGRATED == 0) {
     add_sample(m.light, grid, ray, ray.p0 + (real(m.i) + 0.5) * ray.g, true, step_voxels);
   }
-  end_in_the_dark(m, enough);
-  ++m.i;
+  bool begun = TRI_PREINTEGRATED == 2 && cut.per_cell > 0.0;
+  if (!begun) end_in_the_dark(m, enough);
+  m.i += begun ? 0 : 1;
 }
 
 // The samples of the run as one in the middle of their way (technique::brick_kinds); not before the first of
@@ -101,6 +101,7 @@ vec4 raycast(ivec2 pixel) {
   Grid grid = load_grid();
   March m = March(Light(real3(0.0), 1.0), 0.0, 0, 0, tri_sample_count(ray.steps), false);
   if (TRI_FAULT == fault_extra_sample && m.count > 0) { m.count += 1; ray.steps = real(m.count); }
+  Cut cut = Cut(0.0, 1.0);
   int last = m.count - 1;  // the sample that may stand for less than a step: it is taken after the loops
   real step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
   real enough = u.ray_right.w;
@@ -121,12 +122,12 @@ vec4 raycast(ivec2 pixel) {
     m.last_visible = m.stop == m.count && m.i < m.stop;
     // A partial step of a straight line is no other work than a whole one: it needs no special place.
     if (TRI_PREINTEGRATED == 0) m.stop = min(m.stop, last);
-    if (TRI_PREINTEGRATED == 1) m.front = field(grid, ray.p0 + real(m.i) * ray.g);
+    if (TRI_PREINTEGRATED != 0) m.front = field(grid, ray.p0 + real(m.i) * ray.g);
     while (m.i < m.stop) {
-      advance(m, grid, ray, step_voxels, enough);
+      advance(m, cut, grid, ray, step_voxels, enough);
 #if TRI_LONG_RAYS
 #define TRI_THREE_MORE TRI_ONE_MORE TRI_ONE_MORE TRI_ONE_MORE
-#define TRI_ONE_MORE if (m.i < m.stop) advance(m, grid, ray, step_voxels, enough);
+#define TRI_ONE_MORE if (m.i < m.stop) advance(m, cut, grid, ray, step_voxels, enough);
       TRI_THREE_MORE TRI_THREE_MORE TRI_THREE_MORE TRI_THREE_MORE TRI_THREE_MORE
 #endif
     }
