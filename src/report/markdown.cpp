@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t shown_openly = 10;
 constexpr std::size_t most_characters = 60000;
 constexpr std::size_t longest_command = 4000;
+constexpr std::size_t most_of_bounds = 8000;
 
 std::string rows(const Overview& all) {
   std::string text = "| check | verdict | |\n|---|---|---|\n";
@@ -39,6 +40,20 @@ std::string item(const Cause& cause) {
   const std::string command = command_of(first, *cause.result);
   if (!command.empty() && command.size() < longest_command) text += fenced(command);
   return text;
+}
+
+std::string bounds(const Overview& all) {
+  if (all.bounds.empty()) return {};
+  std::string text =
+      "\n<details><summary>How near pictures come to their bounds</summary>\n\n"
+      "| plan | device | pictures | largest error over bound | where |\n|---|---|--:|--:|---|\n";
+  for (const NearestBound& bound : all.bounds) {
+    text += fmt::format("| {} | {} | {} | {:.3g} | {} |\n", markdown_escaped(bound.plan),
+                        markdown_escaped(bound.device), bound.pictures, bound.share,
+                        markdown_escaped(bound.configuration));
+    if (text.size() > most_of_bounds) break;
+  }
+  return text + "\n</details>\n";
 }
 
 }  // namespace
@@ -84,6 +99,7 @@ std::string markdown(std::span<const judge::GateResult> results) {
     }
   }
   for (const Cause& cause : all.aside) rest.push_back(&cause);
+  text += bounds(all);
   if (rest.empty()) return text;
   text += fmt::format("\n<details><summary>{} more</summary>\n\n", rest.size());
   for (const Cause* cause : rest) {

@@ -145,8 +145,13 @@ Overview overview(std::span<const GateResult* const> results) {
     std::ranges::stable_sort(*causes, std::greater{},
                              [](const Cause& cause) { return cause.group.first->verdict; });
   }
+  all.bounds = nearest_bounds(results);
   for (const Kind& kind : kinds) {
-    if (kind.always || was_checked(kind, results)) all.rows.push_back(row_of(kind, results));
+    if (!kind.always && !was_checked(kind, results)) continue;
+    all.rows.push_back(row_of(kind, results));
+    const bool passed = all.rows.back().worst == Verdict::pass;
+    const std::string nearest = kind.check == Check::image ? nearest_text(all.bounds) : "";
+    if (passed && !nearest.empty()) all.rows.back().sentence += "; " + nearest;
   }
   return all;
 }

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "judge/gate/gate.hpp"
 #include "report/finding_groups.hpp"
+#include "report/nearest_bounds.hpp"
 
 namespace triptych::report {
 
@@ -31,6 +32,7 @@ struct Overview {
   std::vector<KindRow> rows;
   std::vector<Cause> open;   // what somebody has to look at, worst first
   std::vector<Cause> aside;  // waived, improved, advice, skips; not what passed
+  std::vector<NearestBound> bounds;
 };
 
 // It points into the results. Nothing judged is no pass.

@@ -61,6 +61,17 @@ std::string kinds(const Overview& all) {
   return text + "</table>\n";
 }
 
+std::string bounds(const Overview& all) {
+  if (all.bounds.empty()) return {};
+  std::vector<std::vector<std::string>> rows{
+      {"plan", "device", "pictures", "largest error over bound", "where"}};
+  for (const NearestBound& bound : all.bounds) {
+    rows.push_back({escape(bound.plan), escape(bound.device), fmt::to_string(bound.pictures),
+                    fmt::format("{:.3g}", bound.share), breakable(bound.configuration)});
+  }
+  return folded("How near pictures come to their bounds", table(rows));
+}
+
 const PlanData& plan_of(const Cause& cause, std::span<const PlanData> plans) {
   return *std::ranges::find(plans, cause.result, &PlanData::verdict);
 }
@@ -117,7 +128,7 @@ std::string verdict_section(std::span<const PlanData> plans) {
   std::vector<const judge::GateResult*> results;
   for (const PlanData& plan : plans) results.push_back(plan.verdict);
   const Overview all = overview(std::span<const judge::GateResult* const>(results));
-  return card(all, plans) + kinds(all) + findings(all, plans);
+  return card(all, plans) + kinds(all) + bounds(all) + findings(all, plans);
 }
 
 std::string picture_id(const PlanData& plan, const std::string& device,

@@ -76,6 +76,27 @@ TEST(LastScreen, OfAPassIsShort) {
   EXPECT_LE(std::ranges::count(text, '\n'), 10);
 }
 
+// A bound that no picture comes near sees nothing: that is to be noticed.
+TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
+  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
+  for (const auto& [device, ratio] :
+       {std::pair("gl:x", 0.61), {"gl:x", 0.2}, {"opencl:y", 0.003}}) {
+    add(result, Check::image, pass, device, fmt::format("step={}", ratio), "within");
+    result.findings.back().numbers["ratio"] = ratio;
+  }
+  add(result, Check::image, pass, "", "", "the truth has the stored hash");
+  result.findings.back().numbers["ratio"] = 7;  // no device's
+  EXPECT_THAT(last_screen(std::vector{result}, 3, {}, {.width = 120}),
+              HasSubstr("4 within their bounds; nearest 0.61 of it; 0.003 on opencl:y in "
+                        "volume/quick\n"));
+  const auto all = overview(std::vector{result});
+  ASSERT_EQ(all.bounds.size(), 2U);
+  EXPECT_EQ(all.bounds[0].device, "gl:x");
+  EXPECT_EQ(all.bounds[0].pictures, 2U);
+  EXPECT_EQ(all.bounds[0].configuration, "step=0.61");
+  EXPECT_EQ(all.bounds[1].share, 0.003);
+}
+
 TEST(LastScreen, OfNothingIsNoPass) {
   EXPECT_THAT(last_screen({}, 0, {}), HasSubstr("CANNOT JUDGE (2)"));
 }

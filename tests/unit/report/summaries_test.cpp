@@ -31,6 +31,13 @@ judge::GateResult some_result() {
   return result;
 }
 
+TEST(Markdown, HasALinePerDeviceAndPlanOfHowNearBoundsAre) {
+  judge::GateResult result = some_result();
+  result.findings.front().numbers["ratio"] = 0.25;
+  EXPECT_THAT(markdown(result), HasSubstr("| volume/quick | gl:x | 1 | 0.25 | step=1 |"));
+  EXPECT_THAT(markdown(some_result()), Not(HasSubstr("largest error over bound")));
+}
+
 TEST(Junit, CountsFailuresAndEscapes) {
   const std::string xml = junit(some_result());
   EXPECT_NE(xml.find("<testsuite name=\"volume/quick.image\" tests=\"1\" failures=\"1\" "
