@@ -29,7 +29,7 @@ bool steers(const std::string& line) {
 bool is_a_count(const std::string& line) {
   static const std::regex block(R"(^\s*#if TRI_COUNT\s*$)");
   static const std::regex statement(
-      R"(^\s*if \(TRI_COUNT == 1( && [^|]*)?\) (count_\w+(\+\+| = 1u);|\{.*)\s*$)");
+      R"(^\s*if \(TRI_COUNT == 1( && [^|]*)?\) (count_\w+(\+\+| = 1u| \+= [^;]*);|\{.*)\s*$)");
   return std::regex_match(line, block) || (std::regex_match(line, statement) && !steers(line));
 }
 

@@ -136,8 +136,11 @@ class Search {
   // Of the candidate's quadrature: guessed on few pixels, held against the whole picture.
   [[nodiscard]] Found longest_step(Configuration candidate, const core::Image& limit) {
     const std::string viewport = std::exchange(candidate["viewport"], few_pixels_);
+    accuracy::StepLimits limits = limits_;
+    // A step longer than a cell cuts none of it.
+    if (candidate.at("quadrature") == "cells") limits.longest = std::min(limits.longest, 1.0);
     const accuracy::StepError guess =
-        accuracy::longest_step(step_error_, limits_, [&](double step) {
+        accuracy::longest_step(step_error_, limits, [&](double step) {
           candidate["step"] = text_of_step(step);
           return error(limit_of_few_pixels_, suite_.truth(candidate, {}).image);
         });
@@ -146,7 +149,7 @@ class Search {
     if (!(guess.error <= far * step_error_)) return {guess.step, guess.error, few_pixels_};
     candidate["viewport"] = viewport;
     const accuracy::StepError found =
-        accuracy::shortened_step(guess.step, step_error_, limits_, [&](double step) {
+        accuracy::shortened_step(guess.step, step_error_, limits, [&](double step) {
           candidate["step"] = text_of_step(step);
           return error(limit, pictures_.truth(record_of(candidate)));
         });

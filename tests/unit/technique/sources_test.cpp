@@ -9,12 +9,13 @@ namespace triptych::technique {
 namespace {
 
 TEST(Sources, WholeHasWhatItIncludesInTheirPlace) {
-  const std::string part(source("volume/raycast/walk.glsl"));
-  const std::string line = "#include \"volume/raycast/walk.glsl\"\n";
   std::string expected(source("raycast.glsl"));
-  const std::size_t place = expected.find(line);
-  ASSERT_NE(place, std::string::npos);
-  expected.replace(place, line.size(), part);
+  for (const std::string name : {"volume/raycast/field.glsl", "volume/raycast/walk.glsl"}) {
+    const std::string line = "#include \"" + name + "\"\n";
+    const std::size_t place = expected.find(line);
+    ASSERT_NE(place, std::string::npos) << name;
+    expected.replace(place, line.size(), source(name));
+  }
   EXPECT_EQ(whole_source("raycast.glsl"), expected);
 }
 
