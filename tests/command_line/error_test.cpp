@@ -81,15 +81,15 @@ TEST(Error, OutOfReachInOneSceneIsToldAndAllOthersAreMeasured) {
   const std::string constant = "analytic:v1_constant:8";
   const std::string plan = fmt::format(
       "run volume/quick --device 'null:*' --set technique=raycast --set transfer_function=haze "
-      "--set data={},generate:mandelbulb:16 --set viewport=16 --error 1e-7:max",
+      "--set data={},generate:mandelbulb:16 --set viewport=16 --error 1e-12:max",
       constant);
   const Result result = program.run(plan, drawing_the_limit(program, {constant}, "16"));
   EXPECT_EQ(result.code, 2) << result.output;
   EXPECT_NE(result.output.find("data=generate:mandelbulb:16,technique=raycast,viewport=16: no step "
-                               "keeps 7e-08, the step's share of 1e-07:max; the least error is"),
+                               "keeps 7e-13, the step's share of 1e-12:max; the least error is"),
             std::string::npos)
       << result.output;
-  EXPECT_NE(result.output.find("of 1e-07:max"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("of 1e-12:max"), std::string::npos) << result.output;
 }
 
 TEST(Error, OfAStressCaseIsRefusedForItHasNoLimit) {
