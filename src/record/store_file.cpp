@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <chrono>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
 #include "core/error.hpp"
 
@@ -278,6 +280,22 @@ void create_schema(SQLite::Database& database) {
   transaction.commit();
 }
 
+// Of processes that switch to the log at once SQLite refuses all but one immediately, busy limit or
+// not, for each holds a read lock that another waits for.
+void write_ahead(SQLite::Database& database, std::chrono::milliseconds busy_limit) {
+  const auto end = std::chrono::steady_clock::now() + busy_limit;
+  for (;;) {
+    try {
+      database.exec("PRAGMA journal_mode = WAL");
+      return;
+    } catch (const SQLite::Exception& error) {
+      const bool busy = error.getErrorCode() == SQLITE_BUSY;
+      if (!busy || std::chrono::steady_clock::now() >= end) throw;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
 SQLite::Database open_to_append(const std::filesystem::path& file,
                                 std::chrono::milliseconds busy_limit) {
   SQLite::Database database(file_name(file),
@@ -289,7 +307,7 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
   }
   if (is_blank(database)) create_schema(database);
   require_our_schema(database, file);
-  database.exec("PRAGMA journal_mode = WAL");
+  write_ahead(database, busy_limit);
   // In WAL mode NORMAL survives the death of any process; only a loss of power may cost the last
   // transactions, and even then the file stays whole. What has to outlive that waits for the disk
   // (Store::begin_record).

@@ -111,6 +111,30 @@ TEST_F(StoreTest, SeveralProcessesCreateOneStore) {
   for (const record::Run& each : store.runs()) EXPECT_THAT(store.records(each.id), SizeIs(10));
 }
 
+// Another has made the file and is about to switch it to the log: SQLite refuses whoever wants that,
+// too, without waiting.
+TEST_F(StoreTest, SwitchedToTheLogByAnotherMeanwhile) {
+  make_store(file_);
+  SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA journal_mode = DELETE");
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    char begin = 0;
+    std::_Exit(read(ends[0], &begin, 1) == 1 && append_ten(file_, "late") ? 0 : 1);
+  }
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE);
+  other.exec("BEGIN IMMEDIATE");
+  ASSERT_EQ(write(ends[1], "x", 1), 1);
+  std::this_thread::sleep_for(milliseconds(300));
+  other.exec("COMMIT");
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  for (const int end : ends) close(end);
+  EXPECT_THAT(Store(file_, Mode::read).records("late"), SizeIs(10));
+}
+
 TEST_F(StoreTest, CreatedByAnotherBetweenLookAndLock) {
   const std::filesystem::path model = folder_ / "model.sqlite";
   make_store(model);
