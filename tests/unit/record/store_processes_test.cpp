@@ -111,8 +111,8 @@ TEST_F(StoreTest, SeveralProcessesCreateOneStore) {
   for (const record::Run& each : store.runs()) EXPECT_THAT(store.records(each.id), SizeIs(10));
 }
 
-// Another has made the file and is about to switch it to the log: SQLite refuses whoever wants that,
-// too, without waiting.
+// Another has made the file and is about to switch it to the log: SQLite refuses whoever wants
+// that, too, without waiting.
 TEST_F(StoreTest, SwitchedToTheLogByAnotherMeanwhile) {
   make_store(file_);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA journal_mode = DELETE");
