@@ -98,6 +98,31 @@ std::string canonical(const Suite& suite, const Factor& factor, const PlacedText
   return text;
 }
 
+// "PATH:*/n" of a factor of texts as PATH:0/n … PATH:(n−1)/n, at the same place.
+std::vector<PlacedText> with_ranges(const Factor& factor, const std::vector<PlacedText>& values) {
+  constexpr std::string_view all = ":*/";
+  constexpr int most = 10'000;
+  std::vector<PlacedText> result;
+  for (const PlacedText& value : values) {
+    const std::size_t at = value.text.find(all);
+    if (factor.kind != FactorKind::text || at == std::string::npos) {
+      result.push_back(value);
+      continue;
+    }
+    const std::string count = value.text.substr(at + all.size());
+    const std::optional<double> n = parse_number(count);
+    if (!n || *n != std::floor(*n) || *n < 1 || *n > most) {
+      throw core::InputError(value.place,
+                             fmt::format("'{}': '{}': expected a whole number, 1 to {}, behind '*/'",
+                                         factor.name, value.text, most));
+    }
+    for (int i = 0; i < static_cast<int>(*n); ++i) {
+      result.push_back({fmt::format("{}:{}/{}", value.text.substr(0, at), i, *n), value.place});
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string suggestion(std::string_view wrong, const std::vector<std::string>& known) {
@@ -117,7 +142,8 @@ std::string standard_of(const Factor& factor) {
 }
 
 std::vector<std::string> canonical_values(const Suite& suite, const Factor& factor,
-                                          const std::vector<PlacedText>& values) {
+                                          const std::vector<PlacedText>& given) {
+  const std::vector<PlacedText> values = with_ranges(factor, given);
   std::vector<std::string> result;
   for (const PlacedText& value : values) {
     std::string text = canonical(suite, factor, value);

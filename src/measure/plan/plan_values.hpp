@@ -16,9 +16,10 @@ namespace triptych::measure {
 // The default in the same spelling as values from a plan.
 [[nodiscard]] std::string standard_of(const Factor& factor);
 
-// Each value in its one spelling. Throws InputError with the place of a value that is no number,
+// Each value in its one spelling; of a factor of texts "PATH:*/n" stands for n of them, PATH:0/n to
+// PATH:(n−1)/n. Throws InputError with the place of a value that is no number,
 // out of range, no level, refused by the suite, or there twice.
 [[nodiscard]] std::vector<std::string> canonical_values(const Suite& suite, const Factor& factor,
-                                                        const std::vector<PlacedText>& values);
+                                                        const std::vector<PlacedText>& given);
 
 }  // namespace triptych::measure

@@ -41,6 +41,16 @@ TEST_F(PlanTest, WrongType) {
   }
 }
 
+TEST_F(PlanTest, RangeOfViewsWithoutACount) {
+  for (const char* bad : {"0", "-3", "2.5", "x", "", "1000000"}) {
+    EXPECT_THAT(refusal("suite: fake\ncamera: ['orbit_y:*/" + std::string(bad) + "']\n"),
+                AllOf(StartsWith(at(2, 10)), HasSubstr("expected a whole number, 1 to 10000")))
+        << bad;
+  }
+  EXPECT_THAT(refusal("suite: fake\ncamera: ['orbit_y:1/3', 'orbit_y:*/3']\n"),
+              AllOf(StartsWith(at(2, 25)), HasSubstr("orbit_y:1/3 is there twice")));
+}
+
 TEST_F(PlanTest, OutOfRange) {
   EXPECT_THAT(refusal("suite: fake\nstep: 100\n"),
               AllOf(StartsWith(at(2, 7)), HasSubstr("out of range"), HasSubstr("0.01 to 16")));

@@ -47,6 +47,12 @@ TEST_F(PlanTest, EveryFactorIsThereWithItsDefault) {
   EXPECT_THAT(plan.varied, IsEmpty());
 }
 
+TEST_F(PlanTest, AllViewsOfAPath) {
+  const Plan plan = load("suite: fake\ncamera: ['orbit_y:*/3', 'random:7']\n");
+  EXPECT_THAT(values(plan, "camera"),
+              ElementsAre("orbit_y:0/3", "orbit_y:1/3", "orbit_y:2/3", "random:7"));
+}
+
 TEST_F(PlanTest, DataVariesSlowestCameraFastest) {
   const Plan plan = load(
       "suite: fake\n"
