@@ -112,9 +112,9 @@ std::vector<PlacedText> with_ranges(const Factor& factor, const std::vector<Plac
     const std::string count = value.text.substr(at + all.size());
     const std::optional<double> n = parse_number(count);
     if (!n || *n != std::floor(*n) || *n < 1 || *n > most) {
-      throw core::InputError(value.place,
-                             fmt::format("'{}': '{}': expected a whole number, 1 to {}, behind '*/'",
-                                         factor.name, value.text, most));
+      throw core::InputError(
+          value.place, fmt::format("'{}': '{}': expected a whole number, 1 to {}, behind '*/'",
+                                   factor.name, value.text, most));
     }
     for (int i = 0; i < static_cast<int>(*n); ++i) {
       result.push_back({fmt::format("{}:{}/{}", value.text.substr(0, at), i, *n), value.place});
