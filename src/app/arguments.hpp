@@ -63,6 +63,7 @@ void add_gate_commands(Commands& commands);     // gate, accept
 void add_compare_commands(Commands& commands);  // compare, diff
 void add_report_command(Commands& commands);
 void add_merge_command(Commands& commands);
+void add_history_command(Commands& commands);
 void add_validate_command(Commands& commands);
 void add_export_command(Commands& commands);
 void add_test_commands(Commands& commands);      // what CTest calls

@@ -62,6 +62,7 @@ ExitCode run(int argc, char** argv) {
   triptych::app::add_compare_commands(commands);
   triptych::app::add_report_command(commands);
   triptych::app::add_merge_command(commands);
+  triptych::app::add_history_command(commands);
   triptych::app::add_validate_command(commands);
   triptych::app::add_export_command(commands);
   triptych::app::add_test_commands(commands);

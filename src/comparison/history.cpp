@@ -1,0 +1,192 @@
+#include "comparison/history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "core/glob.hpp"
+#include "core/json.hpp"
+
+namespace triptych::comparison {
+namespace {
+
+struct Measured {
+  std::optional<double> cost;
+  std::optional<double> time;
+};
+
+// By plan and configuration.
+using ByConfiguration = std::map<std::string, Measured>;
+
+std::optional<double> cost_of(const record::Record& record) {
+  double sum = 0;
+  for (const char* part : {"device_code", "driver"}) {
+    const auto found = record.cost.find(part);
+    if (found != record.cost.end()) sum += static_cast<double>(found->second);
+  }
+  return sum > 0 ? std::optional(sum) : std::nullopt;
+}
+
+std::map<std::string, ByConfiguration> by_device(const record::Store& store) {
+  std::map<std::string, ByConfiguration> devices;
+  for (const record::Run& run : record::latest_runs(store)) {
+    store.visit_records(run.id, [&](const record::Record& record) {
+      if (record.outcome != record::Outcome::measured) return;
+      const auto time = record::summarise(record.time_ns());
+      devices[record.device][run.plan + " " + record.configuration] = {
+          cost_of(record), time ? std::optional(time->median) : std::nullopt};
+    });
+  }
+  return devices;
+}
+
+// b over a, the geometric mean over what both have.
+std::optional<double> ratio(const ByConfiguration& a, const ByConfiguration& b,
+                            std::optional<double> Measured::*value) {
+  double sum = 0;
+  int count = 0;
+  for (const auto& [name, now] : b) {
+    const auto then = a.find(name);
+    if (then == a.end() || !(now.*value) || !(then->second.*value)) continue;
+    sum += std::log(*(now.*value) / *(then->second.*value));
+    ++count;
+  }
+  return count > 0 ? std::optional(std::exp(sum / count)) : std::nullopt;
+}
+
+std::optional<double> chained(const std::optional<double>& before,
+                              const std::optional<double>& step) {
+  if (!step) return std::nullopt;
+  return before.value_or(1) * *step;
+}
+
+std::string text_of(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4f}", *value) : "–";
+}
+
+std::string file_of(const HistoryPoint& point) {
+  return std::filesystem::path(point.store).filename().string();
+}
+
+}  // namespace
+
+const HistoryPoint* DeviceHistory::first_worse() const {
+  const auto found = std::ranges::find(points, true, &HistoryPoint::worse);
+  return found == points.end() ? nullptr : &*found;
+}
+
+std::vector<record::Store*> in_order(const std::vector<record::Store*>& stores) {
+  using Begun = std::pair<std::string, record::Store*>;
+  std::vector<Begun> begun;
+  for (record::Store* store : stores) {
+    const auto runs = store->runs();
+    begun.emplace_back(runs.empty() ? std::string() : runs.front().started_at, store);
+  }
+  std::ranges::stable_sort(begun, {}, &Begun::first);
+  std::vector<record::Store*> sorted;
+  for (const auto& [time, store] : begun) sorted.push_back(store);
+  return sorted;
+}
+
+DeviceHistory& HistoryBuilder::of(const std::string& device) {
+  const auto found = std::ranges::find(history_, device, &DeviceHistory::device);
+  if (found != history_.end()) return *found;
+  history_.push_back({.device = device, .points = {}});
+  return history_.back();
+}
+
+HistoryBuilder::Points HistoryBuilder::points_of(const record::Store& store) const {
+  Points points;
+  const auto runs = store.runs();
+  for (const record::Run& run : record::latest_runs(store)) {
+    for (const auto& entry : store.devices(run.id)) {
+      const record::Device& device = entry.device;
+      if (!devices_.empty() && !core::any_glob_matches(devices_, device.id)) continue;
+      HistoryPoint& point = points[device.id];
+      point.store = store.file().string();
+      point.started_at = runs.front().started_at;
+      point.driver_version = device.driver_version;
+      const auto version = run.system.find("triptych");
+      if (version != run.system.end()) point.triptych = version->second;
+    }
+  }
+  return points;
+}
+
+void HistoryBuilder::add(const record::Store& store, const record::Store* before,
+                         const KeptTruth& truth) {
+  const auto now = by_device(store);
+  const auto then =
+      before == nullptr ? std::map<std::string, ByConfiguration>() : by_device(*before);
+  Points points = points_of(store);
+  for (auto& [id, point] : points) {
+    const auto here = now.find(id);
+    const auto there = then.find(id);
+    const std::vector<HistoryPoint>& known = of(id).points;
+    if (here == now.end()) continue;
+    if (known.empty()) {
+      point.cost = ratio(here->second, here->second, &Measured::cost);
+      point.time = ratio(here->second, here->second, &Measured::time);
+    } else if (there != then.end()) {
+      point.cost = chained(known.back().cost, ratio(there->second, here->second, &Measured::cost));
+      point.time = chained(known.back().time, ratio(there->second, here->second, &Measured::time));
+    }
+  }
+  if (before != nullptr) {
+    for (const DeviceChange& change : diff_stores(*before, store, devices_, truth).devices) {
+      DifferenceGroups groups;
+      groups.add(change.device, "");
+      for (const ConfigurationDiff& each : change.configurations) {
+        groups.add(each.differences, each.key);
+      }
+      HistoryPoint& point = points[change.b.id];
+      point.changes = groups.empty() ? std::string() : groups.text();
+      point.worse = change.has(DifferenceKind::regression);
+    }
+  }
+  for (auto& [id, point] : points) of(id).points.push_back(std::move(point));
+}
+
+std::string to_text(const std::vector<DeviceHistory>& history) {
+  std::string text;
+  for (const DeviceHistory& device : history) {
+    text += fmt::format("{}\n  {:<28} {:<20} {:>9} {:>9}  driver\n", device.device, "store",
+                        "begun", "cost", "time");
+    for (const HistoryPoint& point : device.points) {
+      text += fmt::format("  {:<28} {:<20} {:>9} {:>9}  {}\n", file_of(point), point.started_at,
+                          text_of(point.cost), text_of(point.time), point.driver_version);
+      if (!point.changes.empty()) text += point.changes;
+    }
+    if (const HistoryPoint* worse = device.first_worse()) {
+      text += fmt::format("  first worse: {}\n", worse->store);
+    }
+  }
+  return text;
+}
+
+core::Json to_json(const std::vector<DeviceHistory>& history) {
+  core::Json json = core::Json::array();
+  for (const DeviceHistory& device : history) {
+    core::Json points = core::Json::array();
+    for (const HistoryPoint& point : device.points) {
+      core::Json each{{"store", point.store},
+                      {"started_at", point.started_at},
+                      {"driver_version", point.driver_version},
+                      {"triptych", point.triptych},
+                      {"changes", point.changes},
+                      {"worse", point.worse}};
+      if (point.cost) each["cost"] = *point.cost;
+      if (point.time) each["time"] = *point.time;
+      points.push_back(std::move(each));
+    }
+    core::Json entry{{"device", device.device}, {"points", std::move(points)}};
+    if (const HistoryPoint* worse = device.first_worse()) entry["first_worse"] = worse->store;
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+}  // namespace triptych::comparison

@@ -1,0 +1,64 @@
+#pragma once
+// Stores of many days or commits, in their order: what each changed besides time, and how cost and
+// time have moved since the first.
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "comparison/store_diff.hpp"
+
+namespace triptych::comparison {
+
+// A device in one store.
+struct HistoryPoint {
+  std::string store;       // its file
+  std::string started_at;  // its first run
+  std::string driver_version;
+  std::string triptych;  // the program's version
+  // Of the first point, by the geometric mean over the configurations that neighbours both have,
+  // multiplied from point to point; empty where no two neighbours up to here share any.
+  std::optional<double> cost;  // instructions of generated code and driver
+  std::optional<double> time;  // median of the frames
+  std::string changes;         // against the point before, as `diff` tells; empty: nothing
+  bool worse = false;          // a regression is among them
+};
+
+struct DeviceHistory {
+  std::string device;
+  std::vector<HistoryPoint> points;
+
+  // The first point that is worse than the one before; nullptr: none is.
+  [[nodiscard]] const HistoryPoint* first_worse() const;
+};
+
+// Stores by the time at which their first run began; of equals as given.
+[[nodiscard]] std::vector<record::Store*> in_order(const std::vector<record::Store*>& stores);
+
+// `devices`: globs; all without any. Throws as record::Store does.
+class HistoryBuilder {
+ public:
+  explicit HistoryBuilder(std::vector<std::string> devices) : devices_(std::move(devices)) {}
+
+  // The next store; `truth`: of its records and of the one before. Both must outlive the call only.
+  void add(const record::Store& store, const record::Store* before, const KeptTruth& truth);
+  [[nodiscard]] const std::vector<DeviceHistory>& devices() const { return history_; }
+
+ private:
+  using Points = std::map<std::string, HistoryPoint>;  // by device
+  [[nodiscard]] Points points_of(const record::Store& store) const;
+  DeviceHistory& of(const std::string& device);
+
+  std::vector<std::string> devices_;
+  std::vector<DeviceHistory> history_;
+};
+
+// Each device with a line per store, then the first store that was worse.
+[[nodiscard]] std::string to_text(const std::vector<DeviceHistory>& history);
+// [{"device", "first_worse", "points": [{"store", "started_at", "driver_version", "triptych",
+// "cost", "time", "changes", "worse"}]}]; what is not known is absent.
+[[nodiscard]] nlohmann::json to_json(const std::vector<DeviceHistory>& history);
+
+}  // namespace triptych::comparison

@@ -1,0 +1,93 @@
+#include "report/history_page.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "core/json.hpp"
+#include "report/figure.hpp"
+#include "report/html.hpp"
+#include "report/page_frame.hpp"
+
+namespace triptych::report {
+namespace {
+
+using core::Json;
+
+std::string name_of_store(const Json& point) {
+  return std::filesystem::path(point.at("store").get<std::string>()).filename().string();
+}
+
+std::string number_text(const Json& point, const char* key) {
+  return point.contains(key) ? fmt::format("{:.4f}", point.at(key).get<double>()) : "–";
+}
+
+// Each store is a band; a point that is missing leaves a gap.
+std::string figure_of(const Json& device) {
+  const Json& points = device.at("points");
+  std::vector<std::string> names;
+  for (const Json& point : points) names.push_back(name_of_store(point));
+  Figure figure("Cost and time over the stores, the first being 1",
+                {.title = "store", .names = std::move(names)}, {.title = "of the first store’s"},
+                520, 200);
+  struct Series {
+    const char* key;
+    Style style;
+  };
+  for (const Series& series :
+       {Series{"cost", {.colour = "c0"}},
+        Series{"time", {.colour = "c1", .mark = Mark::triangle, .dashed = true}}}) {
+    std::vector<Figure::Place> places;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!points[i].contains(series.key)) continue;
+      places.push_back({static_cast<double>(i), points[i].at(series.key).get<double>()});
+      figure.point(places.back(), series.style, number_text(points[i], series.key));
+    }
+    if (places.empty()) continue;
+    figure.line(places, series.style);
+    figure.legend(series.key, series.style, true);
+  }
+  return figure.empty() ? std::string("<p>Neither cost nor time was measured.</p>\n")
+                        : figure.svg();
+}
+
+std::string table_of(const Json& device) {
+  std::string rows;
+  for (const Json& point : device.at("points")) {
+    const std::string changes = point.at("changes").get<std::string>();
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        escape(name_of_store(point)), escape(point.at("started_at").get<std::string>()),
+        escape(point.at("driver_version").get<std::string>()), number_text(point, "cost"),
+        number_text(point, "time"),
+        changes.empty() ? ""
+                        : folded(point.at("worse").get<bool>() ? "<b class=\"regression\">worse</b>"
+                                                               : "changed",
+                                 "<pre>" + escape(changes) + "</pre>"));
+  }
+  return "<table><tr><th>store</th><th>begun</th><th>driver</th><th>cost</th><th>time</th>"
+         "<th>against the one before</th></tr>\n" +
+         rows + "</table>\n";
+}
+
+}  // namespace
+
+std::string history_page(const Json& history) {
+  std::string page = page_begin("History");
+  page +=
+      "<h1>History</h1>\n<p>Cost: instructions of a frame, of generated code and driver. Both by "
+      "the "
+      "geometric mean over what neighbours share. Times are shown, not judged.</p>\n";
+  for (const Json& device : history) {
+    page += "<h2>" + escape(device.at("device").get<std::string>()) + "</h2>\n";
+    if (device.contains("first_worse")) {
+      page += "<p><b class=\"regression\">First worse</b>: " +
+              escape(device.at("first_worse").get<std::string>()) + "</p>\n";
+    }
+    page += figure_of(device) + table_of(device);
+  }
+  return page + page_end();
+}
+
+}  // namespace triptych::report

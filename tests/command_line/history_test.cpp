@@ -1,0 +1,86 @@
+// Stores of several days, one after the other.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <thread>
+
+#include "core/json.hpp"
+#include "program.hpp"
+#include "right_picture.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class History : public testing::Test {
+ protected:
+  // `base_ns`: what a frame takes; `keys`: of the script.
+  void measure(const std::string& store, const std::string& base_ns,
+               const std::string& keys = "") const {
+    const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}{}}})",
+                                           picture.string(), base_ns, keys);
+    const Result result = program.run(
+        fmt::format("run volume/quick --set skip=none,bricks --store {} {}", store, tiny), script);
+    ASSERT_EQ(result.code, 0) << result.output;
+  }
+
+  Program program;
+  std::filesystem::path picture = right_picture(program);
+};
+
+TEST_F(History, TellsWhatMovedAndTheFirstThatWasWorse) {
+  measure("1.sqlite", "1e5");
+  measure("2.sqlite", "2e5");
+  measure("3.sqlite", "2e5", R"(, "failures": [{"kind": "wrong_image", "at": "image"}])");
+  measure("4.sqlite", "2e5", R"(, "failures": [{"kind": "wrong_image", "at": "image"}])");
+  const Result told = program.run("history 1.sqlite 2.sqlite 3.sqlite 4.sqlite --json");
+  ASSERT_EQ(told.code, 0) << told.output;
+  const core::Json history = core::Json::parse(told.output).at(0);
+  EXPECT_EQ(history.at("device"), "null:scripted");
+  const core::Json& points = history.at("points");
+  ASSERT_EQ(points.size(), 4U);
+  EXPECT_EQ(points[0].at("time"), 1.0);
+  EXPECT_NEAR(points[1].at("time").get<double>(), 2, 0.2);
+  EXPECT_FALSE(points[1].at("worse").get<bool>()) << "times are shown, not judged";
+  EXPECT_FALSE(points[1].contains("cost")) << "what was not counted is not 1";
+  EXPECT_TRUE(points[2].at("worse").get<bool>());
+  EXPECT_FALSE(points[3].at("worse").get<bool>()) << "no worse than the one before";
+  EXPECT_THAT(history.at("first_worse").get<std::string>(), HasSubstr("3.sqlite"));
+}
+
+TEST_F(History, GoesByTimeWhateverTheOrder) {
+  measure("b.sqlite", "1e5");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // runs begin at whole seconds
+  measure("a.sqlite", "1e5");
+  const Result told = program.run("history a.sqlite b.sqlite");
+  ASSERT_EQ(told.code, 0) << told.output;
+  EXPECT_LT(told.output.find("b.sqlite"), told.output.find("a.sqlite")) << told.output;
+  EXPECT_THAT(told.output, Not(HasSubstr("first worse")));
+}
+
+TEST_F(History, WritesAPage) {
+  measure("1.sqlite", "1e5");
+  measure("2.sqlite", "1e5", R"(, "failures": [{"kind": "wrong_image", "at": "image"}])");
+  ASSERT_EQ(program.run("history 1.sqlite 2.sqlite --out history.html").code, 0);
+  const std::string page = program.read("history.html");
+  EXPECT_THAT(page, HasSubstr("<svg"));
+  EXPECT_THAT(page, HasSubstr("First worse"));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+}
+
+TEST_F(History, WhatIsNoStoreOrWouldBeOverwrittenIsRefused) {
+  measure("1.sqlite", "1e5");
+  EXPECT_EQ(program.run("history nothing.sqlite").code, 2);
+  const Result over = program.run("history 1.sqlite --out 1.sqlite");
+  EXPECT_EQ(over.code, 3);
+  EXPECT_THAT(over.output, HasSubstr("is the file of STORE"));
+  const Result none = program.run("history 1.sqlite --device 'vulkan:*'");
+  EXPECT_EQ(none.code, 2) << none.output;
+}
+
+}  // namespace
+}  // namespace triptych::command_line
