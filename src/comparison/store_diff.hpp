@@ -15,7 +15,7 @@ namespace triptych::comparison {
 struct DeviceChange {
   record::Device a;
   record::Device b;
-  std::vector<Difference> device;          // of the two as such
+  std::vector<Difference> device;                 // of the two as such
   std::vector<ConfigurationDiff> configurations;  // "PLAN CONFIGURATION" each
 
   [[nodiscard]] bool has(DifferenceKind kind) const;

@@ -20,8 +20,8 @@ namespace triptych::record {
 [[nodiscard]] SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode mode,
                                                std::chrono::milliseconds busy_limit);
 
-// Throws IoError when the name no longer leads to the file that was opened under it, or the log that
-// holds what was added last is gone.
+// Throws IoError when the name no longer leads to the file that was opened under it, or the log
+// that holds what was added last is gone.
 void require_file(const std::filesystem::path& file, SQLite::Database& database);
 
 // Throws IoError or InputError for an error of SQLite on `file`.

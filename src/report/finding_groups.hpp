@@ -19,7 +19,8 @@ struct FindingGroup {
   std::string signature = {};
   // Devices whose answer to the smallest case is a pass.
   std::vector<std::string> right_on = {};
-  // Of a wrong picture: in how many of its configurations the counters or statistics changed with it.
+  // Of a wrong picture: in how many of its configurations the counters or statistics changed with
+  // it.
   std::size_t changed_with_it = 0;
   // The configuration, or "12 configurations"; empty for a finding about a whole device or plan.
   [[nodiscard]] std::string subject() const;
@@ -28,8 +29,8 @@ struct FindingGroup {
 // Of the same check, verdict and device, the same message but for its numbers, and the same
 // technique unless all techniques say it. Worst first: regressions, what could not be judged, the
 // rest; in these what ended a program before what it drew, in the order of the checks, the most
-// configurations first. Left out is a regression of correlation that one of cost explains, and one of
-// counters or statistics where the picture is wrong: that is counted in changed_with_it.
+// configurations first. Left out is a regression of correlation that one of cost explains, and one
+// of counters or statistics where the picture is wrong: that is counted in changed_with_it.
 [[nodiscard]] std::vector<FindingGroup> grouped(std::span<const judge::Finding> findings);
 
 // Whether groups of two plans have one cause: of one device and verdict, they say the same of one

@@ -139,11 +139,10 @@ class Search {
     accuracy::StepLimits limits = limits_;
     // A step longer than a cell cuts none of it.
     if (candidate.at("quadrature") == "cells") limits.longest = std::min(limits.longest, 1.0);
-    const accuracy::StepError guess =
-        accuracy::longest_step(step_error_, limits, [&](double step) {
-          candidate["step"] = text_of_step(step);
-          return error(limit_of_few_pixels_, suite_.truth(candidate, {}).image);
-        });
+    const accuracy::StepError guess = accuracy::longest_step(step_error_, limits, [&](double step) {
+      candidate["step"] = text_of_step(step);
+      return error(limit_of_few_pixels_, suite_.truth(candidate, {}).image);
+    });
     // Few pixels tell little of many; but an error far beyond the request is beyond it on all.
     constexpr double far = 4;
     if (!(guess.error <= far * step_error_)) return {guess.step, guess.error, few_pixels_};

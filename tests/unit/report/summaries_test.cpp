@@ -65,9 +65,10 @@ TEST(Junit, IsUtf8WhateverADriverSays) {
 
 TEST(Junit, SaysHowToSeeItAgain) {
   const std::string xml = junit(some_result());
-  EXPECT_NE(xml.find("<failure type=\"image\" message=\"3 &lt; 4 | pixels\">3 &lt; 4 | pixels\n"
-                     "triptych render volume --device gl:x --set step=1 --truth --out repro</failure>"),
-            std::string::npos)
+  EXPECT_NE(
+      xml.find("<failure type=\"image\" message=\"3 &lt; 4 | pixels\">3 &lt; 4 | pixels\n"
+               "triptych render volume --device gl:x --set step=1 --truth --out repro</failure>"),
+      std::string::npos)
       << xml;
 }
 

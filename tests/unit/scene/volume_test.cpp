@@ -148,7 +148,8 @@ TEST(Encode, HashTellsVoxelsMappingAndGeometryApart) {
   const auto hash = [](const std::vector<std::uint8_t>& values, double lo, double hi,
                        VoxelFormat format) { return encode(row_of(values, lo, hi), format).hash; };
   const std::string base = hash({1, 2, 3}, 1, 3, VoxelFormat::u8);
-  EXPECT_EQ(base, "cf634823698adb06e1995b9bbb56f84e");  // on every machine; baselines have such hashes
+  EXPECT_EQ(base,
+            "cf634823698adb06e1995b9bbb56f84e");  // on every machine; baselines have such hashes
   EXPECT_EQ(base, hash({1, 2, 3}, 1, 3, VoxelFormat::u8));
   EXPECT_NE(base, hash({1, 2, 4}, 1, 3, VoxelFormat::u8));
   EXPECT_NE(base, hash({1, 2, 3}, 0, 3, VoxelFormat::u8));

@@ -121,7 +121,8 @@ TEST(PreintegratedPairs, SteepFunctionsStayWithinTheCutOff) {
 // The bits that every machine must make: a device looks them up.
 TEST(PreintegratedPairs, AreTheSameEverywhere) {
   const auto pairs = preintegrated_pairs(scene::load_transfer_function("surfaces"));
-  EXPECT_EQ(core::HashBuilder("pairs").add_array(std::span(pairs)).hash(), "81bbfa4674ecfbe4d87b7bc27375ea93");
+  EXPECT_EQ(core::HashBuilder("pairs").add_array(std::span(pairs)).hash(),
+            "81bbfa4674ecfbe4d87b7bc27375ea93");
 }
 
 TEST(PreintegratedPairs, WhereNothingIsSeenThereIsNoDepth) {
