@@ -104,7 +104,7 @@ TEST_F(Ci, ACompilerThatIsTooOldGetsOneLine) {
                                  "project(old LANGUAGES NONE)\nset(CMAKE_CXX_COMPILER_ID GNU)\n"
                                  "set(CMAKE_CXX_COMPILER_VERSION 11.4.0)\n"
                                  "include(" TRIPTYCH_SOURCE_FOLDER "/cmake/oldest.cmake)\n"));
-  const Result old = run("", "cmake -B build");
+  const Result old = run("", "cmake -G Ninja -B build");
   EXPECT_NE(old.code, 0);
   EXPECT_THAT(old.output, HasSubstr("GNU 11.4.0 is too old"));
 }
