@@ -20,11 +20,12 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
-#include <limits>
+#include <utility>
 #include <vector>
 
 #include "reference/cubic.hpp"
 #include "reference/drawing.hpp"
+#include "reference/extinction.hpp"
 #include "reference/field.hpp"
 #include "reference/opacity.hpp"
 #include "reference/ray.hpp"
@@ -53,7 +54,7 @@ class CellRule {
   // returns false. Of `looked` the alpha is not used.
   template <typename Take>
   void walk(const Ray& ray, Take take) {
-    cut_at_planes(ray);
+    cut_at_planes(ray, scene_.grid->size, planes_);
     for (std::size_t i = 0; i + 1 < planes_.size(); ++i) {
       for (int part = 0; part < parts_; ++part) {
         const double width = planes_[i + 1] - planes_[i];
@@ -73,35 +74,6 @@ class CellRule {
     bool visible = false;
   };
 
-  // Distances from the entry, ascending, both ends included.
-  void cut_at_planes(const Ray& ray) {
-    planes_.assign({0.0, ray.length});
-    for (int axis = 0; axis < 3; ++axis) {
-      const double speed = ray.voxels_per_unit[axis];
-      if (speed == 0.0) continue;
-      const double a = ray.entry[axis];
-      const double b = a + ray.length * speed;
-      const int last = scene_.grid->size[static_cast<std::size_t>(axis)] - 1;
-      const int from = std::max(static_cast<int>(std::floor(std::min(a, b))), 0);
-      const int to = std::min(static_cast<int>(std::ceil(std::max(a, b))), last);
-      for (int k = from; k <= to; ++k) {
-        const double t = (k + 0.5 - a) / speed;
-        if (t > 0.0 && t < ray.length) planes_.push_back(t);
-      }
-    }
-    std::sort(planes_.begin(), planes_.end());
-  }
-
-  // Positions among the table's entries along a part of a cell.
-  [[nodiscard]] Cubic cubic_of(const Ray& ray, double begin, double end) const {
-    std::array<double, 4> u;
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      const double t = begin + (end - begin) * static_cast<double>(i) / 3.0;
-      u[i] = Table::knot_of(field_.at(ray.entry + t * ray.voxels_per_unit));
-    }
-    return Cubic::through(u);
-  }
-
   [[nodiscard]] bool is_kink(double knot) const { return kinks_[static_cast<std::size_t>(knot)]; }
 
   // Whether a device may see an extremum pass a kink that it does not pass here, or the reverse.
@@ -120,7 +92,9 @@ class CellRule {
 
   template <typename Take>
   bool walk_part(const Ray& ray, double begin, double end, Take& take) {
-    const Cubic cubic = cubic_of(ray, begin, end);
+    // Positions among the table's entries.
+    const Cubic cubic = Cubic::along(
+        ray, begin, end, [&](const glm::dvec3& p) { return Table::knot_of(field_.at(p)); });
     const auto [lowest, highest] = bounds(cubic);
     const glm::dvec3 middle = ray.entry + 0.5 * (begin + end) * ray.voxels_per_unit;
     const double error = 256.0 * field_.at(middle, ray.position_error).error;
@@ -191,7 +165,7 @@ class CellRule {
   [[nodiscard]] static Extinction extinction(const Looked& looked) {
     const auto of = [](double alpha) {
       constexpr double opaque = 8192 * 0.693147180559945309;
-      return alpha < 1.0 ? -std::log1p(-alpha) : opaque;
+      return alpha < 1.0 ? extinction_of(alpha) : opaque;
     };
     return {of(looked.alpha), of(looked.alpha_lo), of(looked.alpha_hi)};
   }
@@ -210,8 +184,6 @@ class CellRule {
         headlight_cosine(field_, ray, p, gradient_scale_, scene_.shading.gradient_floor, rounding),
         scene_.shading, rounding);
   }
-
-  [[nodiscard]] static double opacity_of(double depth) { return -std::expm1(-depth); }
 
   // coth z − 1/z, by its series where that cancels: below 1e-15 for z < 0.05.
   [[nodiscard]] static double langevin(double z) {

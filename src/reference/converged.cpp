@@ -76,27 +76,8 @@ class ConvergedRaycaster {
             static_cast<double>(scene_.background[2]), static_cast<double>(scene_.background[3])};
   }
 
-  // Distances from the entry at which it crosses planes of voxel centres, both ends included.
-  void cut_at_planes(const Ray& ray) {
-    planes_.assign({0.0, ray.length});
-    for (int axis = 0; axis < 3; ++axis) {
-      const double speed = ray.voxels_per_unit[axis];
-      if (speed == 0.0) continue;
-      const int size = scene_.grid->size[static_cast<std::size_t>(axis)];
-      const double a = ray.entry[axis];
-      const double b = a + ray.length * speed;
-      const int first = std::max(static_cast<int>(std::floor(std::min(a, b))), 0);
-      const int last = std::min(static_cast<int>(std::ceil(std::max(a, b))), size - 1);
-      for (int k = first; k <= last; ++k) {
-        const double t = (k + 0.5 - a) / speed;
-        if (t > 0.0 && t < ray.length) planes_.push_back(t);
-      }
-    }
-    std::sort(planes_.begin(), planes_.end());
-  }
-
   void add_cells(const Ray& ray) {
-    cut_at_planes(ray);
+    cut_at_planes(ray, scene_.grid->size, planes_);
     share_per_voxel_ = tolerance_ * smallest_spacing_ / ray.length;
     for (std::size_t i = 0; i + 1 < planes_.size() && !dark(); ++i) {
       if (planes_[i + 1] > planes_[i]) add_cell(ray, planes_[i], planes_[i + 1]);
@@ -104,14 +85,7 @@ class ConvergedRaycaster {
   }
 
   void add_cell(const Ray& ray, double begin, double end) {
-    const auto along = [&](const auto& value) {
-      std::array<double, 4> at;
-      for (std::size_t i = 0; i < at.size(); ++i) {
-        const double t = begin + (end - begin) * static_cast<double>(i) / 3.0;
-        at[i] = value(ray.entry + t * ray.voxels_per_unit);
-      }
-      return Cubic::through(at);
-    };
+    const auto along = [&](const auto& value) { return Cubic::along(ray, begin, end, value); };
     Cell cell{.length = (end - begin) / smallest_spacing_,
               .knot = along([&](const glm::dvec3& p) { return Table::knot_of(field_.at(p)); }),
               .gradient = {}};

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
+
+#include "reference/ray.hpp"
 
 namespace triptych::reference {
 
@@ -20,6 +23,17 @@ struct Cubic {
     return {f[0], (-11.0 * f[0] + 18.0 * f[1] - 9.0 * f[2] + 2.0 * f[3]) / 2.0,
             9.0 * (2.0 * f[0] - 5.0 * f[1] + 4.0 * f[2] - f[3]) / 2.0,
             9.0 * (-f[0] + 3.0 * f[1] - 3.0 * f[2] + f[3]) / 2.0};
+  }
+
+  // Of value(position in voxels) from distance `begin` to `end` of a ray, s from 0 to 1.
+  template <typename Value>
+  [[nodiscard]] static Cubic along(const Ray& ray, double begin, double end, const Value& value) {
+    std::array<double, 4> f;
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      const double t = begin + (end - begin) * static_cast<double>(i) / 3.0;
+      f[i] = value(ray.entry + t * ray.voxels_per_unit);
+    }
+    return through(f);
   }
 
   [[nodiscard]] double operator()(double s) const { return c0 + s * (c1 + s * (c2 + s * c3)); }

@@ -1,6 +1,8 @@
 #include "reference/ray.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -61,6 +63,24 @@ std::optional<Ray> RayMaker::operator()(int x, int y) const {
     ray.position_error[axis] = position_error_ + entry_error * (speed < 0.0 ? -speed : speed);
   }
   return ray;
+}
+
+void cut_at_planes(const Ray& ray, const std::array<int, 3>& size, std::vector<double>& at) {
+  at.assign({0.0, ray.length});
+  for (int axis = 0; axis < 3; ++axis) {
+    const double speed = ray.voxels_per_unit[axis];
+    if (speed == 0.0) continue;
+    const double a = ray.entry[axis];
+    const double b = a + ray.length * speed;
+    const int first = std::max(static_cast<int>(std::floor(std::min(a, b))), 0);
+    const int last = std::min(static_cast<int>(std::ceil(std::max(a, b))),
+                              size[static_cast<std::size_t>(axis)] - 1);
+    for (int k = first; k <= last; ++k) {
+      const double t = (k + 0.5 - a) / speed;
+      if (t > 0.0 && t < ray.length) at.push_back(t);
+    }
+  }
+  std::sort(at.begin(), at.end());
 }
 
 }  // namespace triptych::reference

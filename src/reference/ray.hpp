@@ -1,8 +1,10 @@
 #pragma once
 // The ray of a pixel, clipped to the volume, and how far the error model lets its ends move.
 
+#include <array>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <vector>
 
 #include "scene/volume_scene.hpp"
 
@@ -18,6 +20,10 @@ struct Ray {
   double longest = 0;            // … and most that a device may find
   glm::dvec3 position_error{};   // of a sample's place per axis, the uncertain entry included
 };
+
+// Distances from the entry at which the ray crosses planes of voxel centres of a grid of `size`,
+// ascending, both ends of the chord included. In place of what `at` held.
+void cut_at_planes(const Ray& ray, const std::array<int, 3>& size, std::vector<double>& at);
 
 // The rays of one scene.
 class RayMaker {
