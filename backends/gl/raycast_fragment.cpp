@@ -98,7 +98,7 @@ std::optional<std::string> unsupported(const Api& gl, const measure::VolumeWork&
     return fmt::format("{}x{} pixels, GL_MAX_RENDERBUFFER_SIZE is {}", work.scene.width,
                        work.scene.height, edge);
   }
-  constexpr std::int64_t needed = 3;  // bricks, counters, pairs
+  constexpr std::int64_t needed = 3;  // bricks, counters, quadrature
   const std::int64_t blocks = gl.limit(GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS);
   if (blocks < needed) {
     return fmt::format("{} storage blocks, GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS is {}", needed,

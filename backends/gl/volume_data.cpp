@@ -14,7 +14,7 @@ constexpr GLuint binding_parameters = 0;
 constexpr GLuint unit_volume = 1;
 constexpr GLuint unit_transfer = 2;
 constexpr GLuint binding_bricks = 3;
-constexpr GLuint binding_pairs = 6;
+constexpr GLuint binding_quadrature = 6;
 
 void use_texels_as_they_are(const Api& gl, GLenum target, GLint filter) {
   gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
@@ -99,7 +99,7 @@ VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work)
                              work.options.sampler == technique::Sampler::hardware)),
       transfer_(transfer_texture(gl, work.scene.transfer_function)),
       bricks_(brick_buffer(gl, work)),
-      pairs_(quadrature_buffer(gl, work.scene)) {
+      quadrature_(quadrature_buffer(gl, work.scene)) {
   parameters_ = constant_buffer(
       gl, technique::raycast_parameters(work.scene, work.options,
                                         scene::largest_stored(work.scene.grid->format)));
@@ -111,7 +111,7 @@ void VolumeData::bind(const Api& gl) const {
   gl.ActiveTexture(GL_TEXTURE0 + unit_transfer);
   gl.BindTexture(GL_TEXTURE_1D, transfer_.get());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_bricks, bricks_.get());
-  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_pairs, pairs_.get());
+  gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_quadrature, quadrature_.get());
   gl.BindBufferBase(GL_UNIFORM_BUFFER, binding_parameters, parameters_.get());
 }
 

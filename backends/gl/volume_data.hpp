@@ -35,7 +35,7 @@ class VolumeData {
   Texture volume_;
   Texture transfer_;
   Buffer bricks_;
-  Buffer pairs_;
+  Buffer quadrature_;
   Buffer parameters_;
 };
 

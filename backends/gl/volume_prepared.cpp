@@ -117,8 +117,7 @@ Constants constants_of(const measure::VolumeWork& work) {
       .leaps = work.options.skip == technique::Skip::distance,
       .adapt = work.options.adapt > 0,
       .precision = work.options.precision == technique::Precision::fp64 ? 64 : 32,
-      .long_rays = work.scene.quadrature != scene::Quadrature::cells &&
-                   technique::has_long_rays(work.scene)};
+      .long_rays = technique::has_long_rays(work.scene)};
 }
 
 std::optional<std::string> volume_unsupported(const Api& gl, const measure::VolumeWork& work) {

@@ -142,12 +142,6 @@ TRI_FN float4 transfer(__constant float4* table, float position) {
 // −log2(1 − alpha), by which an opacity of 1 counts as 8192.
 TRI_FN float extinction(float alpha) { return alpha < 1.0f ? 0.0f - tri_log2_1m(alpha) : 8192.0f; }
 
-// What a ray has gathered so far.
-typedef struct {
-  float4 sum;  // premultiplied colour; w is not used
-  float transmittance;
-} Gathered;
-
 TRI_FN void add_piece(Gathered* gathered, float4 a, float4 b, float length) {
   float first = extinction(a.w);
   float second = extinction(b.w);
@@ -242,17 +236,6 @@ TRI_FN int look_around(__constant Parameters* u, __global const int* brick_map, 
   return signed_reach > 0;
 }
 
-// What the kernel leaves for a pixel, in the order of technique::raycast_counters.
-TRI_FN void store_counts(__global uint* to, const Counts* counts, int hit) {
-  to[0] = (uint)hit;
-  to[1] = counts->samples;
-  to[2] = counts->nonzero;
-  to[3] = counts->bricks_visited;
-  to[4] = counts->bricks_skipped;
-  to[5] = counts->terminated;
-  to[6] = 0u;
-}
-
 // As the kernel of raycast.cl.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const int* brick_map, __global float4* image,
@@ -303,6 +286,6 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
   image[at] = (float4)(gathered.sum.xyz, 1.0f - gathered.transmittance) +
               gathered.transmittance * u->background;
 #if TRI_COUNT
-  store_counts(counters + 8 * at, &counts, ray.steps > 0.0f);
+  store_counts(counters + 8 * at, &counts, ray.steps > 0.0f, 0u);
 #endif
 }

@@ -52,6 +52,23 @@ typedef struct {
   uint terminated;
 } Counts;
 
+// What a kernel leaves for a pixel, in the order of technique::raycast_counters.
+TRI_FN void store_counts(__global uint* to, const Counts* counts, int hit, uint saved) {
+  to[0] = (uint)hit;
+  to[1] = counts->samples;
+  to[2] = counts->nonzero;
+  to[3] = counts->bricks_visited;
+  to[4] = counts->bricks_skipped;
+  to[5] = counts->terminated;
+  to[6] = saved;
+}
+
+// What a ray has gathered so far.
+typedef struct {
+  real4 sum;  // premultiplied colour; w is not used
+  real transmittance;
+} Gathered;
+
 #if !TRI_LEAPS
 
 // A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed

@@ -27,12 +27,6 @@ TRI_FN void classify(__constant float4* table, const real* value, int n, real4* 
   }
 }
 
-// What a ray has gathered so far.
-typedef struct {
-  real4 sum;  // premultiplied colour; w is not used
-  real transmittance;
-} Gathered;
-
 // Composites the first n of the samples that begin with the i-th; 1 where the ray ends among them.
 TRI_FN int composite(__constant Parameters* u, TRI_VOLUME volume, const Ray* ray, int i, int n,
                      const real4* colour, const real* alpha, Gathered* gathered,
@@ -179,17 +173,6 @@ TRI_FN int take_steps(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 }
 #endif
 
-// What the kernel leaves for a pixel, in the order of technique::raycast_counters.
-TRI_FN void store_counts(__global uint* to, const Counts* counts, int total) {
-  to[0] = total > 0 ? 1u : 0u;
-  to[1] = counts->samples;
-  to[2] = counts->nonzero;
-  to[3] = counts->bricks_visited;
-  to[4] = counts->bricks_skipped;
-  to[5] = counts->terminated;
-  to[6] = (uint)total - counts->samples;
-}
-
 // Image: premultiplied RGBA, top row first. Column x of the grid is
 // image column tri_drawn_column(x): x itself for the picture, others beside it for planted extra work.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
@@ -243,6 +226,6 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
                  gathered.transmittance * u->background;
   image[at] = TRI_FLOAT4(colour);
 #if TRI_COUNT
-  store_counts(counters + 8 * at, &counts, count);
+  store_counts(counters + 8 * at, &counts, count > 0, (uint)count - counts.samples);
 #endif
 }

@@ -66,7 +66,7 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
     const std::vector<std::int32_t> map =
         technique::brick_map(volume.ranges, work.scene, work.options.skip, work.options.adapt);
     const technique::QuadratureTable table = technique::quadrature_table(work.scene);
-    pairs_ = upload_bytes(session, std::as_bytes(std::span(table)));
+    quadrature_ = upload_bytes(session, std::as_bytes(std::span(table)));
     bricks_ = upload_bytes(session, std::as_bytes(std::span(map)));
     const int stride = work.options.extra_work_stride;
     image_ =
@@ -85,7 +85,7 @@ Launch VolumeFrames::launch(const cl::Program& program, int columns) const {
   const auto height = static_cast<std::size_t>(height_);
   const cl::NDRange global(round_up(width, group_width), round_up(height, group_height));
   Launch made = make_launch(program, "raycast", global, cl::NDRange(group_width, group_height),
-                            parameters_, volume_, table_, bricks_, image_, counters_, pairs_);
+                            parameters_, volume_, table_, bricks_, image_, counters_, quadrature_);
   const auto most = made.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(session_.device);
   if (most < group_width * group_height) made.local = cl::NullRange;
   return made;

@@ -38,7 +38,7 @@ class VolumeFrames final : public measure::Prepared {
   cl::Memory volume_;
   cl::Buffer table_;
   cl::Buffer bricks_;
-  cl::Buffer pairs_;
+  cl::Buffer quadrature_;
   cl::Buffer image_;
   cl::Buffer counters_;
   std::vector<Launch> timed_;      // one, with the planted extra work if there is any

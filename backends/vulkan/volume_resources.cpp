@@ -17,7 +17,7 @@ namespace triptych::vulkan_backend {
 namespace {
 
 constexpr std::uint32_t passes = 2;
-constexpr std::uint32_t storage_buffers = 4;  // bricks, output, counters, pairs
+constexpr std::uint32_t storage_buffers = 4;  // bricks, output, counters, quadrature
 
 Buffer upload_parameters(const Gpu& gpu, const measure::VolumeWork& work) {
   // A texel reaches the shader divided by its format's largest.
@@ -33,7 +33,7 @@ Buffer upload_bricks(const Gpu& gpu, const measure::VolumeWork& work) {
   return make_buffer(gpu, std::as_bytes(std::span(map)), vk::BufferUsageFlagBits::eStorageBuffer);
 }
 
-Buffer upload_pairs(const Gpu& gpu, const scene::VolumeScene& scene) {
+Buffer upload_quadrature(const Gpu& gpu, const scene::VolumeScene& scene) {
   const technique::QuadratureTable table = technique::quadrature_table(scene);
   return make_buffer(gpu, std::as_bytes(std::span(table)), vk::BufferUsageFlagBits::eStorageBuffer);
 }
@@ -59,7 +59,7 @@ std::array<vk::DescriptorSetLayoutBinding, 7> volume_bindings() {
           binding(bricks_binding, eStorageBuffer),
           binding(output_binding, eStorageBuffer),
           binding(counters_binding, eStorageBuffer),
-          binding(pairs_binding, eStorageBuffer)};
+          binding(quadrature_binding, eStorageBuffer)};
 }
 
 std::size_t pixel_count(const scene::VolumeScene& scene) {
@@ -97,7 +97,7 @@ VolumeResources::VolumeResources(const Gpu& gpu, const measure::VolumeWork& work
       volume_(upload_volume(gpu, *work.scene.grid)),
       table_(upload_table(gpu, work.scene.transfer_function)),
       bricks_(upload_bricks(gpu, work)),
-      pairs_(upload_pairs(gpu, work.scene)),
+      quadrature_(upload_quadrature(gpu, work.scene)),
       parameters_(upload_parameters(gpu, work)),
       linear_(make_sampler(gpu, vk::Filter::eLinear)),
       nearest_(make_sampler(gpu, vk::Filter::eNearest)),
@@ -116,7 +116,7 @@ void VolumeResources::write_set(Pass pass) const {
   bind_texture(gpu_, to, volume_binding, volume_, hardware_filter_ ? linear_ : nearest_);
   bind_texture(gpu_, to, transfer_binding, table_, nearest_);
   bind_buffer(gpu_, to, bricks_binding, eStorageBuffer, bricks_);
-  bind_buffer(gpu_, to, pairs_binding, eStorageBuffer, pairs_);
+  bind_buffer(gpu_, to, quadrature_binding, eStorageBuffer, quadrature_);
   if (output_ != nullptr) bind_buffer(gpu_, to, output_binding, eStorageBuffer, *output_);
 }
 
@@ -164,12 +164,8 @@ Constants constants_of(const measure::VolumeWork& work) {
 std::string_view raycast_spirv(std::string_view shader, const measure::VolumeWork& work,
                                Pass pass) {
   const std::size_t dot = shader.find('.');
-  // Cells are drawn in single precision, and in few passes (technique::raycast_reason).
-  if (work.scene.quadrature == scene::Quadrature::cells) {
-    return spirv(fmt::format("{}_cells{}{}.spv", shader.substr(0, dot),
-                             pass == Pass::counting ? "_counting" : "", shader.substr(dot)));
-  }
-  return spirv(fmt::format("{}{}{}{}{}.spv", shader.substr(0, dot),
+  return spirv(fmt::format("{}{}{}{}{}{}.spv", shader.substr(0, dot),
+                           work.scene.quadrature == scene::Quadrature::cells ? "_cells" : "",
                            work.options.precision == technique::Precision::fp64 ? "_fp64" : "",
                            technique::has_long_rays(work.scene) ? "_long" : "",
                            pass == Pass::counting ? "_counting" : "", shader.substr(dot)));

@@ -19,7 +19,7 @@ enum Binding : std::uint32_t {
   bricks_binding = 3,
   output_binding = 4,  // compute only
   counters_binding = 5,
-  pairs_binding = 6
+  quadrature_binding = 6
 };
 
 [[nodiscard]] vk::Format texture_format(scene::VoxelFormat format);
@@ -54,7 +54,7 @@ class VolumeResources {
   Image volume_;
   Image table_;
   Buffer bricks_;
-  Buffer pairs_;
+  Buffer quadrature_;
   Buffer parameters_;
   vk::raii::Sampler linear_;
   vk::raii::Sampler nearest_;

@@ -13,7 +13,9 @@ namespace triptych::technique {
 // it is shaded one for each squaring of the highlight, and a step that may be too deep for one
 // look-up one to find its chunk; half of all is left to the loops over bricks. Not always, for
 // sixteen copies of a sample's code are slow to compile.
+// Quadrature cells makes few passes wherever it is drawn (raycast_reason).
 [[nodiscard]] inline bool has_long_rays(const scene::VolumeScene& scene) {
+  if (scene.quadrature == scene::Quadrature::cells) return false;
   constexpr double most_passes = 32'768;
   const scene::Box box = scene.box();
   const double steps = glm::length(box.hi - box.lo) / scene.step_world();

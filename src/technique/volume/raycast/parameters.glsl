@@ -26,8 +26,8 @@ TRI_BINDING(2) uniform sampler1D transfer_texture;  // 256 RGBA32F entries, read
 // 1 for a visible brick, 0 for another; with TRI_LEAPS what technique::brick_reach says of it, with TRI_ADAPT its
 // technique::BrickKind.
 layout(std430) TRI_BINDING(3) readonly buffer Bricks { int brick_visible[]; };
-// Read with TRI_PREINTEGRATED only: technique::preintegrated_pairs.
-layout(std430) TRI_BINDING(6) readonly buffer Pairs { vec4 pairs[]; };
+// technique::quadrature_table.
+layout(std430) TRI_BINDING(6) readonly buffer Quadrature { vec4 quadrature_table[]; };
 #if TRI_COUNT
 layout(std430) TRI_BINDING(5) writeonly buffer Counters { uint counters[]; };
 #endif

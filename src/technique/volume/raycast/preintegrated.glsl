@@ -39,12 +39,12 @@ void add_part_of_cell(inout vec4 gathered, int cell, float a, float b, float len
 
 // The optical depth of the whole cells from entry `first` to `last`.
 float depth_of_cells(int first, int last, float per_cell) {
-  return per_cell * pairs[3 * (256 * first + last)].x;
+  return per_cell * quadrature_table[3 * (256 * first + last)].x;
 }
 
 void add_cells(inout vec4 gathered, int first, int last, float per_cell) {
   int pair = 3 * (256 * first + last);
-  add_piece(gathered, per_cell * pairs[pair].x, pairs[pair].yzw, pairs[pair + 1].xyz, pairs[pair + 2].xyz);
+  add_piece(gathered, per_cell * quadrature_table[pair].x, quadrature_table[pair].yzw, quadrature_table[pair + 1].xyz, quadrature_table[pair + 2].xyz);
 }
 
 bool are_too_deep(int first, int last, float per_cell) {

@@ -27,7 +27,6 @@ vec3 crossings(Way way, ivec3 planes) { return (vec3(planes) - way.p0) * way.inv
 vec3 entries(Way way, ivec3 cell) { return crossings(way, cell + 1 - way.forward); }
 vec3 exits(Way way, ivec3 cell) { return crossings(way, cell + way.forward); }
 float least(vec3 v) { return min(v.x, min(v.y, v.z)); }
-float most(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 // The cell behind the nearest of the planes, which are crossed at `at`; the others' cells are those that hold
 // the ray there by the very times that a walk would compare.
@@ -73,7 +72,7 @@ vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
 }
 
 // technique::kink_table: of row i the least kink ≥ i, the greatest < i, and the first visible entry ≥ i.
-vec4 kink_row(float i) { return pairs[int(clamp(i, 0.0, 256.0))]; }
+vec4 kink_row(float i) { return quadrature_table[int(clamp(i, 0.0, 256.0))]; }
 
 // Whether any value on the way has opacity: between the least and the greatest of the cubic's Bernstein
 // coefficients.
