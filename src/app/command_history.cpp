@@ -41,13 +41,11 @@ core::ExitCode history(const HistoryArguments& arguments) {
     given.push_back(&stores.back());
   }
   comparison::HistoryBuilder builder(arguments.devices);
-  const record::Store* before = nullptr;
   for (record::Store* store : comparison::in_order(given)) {
     Truths truths(registry, *store);
-    builder.add(*store, before, [&](const record::Record& record) -> const judge::TruthPair& {
+    builder.add(*store, [&](const record::Record& record) -> const judge::TruthPair& {
       return truths.of(record);
     });
-    before = store;
   }
   if (builder.devices().empty()) {
     throw core::NotSupported("the stores hold no run of such a device: see `triptych devices`");

@@ -13,14 +13,6 @@
 namespace triptych::comparison {
 namespace {
 
-struct Measured {
-  std::optional<double> cost;
-  std::optional<double> time;
-};
-
-// By plan and configuration.
-using ByConfiguration = std::map<std::string, Measured>;
-
 std::optional<double> cost_of(const record::Record& record) {
   double sum = 0;
   for (const char* part : {"device_code", "driver"}) {
@@ -30,8 +22,8 @@ std::optional<double> cost_of(const record::Record& record) {
   return sum > 0 ? std::optional(sum) : std::nullopt;
 }
 
-std::map<std::string, ByConfiguration> by_device(const record::Store& store) {
-  std::map<std::string, ByConfiguration> devices;
+std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& store) {
+  std::map<std::string, MeasuredByConfiguration> devices;
   for (const record::Run& run : record::latest_runs(store)) {
     store.visit_records(run.id, [&](const record::Record& record) {
       if (record.outcome != record::Outcome::measured) return;
@@ -44,7 +36,7 @@ std::map<std::string, ByConfiguration> by_device(const record::Store& store) {
 }
 
 // b over a, the geometric mean over what both have.
-std::optional<double> ratio(const ByConfiguration& a, const ByConfiguration& b,
+std::optional<double> ratio(const MeasuredByConfiguration& a, const MeasuredByConfiguration& b,
                             std::optional<double> Measured::*value) {
   double sum = 0;
   int count = 0;
@@ -116,38 +108,36 @@ HistoryBuilder::Points HistoryBuilder::points_of(const record::Store& store) con
   return points;
 }
 
-void HistoryBuilder::add(const record::Store& store, const record::Store* before,
-                         const KeptTruth& truth) {
-  const auto now = by_device(store);
-  const auto then =
-      before == nullptr ? std::map<std::string, ByConfiguration>() : by_device(*before);
+void HistoryBuilder::add_changes(const record::Store& store, const KeptTruth& truth,
+                                 Points& points) const {
+  for (const DeviceChange& change : diff_stores(*before_, store, devices_, truth).devices) {
+    const DifferenceGroups groups = groups_of(change);
+    HistoryPoint& point = points[change.b.id];
+    point.changes = groups.empty() ? std::string() : groups.text();
+    point.worse = change.has(DifferenceKind::regression);
+  }
+}
+
+void HistoryBuilder::add(const record::Store& store, const KeptTruth& truth) {
+  auto measured = by_device(store);
   Points points = points_of(store);
   for (auto& [id, point] : points) {
-    const auto here = now.find(id);
-    const auto there = then.find(id);
+    const auto here = measured.find(id);
+    const auto there = measured_.find(id);
     const std::vector<HistoryPoint>& known = of(id).points;
-    if (here == now.end()) continue;
+    if (here == measured.end()) continue;
     if (known.empty()) {
       point.cost = ratio(here->second, here->second, &Measured::cost);
       point.time = ratio(here->second, here->second, &Measured::time);
-    } else if (there != then.end()) {
+    } else if (there != measured_.end()) {
       point.cost = chained(known.back().cost, ratio(there->second, here->second, &Measured::cost));
       point.time = chained(known.back().time, ratio(there->second, here->second, &Measured::time));
     }
   }
-  if (before != nullptr) {
-    for (const DeviceChange& change : diff_stores(*before, store, devices_, truth).devices) {
-      DifferenceGroups groups;
-      groups.add(change.device, "");
-      for (const ConfigurationDiff& each : change.configurations) {
-        groups.add(each.differences, each.key);
-      }
-      HistoryPoint& point = points[change.b.id];
-      point.changes = groups.empty() ? std::string() : groups.text();
-      point.worse = change.has(DifferenceKind::regression);
-    }
-  }
+  if (before_ != nullptr) add_changes(store, truth, points);
   for (auto& [id, point] : points) of(id).points.push_back(std::move(point));
+  before_ = &store;
+  measured_ = std::move(measured);
 }
 
 std::string to_text(const std::vector<DeviceHistory>& history) {

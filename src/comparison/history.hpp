@@ -34,6 +34,13 @@ struct DeviceHistory {
   [[nodiscard]] const HistoryPoint* first_worse() const;
 };
 
+// Of a configuration on a device.
+struct Measured {
+  std::optional<double> cost;
+  std::optional<double> time;
+};
+using MeasuredByConfiguration = std::map<std::string, Measured>;  // by plan and configuration
+
 // Stores by the time at which their first run began; of equals as given.
 [[nodiscard]] std::vector<record::Store*> in_order(const std::vector<record::Store*>& stores);
 
@@ -42,8 +49,9 @@ class HistoryBuilder {
  public:
   explicit HistoryBuilder(std::vector<std::string> devices) : devices_(std::move(devices)) {}
 
-  // The next store; `truth`: of its records and of the one before. Both must outlive the call only.
-  void add(const record::Store& store, const record::Store* before, const KeptTruth& truth);
+  // The next store, which must live until the one behind it is added; `truth`: of its records and
+  // of the one before.
+  void add(const record::Store& store, const KeptTruth& truth);
   [[nodiscard]] const std::vector<DeviceHistory>& devices() const { return history_; }
 
  private:
@@ -51,8 +59,12 @@ class HistoryBuilder {
   [[nodiscard]] Points points_of(const record::Store& store) const;
   DeviceHistory& of(const std::string& device);
 
+  void add_changes(const record::Store& store, const KeptTruth& truth, Points& points) const;
+
   std::vector<std::string> devices_;
   std::vector<DeviceHistory> history_;
+  const record::Store* before_ = nullptr;
+  std::map<std::string, MeasuredByConfiguration> measured_;  // in it, by device
 };
 
 // Each device with a line per store, then the first store that was worse.

@@ -110,11 +110,7 @@ class Diffing {
 };
 
 std::string text_of(const DeviceChange& change) {
-  DifferenceGroups groups;
-  groups.add(change.device, "");
-  for (const ConfigurationDiff& each : change.configurations) {
-    groups.add(each.differences, each.key);
-  }
+  const DifferenceGroups groups = groups_of(change);
   const auto version = [](const record::Device& device) {
     return fmt::format("{}, API {}", device.driver_version, device.api_version);
   };
@@ -124,6 +120,15 @@ std::string text_of(const DeviceChange& change) {
 }
 
 }  // namespace
+
+DifferenceGroups groups_of(const DeviceChange& change) {
+  DifferenceGroups groups;
+  groups.add(change.device, "");
+  for (const ConfigurationDiff& each : change.configurations) {
+    groups.add(each.differences, each.key);
+  }
+  return groups;
+}
 
 bool DeviceChange::has(DifferenceKind kind) const {
   const auto in = [kind](const std::vector<Difference>& differences) {

@@ -21,6 +21,9 @@ struct DeviceChange {
   [[nodiscard]] bool has(DifferenceKind kind) const;
 };
 
+// What is alike in several of its configurations, once.
+[[nodiscard]] DifferenceGroups groups_of(const DeviceChange& change);
+
 struct StoreDiff {
   std::vector<DeviceChange> devices;
   std::vector<std::string> only_one;  // plans and devices of which one store has nothing
