@@ -9,6 +9,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <stdexcept>
 #include <thread>
 
 #include "core/error.hpp"
@@ -111,46 +112,61 @@ TEST_F(StoreTest, SeveralProcessesCreateOneStore) {
   for (const record::Run& each : store.runs()) EXPECT_THAT(store.records(each.id), SizeIs(10));
 }
 
+// A process that appends as soon as it is told to. Forked before its parent opens a connection, as
+// none must cross a fork.
+class LateWriter {
+ public:
+  explicit LateWriter(const std::filesystem::path& file) {
+    if (pipe(ends_.data()) != 0) throw std::runtime_error("no pipe");
+    child_ = fork();
+    if (child_ != 0) return;
+    char begin = 0;
+    std::_Exit(read(ends_[0], &begin, 1) == 1 && append_ten(file, "late") ? 0 : 1);
+  }
+  ~LateWriter() {
+    for (const int end : ends_) close(end);
+  }
+  LateWriter(const LateWriter&) = delete;
+  LateWriter& operator=(const LateWriter&) = delete;
+
+  // It has time to come as far as it can.
+  void begin() const {
+    ASSERT_EQ(write(ends_[1], "x", 1), 1);
+    std::this_thread::sleep_for(milliseconds(300));
+  }
+  void expect_done() const {
+    int status = -1;
+    waitpid(child_, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+
+ private:
+  std::array<int, 2> ends_{};
+  pid_t child_ = 0;
+};
+
 // Another has made the file and is about to switch it to the log: SQLite refuses whoever wants
 // that, too, without waiting.
 TEST_F(StoreTest, SwitchedToTheLogByAnotherMeanwhile) {
   make_store(file_);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA journal_mode = DELETE");
-  std::array<int, 2> ends{};
-  ASSERT_EQ(pipe(ends.data()), 0);
-  const pid_t child = fork();
-  if (child == 0) {
-    char begin = 0;
-    std::_Exit(read(ends[0], &begin, 1) == 1 && append_ten(file_, "late") ? 0 : 1);
-  }
+  const LateWriter late(file_);
   SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE);
   other.exec("BEGIN IMMEDIATE");
-  ASSERT_EQ(write(ends[1], "x", 1), 1);
-  std::this_thread::sleep_for(milliseconds(300));
+  late.begin();
   other.exec("COMMIT");
-  int status = -1;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
-  for (const int end : ends) close(end);
+  late.expect_done();
   EXPECT_THAT(Store(file_, Mode::read).records("late"), SizeIs(10));
 }
 
 TEST_F(StoreTest, CreatedByAnotherBetweenLookAndLock) {
   const std::filesystem::path model = folder_ / "model.sqlite";
   make_store(model);
-  // Forked first: a connection must not cross a fork. One byte lets the child begin.
-  std::array<int, 2> ends{};
-  ASSERT_EQ(pipe(ends.data()), 0);
-  const pid_t child = fork();
-  if (child == 0) {
-    char begin = 0;
-    std::_Exit(read(ends[0], &begin, 1) == 1 && append_ten(file_, "late") ? 0 : 1);
-  }
+  const LateWriter late(file_);
   // RESERVED: others still read a blank file, but must wait to write.
   SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   other.exec("BEGIN IMMEDIATE");
-  ASSERT_EQ(write(ends[1], "x", 1), 1);
-  std::this_thread::sleep_for(milliseconds(300));
+  late.begin();
   SQLite::Database from(model.string());
   SQLite::Statement tables(from, "SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL");
   while (tables.executeStep()) other.exec(tables.getColumn(0).getString());
@@ -159,10 +175,7 @@ TEST_F(StoreTest, CreatedByAnotherBetweenLookAndLock) {
     other.exec(name + " = " + from.execAndGet(name).getString());
   }
   other.exec("COMMIT");
-  int status = -1;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
-  for (const int end : ends) close(end);
+  late.expect_done();
   EXPECT_THAT(Store(file_, Mode::read).records("late"), SizeIs(10));
 }
 
