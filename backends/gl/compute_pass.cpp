@@ -53,7 +53,7 @@ std::optional<std::string> ComputePass::unsupported(const Api& gl, int width, in
 }
 
 std::vector<Stage> ComputePass::stages(const Api& gl, const Constants& constants) const {
-  return {{GL_COMPUTE_SHADER, volume_source(gl, constants, "raycast.comp")}};
+  return {volume_stage(gl, GL_COMPUTE_SHADER, constants, "raycast.comp")};
 }
 
 std::span<const Statistic> ComputePass::statistics() const {

@@ -62,8 +62,8 @@ class EglContext final : public Context {
     open_display(platform, device);
     if (egl_.bind_api(EGL_OPENGL_API) == EGL_FALSE) throw egl_.error("eglBindAPI");
     // Lost contexts are to be told as such, but not every driver can.
-    handle_ = create(debug, true);
-    if (handle_ == EGL_NO_CONTEXT) handle_ = create(debug, false);
+    handle_ = create_newest(debug, true);
+    if (handle_ == EGL_NO_CONTEXT) handle_ = create_newest(debug, false);
     if (handle_ == EGL_NO_CONTEXT) refuse_context();
     try {
       const Current current(*this);
@@ -97,10 +97,21 @@ class EglContext final : public Context {
     }
   }
 
-  EGLContext create(bool debug, bool robust) {
+  // Asked for 3.3, Mesa gives the newest that it has, NVIDIA's driver 3.3.
+  EGLContext create_newest(bool debug, bool robust) {
+    static constexpr std::array<std::array<EGLint, 2>, 8> versions{
+        {{4, 6}, {4, 5}, {4, 4}, {4, 3}, {4, 2}, {4, 1}, {4, 0}, {3, 3}}};
+    for (const auto& [major, minor] : versions) {
+      const EGLContext context = create(major, minor, debug, robust);
+      if (context != EGL_NO_CONTEXT) return context;
+    }
+    return EGL_NO_CONTEXT;
+  }
+
+  EGLContext create(EGLint major, EGLint minor, bool debug, bool robust) {
     std::vector<EGLint> attributes{
-        EGL_CONTEXT_MAJOR_VERSION,       3,
-        EGL_CONTEXT_MINOR_VERSION,       3,
+        EGL_CONTEXT_MAJOR_VERSION,       major,
+        EGL_CONTEXT_MINOR_VERSION,       minor,
         EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
     // The attribute of EGL 1.5 is refused by displays of EGL 1.4 (softpipe's), this one by none.
     if (debug && egl_.has(display_, "EGL_KHR_create_context")) {

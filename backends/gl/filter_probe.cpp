@@ -72,7 +72,7 @@ double interpolated(const scene::VoxelGrid& grid, const Point& point) {
 
 // Leaves the fetched value in each point.
 void fetch(const Api& gl, const scene::VoxelGrid& grid, std::vector<Point>& points) {
-  const Stage stage{GL_COMPUTE_SHADER, plain_source(gl, "filter_probe.comp")};
+  const Stage stage = plain_stage(gl, GL_COMPUTE_SHADER, "filter_probe.comp");
   const Program program = link(gl, std::span(&stage, 1));
   const Texture volume = volume_texture(gl, grid, true);
   const Buffer probe = constant_buffer(gl, std::as_bytes(std::span(points)));

@@ -49,7 +49,7 @@ std::vector<Stage> particle_stages(const Api& gl, const ParticleConstants& const
                                         "colour.glsl"};
     files.insert(files.end(), stage.files.begin(), stage.files.end());
     made.push_back(
-        {stage.type, shared_source(gl, constant_lines(gl, constants) + stage.defines, files)});
+        shared_stage(gl, stage.type, constant_lines(gl, constants) + stage.defines, files));
   }
   return made;
 }

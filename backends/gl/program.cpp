@@ -12,16 +12,30 @@
 namespace triptych::gl_backend {
 namespace {
 
+// The extension that brings a stage; NVIDIA's compiler takes any source that names
+// GL_ARB_compute_shader for a compute shader.
+std::string_view stage_extension(GLenum type) {
+  switch (type) {
+    case GL_COMPUTE_SHADER:
+      return "#extension GL_ARB_compute_shader : enable\n";
+    case GL_TESS_CONTROL_SHADER:
+    case GL_TESS_EVALUATION_SHADER:
+      return "#extension GL_ARB_tessellation_shader : enable\n";
+    default:
+      return {};
+  }
+}
+
 // Below GLSL 4.30 everything the shared source needs comes from extensions.
-std::string version_lines(const Api& gl) {
+std::string version_lines(const Api& gl, GLenum type) {
   if (gl.at_least(4, 5)) return "#version 450 core\n";
   if (gl.at_least(4, 3)) return "#version 430 core\n";
-  std::string lines = "#version 330 core\n";
-  for (const char* extension :
-       {"GL_ARB_shading_language_420pack", "GL_ARB_shader_storage_buffer_object",
-        "GL_ARB_compute_shader", "GL_ARB_gpu_shader5", "GL_ARB_tessellation_shader"}) {
-    lines += fmt::format("#extension {} : enable\n", extension);
-  }
+  std::string lines =
+      "#version 330 core\n"
+      "#extension GL_ARB_shading_language_420pack : enable\n"
+      "#extension GL_ARB_shader_storage_buffer_object : enable\n"
+      "#extension GL_ARB_gpu_shader5 : enable\n";
+  lines += stage_extension(type);
   // Without GLSL 4.00 or the extension there is no such qualifier.
   if (gl.ARB_gpu_shader5 == 0) lines += "#define precise\n";
   return lines;
@@ -87,19 +101,21 @@ Shader compile(const Api& gl, const Stage& stage) {
 
 }  // namespace
 
-std::string plain_source(const Api& gl, std::string_view main_file) {
-  return version_lines(gl).append(embedded(main_file));
+Stage plain_stage(const Api& gl, GLenum type, std::string_view main_file) {
+  return {type, version_lines(gl, type).append(embedded(main_file))};
 }
 
-std::string shared_source(const Api& gl, std::string_view constant_lines,
-                          std::span<const std::string_view> files) {
-  std::string source = version_lines(gl).append(constant_lines).append(embedded("prelude.glsl"));
+Stage shared_stage(const Api& gl, GLenum type, std::string_view constant_lines,
+                   std::span<const std::string_view> files) {
+  std::string source =
+      version_lines(gl, type).append(constant_lines).append(embedded("prelude.glsl"));
   source.append(technique::source("prelude.glsl"));
   for (const std::string_view file : files) source.append(technique::whole_source(file));
-  return source;
+  return {type, std::move(source)};
 }
 
-std::string volume_source(const Api& gl, const Constants& constants, std::string_view main_file) {
+Stage volume_stage(const Api& gl, GLenum type, const Constants& constants,
+                   std::string_view main_file) {
   std::vector<std::string_view> files{"volume_math.h", "volume_preintegration.h",
                                       "volume/raycast/parameters.glsl"};
   if (constants.cells) {
@@ -107,7 +123,9 @@ std::string volume_source(const Api& gl, const Constants& constants, std::string
   } else {
     files.insert(files.end(), {"preintegrated.glsl", "raycast.glsl"});
   }
-  return shared_source(gl, constant_lines(constants), files).append(embedded(main_file));
+  Stage stage = shared_stage(gl, type, constant_lines(constants), files);
+  stage.source.append(embedded(main_file));
+  return stage;
 }
 
 Program link(const Api& gl, std::span<const Stage> stages) {

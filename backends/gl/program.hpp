@@ -33,15 +33,15 @@ struct Stage {
 
 // The named files of src/technique/, in that order, behind the #version line, `constant_lines` and
 // both preludes, in the newest GLSL the context has.
-[[nodiscard]] std::string shared_source(const Api& gl, std::string_view constant_lines,
-                                        std::span<const std::string_view> files);
+[[nodiscard]] Stage shared_stage(const Api& gl, GLenum type, std::string_view constant_lines,
+                                 std::span<const std::string_view> files);
 
 // The shared raycasting source with the constants and GL's prelude before it and the named file of
 // backends/gl/shaders/ behind it.
-[[nodiscard]] std::string volume_source(const Api& gl, const Constants& constants,
-                                        std::string_view main_file);
+[[nodiscard]] Stage volume_stage(const Api& gl, GLenum type, const Constants& constants,
+                                 std::string_view main_file);
 // The named file alone behind the #version line, for stages that share nothing.
-[[nodiscard]] std::string plain_source(const Api& gl, std::string_view main_file);
+[[nodiscard]] Stage plain_stage(const Api& gl, GLenum type, std::string_view main_file);
 
 // Compiles and links; throws core::ApiError with the driver's log.
 [[nodiscard]] Program link(const Api& gl, std::span<const Stage> stages);

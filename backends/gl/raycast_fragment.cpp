@@ -41,8 +41,8 @@ class FragmentPass final : public Pass {
 
   [[nodiscard]] std::vector<Stage> stages(const Api& gl,
                                           const Constants& constants) const override {
-    return {{GL_VERTEX_SHADER, plain_source(gl, "full_screen.vert")},
-            {GL_FRAGMENT_SHADER, volume_source(gl, constants, "raycast.frag")}};
+    return {plain_stage(gl, GL_VERTEX_SHADER, "full_screen.vert"),
+            volume_stage(gl, GL_FRAGMENT_SHADER, constants, "raycast.frag")};
   }
 
   [[nodiscard]] std::span<const Statistic> statistics() const override {
