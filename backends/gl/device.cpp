@@ -10,6 +10,7 @@
 #include "backends/gl/compute_pass.hpp"
 #include "backends/gl/device_info.hpp"
 #include "backends/gl/filter_probe.hpp"
+#include "backends/gl/large_points.hpp"
 #include "backends/gl/techniques.hpp"
 #include "backends/gl/volume_prepared.hpp"
 #include "core/error.hpp"
@@ -44,7 +45,7 @@ class GlDevice final : public measure::Device {
         context_(std::move(context)),
         stamps_(is_software(info_) ? Stamps::finished : Stamps::in_stream) {
     const Current current(*context_);
-    sub_pixel_bits_ = context_->gl().sub_pixel_bits();
+    rasterizer_ = {context_->gl().sub_pixel_bits(), point_margin(context_->gl())};
     if (ComputePass::unsupported(context_->gl(), 1, 1)) return;
     for (std::size_t i = 0; i < filter_error_.size(); ++i) {
       filter_error_[i] = probe_filter(context_->gl(), static_cast<scene::VoxelFormat>(i));
@@ -91,7 +92,9 @@ class GlDevice final : public measure::Device {
     return filter_error_.at(static_cast<std::size_t>(path.voxel));
   }
 
-  [[nodiscard]] std::optional<int> sub_pixel_bits() const override { return sub_pixel_bits_; }
+  [[nodiscard]] std::optional<measure::Rasterizer> rasterizer() const override {
+    return rasterizer_;
+  }
 
   [[nodiscard]] record::Counts memory() const override { return context_->gl().held.counts(); }
 
@@ -111,7 +114,7 @@ class GlDevice final : public measure::Device {
   record::Device info_;
   std::unique_ptr<Context> context_;
   Stamps stamps_;
-  int sub_pixel_bits_ = 0;
+  measure::Rasterizer rasterizer_;
   // By voxel format; 1, the worst there is, where it cannot be probed.
   std::array<double, 3> filter_error_{1, 1, 1};
 };

@@ -8,8 +8,16 @@
 #include <ranges>
 
 #include "scene/camera.hpp"
+#include "technique/particles/margins.hpp"
 
 namespace triptych::gl_backend {
+
+double point_margin(const Api& gl) {
+  GLfloat granularity = 0;
+  gl.GetFloatv(GL_POINT_SIZE_GRANULARITY, &granularity);
+  return technique::point_margin(gl.text(GL_RENDERER), static_cast<double>(granularity)) +
+         2 * technique::sprite_growth(gl.sub_pixel_bits());
+}
 
 double largest_point(const Api& gl) {
   std::array<GLfloat, 2> range{};

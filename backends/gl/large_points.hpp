@@ -7,6 +7,9 @@
 
 namespace triptych::gl_backend {
 
+// Pixels to add to the size of a point on this device.
+[[nodiscard]] double point_margin(const Api& gl);
+
 // The largest point that the device draws, in pixels.
 [[nodiscard]] double largest_point(const Api& gl);
 

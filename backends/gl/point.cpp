@@ -4,20 +4,12 @@
 #include "backends/gl/large_points.hpp"
 #include "backends/gl/sprites.hpp"
 #include "backends/gl/techniques.hpp"
-#include "technique/particles/margins.hpp"
 
 namespace triptych::gl_backend {
 namespace {
 
-double margin_of(const Api& gl) {
-  GLfloat granularity = 0;
-  gl.GetFloatv(GL_POINT_SIZE_GRANULARITY, &granularity);
-  return technique::point_margin(gl.text(GL_RENDERER), static_cast<double>(granularity)) +
-         2 * technique::sprite_growth(gl.sub_pixel_bits());
-}
-
 Sprites sprites(const Api& gl) {
-  const double margin = margin_of(gl);
+  const double margin = point_margin(gl);
   const std::string largest =
       fmt::format("#define TRI_LARGEST_POINT {:#.9g}\n#define TRI_POINT_MARGIN {:#.9g}\n",
                   largest_point(gl) - margin, margin);

@@ -9,6 +9,7 @@
 
 #include "backends/vulkan/errors.hpp"
 #include "backends/vulkan/filter_probe.hpp"
+#include "backends/vulkan/particle_data.hpp"
 #include "backends/vulkan/support.hpp"
 #include "backends/vulkan/techniques.hpp"
 #include "backends/vulkan/volume_resources.hpp"
@@ -88,6 +89,12 @@ double Device::filter_weight_error(const measure::VolumePath& path) const {
   if (error) return *error;
   throw core::NotSupported(fmt::format("cannot filter images of format {} linearly",
                                        vk::to_string(texture_format(path.voxel))));
+}
+
+std::optional<measure::Rasterizer> Device::rasterizer() const {
+  return measure::Rasterizer{
+      .sub_pixel_bits = static_cast<int>(gpu_.properties.limits.subPixelPrecisionBits),
+      .point_margin = static_cast<double>(point_margin(gpu_))};
 }
 
 std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {

@@ -20,9 +20,7 @@ class Device final : public measure::Device {
   [[nodiscard]] std::optional<std::string> unsupported(const measure::Work& work) const override;
   [[nodiscard]] measure::VolumePath default_path(scene::VoxelFormat native) const override;
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override;
-  [[nodiscard]] std::optional<int> sub_pixel_bits() const override {
-    return static_cast<int>(gpu_.properties.limits.subPixelPrecisionBits);
-  }
+  [[nodiscard]] std::optional<measure::Rasterizer> rasterizer() const override;
   [[nodiscard]] record::Counts memory() const override { return gpu_.held.counts(); }
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
 

@@ -90,6 +90,7 @@ std::map<std::string, std::string> limits_of(const vk::raii::PhysicalDevice& dev
       {"maxComputeWorkGroupInvocations", fmt::to_string(limits.maxComputeWorkGroupInvocations)},
       {"subPixelPrecisionBits", fmt::to_string(limits.subPixelPrecisionBits)},
       {"subTexelPrecisionBits", fmt::to_string(limits.subTexelPrecisionBits)},
+      {"pointSizeGranularity", fmt::to_string(limits.pointSizeGranularity)},
       {"timestampPeriod", fmt::to_string(limits.timestampPeriod)},
       {"timestampComputeAndGraphics", yes_no(limits.timestampComputeAndGraphics)},
       {"geometryShader", yes_no(features.geometryShader)},

@@ -87,6 +87,13 @@ struct VolumePath {
   technique::Sampler sampler = technique::Sampler::manual;
 };
 
+// What a device's rasterizer leaves open: which fragments an edge covers.
+struct Rasterizer {
+  int sub_pixel_bits = 8;  // vertices are moved to a grid of 2⁻ᵇ pixel
+  double point_margin =
+      0;  // pixels by which points are larger than their squares, and may be again
+};
+
 class Device {
  public:
   Device() = default;
@@ -108,8 +115,8 @@ class Device {
   // Sampler::manual.
   [[nodiscard]] virtual double filter_weight_error(const VolumePath& path) const = 0;
 
-  // Bits behind the point to which the rasterizer moves vertices; nothing where there is none.
-  [[nodiscard]] virtual std::optional<int> sub_pixel_bits() const { return std::nullopt; }
+  // Nothing where there is none.
+  [[nodiscard]] virtual std::optional<Rasterizer> rasterizer() const { return std::nullopt; }
 
   // Bytes that the backend holds on the device now, as "buffers" and "images". What a driver takes
   // for itself is not among them. Empty where nobody counts them.

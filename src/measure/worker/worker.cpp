@@ -54,7 +54,10 @@ void describe_work(const Work& work, const Device& device, record::Record& recor
         {.voxel = volume->scene.grid->format, .sampler = volume->options.sampler});
   } else if (const auto* particles = std::get_if<ParticleWork>(&work.scene)) {
     record.data_hash = particles->scene.particles->hash;
-    if (const auto bits = device.sub_pixel_bits()) record.precision["sub_pixel_bits"] = *bits;
+    if (const auto rasterizer = device.rasterizer()) {
+      record.precision["sub_pixel_bits"] = rasterizer->sub_pixel_bits;
+      if (work.technique == "point") record.precision["point_margin"] = rasterizer->point_margin;
+    }
   }
 }
 

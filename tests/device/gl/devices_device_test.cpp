@@ -24,7 +24,10 @@ std::vector<std::string> ids(const measure::Listing& listing) {
 TEST(GlDevices, ListingTwiceIsTheSame) {
   const auto backend = backend_under_test();
   const measure::Listing first = backend->list();
-  EXPECT_EQ(first.devices, backend->list().devices);
+  const measure::Listing second = backend->list();
+  EXPECT_EQ(first.devices, second.devices);
+  for (const measure::Broken& each : second.broken)
+    EXPECT_EQ(first.broken.size(), second.broken.size()) << each.reason;
   const std::vector<std::string> all = ids(first);
   EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), all.size());
   for (const std::string& id : all) {

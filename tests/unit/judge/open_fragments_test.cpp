@@ -37,6 +37,9 @@ TEST(OpenFragments, AreMoreOnACoarseGridAndWhereSpritesLieTogether) {
   const record::Record fine = record_of(100, 10000, 8);
   EXPECT_GT(open_fragments("fragments", record_of(100, 10000, 4)),
             5 * open_fragments("fragments", fine));
+  record::Record points = fine;  // of 1/16 pixel, as NVIDIA's
+  points.precision["point_margin"] = 1.0 / 16;
+  EXPECT_GT(open_fragments("fragments", points), 4000 / 16.0 + open_fragments("fragments", fine));
   record::Record together = fine;
   together.counters["visible_ids"] = 4;
   EXPECT_GT(open_fragments("fragments", together), open_fragments("fragments", fine));
