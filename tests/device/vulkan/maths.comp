@@ -12,12 +12,12 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= vectors.length()) return;
   vec2 v = vectors[i];
-  vec2 slab = tri_slab(v.x * 20.0 - 5.0, v.y - 1.0, 9.0);
+  vec2 slab = tri_slab(v.x * 16.0 - 4.0, v.y - 1.0, 9.0);
   uint at = 16 * i;
   results[at] = slab.x;
   results[at + 1] = slab.y;
-  results[at + 2] = float(tri_sample_count(v.y * 300.0));
-  results[at + 3] = tri_step_share(v.y * 3.0, 2);
+  results[at + 2] = float(tri_sample_count(v.y * 256.0));
+  results[at + 3] = tri_step_share(v.y * 4.0, 2);
   results[at + 4] = tri_table_position(v.x);
   results[at + 5] = tri_log2_1m(v.x);
   results[at + 6] = tri_1m_exp2(-8.0 * v.y);

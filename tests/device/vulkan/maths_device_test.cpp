@@ -20,8 +20,9 @@ namespace triptych::vulkan_backend {
 namespace {
 
 namespace portable = technique::portable;
-using Vector = std::array<float, 2>;    // opacity, steps
-using Results = std::array<float, 16>;  // maths.comp
+using Vector = std::array<float, 2>;     // opacity, steps
+using Results = std::array<float, 16>;   // maths.comp
+using Doubles = std::array<double, 16>;  // maths_fp64.comp
 
 std::vector<Vector> vectors() {
   std::vector<Vector> all;
@@ -40,11 +41,11 @@ std::vector<Vector> vectors() {
 
 Results on_host(const Vector& vector) {
   const auto [x, y] = vector;
-  const auto slab = portable::tri_slab(x * 20.0F - 5.0F, y - 1.0F, 9.0F);
+  const auto slab = portable::tri_slab(x * 16.0F - 4.0F, y - 1.0F, 9.0F);
   Results results{slab.x,
                   slab.y,
-                  static_cast<float>(portable::tri_sample_count(y * 300.0F)),
-                  portable::tri_step_share(y * 3.0F, 2),
+                  static_cast<float>(portable::tri_sample_count(y * 256.0F)),
+                  portable::tri_step_share(y * 4.0F, 2),
                   portable::tri_table_position(x),
                   portable::tri_log2_1m(x),
                   portable::tri_1m_exp2(-8.0F * y),
@@ -52,6 +53,26 @@ Results on_host(const Vector& vector) {
   for (int form = -2; form <= 4; ++form) {
     results.at(static_cast<std::size_t>(10 + form)) = portable::tri_opacity_by_form(x, y, form);
   }
+  return results;
+}
+
+Doubles doubles_on_host(const Vector& vector) {
+  namespace fp64 = portable::fp64;
+  const auto x = static_cast<double>(vector[0]);
+  const auto y = static_cast<double>(vector[1]);
+  const double whole = std::floor(0.5 - 8.0 * y);
+  Doubles results{static_cast<double>(fp64::high_word(x)),
+                  fp64::with_high_word(x, 0x3fe00000),
+                  whole,
+                  whole,
+                  fp64::tri_table_position(x),
+                  fp64::tri_log2_1m(x),
+                  fp64::tri_1m_exp2(-8.0 * y),
+                  fp64::tri_opacity(x, y)};
+  for (int form = -2; form <= 4; ++form) {
+    results.at(static_cast<std::size_t>(10 + form)) = fp64::tri_opacity_by_form(x, y, form);
+  }
+  results.back() = fp64::tri_step_share(4.0 * y, 2);
   return results;
 }
 
@@ -84,6 +105,28 @@ TEST(VulkanMaths, EqualsTheHosts) {
       const Results host = on_host(in[i]);
       for (std::size_t k = 0; k < host.size(); ++k) {
         ASSERT_LE(ulps(host.at(k), out[i].at(k)), allowed)
+            << "result " << k << " of " << in[i][0] << ", " << in[i][1] << ": " << host.at(k)
+            << " and " << out[i].at(k);
+      }
+    }
+  }
+}
+
+// On either side 12 u are stated of the longest chain, 2⁻⁵³ each.
+TEST(VulkanMaths, EqualsTheHostsInDoublePrecision) {
+  const std::vector<Vector> in = vectors();
+  const Instance instance;
+  for (const Candidate& each : candidates(instance.physical_devices())) {
+    SCOPED_TRACE(each.info.id);
+    const Gpu gpu = open_gpu(each.physical);
+    if (gpu.features.shaderFloat64 == VK_FALSE) continue;
+    const std::vector<Doubles> out =
+        dispatch_once<Doubles>(gpu, test_shaders::embedded("maths_fp64.comp.spv"), in,
+                               static_cast<std::uint32_t>(in.size() / 64));
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      const Doubles host = doubles_on_host(in[i]);
+      for (std::size_t k = 0; k < host.size(); ++k) {
+        ASSERT_LE(std::abs(host.at(k) - out[i].at(k)), 24 * 0x1p-53 * std::abs(host.at(k)))
             << "result " << k << " of " << in[i][0] << ", " << in[i][1] << ": " << host.at(k)
             << " and " << out[i].at(k);
       }
