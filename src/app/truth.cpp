@@ -31,6 +31,17 @@ const judge::TruthPair& Truths::of(const record::Record& record) {
   return known_.emplace(key, find_or_render(record)).first->second;
 }
 
+const std::map<std::string, double>& Truths::open_counts_of(const record::Record& record) {
+  std::string key = memory_key(record);
+  if (const auto skip = record.factors.find("skip"); skip != record.factors.end()) {
+    key += " " + skip->second;
+  }
+  if (const auto found = open_counts_.find(key); found != open_counts_.end()) return found->second;
+  return open_counts_
+      .emplace(key, registry_.suite(record.suite).open_counts(record.factors, record.precision))
+      .first->second;
+}
+
 std::string Truths::data_hash_of(const record::Record& record) {
   std::string key = record.suite;
   for (const char* factor : {"data", "voxel", "colour"}) {
@@ -116,6 +127,8 @@ judge::GateRequest request_of(Truths& truths, const std::string& plan) {
       .limit = [&truths](const record::Record& record) { return truths.limit_of(record); },
       .expectations =
           [&truths](const record::Record& record) { return truths.expectations_of(record); },
+      .open_counts =
+          [&truths](const record::Record& record) { return truths.open_counts_of(record); },
       .today = today(),
       .data_hash = [&truths](const record::Record& record) { return truths.data_hash_of(record); }};
 }

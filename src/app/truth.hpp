@@ -21,6 +21,8 @@ class Truths {
   [[nodiscard]] std::vector<record::Expectation> expectations_of(const record::Record& record) {
     return registry_.suite(record.suite).expectations(record.factors);
   }
+  // GateRequest::open_counts.
+  [[nodiscard]] const std::map<std::string, double>& open_counts_of(const record::Record& record);
   // GateRequest::data_hash.
   [[nodiscard]] std::string data_hash_of(const record::Record& record);
   // The picture that a record names.
@@ -42,6 +44,7 @@ class Truths {
                                                             const std::string& key);
   std::map<std::string, judge::TruthPair> known_;
   std::map<std::string, accuracy::LimitPicture> limits_;  // by key
+  std::map<std::string, std::map<std::string, double>> open_counts_;
   std::map<std::string, std::string> data_hashes_;
 };
 

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,15 @@
 #include "scene/kinks.hpp"
 
 namespace triptych::reference {
+
+// Points of one piece that a device looks at: two, of which it may find `open` more or fewer.
+struct OpenPoints {
+  double begin = 0;  // of the piece, from the ray's entry
+  double end = 0;
+  double most = 2;
+  double open = 0;
+  double may_show = 0;  // that may have opacity or none
+};
 
 template <typename Stored>
 class CellRule {
@@ -54,16 +64,28 @@ class CellRule {
   // returns false. Of `looked` the alpha is not used.
   template <typename Take>
   void walk(const Ray& ray, Take take) {
-    cut_at_planes(ray, scene_.grid->size, planes_);
-    for (std::size_t i = 0; i + 1 < planes_.size(); ++i) {
-      for (int part = 0; part < parts_; ++part) {
-        const double width = planes_[i + 1] - planes_[i];
-        const double begin = planes_[i] + width * part / parts_;
-        const double end =
-            part + 1 < parts_ ? planes_[i] + width * (part + 1) / parts_ : planes_[i + 1];
-        if (!walk_part(ray, begin, end, take)) return;
+    for_each_piece(ray, [&](const Part& part, double from, double to) {
+      const Piece piece = judged_piece(ray, from, to, part.touches_a_kink ? 18.0 : 2.2);
+      return !piece.visible || take(piece.looked, piece.opacity);
+    });
+  }
+
+  // Calls take(points, opacity) likewise, of the points that a device looks at.
+  template <typename Take>
+  void walk_open(const Ray& ray, Take take) {
+    for_each_piece(ray, [&](const Part& part, double from, double to) {
+      OpenPoints points{.begin = from, .end = to};
+      const bool uncertain = to - from <= time_error(ray, part, from) + time_error(ray, part, to);
+      points.open = !part.certain || uncertain ? 2 : 0;
+      if (from <= part.begin && part.touches_a_kink) points.open += 4;
+      const double middle = 0.5 * (from + to);
+      const double apart = (to - from) * (0.5 / std::sqrt(3.0));
+      for (const double t : {middle - apart, middle + apart}) {
+        const Looked looked = look(ray, t);
+        if (looked.alpha_hi > 0.0 && !(looked.alpha_lo > 0.0)) points.may_show += 1;
       }
-    }
+      return take(points, gauss(ray, from, to, length_of(ray, from, to)).opacity);
+    });
   }
 
  private:
@@ -90,28 +112,85 @@ class CellRule {
     });
   }
 
-  template <typename Take>
-  bool walk_part(const Ray& ray, double begin, double end, Take& take) {
-    // Positions among the table's entries.
-    const Cubic cubic = Cubic::along(
-        ray, begin, end, [&](const glm::dvec3& p) { return Table::knot_of(field_.at(p)); });
-    const auto [lowest, highest] = bounds(cubic);
+  // A cell's way, or one of the parts that it is cut into.
+  struct Part {
+    double begin = 0;
+    double end = 0;
+    Cubic cubic;           // of positions among the table's entries
+    double error = 0;      // of them
+    bool certain = false;  // every device sees something of it
+    bool touches_a_kink = false;
+  };
+
+  // Of which a device may see something.
+  [[nodiscard]] std::optional<Part> visible_part(const Ray& ray, double begin, double end) const {
+    Part part{.begin = begin, .end = end};
+    part.cubic = Cubic::along(ray, begin, end,
+                              [&](const glm::dvec3& p) { return Table::knot_of(field_.at(p)); });
+    const auto [lowest, highest] = bounds(part.cubic);
     const glm::dvec3 middle = ray.entry + 0.5 * (begin + end) * ray.voxels_per_unit;
-    const double error = 256.0 * field_.at(middle, ray.position_error).error;
+    part.error = 256.0 * field_.at(middle, ray.position_error).error;
     const auto place = [](double u) { return std::clamp(u, 0.0, 255.0); };
-    if (table_.transparent({place(lowest), place(lowest - error), place(highest + error)}))
-      return true;
-    const double doubt = touches_a_kink(cubic, error) ? 18.0 : 2.2;
+    const double error = part.error;
+    if (table_.transparent({place(lowest), place(lowest - error), place(highest + error)})) {
+      return std::nullopt;
+    }
+    const double inner = std::max(lowest + error, highest - error);
+    part.certain =
+        !table_.transparent({place(lowest), place(std::min(lowest + error, inner)), place(inner)});
+    part.touches_a_kink = touches_a_kink(part.cubic, error);
+    return part;
+  }
+
+  // Calls take(part, from, to) for every piece, front to back, until it returns false.
+  template <typename Take>
+  void for_each_piece(const Ray& ray, Take take) {
+    cut_at_planes(ray, scene_.grid->size, planes_);
+    for (std::size_t i = 0; i + 1 < planes_.size(); ++i) {
+      for (int part = 0; part < parts_; ++part) {
+        const double width = planes_[i + 1] - planes_[i];
+        const double begin = planes_[i] + width * part / parts_;
+        const double end =
+            part + 1 < parts_ ? planes_[i] + width * (part + 1) / parts_ : planes_[i + 1];
+        const std::optional<Part> visible = visible_part(ray, begin, end);
+        if (visible && !cut_at_kinks(*visible, take)) return;
+      }
+    }
+  }
+
+  template <typename Take>
+  bool cut_at_kinks(const Part& part, Take& take) {
+    const double width = part.end - part.begin;
     cuts_.assign({0.0});
-    cubic.append_knots(cuts_, [&](double knot) { return is_kink(knot); });
+    part.cubic.append_knots(cuts_, [&](double knot) { return is_kink(knot); });
     cuts_.push_back(1.0);
     for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
-      const double from = begin + (end - begin) * cuts_[i];
-      const double to = i + 2 < cuts_.size() ? begin + (end - begin) * cuts_[i + 1] : end;
-      const Piece piece = judged_piece(ray, from, to, doubt);
-      if (piece.visible && !take(piece.looked, piece.opacity)) return false;
+      const double from = part.begin + width * cuts_[i];
+      const double to = i + 2 < cuts_.size() ? part.begin + width * cuts_[i + 1] : part.end;
+      if (!take(part, from, to)) return false;
     }
     return true;
+  }
+
+  // How far from t a device may cut, wherever it lets the ray begin: at the nearest plane of voxel
+  // centres for a part's own ends, else where the values pass a kink.
+  [[nodiscard]] double time_error(const Ray& ray, const Part& part, double t) const {
+    if (t > part.begin && t < part.end) {
+      const double s = (t - part.begin) / (part.end - part.begin);
+      const double slope = std::abs(part.cubic.slope(s));
+      return (part.end - part.begin) * std::min(1.0, part.error / std::max(slope, 1e-300));
+    }
+    double nearest = 1.0;
+    double error = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double speed = std::abs(ray.voxels_per_unit[axis]);
+      if (speed == 0.0) continue;
+      const double place = ray.entry[axis] + t * ray.voxels_per_unit[axis] - 0.5;
+      const double away = std::abs(place - std::round(place));
+      if (away < nearest) error = model_.position_error_voxels / speed;
+      nearest = std::min(nearest, away);
+    }
+    return error;
   }
 
   // Least and largest value on the part, by the cubic's Bernstein coefficients.

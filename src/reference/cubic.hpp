@@ -38,6 +38,8 @@ struct Cubic {
 
   [[nodiscard]] double operator()(double s) const { return c0 + s * (c1 + s * (c2 + s * c3)); }
 
+  [[nodiscard]] double slope(double s) const { return c1 + s * (2.0 * c2 + s * 3.0 * c3); }
+
   // Appends, ascending, every s in (0, 1) where the cubic passes one of 0, 1, …, 255 that `keep`
   // returns true for.
   template <typename Keep>

@@ -10,6 +10,7 @@
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "measure/contract/factor.hpp"
+#include "reference/open_counts.hpp"
 #include "reference/volume.hpp"
 #include "scene/denormals.hpp"
 #include "scene/file_table.hpp"
@@ -21,6 +22,7 @@
 #include "suites/volume/plain_work.hpp"
 #include "suites/volume/stress_cases.hpp"
 #include "suites/volume/tolerance.hpp"
+#include "technique/volume/bricks.hpp"
 #include "triptych_suite_volume_embedded.hpp"
 
 namespace triptych::volume_suite {
@@ -57,6 +59,8 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   nlohmann::json describe(const Configuration& configuration) override;
   std::string data_hash(const Configuration& configuration) override;
   std::string limit_key(const Configuration& configuration) override;
+  std::map<std::string, double> open_counts(
+      const Configuration& configuration, const std::map<std::string, double>& precision) override;
   measure::Limit limit(const Configuration& configuration) override;
   std::optional<core::Image> closed_form(const Configuration& configuration) override;
   std::vector<record::Expectation> expectations(const Configuration& configuration) override;
@@ -243,6 +247,18 @@ measure::Truth VolumeSuite::truth(const Configuration& configuration,
   const auto [pictured, model] = judged(configuration, precision);
   const reference::Truth truth = reference::render_volume(pictured, model);
   return {.image = truth.image(), .bound = truth.bound_image()};
+}
+
+std::map<std::string, double> VolumeSuite::open_counts(
+    const Configuration& configuration, const std::map<std::string, double>& precision) {
+  const auto [pictured, model] = judged(configuration, precision);
+  reference::BrickPlanes planes;
+  if (const technique::Skip skip = technique::skip(configuration.at("skip"));
+      skip != technique::Skip::none) {
+    const technique::BrickLayout layout = technique::brick_layout(pictured, skip, model.adapt);
+    planes = {.edge = layout.edge, .origin = layout.of_cells ? 0.5 : 0.0};
+  }
+  return reference::open_counts(pictured, model, planes);
 }
 
 // What a transfer function's file holds, for the factors have its name only.

@@ -124,6 +124,13 @@ class SuiteWithTruth : public Suite {
   [[nodiscard]] virtual std::string truth_key(const Configuration& configuration,
                                               const std::map<std::string, double>& precision) = 0;
 
+  // By how much a counter may differ between two devices that are both right, as rounding decides
+  // it; none is named that it does not decide.
+  [[nodiscard]] virtual std::map<std::string, double> open_counts(
+      const Configuration&, const std::map<std::string, double>&) {
+    return {};
+  }
+
   // Content hash of a configuration's data as they are now, in its voxel format, of which "auto" is
   // resolved: what Record::data_hash was when it was measured. Empty: it has no data. Throws as
   // Suite::work does.

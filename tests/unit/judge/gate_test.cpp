@@ -132,6 +132,29 @@ TEST_F(GateTest, AnotherDeviceIsHeldToTheRangeOfTheAccepted) {
   EXPECT_THAT(text(gate("beyond")), HasSubstr("1000000 on llvmpipe, 900000 on pocl"));
 }
 
+// What rounding decides of a scene is asked of the suite, and only where counters differ.
+TEST_F(GateTest, OfAnotherDriverAsManyCountsAreOpenAsTheSuiteSays) {
+  accept_first([](record::Record& record, core::Image&) {
+    record.counters["samples"] = 1000;
+    if (record.device == "gl:llvmpipe-egl") record.outcome = record::Outcome::skipped;
+  });
+  request_.checks = {Check::counters};
+  request_.devices = {"gl:*"};
+  int asked = 0;
+  request_.open_counts = [&](const record::Record&) {
+    ++asked;
+    return std::map<std::string, double>{{"samples", 25}};
+  };
+  add_run("same", [](record::Record& record, core::Image&) { record.counters["samples"] = 1000; });
+  EXPECT_EQ(gate("same").exit_code(), ExitCode::pass) << text(gate("same"));
+  EXPECT_EQ(asked, 0);
+  add_run("open", [](record::Record& record, core::Image&) { record.counters["samples"] = 975; });
+  EXPECT_EQ(gate("open").exit_code(), ExitCode::pass) << text(gate("open"));
+  add_run("more", [](record::Record& record, core::Image&) { record.counters["samples"] = 974; });
+  EXPECT_EQ(gate("more").exit_code(), ExitCode::regression);
+  EXPECT_THAT(text(gate("more")), HasSubstr("25 are open"));
+}
+
 TEST_F(GateTest, WhatHasNoStoredCountersIsOneLineADevice) {
   add_run("a");
   (void)accept_run("a", {.only = plain_});

@@ -37,31 +37,53 @@ class FloatRenderer {
         smallest_(static_cast<float>(scene.smallest_spacing())) {}
 
   [[nodiscard]] vec4 pixel(int x, int y) const {
-    const vec3 d = direction(x, y);
-    const vec3 v = d * inverse_spacing_;
-    float begin = 0.0F;
-    float end = std::numeric_limits<float>::max();
-    for (int axis = 0; axis < 3; ++axis) clip(axis, v[axis], begin, end);
+    const Chord chord = chord_of(x, y);
     vec3 colour(0.0F);
     float transmittance = 1.0F;
-    if (end > begin) {
-      const float steps = (end - begin) / step_;
-      const vec3 entry = eye_ + begin * v;
-      const vec3 stride = v * step_;
-      const int count = static_cast<int>(std::ceil(steps));
-      for (int i = 0; i < count; ++i) {
-        const vec3 p = entry + (static_cast<float>(i) + 0.5F) * stride;
-        const float share = std::min(1.0F, std::max(steps - static_cast<float>(i), 0.0F));
-        add(p, d, share, colour, transmittance);
-        if (transmittance < static_cast<float>(options_.ert)) break;
-      }
+    for (int i = 0; i < chord.count; ++i) {
+      const float share = std::min(1.0F, std::max(chord.steps - static_cast<float>(i), 0.0F));
+      add(chord.at(i), chord.direction, share, colour, transmittance);
+      if (transmittance < static_cast<float>(options_.ert)) break;
     }
     const vec4 behind(scene_.background[0], scene_.background[1], scene_.background[2],
                       scene_.background[3]);
     return vec4(colour, 1.0F - transmittance) + transmittance * behind;
   }
 
+  void count(int x, int y, FloatCounts& counts) const {
+    const Chord chord = chord_of(x, y);
+    counts.hits += chord.count > 0 ? 1 : 0;
+    counts.samples += chord.count;
+    for (int i = 0; i < chord.count; ++i) {
+      if (transfer(field(chord.at(i))).a > 0.0F) counts.nonzero += 1;
+    }
+  }
+
  private:
+  struct Chord {
+    vec3 direction;
+    vec3 entry;
+    vec3 stride;
+    float steps = 0;
+    int count = 0;
+    [[nodiscard]] vec3 at(int i) const { return entry + (static_cast<float>(i) + 0.5F) * stride; }
+  };
+
+  [[nodiscard]] Chord chord_of(int x, int y) const {
+    Chord chord;
+    chord.direction = direction(x, y);
+    const vec3 v = chord.direction * inverse_spacing_;
+    float begin = 0.0F;
+    float end = std::numeric_limits<float>::max();
+    for (int axis = 0; axis < 3; ++axis) clip(axis, v[axis], begin, end);
+    if (!(end > begin)) return chord;
+    chord.steps = (end - begin) / step_;
+    chord.entry = eye_ + begin * v;
+    chord.stride = v * step_;
+    chord.count = static_cast<int>(std::ceil(chord.steps));
+    return chord;
+  }
+
   [[nodiscard]] glm::dvec3 spacing() const {
     return {grid_.spacing[0], grid_.spacing[1], grid_.spacing[2]};
   }
@@ -184,6 +206,15 @@ core::Image render_float(const scene::VolumeScene& scene, const FloatOptions& op
     }
   }
   return image;
+}
+
+FloatCounts count_float(const scene::VolumeScene& scene, const FloatOptions& options) {
+  const FloatRenderer renderer(scene, options);
+  FloatCounts counts;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) renderer.count(x, y, counts);
+  }
+  return counts;
 }
 
 ErrorModel float_model(const scene::VolumeScene& scene, const FloatOptions& options) {

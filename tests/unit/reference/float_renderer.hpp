@@ -17,6 +17,14 @@ struct FloatOptions {
 [[nodiscard]] core::Image render_float(const scene::VolumeScene& scene,
                                        const FloatOptions& options);
 
+struct FloatCounts {
+  double hits = 0;     // rays
+  double samples = 0;  // of which so many have opacity:
+  double nonzero = 0;
+};
+// Of all rays, none of which ends early.
+[[nodiscard]] FloatCounts count_float(const scene::VolumeScene& scene, const FloatOptions& options);
+
 // What the arithmetic of render_float may do wrong.
 [[nodiscard]] ErrorModel float_model(const scene::VolumeScene& scene, const FloatOptions& options);
 

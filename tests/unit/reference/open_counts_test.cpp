@@ -1,0 +1,109 @@
+// What rounding leaves open of a raycaster's counters: enough for arithmetic that rounds otherwise,
+// and no room for a fault.
+
+#include "reference/open_counts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "float_renderer.hpp"
+#include "random_scene.hpp"
+
+namespace triptych::reference {
+namespace {
+
+scene::VolumeScene scene_of(scene::Camera camera, double size = 1, int voxels = 24) {
+  const auto value = [](int x, int y, int z) { return (x + y + z) % 7 < 3 ? 0.0 : 0.1 * (x % 5); };
+  scene::TransferFunction table = constant_table({1, 1, 1, 0.125F});
+  table.entries[0][3] = 0;
+  camera.eye *= size;
+  return {.grid = make_grid({voxels, voxels, voxels}, {size, size, size}, scene::VoxelFormat::f32,
+                            value),
+          .transfer_function = table,
+          .camera = camera,
+          .width = 65,  // a column of rays runs where the camera looks
+          .height = 49,
+          .step_voxels = 0.5};
+}
+
+scene::Camera oblique() {
+  return look_at({-9.1, 30.3, -17.7}, {12.3, 11.9, 12.2});
+}
+// Rays within the face x = 0, and others that pass edges of cells two at a time.
+scene::Camera within_a_face() {
+  return look_at({0, 11, 40}, {0, 11, 0});
+}
+scene::Camera straight() {
+  return look_at({12, 12, 60}, {12, 12, 0});
+}
+scene::Camera diagonal() {
+  return look_at({-20, 12, -20}, {12, 12, 12});
+}
+
+// The same scene in other units is drawn with other roundings.
+TEST(OpenCounts, CoverArithmeticThatRoundsOtherwise) {
+  const FloatOptions options;
+  double largest = 0;
+  for (const scene::Camera& camera : {oblique(), within_a_face(), diagonal(), straight()}) {
+    const scene::VolumeScene scene = scene_of(camera);
+    const auto open = open_counts(scene, float_model(scene, options), {});
+    const FloatCounts plain = count_float(scene, options);
+    for (const double size : {3.0, 0.7, 1.0 / 3, 1e-3, 1234.5}) {
+      const FloatCounts other = count_float(scene_of(camera, size), options);
+      EXPECT_LE(std::abs(other.hits - plain.hits), open.at("rays_hit")) << size;
+      EXPECT_LE(std::abs(other.samples - plain.samples), open.at("samples")) << size;
+      EXPECT_LE(std::abs(other.nonzero - plain.nonzero), open.at("samples_nonzero")) << size;
+      largest = std::max(largest, std::abs(other.samples - plain.samples));
+    }
+  }
+  EXPECT_GT(largest, 0) << "no rounding decided anything";
+}
+
+// One more sample of a tenth of the rays is beyond them.
+TEST(OpenCounts, AreFewInAGeneralPosition) {
+  const scene::VolumeScene scene = scene_of(oblique());
+  const FloatOptions options;
+  const FloatCounts counts = count_float(scene, options);
+  for (const BrickPlanes planes : {BrickPlanes{}, BrickPlanes{8, 0}, BrickPlanes{2, 0.5}}) {
+    const auto open = open_counts(scene, float_model(scene, options), planes);
+    EXPECT_LE(open.at("rays_hit"), 0.002 * counts.hits) << planes.edge;
+    EXPECT_LE(open.at("samples"), 0.1 * counts.hits) << planes.edge;
+    EXPECT_LE(open.at("bricks_visited"), 0.1 * counts.hits) << planes.edge;
+  }
+}
+
+TEST(OpenCounts, AreWholeRaysWhereTheyRunWithinAFace) {
+  const scene::VolumeScene face = scene_of(within_a_face());
+  const FloatOptions options;
+  const auto open = open_counts(face, float_model(face, options), {8, 0});
+  EXPECT_GE(open.at("rays_hit"), 1);
+  EXPECT_GT(open.at("samples"), 20 * open.at("rays_hit"));
+  EXPECT_GT(open.at("bricks_visited"), open.at("rays_hit"));
+}
+
+// No rounding decides where nothing is rounded.
+TEST(OpenCounts, AreNoneOfExactArithmetic) {
+  for (const scene::Quadrature quadrature :
+       {scene::Quadrature::midpoint, scene::Quadrature::cells}) {
+    scene::VolumeScene scene = scene_of(oblique());
+    scene.quadrature = quadrature;
+    for (const auto& [name, count] : open_counts(scene, {}, {8, 0})) {
+      EXPECT_EQ(name == "samples_nonzero" ? 0 : count, 0) << name;
+    }
+  }
+}
+
+TEST(OpenCounts, OfCellsAreThePiecesThatEndTogether) {
+  const FloatOptions options;
+  scene::VolumeScene scene = scene_of(diagonal());
+  scene.grid = make_grid({24, 24, 24}, {1, 1, 1}, scene::VoxelFormat::f32,
+                         [](int x, int y, int z) { return 0.2 + (x + 2 * y + 3 * z) / 300.0; });
+  scene.quadrature = scene::Quadrature::cells;
+  const double ties = open_counts(scene, float_model(scene, options), {}).at("samples");
+  scene.camera = oblique();
+  EXPECT_GT(ties, 5 * open_counts(scene, float_model(scene, options), {}).at("samples"));
+}
+
+}  // namespace
+}  // namespace triptych::reference
