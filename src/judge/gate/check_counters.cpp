@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "judge/agreement.hpp"
+#include "judge/gate/counters_fault.hpp"
 #include "judge/gate/open_fragments.hpp"
 #include "judge/gate/run_view.hpp"
 
@@ -152,6 +153,14 @@ Finding check_record(const RunView& view, const record::Record& record,
 }
 
 }  // namespace
+
+std::string counters_fault(const record::Record& record, const StoredCounters& of_others) {
+  Differences differences;
+  for (const auto& [name, values] : of_others) {
+    compare_with_others(name, Range(values), record, differences);
+  }
+  return fmt::format("{}", fmt::join(differences.wrong, "; "));
+}
 
 std::vector<Finding> check_counters(const RunView& view) {
   std::vector<Finding> findings;
