@@ -1,44 +1,25 @@
 #include "measure/run/runner.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <exception>
 #include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
-#include <random>
 #include <set>
 #include <thread>
 #include <utility>
 
 #include "measure/protocol/plant.hpp"
+#include "measure/run/new_run.hpp"
 #include "measure/run/plan_run.hpp"
 #include "measure/system/environment.hpp"
 #include "measure/system/interrupt.hpp"
-#include "measure/system/system_facts.hpp"
 
 namespace triptych::measure {
 namespace {
-
-std::string utc_now(const char* format) {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return fmt::format(fmt::runtime(fmt::format("{{:{}}}", format)), fmt::gmtime(now));
-}
-
-record::Run new_run(const Plan& plan) {
-  std::random_device entropy;
-  return {.id = fmt::format("{}-{:08x}", utc_now("%Y%m%dT%H%M%SZ"), entropy()),
-          .plan = plan.name,
-          .started_at = utc_now("%Y-%m-%dT%H:%M:%SZ"),
-          .system = system_facts(),
-          .checks = plan.checks,
-          .plan_hash = plan.hash,
-          .configurations = plan.configurations.size()};
-}
 
 // The kinds of work of which clocks and statistics have to be calibrated.
 std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {

@@ -1,0 +1,32 @@
+#include "measure/run/new_run.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <random>
+
+#include "measure/system/system_facts.hpp"
+
+namespace triptych::measure {
+namespace {
+
+std::string utc_now(const char* format) {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format(fmt::runtime(fmt::format("{{:{}}}", format)), fmt::gmtime(now));
+}
+
+}  // namespace
+
+record::Run new_run(const Plan& plan) {
+  std::random_device entropy;
+  return {.id = fmt::format("{}-{:08x}", utc_now("%Y%m%dT%H%M%SZ"), entropy()),
+          .plan = plan.name,
+          .started_at = utc_now("%Y-%m-%dT%H:%M:%SZ"),
+          .system = system_facts(),
+          .checks = plan.checks,
+          .plan_hash = plan.hash,
+          .configurations = plan.configurations.size()};
+}
+
+}  // namespace triptych::measure
