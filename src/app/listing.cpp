@@ -108,6 +108,14 @@ std::vector<std::string> choose_devices(const measure::Listing& listing,
   return chosen;
 }
 
+std::string choose_device(const Registry& registry, std::string_view option,
+                          const std::string& glob) {
+  const std::vector<std::string> devices = choose_devices(list_devices(registry), {glob});
+  if (devices.size() == 1) return devices.front();
+  throw core::InputError(
+      fmt::format("{} {} matches {} devices; name one", option, glob, devices.size()));
+}
+
 Greeting greet(const record::Device& device, const std::string& suite) {
   const measure::Message start = measure::to_message(
       measure::Start{.suite = suite, .kinds = {"compute", "draw"}, .clocks = {}});

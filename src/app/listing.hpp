@@ -3,6 +3,7 @@
 // or hangs while it is being listed costs only itself.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/registry.hpp"
@@ -16,6 +17,11 @@ namespace triptych::app {
 // core::NotSupported naming what is there when a glob matches nothing.
 [[nodiscard]] std::vector<std::string> choose_devices(const measure::Listing& listing,
                                                       const std::vector<std::string>& globs);
+
+// The one device of this machine that the glob matches, which an option asks for. Throws
+// core::NotSupported as above, core::InputError where there are several.
+[[nodiscard]] std::string choose_device(const Registry& registry, std::string_view option,
+                                        const std::string& glob);
 
 // What a device says of itself once it is open; its clocks are calibrated on the suite's work.
 struct Greeting {

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <tuple>
 
-#include "core/quoting.hpp"
 #include "core/text.hpp"
 #include "record/factor_list.hpp"
 #include "record/not_tried.hpp"
+#include "report/command.hpp"
 
 namespace triptych::report {
 namespace {
@@ -238,37 +238,33 @@ bool is_open(const Finding& finding) {
 
 std::string command_of(const Finding& finding, const judge::GateResult& result) {
   if (finding.device.empty() || finding.configuration.empty()) return {};
-  std::vector<std::string> words;
+  Command command{.command = "render",
+                  .object = finding.test.substr(0, finding.test.find('.')),
+                  .device = finding.device,
+                  .factors = factors_of(finding),
+                  .injected = finding.injected};
   switch (finding.check) {
     case Check::image:
+    case Check::stress:
+      command.more = {"--truth", "--out", "repro"};
+      break;
     case Check::counters:
     case Check::statistics:
-    case Check::stress:
     case Check::accuracy:
-      words = {"triptych", "render", finding.test.substr(0, finding.test.find('.'))};
+      command.more = {"--out", "repro"};
       break;
     case Check::cost:
     case Check::memory:
-      words = {"triptych", "run", record::plan_argument(result.plan)};
+      command.command = "run";
+      command.object = record::plan_argument(result.plan);
       break;
     default:
       return {};  // one run of a time shows nothing
   }
-  words.insert(words.end(), {"--device", finding.device});
-  for (const auto& [factor, level] : factors_of(finding)) {
-    words.insert(words.end(), {"--set", record::factor_list({{factor, level}})});
-  }
-  for (const std::string& fault : finding.injected) words.insert(words.end(), {"--plant", fault});
-  if (finding.check == Check::image || finding.check == Check::stress)
-    words.emplace_back("--truth");
-  if (words[1] == "render") words.insert(words.end(), {"--out", "repro"});
-  std::string text;
   if (const auto set = result.environments.find(finding.device); set != result.environments.end()) {
-    for (const auto& [name, value] : set->second) {
-      text += name + "=" + core::shell_quoted(value) + " ";
-    }
+    command.environment = set->second;
   }
-  return text + core::shell_command(words);
+  return text_of(command);
 }
 
 }  // namespace triptych::report

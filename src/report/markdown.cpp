@@ -25,20 +25,13 @@ std::string rows(const Overview& all) {
   return text;
 }
 
-// A fence longer than any in the command; one that is no line was quoted into one.
-std::string fenced(std::string_view command) {
-  std::string fence = "```";
-  while (command.find(fence) != std::string_view::npos) fence += '`';
-  return fmt::format("\n  {0}sh\n  {1}\n  {0}\n", fence, command);
-}
-
 std::string item(const Cause& cause) {
   const judge::Finding& first = *cause.group.first;
   std::string text = fmt::format("- **{}** {}: {}  \n  {}\n", judge::name_of(first.verdict),
                                  judge::name_of(first.check), markdown_escaped(place_of(cause)),
                                  markdown_escaped(message_of(cause)));
   const std::string command = command_of(first, *cause.result);
-  if (!command.empty() && command.size() < longest_command) text += fenced(command);
+  if (!command.empty() && command.size() < longest_command) text += fenced(command, "  ");
   return text;
 }
 
@@ -57,6 +50,12 @@ std::string bounds(const Overview& all) {
 }
 
 }  // namespace
+
+std::string fenced(std::string_view command, std::string_view indent) {
+  std::string fence = "```";
+  while (command.find(fence) != std::string_view::npos) fence += '`';
+  return fmt::format("\n{2}{0}sh\n{2}{1}\n{2}{0}\n", fence, command, indent);
+}
 
 std::string markdown_escaped(std::string_view text, std::size_t limit) {
   std::string result;

@@ -1,0 +1,24 @@
+#pragma once
+// Commands to paste.
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace triptych::report {
+
+// `triptych COMMAND OBJECT` of one configuration on one device.
+struct Command {
+  std::string command;  // "render"
+  std::string object;   // a suite or a plan
+  std::string device;
+  std::map<std::string, std::string> factors;           // that have not their defaults
+  std::vector<std::string> injected = {};               // faults
+  std::vector<std::string> more = {};                   // words at the end
+  std::map<std::string, std::string> environment = {};  // set for the device
+};
+
+// As a shell reads it, the environment before it.
+[[nodiscard]] std::string text_of(const Command& command);
+
+}  // namespace triptych::report

@@ -1,0 +1,34 @@
+#pragma once
+// One frame as files: what was drawn, what is right, and in what they differ.
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "core/image.hpp"
+#include "judge/stress/stress.hpp"
+#include "record/record.hpp"
+
+namespace triptych::report {
+
+// frame.json: enough for another program to draw the same frame. `scene`: what its suite describes.
+[[nodiscard]] nlohmann::json frame_json(nlohmann::json scene, const record::Record& record,
+                                        const record::Device& device);
+
+// image.exr and image.png, or truth.exr and truth.png. Throws IoError.
+void write_picture(const std::filesystem::path& folder, const std::string& name,
+                   const core::Image& image);
+
+// A picture held against its truth: the judge's words, and whether it is right.
+struct HeldAgainstTruth {
+  bool right = false;
+  std::string message;
+  double white = 0;  // error that is white in difference.png; 0: sizes differ, there is none
+};
+
+// Writes truth.exr, truth.png and difference.png. Throws IoError.
+[[nodiscard]] HeldAgainstTruth write_difference(const std::filesystem::path& folder,
+                                                const core::Image& image,
+                                                const judge::TruthPair& pair);
+
+}  // namespace triptych::report
