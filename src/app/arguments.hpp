@@ -59,6 +59,7 @@ void add_devices_command(Commands& commands);
 void add_list_command(Commands& commands);
 void add_run_commands(Commands& commands);  // run, worker
 void add_render_command(Commands& commands);
+void add_reduce_command(Commands& commands);
 void add_gate_commands(Commands& commands);     // gate, accept
 void add_compare_commands(Commands& commands);  // compare, diff
 void add_report_command(Commands& commands);

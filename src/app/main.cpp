@@ -58,6 +58,7 @@ ExitCode run(int argc, char** argv) {
   triptych::app::add_list_command(commands);
   triptych::app::add_run_commands(commands);
   triptych::app::add_render_command(commands);
+  triptych::app::add_reduce_command(commands);
   triptych::app::add_gate_commands(commands);
   triptych::app::add_compare_commands(commands);
   triptych::app::add_report_command(commands);

@@ -1,0 +1,39 @@
+#pragma once
+// How a frame fails, by the rules of the gate.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/image.hpp"
+#include "judge/stress/stress.hpp"
+#include "record/record.hpp"
+
+namespace triptych::reduction {
+
+// Of one kind are those of one check with the same words, whatever their numbers.
+struct Failure {
+  std::string message;  // one line
+  std::string kind;
+};
+
+// The kind of a failure of counters.
+inline constexpr std::string_view other_counters = "counters";
+
+// Where what a record is held against comes from.
+struct Evidence {
+  judge::FindTruth truth;
+  std::function<core::Image(const record::Record&)> picture;  // that it names
+  // The same configuration's record on another device, whose counters are right; nothing: counters
+  // are held against nobody's.
+  std::function<record::Record(const record::Record&)> other = {};
+};
+
+// It ended without a picture, else its picture is beyond the bound of the truth, else its counters
+// are not those of the other device. Nothing: none of that, or it was skipped. Throws what the
+// evidence throws.
+[[nodiscard]] std::optional<Failure> failure_of(const record::Record& record,
+                                                const Evidence& evidence);
+
+}  // namespace triptych::reduction

@@ -1,0 +1,103 @@
+#include "reduction/plainer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+
+namespace triptych::reduction {
+namespace {
+
+// "generate:mandelbulb:96" → "generate:mandelbulb:" and {96}; "256x128" → "" and {256, 128}.
+struct Sized {
+  std::string name;
+  std::vector<int> sides;
+};
+
+std::optional<Sized> parse_sized(const std::string& level) {
+  const std::size_t colon = level.rfind(':');
+  const std::size_t begin = colon == std::string::npos ? 0 : colon + 1;
+  Sized sized{level.substr(0, begin), {}};
+  const char* at = level.data() + begin;
+  const char* const end = level.data() + level.size();
+  for (;;) {
+    int side = 0;
+    const auto [rest, error] = std::from_chars(at, end, side);
+    if (error != std::errc{} || side < 1) return std::nullopt;
+    sized.sides.push_back(side);
+    if (rest == end) return sized;
+    if (*rest != 'x') return std::nullopt;
+    at = rest + 1;
+  }
+}
+
+std::string text_of(const Sized& sized) {
+  const bool equal =
+      std::ranges::all_of(sized.sides, [&](int side) { return side == sized.sides.front(); });
+  return sized.name + (equal ? fmt::to_string(sized.sides.front())
+                             : fmt::format("{}", fmt::join(sized.sides, "x")));
+}
+
+// 1, 2, 3, 4, 6, 8, 12, … and then ever nearer to `size` from below, so that of sizes of which all
+// from some on fail the least is found in few steps.
+std::vector<int> smaller_sizes(int size) {
+  std::set<int> sizes;
+  for (int each = 1; each < size; each *= 2) {
+    sizes.insert(each);
+    if (each > 1 && each + each / 2 < size) sizes.insert(each + each / 2);
+    if (each > size / 2) break;
+  }
+  for (int step = size / 8; step >= 1; step /= 2) sizes.insert(size - step);
+  if (size > 1) sizes.insert(size - 1);
+  return {sizes.begin(), sizes.end()};
+}
+
+std::vector<std::string> smaller(const Sized& sized, std::size_t dimensions) {
+  std::vector<std::string> levels;
+  const int longest = *std::ranges::max_element(sized.sides);
+  for (const int size : smaller_sizes(longest)) {
+    Sized all = sized;
+    for (int& side : all.sides) side = std::min(side, size);
+    levels.push_back(text_of(all));
+  }
+  Sized each = sized;
+  if (each.sides.size() == 1) each.sides.resize(dimensions, each.sides.front());
+  for (std::size_t i = 0; i < each.sides.size() && each.sides.size() > 1; ++i) {
+    for (const int size : smaller_sizes(each.sides[i])) {
+      Sized one = each;
+      one.sides[i] = size;
+      levels.push_back(text_of(one));
+    }
+  }
+  return levels;
+}
+
+}  // namespace
+
+std::vector<std::string> plainer(const measure::Factor& factor, const std::string& level) {
+  std::vector<std::string> levels;
+  if (factor.kind == measure::FactorKind::choice) {
+    levels.assign(factor.levels.begin(), std::ranges::find(factor.levels, level));
+    return levels;
+  }
+  if (factor.kind == measure::FactorKind::number) {
+    if (level == "0") return levels;
+    if (factor.minimum == 0) levels.emplace_back("0");
+    if (level != factor.standard && factor.standard != "0") levels.push_back(factor.standard);
+    return levels;
+  }
+  const bool is_data = factor.name == "data";
+  if (is_data || factor.name == "viewport") {
+    constexpr std::size_t axes = 3;
+    if (const auto sized = parse_sized(level)) return smaller(*sized, is_data ? axes : 2);
+  }
+  if (level != factor.standard) levels.push_back(factor.standard);
+  return levels;
+}
+
+}  // namespace triptych::reduction

@@ -1,0 +1,103 @@
+// A frame that fails on a scripted device, made smaller.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "program.hpp"
+#include "right_picture.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string scene = "reduce volume --device null:scripted --out r ";
+
+std::string failing(const std::string& kind, const std::string& only) {
+  return fmt::format(
+      R"({{"base_ns": 1e5, "failures": [{{"kind": "{}", "at": "frame", "only": "{}"}}]}})", kind,
+      only);
+}
+
+// The last line, without the program's name.
+std::string printed_command(const std::string& output) {
+  constexpr std::string_view program = "\ntriptych ";
+  const std::size_t begin = output.rfind(program);
+  if (begin == std::string::npos) return {};
+  const std::size_t first = begin + program.size();
+  return output.substr(first, output.find('\n', first) - first);
+}
+
+TEST(Reduce, ACrashIsReducedToWhatItNeeds) {
+  const Program program;
+  const std::string crash = failing("crash", "*step=0.5,*skip=distance*");
+  const Result result = program.run(scene + "--set step=0.5 --set viewport=64", crash);
+  EXPECT_EQ(result.code, 1) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("crashed: "));
+  EXPECT_THAT(result.output, HasSubstr("viewport 64 → 1"));
+  EXPECT_THAT(result.output, HasSubstr("data generate:mandelbulb:96 → generate:mandelbulb:1,"));
+  const std::string command = printed_command(result.output);
+  EXPECT_THAT(command, HasSubstr("--set step=0.5"));
+  EXPECT_THAT(command, Not(HasSubstr("--set skip")));  // the default is what it needs
+  const Result again = program.run(command, crash);
+  EXPECT_EQ(again.code, 3) << again.output;
+  EXPECT_THAT(again.output, HasSubstr("SIGABRT"));
+}
+
+TEST(Reduce, TheFolderHoldsWhatAReportNeeds) {
+  const Program program;
+  const Result result = program.run(scene + "--set viewport=8", failing("crash", "none"));
+  ASSERT_EQ(result.code, 1) << result.output;  // the scripted device's pattern is no true picture
+  EXPECT_THAT(result.output, HasSubstr("1 of 1 pixels are over the bound against the truth"));
+  for (const char* file : {"image.exr", "image.png", "truth.exr", "truth.png", "difference.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(program.folder() / "r" / file)) << file;
+  }
+  const std::string text = program.read("r/README.md");
+  EXPECT_THAT(text, HasSubstr("# A frame that null:scripted gets wrong"));
+  EXPECT_THAT(text, HasSubstr("| viewport | 1 |"));
+  EXPECT_THAT(text, HasSubstr("triptych render volume --device null:scripted"));
+  EXPECT_THAT(text, HasSubstr("With any plainer level of one factor it does not fail so."));
+  EXPECT_THAT(program.read("r/frame.json"), HasSubstr("transfer_function"));
+  EXPECT_FALSE(std::filesystem::exists(program.folder() / "r/.reduce.sqlite"));
+  const Result again = program.run(printed_command(result.output), failing("crash", "none"));
+  EXPECT_EQ(again.code, 1) << again.output;
+}
+
+TEST(Reduce, AHangCostsItsLimitAndStaysAHang) {
+  const Program program;
+  const Result result =
+      program.run(scene + "--set viewport=2 --limit 1", failing("hang", "*width=2,*"));
+  EXPECT_EQ(result.code, 1) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("hung: no answer within 1 s"));
+  EXPECT_THAT(result.output, HasSubstr("viewport 2 → 2x1"));
+}
+
+TEST(Reduce, WhatDoesNotFailPasses) {
+  const Program program;
+  const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": 1e5}})",
+                                         right_picture(program).string());
+  const Result result =
+      program.run(std::string("reduce volume --out r --set step=0.5 ") + tiny, script);
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_EQ(result.output, "null:scripted does not fail: there is nothing to make smaller\n");
+}
+
+TEST(Reduce, TheLimitOfFramesIsTold) {
+  const Program program;
+  const Result result = program.run(scene + "--frames 1", failing("crash", "none"));
+  EXPECT_EQ(result.code, 1) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("1 frames drawn; "));
+  EXPECT_THAT(result.output, HasSubstr("the search ended at its limit of frames"));
+}
+
+TEST(Reduce, WhatCannotBeDrawnCannotBeReduced) {
+  const Program program;
+  const Result result = program.run(scene, failing("not_supported", "*"));
+  EXPECT_EQ(result.code, 2) << result.output;
+  EXPECT_EQ(program.run(scene + "--set step=0.5,1").code, 3);
+  EXPECT_EQ(program.run(scene + "--set data=gone.nrrd").code, 3);
+}
+
+}  // namespace
+}  // namespace triptych::command_line

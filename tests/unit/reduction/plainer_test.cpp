@@ -1,0 +1,71 @@
+// What is plainer than a level.
+
+#include "reduction/plainer.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "measure/contract/factor.hpp"
+
+namespace triptych::reduction {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr auto picture = measure::Decides::the_picture;
+
+TEST(Plainer, AChoiceHasTheLevelsBeforeIt) {
+  const measure::Factor skip =
+      measure::choice("skip", {"none", "bricks", "distance"}, "distance", picture, "");
+  EXPECT_THAT(plainer(skip, "distance"), ElementsAre("none", "bricks"));
+  EXPECT_THAT(plainer(skip, "none"), IsEmpty());
+}
+
+TEST(Plainer, ANumberIsTurnedOffOrHasItsDefault) {
+  const measure::Factor ert = measure::number("ert", 0, 0.5, "0.001953125", picture, "");
+  EXPECT_THAT(plainer(ert, "0.1"), ElementsAre("0", "0.001953125"));
+  EXPECT_THAT(plainer(ert, "0.001953125"), ElementsAre("0"));
+  EXPECT_THAT(plainer(ert, "0"), IsEmpty());
+  const measure::Factor step = measure::number("step", 0.01, 16, "1", picture, "");
+  EXPECT_THAT(plainer(step, "0.5"), ElementsAre("1"));
+  EXPECT_THAT(plainer(step, "1"), IsEmpty());
+}
+
+TEST(Plainer, ATextHasItsDefault) {
+  const measure::Factor camera = measure::text("camera", "orbit_y:1/8", "");
+  EXPECT_THAT(plainer(camera, "random:7"), ElementsAre("orbit_y:1/8"));
+  EXPECT_THAT(plainer(camera, "orbit_y:1/8"), IsEmpty());
+}
+
+TEST(Plainer, AViewportShrinksAsAWholeThenBySides) {
+  const measure::Factor viewport = measure::text("viewport", "256", "");
+  EXPECT_THAT(plainer(viewport, "4"),
+              ElementsAre("1", "2", "3", "1x4", "2x4", "3x4", "4x1", "4x2", "4x3"));
+  EXPECT_THAT(plainer(viewport, "2x1"), ElementsAre("1", "1"));
+  EXPECT_THAT(plainer(viewport, "1"), IsEmpty());
+}
+
+TEST(Plainer, ASizeIsNearedFromBelow) {
+  const measure::Factor viewport = measure::text("viewport", "256", "");
+  const std::vector<std::string> levels = plainer(viewport, "100");
+  for (const char* level : {"1", "3", "64", "96", "88", "94", "99"}) {
+    EXPECT_THAT(levels, Contains(level));
+  }
+  EXPECT_THAT(levels, Not(Contains("100")));
+  EXPECT_LT(levels.size(), 70U);
+}
+
+TEST(Plainer, GeneratedDataShrinkAndFilesBecomeTheDefault) {
+  const measure::Factor data = measure::text("data", "generate:mandelbulb:96", "");
+  EXPECT_THAT(plainer(data, "generate:ball:2"),
+              ElementsAre("generate:ball:1", "generate:ball:1x2x2", "generate:ball:2x1x2",
+                          "generate:ball:2x2x1"));
+  EXPECT_THAT(plainer(data, "head.nrrd"), ElementsAre("generate:mandelbulb:96"));
+}
+
+}  // namespace
+}  // namespace triptych::reduction
