@@ -28,13 +28,14 @@
 //     "sleep": false,             true: a frame really lasts what it says
 //     "filter_weight_error": 0,   of the hardware sampler
 //     "images": {"GLOB": "FILE.exr"},           replayed instead of the pattern
-//     "failures": [{"kind": "crash", "at": "frame", "frame": 2, "only": "GLOB"}]
+//     "failures": [{"kind": "crash", "at": "frame", "frame": 2, "only": "GLOB", "once": "FILE"}]
 //   }
 // Kinds of failure: crash (abort), exit (the process ends with code 0), hang (never returns),
 // device_lost, api_error, not_supported (thrown; at "supports": the reason given), wrong_image (the
 // picture is off by 0.25), nan_image. Places ("at"): open, supports, prepare, frame, image. "frame"
 // counts a Prepared's frames from 0, at "prepare" the prepares of one work, and is any when left
-// out. GLOBs, as fnmatch(3) has them, match describe(work); at "open" they match the device id.
+// out. With "once" it happens only where there is no such file, which it leaves. GLOBs, as
+// fnmatch(3) has them, match describe(work); at "open" they match the device id.
 
 #include <cstdint>
 #include <functional>
@@ -67,6 +68,7 @@ struct Failure {
   Place at = Place::frame;
   std::optional<int> frame;  // Place::frame only
   std::string only = "*";
+  std::string once = {};  // a file; empty: always
 };
 
 // The calls made on devices of a script, in order: "open null:scripted", "prepare raycast",

@@ -1,5 +1,7 @@
+#include <fcntl.h>
 #include <fmt/ranges.h>
 #include <fnmatch.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -51,12 +53,24 @@ std::string text(const Json& value, std::string_view key) {
   return value.get<std::string>();
 }
 
+bool is_of_image(FailureKind kind) {
+  return kind == FailureKind::wrong_image || kind == FailureKind::nan_image;
+}
+
+// Of several processes one makes the file.
+bool happens(const Failure& failure) {
+  if (failure.once.empty()) return true;
+  const int file = ::open(failure.once.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
+  if (file < 0) return false;
+  ::close(file);
+  return true;
+}
+
 Failure parse_failure(const Json& json) {
   if (!json.is_object() || !json.contains("kind")) refuse("failures", "objects with a \"kind\"");
   Failure failure;
   failure.kind = level<FailureKind>(json.at("kind"), "kind", kind_names);
-  const bool of_image =
-      failure.kind == FailureKind::wrong_image || failure.kind == FailureKind::nan_image;
+  const bool of_image = is_of_image(failure.kind);
   if (of_image) failure.at = Place::image;
   for (const auto& [key, value] : json.items()) {
     if (key == "at") {
@@ -66,8 +80,10 @@ Failure parse_failure(const Json& json) {
       failure.frame = value.get<int>();
     } else if (key == "only") {
       failure.only = text(value, key);
+    } else if (key == "once") {
+      failure.once = text(value, key);
     } else if (key != "kind") {
-      refuse(key, "no such key in a failure (there are: kind, at, frame, only)");
+      refuse(key, "no such key in a failure (there are: kind, at, frame, only, once)");
     }
   }
   if (of_image && failure.at != Place::image)
@@ -214,16 +230,15 @@ void play_failure(const Script& script, Place at, const std::string& subject, in
     if (failure.at != at || !matches(failure.only, subject)) continue;
     const bool counted = at == Place::frame || at == Place::prepare;
     if (counted && failure.frame && *failure.frame != number) continue;
-    play(failure.kind);
+    if (!is_of_image(failure.kind) && happens(failure)) play(failure.kind);
     return;
   }
 }
 
 std::optional<FailureKind> image_failure(const Script& script, const std::string& subject) {
   for (const Failure& failure : script.failures) {
-    const bool of_image =
-        failure.kind == FailureKind::wrong_image || failure.kind == FailureKind::nan_image;
-    if (of_image && matches(failure.only, subject)) return failure.kind;
+    if (!is_of_image(failure.kind) || !matches(failure.only, subject)) continue;
+    return happens(failure) ? std::optional(failure.kind) : std::nullopt;
   }
   return std::nullopt;
 }

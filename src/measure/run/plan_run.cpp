@@ -146,9 +146,9 @@ std::vector<const Configuration*> PlanRun::pending(const std::string& device,
                                                    Report& report) const {
   std::vector<const Configuration*> result;
   for (const Configuration& configuration : context_.plan.configurations) {
-    const bool done = context_.options.resume &&
-                      context_.store.has_record(
-                          context_.run, configuration_key(context_.suite, configuration), device);
+    const std::string key = configuration_key(context_.suite, configuration);
+    const bool done = context_.options.resume && !context_.options.again.contains({device, key}) &&
+                      context_.store.has_record(context_.run, key, device);
     if (done) {
       report.already_done();
     } else {
@@ -208,9 +208,11 @@ void PlanRun::share_frames(record::Record& record) {
   }
 }
 
-// Of the plan, on the run's devices: what it is resumed with may be less than it began with.
+// Of the plan, on the run's devices, and not to be drawn again: what it is resumed with may be less
+// than it began with.
 bool PlanRun::is_ours(const record::Record& record) const {
   return std::ranges::find(devices_, record.device) != devices_.end() &&
+         !context_.options.again.contains({record.device, record.configuration}) &&
          by_key_.contains(record.configuration);
 }
 

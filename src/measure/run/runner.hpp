@@ -7,9 +7,11 @@
 #include <functional>
 #include <iosfwd>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "measure/plan/plan.hpp"
@@ -25,6 +27,8 @@ struct RunOptions {
   std::chrono::seconds limit{60};  // of one configuration; a worker past it is killed and replaced
   std::chrono::seconds start_limit{60};  // of opening a device and calibrating its clocks
   bool resume = false;  // continue the plan's latest run: what has a record is left alone
+  // Device and configuration of records that a resumed run holds and yet draws again.
+  std::set<std::pair<std::string, std::string>> again = {};
   std::vector<Plant> plants;
   std::vector<std::string> worker_command;           // as SideOptions::command
   std::vector<std::string> worker_environment = {};  // as SideOptions::environment

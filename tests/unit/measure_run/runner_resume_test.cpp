@@ -181,5 +181,25 @@ TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
   EXPECT_THROW(run(plan({{"technique", {"raycast"}}, {"data", {"ball"}}})), core::InputError);
 }
 
+TEST_F(RunTest, WhatIsDrawnAgainTakesTheOldRecordsPlace) {
+  options.plants = {{.fault = "crash", .only = "*step=0.5*"}};
+  const RunResult first = run(small_plan());
+  ASSERT_EQ(first.failed, 2);
+  std::string one;
+  for (const record::Record& each : records(first.run)) {
+    if (each.outcome == record::Outcome::crashed) one = each.configuration;
+  }
+  options.plants.clear();
+  options.resume = true;
+  options.again = {{"null:scripted", one}, {"null:other", "technique=raycast"}};
+  told.clear();
+  const RunResult second = run(small_plan());
+  EXPECT_EQ(second.run, first.run);
+  EXPECT_THAT(told, testing::ElementsAre(one));
+  EXPECT_EQ(second.measured, 3);
+  EXPECT_EQ(second.failed, 1);
+  EXPECT_EQ(second.there_before, 3);
+}
+
 }  // namespace
 }  // namespace triptych::measure
