@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -118,38 +117,6 @@ DriverCost read_cost(const JsonNode& node) {
 StoredTiming read_timing(const JsonNode& node) {
   return {node.at("clock").text(), node.at("median_ns").positive_number(),
           node.at("spread").positive_number(), node.at("kernel_hash").text()};
-}
-
-// A day that there is.
-bool is_iso_date(std::string_view text) {
-  constexpr std::string_view shape = "dddd-dd-dd";
-  const bool written_so = std::ranges::equal(
-      text, shape, [](char c, char s) { return s == 'd' ? c >= '0' && c <= '9' : c == s; });
-  if (!written_so) return false;
-  const auto number = [&](std::size_t begin, std::size_t length) {
-    return std::stoi(std::string(text.substr(begin, length)));
-  };
-  const std::chrono::year_month_day date{std::chrono::year(number(0, 4)),
-                                         std::chrono::month(static_cast<unsigned>(number(5, 2))),
-                                         std::chrono::day(static_cast<unsigned>(number(8, 2)))};
-  return date.ok();
-}
-
-std::vector<Waiver> read_waivers(const std::filesystem::path& path) {
-  std::vector<Waiver> result;
-  const auto file = JsonFile::read(path);
-  if (!file) return result;
-  for (const JsonNode& entry : file->root().elements()) {
-    Waiver waiver{entry.at("device").text(), entry.at("test").text(), entry.at("reason").text(),
-                  entry.at("expiry").text()};
-    if (waiver.reason.find_first_not_of(" \t") == std::string::npos) {
-      entry.at("reason").fail("expected a reason");
-    }
-    if (!is_iso_date(waiver.expiry))
-      entry.at("expiry").fail("expected a day of the calendar as YYYY-MM-DD");
-    result.push_back(std::move(waiver));
-  }
-  return result;
 }
 
 template <typename Table>

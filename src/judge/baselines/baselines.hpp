@@ -16,8 +16,8 @@
 //   accuracy.json             {configuration: {device id: {rmse, arithmetic}}}
 //   score.json                {configuration: {device id: 0…3}}
 //   history.json              every accept: date, reason, devices
-// <driver> is Device::statistics_key(): no machine is in it. And baselines/waivers.json: [{device,
-// test, reason, expiry}, …].
+// <driver> is Device::statistics_key(): no machine is in it. And baselines/waivers.json
+// (waivers.hpp).
 
 #include <cstdint>
 #include <filesystem>
@@ -33,6 +33,7 @@
 #include "accuracy/cases.hpp"
 #include "core/image.hpp"
 #include "judge/baselines/reference_hash.hpp"
+#include "judge/baselines/waivers.hpp"
 #include "judge/stress/stress.hpp"
 #include "record/store.hpp"
 
@@ -74,13 +75,6 @@ struct DriverCost {
 
 // Counter → device id → value.
 using StoredCounters = std::map<std::string, std::map<std::string, std::uint64_t>>;
-
-struct Waiver {
-  std::string device;  // glob
-  std::string test;    // glob over test ids
-  std::string reason;
-  std::string expiry;  // ISO date; from that day on it excuses nothing
-};
 
 class Baselines {
  public:

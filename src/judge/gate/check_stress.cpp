@@ -55,7 +55,7 @@ std::vector<Finding> check_stress(const RunView& view) {
   std::vector<record::Record> all = view.store.records(view.records.front().run);
   std::erase_if(all,
                 [&](const record::Record& record) { return record.plan != view.request.plan; });
-  const StressTruths truths{view.request.truth, view.request.expectations};
+  const StressTruths truths{view.request.truth, view.request.expectations, view.request.part};
   for (const StressScored& scored : score_stress(view.store, all, truths)) {
     if (view.devices.contains(scored.record->device)) findings.push_back(judge(view, scored));
   }

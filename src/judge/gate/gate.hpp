@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -30,7 +31,7 @@ enum class Verdict : std::uint8_t {
   improved,      // passes, and is better than the baseline beyond doubt
   advisory,      // worth knowing, decides nothing: times, another driver version
   skipped,       // the device cannot do this; the reason is the message
-  waived,        // a regression that waivers.json excuses until its expiry
+  waived,        // a regression that is known: waivers.json or a file of expectations has it
   cannot_judge,  // no baseline, nothing measured, other data: never a pass
   regression
 };
@@ -101,6 +102,11 @@ struct GateRequest {
   // Empty: not known.
   std::string plan_hash = {};
   std::vector<std::string> expected = {};
+  // `expected` is but a part of the plan: what was accepted beside it is not missed.
+  bool part = false;
+  // What is known to fail or to be skipped; all else has to pass, and a skip that is not among them
+  // cannot be judged. Nothing: skips are as they come.
+  std::optional<std::vector<Waiver>> known = {};
   // Content hash of the data that the record's truth would be drawn from now, in the record's voxel
   // format; empty where that cannot be told. Nothing: it is the record's.
   std::function<std::string(const record::Record&)> data_hash = {};

@@ -82,4 +82,8 @@ struct AccuracyFindings {
 // Turns regressions that waivers.json excuses into waived ones; says where a waiver has expired.
 void apply_waivers(const RunView& view, std::vector<Finding>& findings);
 
+// Holds findings against GateRequest::known: what is known to fail is waived, what passes in spite
+// of it improved, a skip that is not known cannot be judged.
+void apply_known(const RunView& view, std::vector<Finding>& findings);
+
 }  // namespace triptych::judge

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/glob.hpp"
+#include "judge/gate/flakes.hpp"
 #include "judge/gate/run_view.hpp"
 
 namespace triptych::judge {
@@ -13,7 +14,45 @@ bool covers(const Waiver& waiver, const std::string& device, const std::string& 
 }
 
 bool has_expired(const Waiver& waiver, const RunView& view) {
-  return view.request.today >= waiver.expiry;
+  return !waiver.expiry.empty() && view.request.today >= waiver.expiry;
+}
+
+// What the request knows of a finding's place, of these kinds.
+const Waiver* known_of(const RunView& view, const Finding& finding, const std::set<Known>& kinds) {
+  const auto found = std::ranges::find_if(*view.request.known, [&](const Waiver& each) {
+    return kinds.contains(each.known) && !has_expired(each, view) &&
+           covers(each, finding.device, finding.test) &&
+           core::glob_matches(each.configuration, finding.configuration);
+  });
+  return found == view.request.known->end() ? nullptr : &*found;
+}
+
+void hold_against_known(const RunView& view, Finding& finding) {
+  switch (finding.verdict) {
+    case Verdict::regression:
+      if (const Waiver* known = known_of(view, finding, {Known::fail, Known::flake})) {
+        finding.verdict = Verdict::waived;
+        finding.message =
+            fmt::format("{}{}: {}", known_prefix, name_of(known->known), finding.message);
+      }
+      break;
+    case Verdict::skipped:
+      if (known_of(view, finding, {Known::skip}) == nullptr) {
+        finding.verdict = Verdict::cannot_judge;
+        finding.message = "skipped, which was not expected: " + finding.message;
+      }
+      break;
+    case Verdict::pass:
+    case Verdict::improved:
+      if (const Waiver* known = known_of(view, finding, {Known::fail, Known::skip})) {
+        finding.verdict = Verdict::improved;
+        finding.message = fmt::format("passes, which was not expected: take its entry out ({}: {})",
+                                      name_of(known->known), known->reason);
+      }
+      break;
+    default:
+      break;
+  }
 }
 
 // Whether the waiver is about anything this gate looked at; others belong to other plans.
@@ -32,6 +71,13 @@ bool is_waived(const RunView& view, const record::Record& record, Check check) {
     return !has_expired(waiver, view) &&
            covers(waiver, record.device, record.test_id(name_of(check)));
   });
+}
+
+void apply_known(const RunView& view, std::vector<Finding>& findings) {
+  if (!view.request.known) return;
+  for (Finding& finding : findings) {
+    if (!finding.configuration.empty()) hold_against_known(view, finding);
+  }
 }
 
 void apply_waivers(const RunView& view, std::vector<Finding>& findings) {

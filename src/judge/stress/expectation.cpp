@@ -195,6 +195,17 @@ const core::Image* StressRun::picture(const record::Record& record) {
   }
 }
 
+bool has_other(const record::Expectation& expectation, const record::Record& record,
+               const StressRun& run) {
+  const record::Changed* changed = nullptr;
+  if (const auto* same = std::get_if<record::SamePicture>(&expectation.rule)) {
+    changed = &same->changed;
+  } else if (const auto* count = std::get_if<record::CountAtMost>(&expectation.rule)) {
+    changed = &count->changed;
+  }
+  return changed == nullptr || changed->empty() || run.other(record, *changed) != nullptr;
+}
+
 std::string unmet(const record::Expectation& expectation, const record::Record& record,
                   StressRun& run, const FindTruth& truth) {
   const std::string why = std::visit(

@@ -29,6 +29,10 @@ class StressRun {
   std::map<std::string, core::Image> pictures_;                             // by hash
 };
 
+// Whether the run has the other record that an expectation is about; true where it is about none.
+[[nodiscard]] bool has_other(const record::Expectation& expectation, const record::Record& record,
+                             const StressRun& run);
+
 // Empty where it holds, else what does not. The record has a picture; MayBeRefused always holds.
 [[nodiscard]] std::string unmet(const record::Expectation& expectation,
                                 const record::Record& record, StressRun& run,

@@ -22,6 +22,8 @@ using FindExpectations = std::function<std::vector<record::Expectation>(const re
 struct StressTruths {
   FindTruth truth;
   FindExpectations expectations;  // nothing: there are none
+  // Of a part of a plan: what is expected beside a picture that has no record is not asked.
+  bool part = false;
 };
 
 struct StressScore {

@@ -1,0 +1,168 @@
+// What is known to fail: written by one run, expected of the next.
+
+#include <gmock/gmock.h>
+
+#include "core/file.hpp"
+#include "gate_fixture.hpp"
+#include "judge/gate/flakes.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using core::ExitCode;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+using ::testing::StartsWith;
+
+constexpr const char* lavapipe = "vulkan:lavapipe";
+
+class KnownGateTest : public GateTest {
+ protected:
+  KnownGateTest() {
+    request_.checks = {Check::image};
+    add_run("accepted");
+    (void)accept_run("accepted");
+  }
+
+  // What the run leaves, read back from its file.
+  [[nodiscard]] std::vector<Waiver> written_by(const GateResult& result) const {
+    const auto file = folder_.path() / "known.json";
+    core::write_file(expected_text(as_expected({&result, 1})), file);
+    return read_expected(file);
+  }
+
+  static JudgeTest::Tweak skipped_on(const std::string& device) {
+    return [device](record::Record& record, core::Image&) {
+      if (record.device != device || record.configuration != plain_) return;
+      record.outcome = record::Outcome::skipped;
+      record.reason = "no geometry shaders";
+    };
+  }
+};
+
+TEST_F(KnownGateTest, AFailureIsWaivedTheNextTime) {
+  add_run("b", wrong_image_on(lavapipe));
+  const GateResult first = gate("b");
+  EXPECT_EQ(first.exit_code(), ExitCode::regression);
+  request_.known = written_by(first);
+  ASSERT_THAT(*request_.known, SizeIs(1));
+  const GateResult second = gate("b");
+  EXPECT_EQ(second.exit_code(), ExitCode::pass) << text(second);
+  ASSERT_THAT(with(second, Verdict::waived), SizeIs(1));
+  EXPECT_THAT(with(second, Verdict::waived).at(0).message, StartsWith("known fail: "));
+  // And once more: what is waived stays known, in the same words.
+  EXPECT_EQ(expected_text(written_by(second)), expected_text(*request_.known));
+}
+
+TEST_F(KnownGateTest, ANewFailureIsRed) {
+  request_.known.emplace();
+  add_run("b", wrong_image_on(lavapipe));
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
+  // Of another configuration, device or check.
+  add_run("c", wrong_image_on("opencl:pocl"));
+  request_.known = written_by(gate("c"));
+  EXPECT_EQ(gate("c").exit_code(), ExitCode::pass);
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
+}
+
+TEST_F(KnownGateTest, APassThatWasNotExpectedIsTold) {
+  add_run("b", wrong_image_on(lavapipe));
+  request_.known = written_by(gate("b"));
+  const GateResult mended = gate("accepted");
+  EXPECT_EQ(mended.exit_code(), ExitCode::pass);
+  ASSERT_THAT(with(mended, Verdict::improved), SizeIs(1));
+  EXPECT_THAT(with(mended, Verdict::improved).at(0).message,
+              HasSubstr("passes, which was not expected: take its entry out (fail: "));
+}
+
+TEST_F(KnownGateTest, ASkipThatWasNotExpectedIsNoPass) {
+  add_run("b", skipped_on(lavapipe));
+  AcceptRequest only_it;
+  only_it.only = plain_;
+  only_it.drop = true;
+  (void)accept_run("b", only_it);
+  ASSERT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
+  request_.known = written_by(gate("b"));
+  ASSERT_THAT(*request_.known, SizeIs(1));
+  EXPECT_EQ(request_.known->front().known, Known::skip);
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
+  EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(1));  // drawn after all
+  request_.known->clear();
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge);
+  EXPECT_THAT(with(gate("b"), Verdict::cannot_judge).at(0).message,
+              StartsWith("skipped, which was not expected: "));
+}
+
+TEST_F(KnownGateTest, AnExpiredEntryExcusesNothing) {
+  add_run("b", wrong_image_on(lavapipe));
+  request_.known = written_by(gate("b"));
+  request_.known->front().expiry = request_.today;
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
+}
+
+TEST_F(KnownGateTest, AFileWithAMistakeIsRefused) {
+  const auto file = folder_.path() / "known.json";
+  EXPECT_THROW((void)read_expected(file), core::InputError);
+  for (const char* entry :
+       {R"({"device": "a", "test": "b", "reason": "c", "outcome": "fail"})",
+        R"({"device": "a", "test": "b", "configuration": "*", "reason": "c"})",
+        R"({"device": "a", "test": "b", "configuration": "*", "reason": " ", "outcome": "fail"})",
+        R"({"device": "a", "test": "b", "configuration": "*", "reason": "c", "outcome": "red"})"}) {
+    core::write_file(std::string("[") + entry + "]", file);
+    EXPECT_THROW((void)read_expected(file), core::InputError) << entry;
+  }
+}
+
+// --- drawn again ---
+
+TEST_F(KnownGateTest, WhatIsRightWhenDrawnAgainIsAFlakeAndNoPass) {
+  add_run("b", wrong_image_on(lavapipe));
+  const GateResult first = gate("b");
+  const Places places = failing(first);
+  ASSERT_THAT(places, SizeIs(1));
+  const Redrawn right = tell_flakes(first, gate("accepted"), places);
+  EXPECT_EQ(right.flakes, places);
+  EXPECT_EQ(right.result.exit_code(), ExitCode::regression);
+  ASSERT_THAT(with(right.result, Verdict::regression), SizeIs(1));
+  EXPECT_THAT(with(right.result, Verdict::regression).at(0).message, StartsWith(flake_prefix));
+  EXPECT_THAT(right.result.findings, SizeIs(first.findings.size()));
+
+  const std::vector<Waiver> known = written_by(right.result);
+  ASSERT_THAT(known, SizeIs(1));
+  EXPECT_EQ(known[0].known, Known::flake);
+  request_.known = known;
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);                   // this time it shows
+  EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(0));  // a pass is no surprise
+}
+
+// Its counters fail both times.
+TEST_F(KnownGateTest, EachCheckIsAFlakeByItself) {
+  request_.checks = {Check::image, Check::counters};
+  const auto miscounted = [](record::Record& record, core::Image& image) {
+    if (record.device != lavapipe || record.configuration != plain_) return;
+    ++record.counters["samples"];
+    if (record.run == "b") image.rgba[4 * 11] += 0.01F;
+  };
+  add_run("b", miscounted);
+  add_run("c", miscounted);
+  const GateResult first = gate("b");
+  const Redrawn redrawn = tell_flakes(first, gate("c"), failing(first));
+  EXPECT_THAT(redrawn.flakes, SizeIs(1));
+  const auto pictures = with(redrawn.result, Verdict::regression, Check::image);
+  ASSERT_THAT(pictures, SizeIs(1));
+  EXPECT_THAT(pictures[0].message, StartsWith(flake_prefix));
+  const auto counters = with(redrawn.result, Verdict::regression, Check::counters);
+  ASSERT_THAT(counters, SizeIs(1));
+  EXPECT_THAT(counters[0].message, ::testing::Not(StartsWith(flake_prefix)));
+}
+
+TEST_F(KnownGateTest, WhatFailsTwiceIsNoFlake) {
+  add_run("b", wrong_image_on(lavapipe));
+  const GateResult first = gate("b");
+  const Redrawn same = tell_flakes(first, gate("b"), failing(first));
+  EXPECT_TRUE(same.flakes.empty());
+  EXPECT_EQ(text(same.result), text(first));
+}
+
+}  // namespace
+}  // namespace triptych::judge
