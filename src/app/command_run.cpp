@@ -31,6 +31,7 @@ struct RunArguments {
   std::vector<std::string> devices;
   std::string store = "triptych.sqlite";
   bool resume = false;
+  std::set<std::pair<std::string, std::string>> again;
   int limit_s = 60;
   std::optional<std::uint64_t> memory;  // bytes
   bool measure_every = false;
@@ -131,6 +132,7 @@ measure::RunOptions options_of(const RunArguments& arguments) {
       .protocol = protocol,
       .limit = std::chrono::seconds(arguments.limit_s),
       .resume = arguments.resume,
+      .again = arguments.again,
       .plants = parse_plants(arguments.plants),
       .worker_command = worker_command(arguments),
   };
@@ -316,6 +318,7 @@ void measure_plans(const Measuring& measuring) {
   arguments.devices = measuring.devices;
   arguments.store = measuring.store;
   arguments.resume = measuring.resume;
+  arguments.again = measuring.again;
   arguments.plants = measuring.plants;
   arguments.brief = measuring.brief;
   arguments.untimed = measuring.untimed;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "app/arguments.hpp"
 #include "app/judging.hpp"
@@ -10,6 +11,7 @@
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/saying.hpp"
+#include "judge/gate/flakes.hpp"
 #include "measure/run/runner.hpp"
 #include "measure/system/stopwatch.hpp"
 
@@ -28,6 +30,9 @@ struct ValidateArguments {
   std::string baselines = default_baselines().string();
   std::string junit;
   std::string json;
+  PlanChoice choice;  // its shard
+  std::string expect;
+  std::string write_expect;
   bool resume = false;
 };
 
@@ -38,16 +43,23 @@ record::Checks checks_of(const record::Checks& of_plan) {
   return {scored ? judge::Check::stress : judge::Check::image, judge::Check::counters};
 }
 
-// What a run that was interrupted has measured is judged like all else.
-void measure_what_is_left(const ValidateArguments& arguments, const std::string& file) {
+Measuring measuring_of(const ValidateArguments& arguments, const std::string& file) {
+  return {.plans = {plans.begin(), plans.end()},
+          .choice = arguments.choice,
+          .devices = arguments.devices,
+          .store = file,
+          .resume = arguments.resume,
+          .untimed = true};
+}
+
+// What a run that was interrupted has measured is judged like all else: false.
+bool measured_to_its_end(const Measuring& measuring) {
   try {
-    measure_plans({.plans = {plans.begin(), plans.end()},
-                   .devices = arguments.devices,
-                   .store = file,
-                   .resume = arguments.resume,
-                   .untimed = true});
+    measure_plans(measuring);
+    return true;
   } catch (const measure::Interrupted& interrupted) {
     say("triptych: {}\n", interrupted.what());
+    return false;
   }
 }
 
@@ -61,29 +73,100 @@ std::set<std::string> runs_before(const ValidateArguments& arguments, const std:
   return ids;
 }
 
+// The plans of a validation and what is judged of each.
+class Validation {
+ public:
+  // `before`: runs that are not this validation's.
+  Validation(const ValidateArguments& arguments, const std::string& file,
+             const std::set<std::string>& before, std::optional<std::vector<judge::Waiver>> known)
+      : arguments_(arguments),
+        before_(before),
+        registry_(make_registry()),
+        store_(open_to_judge(file)),
+        truths_(registry_, store_),
+        known_(std::move(known)) {}
+
+  void judge_all() {
+    for (const char* typed : plans) {
+      const measure::Plan plan = arguments_.choice.load(typed, registry_.find_suite());
+      if (!plan.configurations.empty()) results_.push_back(judge_plan(plan));
+    }
+  }
+
+  // A fault that does not show again is no less one, but another.
+  void draw_failures_again() {
+    for (judge::GateResult& result : results_) {
+      const judge::Places places = judge::failing(result);
+      if (places.empty()) continue;
+      const std::vector<record::Record> first = store_.records(result.run);
+      if (!draw_again(result.plan, places)) return;
+      const measure::Plan plan = arguments_.choice.load(result.plan, registry_.find_suite());
+      auto [second, flakes] = judge::tell_flakes(result, judge_plan(plan), places);
+      result = std::move(second);
+      for (const record::Record& each : first) {  // the store keeps what failed
+        if (flakes.contains({each.device, each.configuration})) store_.add_record(each);
+      }
+    }
+  }
+
+  core::ExitCode tell(double seconds) {
+    if (!arguments_.write_expect.empty()) {
+      write_text(arguments_.write_expect, judge::expected_text(judge::as_expected(results_)));
+    }
+    return tell_verdict(store_, truths_, arguments_.baselines, results_, seconds,
+                        {.folder = arguments_.out,
+                         .junit = arguments_.junit,
+                         .markdown = {},
+                         .json = arguments_.json});
+  }
+
+ private:
+  judge::GateResult judge_plan(const measure::Plan& plan) {
+    judge::GateRequest request = request_of(truths_, plan, registry_.suite(plan.suite));
+    request.checks = checks_of(plan.checks);
+    request.devices = arguments_.devices;
+    request.part = !arguments_.choice.shard.empty();
+    request.known = known_;
+    const std::optional<record::Run> run = store_.latest_run(plan.name);
+    const std::string id = run && !before_.contains(run->id) ? run->id : "";
+    return judge_named(store_, id, arguments_.baselines, request);
+  }
+
+  // False where it was interrupted.
+  bool draw_again(const std::string& plan, const judge::Places& places) {
+    say("{}: {} that failed are drawn again\n", plan, places.size());
+    Measuring measuring = measuring_of(arguments_, store_.file().string());
+    measuring.plans = {plan};
+    measuring.resume = true;
+    measuring.again = places;
+    return measured_to_its_end(measuring);
+  }
+
+  const ValidateArguments& arguments_;
+  const std::set<std::string>& before_;
+  Registry registry_;
+  record::Store store_;
+  Truths truths_;
+  std::optional<std::vector<judge::Waiver>> known_;
+  std::vector<judge::GateResult> results_;
+};
+
 core::ExitCode validate(const ValidateArguments& arguments) {
   const measure::Stopwatch since;
-  refuse_overwriting({}, {{"--junit", arguments.junit}, {"--json", arguments.json}});
+  refuse_overwriting({{"--expect", arguments.expect}},
+                     {{"--junit", arguments.junit},
+                      {"--json", arguments.json},
+                      {"--write-expect", arguments.write_expect}});
+  std::optional<std::vector<judge::Waiver>> known;
+  if (!arguments.expect.empty()) known = judge::read_expected(arguments.expect);
   require_writable(arguments.out);
   const std::string file = (std::filesystem::path(arguments.out) / "validation.sqlite").string();
   const std::set<std::string> before = runs_before(arguments, file);
-  measure_what_is_left(arguments, file);
-  const Registry registry = make_registry();
-  record::Store store = open_to_judge(file);
-  Truths truths(registry, store);
-  std::vector<judge::GateResult> results;
-  for (const char* typed : plans) {
-    const measure::Plan plan = measure::load_plan(typed, {}, registry.find_suite());
-    judge::GateRequest request = request_of(truths, plan, registry.suite(plan.suite));
-    request.checks = checks_of(plan.checks);
-    request.devices = arguments.devices;
-    const std::optional<record::Run> run = store.latest_run(plan.name);
-    const std::string id = run && !before.contains(run->id) ? run->id : "";
-    results.push_back(judge_named(store, id, arguments.baselines, request));
-  }
-  return tell_verdict(
-      store, truths, arguments.baselines, results, since.seconds(),
-      {.folder = arguments.out, .junit = arguments.junit, .markdown = {}, .json = arguments.json});
+  const bool whole = measured_to_its_end(measuring_of(arguments, file));
+  Validation validation(arguments, file, before, std::move(known));
+  validation.judge_all();
+  if (whole) validation.draw_failures_again();
+  return validation.tell(since.seconds());
 }
 
 }  // namespace
@@ -104,6 +187,13 @@ void add_validate_command(Commands& commands) {
   command->add_flag(
       "--resume", arguments->resume,
       "Go on with what is in the folder's store, after a kill or a crash of the machine");
+  command->add_option("--shard", arguments->choice.shard,
+                      "i/n: only the i-th of n parts of each plan");
+  command->add_option("--expect", arguments->expect,
+                      "What is known to fail, flake or be skipped, as --write-expect leaves it: "
+                      "known failures are waived, all else has to pass");
+  command->add_option("--write-expect", arguments->write_expect,
+                      "Write what failed, flaked or was skipped, for the next --expect");
   add_baselines_option(*command, arguments->baselines);
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 // Measuring from within other commands.
 
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/arguments.hpp"
@@ -10,10 +12,11 @@ namespace triptych::app {
 
 struct Measuring {
   std::vector<std::string> plans;    // as they were typed
-  PlanChoice choice = {};            // of the only one
+  PlanChoice choice = {};            // its --set of the only one, its shard of each
   std::vector<std::string> devices;  // globs
   std::string store;
   bool resume = false;  // into the plans' latest runs, else into new ones
+  std::set<std::pair<std::string, std::string>> again = {};  // as of measure::RunOptions
   std::vector<std::string> plants = {};
   bool brief = false;    // times are shown, and decide nothing
   bool untimed = false;  // a frame each for the picture, the counters and the statistics

@@ -1,0 +1,99 @@
+// A validation's known failures, flakes and parts, on a scripted device whose pictures are patterns
+// and therefore wrong.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/image_io.hpp"
+#include "measure/plan/plan.hpp"
+#include "program.hpp"
+#include "suites/volume/suite.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* part = "validate --device null:scripted --shard 1/400 ";
+
+class Validate : public testing::Test {
+ protected:
+  // How often a verdict was given in the answers of --json.
+  [[nodiscard]] std::map<std::string, int> verdicts(const std::string& file) const {
+    std::map<std::string, int> counts;
+    for (const auto& plan : nlohmann::json::parse(program.read(file))) {
+      for (const auto& finding : plan.at("findings")) ++counts[finding.at("verdict")];
+    }
+    return counts;
+  }
+  Program program;
+};
+
+TEST_F(Validate, WhatIsKnownToFailIsWaivedAndNewFailuresAreRed) {
+  const Result first = program.run(std::string(part) + "--write-expect known.json --json 1.json");
+  ASSERT_EQ(first.code, 1) << first.output;
+  EXPECT_THAT(first.output, HasSubstr("that failed are drawn again"));
+  EXPECT_THAT(program.read("known.json"), HasSubstr(R"("outcome":"fail")"));
+  const Result second = program.run(std::string(part) + "--expect known.json --json 2.json");
+  EXPECT_NE(second.code, 1) << second.output;
+  EXPECT_THAT(second.output, Not(HasSubstr("drawn again")));
+  EXPECT_EQ(verdicts("1.json")["regression"], verdicts("2.json")["waived"]);
+  EXPECT_EQ(verdicts("2.json")["regression"], 0);
+  const Result crashing = program.run(
+      std::string(part) + "--expect known.json",
+      R"({"failures": [{"kind": "crash", "at": "frame", "only": "technique=raycast,*"}]})");
+  EXPECT_NE(crashing.code, 1) << "known is that it fails, not how";
+  program.write("none.json", "[]");
+  EXPECT_EQ(program.run(std::string(part) + "--expect none.json").code, 1);
+}
+
+// Its only configuration of volume/quick is right, but for once.
+TEST_F(Validate, WhatFailsOnceIsAFlakeAndIsTold) {
+  const auto suite = volume_suite::make_suite({});
+  const measure::Plan plan = measure::load_plan(
+      "volume/quick", {}, [&](std::string_view) -> measure::Suite& { return *suite; },
+      {.index = 1, .count = 400});
+  ASSERT_EQ(plan.configurations.size(), 1U);
+  const measure::Configuration& only = plan.configurations.front();
+  core::write_exr(suite->truth(only, {}).image, program.folder() / "right.exr");
+  const std::string glob =
+      fmt::format("technique={},data={},*", only.at("technique"), only.at("data"));
+  const std::string script = fmt::format(
+      R"({{"images": {{"{0}": "right.exr"}}, "failures":
+         [{{"kind": "crash", "at": "frame", "only": "{0}", "once": "crashed"}}]}})",
+      glob);
+  const Result result =
+      program.run(std::string(part) + "--write-expect known.json --json j.json", script);
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(program.read("known.json"), HasSubstr(R"("outcome":"flake")"));
+  EXPECT_THAT(program.read("validation/gate.log"),
+              HasSubstr("flake, right when drawn again: crashed: "));
+  // The store holds what failed.
+  const Result gate = program.run(
+      "gate volume/quick --shard 1/400 --store validation/validation.sqlite --check image", script);
+  EXPECT_EQ(gate.code, 1) << gate.output;
+}
+
+TEST_F(Validate, APartMissesNothingOfTheRest) {
+  const Result result = program.run(std::string(part) + "--json j.json");
+  EXPECT_THAT(program.read("j.json"), Not(HasSubstr("missing rows")));
+  EXPECT_EQ(program.run("validate --device null:scripted --shard 3/2").code, 3);
+}
+
+TEST_F(Validate, AFileOfExpectationsHasToBeOne) {
+  EXPECT_EQ(program.run(std::string(part) + "--expect gone.json").code, 3);
+  program.write("bad.json", R"([{"device": "a"}])");
+  const Result bad = program.run(std::string(part) + "--expect bad.json");
+  EXPECT_EQ(bad.code, 3) << bad.output;
+  EXPECT_THAT(bad.output, HasSubstr("bad.json:1"));
+  program.write("known.json", "[]");
+  EXPECT_EQ(program.run(std::string(part) + "--expect known.json --write-expect known.json").code,
+            3);
+}
+
+}  // namespace
+}  // namespace triptych::command_line
