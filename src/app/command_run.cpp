@@ -32,6 +32,7 @@ struct RunArguments {
   std::string store = "triptych.sqlite";
   bool resume = false;
   std::set<std::pair<std::string, std::string>> again;
+  int jobs = 0;
   int limit_s = 60;
   std::optional<std::uint64_t> memory;  // bytes
   bool measure_every = false;
@@ -134,6 +135,7 @@ measure::RunOptions options_of(const RunArguments& arguments) {
       .resume = arguments.resume,
       .again = arguments.again,
       .plants = parse_plants(arguments.plants),
+      .jobs = arguments.jobs,
       .worker_command = worker_command(arguments),
   };
 }
@@ -319,6 +321,7 @@ void measure_plans(const Measuring& measuring) {
   arguments.store = measuring.store;
   arguments.resume = measuring.resume;
   arguments.again = measuring.again;
+  arguments.jobs = measuring.jobs;
   arguments.plants = measuring.plants;
   arguments.brief = measuring.brief;
   arguments.untimed = measuring.untimed;

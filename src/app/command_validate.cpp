@@ -31,6 +31,7 @@ struct ValidateArguments {
   std::string junit;
   std::string json;
   PlanChoice choice;  // its shard
+  int jobs = 0;       // as of measure::RunOptions
   std::string expect;
   std::string write_expect;
   bool resume = false;
@@ -49,6 +50,7 @@ Measuring measuring_of(const ValidateArguments& arguments, const std::string& fi
           .devices = arguments.devices,
           .store = file,
           .resume = arguments.resume,
+          .jobs = arguments.jobs,
           .untimed = true};
 }
 
@@ -187,6 +189,10 @@ void add_validate_command(Commands& commands) {
   command->add_flag(
       "--resume", arguments->resume,
       "Go on with what is in the folder's store, after a kill or a crash of the machine");
+  command
+      ->add_option("--jobs", arguments->jobs,
+                   "Workers at once, of one device too (default: one of each device)")
+      ->check(CLI::Range(1, 64));
   command->add_option("--shard", arguments->choice.shard,
                       "i/n: only the i-th of n parts of each plan");
   command->add_option("--expect", arguments->expect,

@@ -84,6 +84,14 @@ TEST_F(Validate, APartMissesNothingOfTheRest) {
   EXPECT_EQ(program.run("validate --device null:scripted --shard 3/2").code, 3);
 }
 
+TEST_F(Validate, WorkersSideBySideGiveTheSameVerdict) {
+  ASSERT_EQ(program.run(std::string(part) + "--json 1.json").code, 1);
+  const Result two = program.run(std::string(part) + "--jobs 2 --json 2.json");
+  EXPECT_EQ(two.code, 1) << two.output;
+  EXPECT_EQ(verdicts("1.json"), verdicts("2.json"));
+  EXPECT_EQ(program.run(std::string(part) + "--jobs 0").code, 3);
+}
+
 TEST_F(Validate, AFileOfExpectationsHasToBeOne) {
   EXPECT_EQ(program.run(std::string(part) + "--expect gone.json").code, 3);
   program.write("bad.json", R"([{"device": "a"}])");

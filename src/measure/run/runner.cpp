@@ -112,10 +112,9 @@ struct Part {
   std::string device;
 };
 
-// Where no time is measured devices cannot disturb each other: as many at once as there are
-// processors. Each has a connection of its own to the store. The first error of one is thrown when
-// all have ended.
-std::vector<RunResult> measure_side_by_side(const std::vector<Part>& parts,
+// Where no time is measured devices cannot disturb each other. Each part has a connection of its
+// own to the store. The first error of one is thrown when all have ended.
+std::vector<RunResult> measure_side_by_side(const std::vector<Part>& parts, std::size_t at_once,
                                             const PlanRun::Tell& on_progress) {
   JointProgress joint(on_progress);
   std::vector<RunResult> results(parts.size());
@@ -141,8 +140,7 @@ std::vector<RunResult> measure_side_by_side(const std::vector<Part>& parts,
       }
     }
   };
-  const std::size_t lanes =
-      std::min<std::size_t>(parts.size(), std::max(1U, std::thread::hardware_concurrency()));
+  const std::size_t lanes = std::min(parts.size(), at_once);
   {
     std::vector<std::jthread> threads;
     for (std::size_t i = 0; i < lanes; ++i) threads.emplace_back(lane);
@@ -151,14 +149,46 @@ std::vector<RunResult> measure_side_by_side(const std::vector<Part>& parts,
   return results;
 }
 
+std::size_t processors() {
+  return std::max(1U, std::thread::hardware_concurrency());
+}
+
+// Without those that would be empty. Each has pieces from all over the plan, for neighbours take
+// about as long; within a piece they share their data.
+std::vector<Plan> parts_of(const Plan& plan, std::size_t count) {
+  constexpr std::size_t pieces_each = 8;
+  constexpr std::size_t longest_piece = 16;
+  const std::size_t all = plan.configurations.size();
+  const std::size_t piece = std::clamp<std::size_t>(all / (count * pieces_each), 1, longest_piece);
+  Plan none = plan;
+  none.configurations.clear();
+  std::vector<Plan> parts(count, none);
+  for (std::size_t i = 0; i < all; ++i) {
+    parts[i / piece % count].configurations.push_back(plan.configurations[i]);
+  }
+  std::erase_if(parts, [](const Plan& part) { return part.configurations.empty(); });
+  return parts;
+}
+
 RunResult measure_devices_side_by_side(const RunContext& context,
                                        const std::vector<std::string>& devices,
                                        const PlanRun::Tell& on_progress) {
   const Stopwatch stopwatch;
+  const auto jobs = static_cast<std::size_t>(context.options.jobs);
+  const std::vector<Plan> plans = parts_of(context.plan, std::max<std::size_t>(jobs, 1));
+  std::vector<RunContext> contexts;
+  contexts.reserve(plans.size());
+  for (const Plan& plan : plans) {
+    contexts.push_back({plan, context.suite, context.store, context.options, context.interrupts,
+                        context.run, context.kinds});
+  }
   std::vector<Part> parts;
-  for (const std::string& device : devices) parts.push_back({&context, device});
+  for (const std::string& device : devices) {
+    for (const RunContext& each : contexts) parts.push_back({&each, device});
+  }
+  const std::size_t at_once = jobs > 0 ? jobs : processors();
   RunResult sum;
-  for (const RunResult& part : measure_side_by_side(parts, on_progress)) add(part, sum);
+  for (const RunResult& part : measure_side_by_side(parts, at_once, on_progress)) add(part, sum);
   sum.run = context.run;
   sum.wall_ns = stopwatch.ns();
   return sum;
@@ -183,7 +213,7 @@ std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
                              open_run(each, store),
                              kinds_of(plan, options.protocol)};
     const bool timed = context.plan.timed() && options.protocol.timed;
-    const bool side_by_side = !timed && devices.size() > 1;
+    const bool side_by_side = !timed && (devices.size() > 1 || options.jobs > 1);
     results.push_back(side_by_side ? measure_devices_side_by_side(context, devices, on_progress)
                                    : PlanRun(context, devices, on_progress).measure_all());
   }
@@ -205,7 +235,7 @@ std::array<RunResult, 2> run_sides(const SidesRun& sides, record::Store& store,
     parts.push_back({&contexts.back(), sides.devices[i]});
   }
   if (!sides.plan.timed()) {
-    std::vector<RunResult> results = measure_side_by_side(parts, on_progress);
+    std::vector<RunResult> results = measure_side_by_side(parts, processors(), on_progress);
     return {std::move(results[0]), std::move(results[1])};
   }
   std::array<RunResult, 2> results;

@@ -30,6 +30,9 @@ struct RunOptions {
   // Device and configuration of records that a resumed run holds and yet draws again.
   std::set<std::pair<std::string, std::string>> again = {};
   std::vector<Plant> plants;
+  // Workers at once, of one device too, where nothing is timed; 0: one of each device, as many
+  // devices as there are processors.
+  int jobs = 0;
   std::vector<std::string> worker_command;           // as SideOptions::command
   std::vector<std::string> worker_environment = {};  // as SideOptions::environment
 };

@@ -181,6 +181,31 @@ TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRefusesAnotherDriver) {
   EXPECT_THROW(run(plan({{"technique", {"raycast"}}, {"data", {"ball"}}})), core::InputError);
 }
 
+// Where nothing is timed.
+TEST_F(RunTest, WorkersOfOneDeviceShareAPlan) {
+  options.jobs = 3;
+  options.protocol.timed = false;
+  const RunResult result = run(small_plan());
+  EXPECT_EQ(result.measured, 4);
+  EXPECT_EQ(records(result.run).size(), 4U);
+  EXPECT_EQ(started_workers().size(), 3U);
+  options.protocol.timed = true;
+  EXPECT_EQ(run(small_plan()).measured, 4);
+  EXPECT_EQ(started_workers().size(), 4U) << "one, whose times nobody disturbs";
+}
+
+TEST_F(RunTest, WorkersOfOneDeviceGoOnWithARun) {
+  options.jobs = 2;
+  options.protocol.timed = false;
+  options.plants = {{.fault = "crash", .only = "*step=0.5*"}};
+  EXPECT_EQ(run(small_plan()).failed, 2);
+  options.resume = true;
+  const RunResult resumed = run(small_plan());
+  EXPECT_EQ(resumed.there_before, 4);
+  EXPECT_EQ(resumed.measured, 2);
+  EXPECT_EQ(resumed.failed, 2);
+}
+
 TEST_F(RunTest, WhatIsDrawnAgainTakesTheOldRecordsPlace) {
   options.plants = {{.fault = "crash", .only = "*step=0.5*"}};
   const RunResult first = run(small_plan());
