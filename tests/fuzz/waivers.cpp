@@ -3,7 +3,8 @@
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace triptych;
-  static_cast<void>(fuzz::write("waivers.json", fuzz::text_of(data, size)));
+  const auto file = fuzz::write("waivers.json", fuzz::text_of(data, size));
   fuzz::expect_ours([&] { static_cast<void>(judge::Baselines(fuzz::folder(), "s/p").waivers()); });
+  fuzz::expect_ours([&] { static_cast<void>(judge::read_expected(file)); });
   return fuzz::judged;
 }
