@@ -139,10 +139,10 @@ report::BugReport report_of(const OneFrame& frame, const reduction::Reduction& r
 
 // The first frame, drawn twice: what fails once of two times cannot be made smaller.
 std::optional<reduction::Failure> first_failure(const measure::Configuration& start, Trial& trial) {
-  const std::optional<reduction::Failure> first = trial(start);
+  std::optional<reduction::Failure> first = trial(start);
   require_drawable(trial.last());
   if (!first) return first;
-  const std::optional<reduction::Failure> again = trial(start);
+  std::optional<reduction::Failure> again = trial(start);
   if (again && again->kind == first->kind) return again;
   throw core::NotSupported(fmt::format(
       "it fails differently when drawn again, and no smaller frame would tell: {}; then {}",

@@ -27,7 +27,7 @@ std::vector<const measure::Factor*> in_order(const measure::Suite& suite) {
   const auto makes_small = [](const measure::Factor* factor) {
     return factor->name == "viewport" || factor->name == "data";
   };
-  std::ranges::stable_partition(factors, makes_small);
+  std::stable_partition(factors.begin(), factors.end(), makes_small);
   return factors;
 }
 
