@@ -23,8 +23,13 @@ using judge::Verdict;
 using Factors = std::map<std::string, std::string>;
 
 // What findings of one cause have in common: "# of # pixels are over the bound".
-std::string shape_of(std::string_view message) {
-  return core::without_numbers(message.substr(0, message.find(record::not_tried)));
+std::string shape_of(const Finding& finding) {
+  const std::string_view message = finding.message;
+  std::string shape(message.substr(0, message.find(record::not_tried)));
+  if (const std::size_t mark = shape.find(" [injected: "); mark != std::string::npos) {
+    shape.erase(mark);
+  }
+  return core::without_numbers(shape) + fmt::format("{}", fmt::join(finding.injected, "+"));
 }
 
 Factors factors_of(const Finding& finding) {
@@ -127,8 +132,8 @@ class Grouping {
         changed_.insert(place);
         continue;
       }
-      by_shape_[{finding.verdict, finding.check, finding.device, shape_of(finding.message)}]
-          .push_back(&finding);
+      by_shape_[{finding.verdict, finding.check, finding.device, shape_of(finding)}].push_back(
+          &finding);
     }
   }
 
@@ -164,6 +169,7 @@ class Grouping {
   [[nodiscard]] FindingGroup group_of(const Members& members) const {
     const Finding* first = *std::ranges::min_element(members, is_smaller);
     FindingGroup group{first, members.size(), signature_of(members)};
+    group.members = members;
     if (const auto found = passes_.find({first->check, first->configuration});
         found != passes_.end() && !first->configuration.empty()) {
       group.right_on = found->second;
@@ -213,7 +219,7 @@ std::vector<FindingGroup> grouped(std::span<const Finding> findings) {
 
 bool have_one_cause(const FindingGroup& a, const FindingGroup& b) {
   const auto key = [](const Finding& finding) {
-    return std::tuple(finding.verdict, std::string_view(finding.device), shape_of(finding.message));
+    return std::tuple(finding.verdict, std::string_view(finding.device), shape_of(finding));
   };
   if (key(*a.first) != key(*b.first)) return false;
   return ended_a_program(*a.first) ||
@@ -227,6 +233,7 @@ bool take_in(FindingGroup& group, const FindingGroup& other) {
     group.right_on = other.right_on;
   }
   group.configurations += other.configurations;
+  group.members.insert(group.members.end(), other.members.begin(), other.members.end());
   group.changed_with_it += other.changed_with_it;
   if (group.signature != other.signature) group.signature.clear();
   return smaller;

@@ -22,6 +22,7 @@ struct FindingGroup {
   // Of a wrong picture: in how many of its configurations the counters or statistics changed with
   // it.
   std::size_t changed_with_it = 0;
+  std::vector<const judge::Finding*> members = {};
   // The configuration, or "12 configurations"; empty for a finding about a whole device or plan.
   [[nodiscard]] std::string subject() const;
 };

@@ -30,7 +30,7 @@ std::string figure_of(const Json& device) {
   for (const Json& point : points) names.push_back(name_of_store(point));
   Figure figure("Cost and time over the stores, the first being 1",
                 {.title = "store", .names = std::move(names)}, {.title = "of the first store’s"},
-                520, 200);
+                320, 180);
   struct Series {
     const char* key;
     Style style;
@@ -53,22 +53,18 @@ std::string figure_of(const Json& device) {
 }
 
 std::string table_of(const Json& device) {
-  std::string rows;
+  std::vector<std::vector<std::string>> rows{
+      {"store", "begun", "driver", "cost", "time", "against the one before"}};
   for (const Json& point : device.at("points")) {
     const std::string changes = point.at("changes").get<std::string>();
-    rows += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-        escape(name_of_store(point)), escape(point.at("started_at").get<std::string>()),
-        escape(point.at("driver_version").get<std::string>()), number_text(point, "cost"),
-        number_text(point, "time"),
-        changes.empty() ? ""
-                        : folded(point.at("worse").get<bool>() ? "<b class=\"regression\">worse</b>"
-                                                               : "changed",
-                                 "<pre>" + escape(changes) + "</pre>"));
+    const std::string_view summary =
+        point.at("worse").get<bool>() ? "<b class=\"regression\">worse</b>" : "changed";
+    rows.push_back({escape(name_of_store(point)), escape(point.at("started_at").get<std::string>()),
+                    escape(point.at("driver_version").get<std::string>()),
+                    number_text(point, "cost"), number_text(point, "time"),
+                    changes.empty() ? "" : folded(summary, "<pre>" + escape(changes) + "</pre>")});
   }
-  return "<table><tr><th>store</th><th>begun</th><th>driver</th><th>cost</th><th>time</th>"
-         "<th>against the one before</th></tr>\n" +
-         rows + "</table>\n";
+  return table(rows);
 }
 
 }  // namespace
@@ -76,7 +72,8 @@ std::string table_of(const Json& device) {
 std::string history_page(const Json& history) {
   std::string page = page_begin("History");
   page +=
-      "<h1>History</h1>\n<p>Cost: instructions of a frame, of generated code and driver. Both by "
+      "<main><h1>History</h1>\n<p>Cost: instructions of a frame, of generated code and driver. "
+      "Both by "
       "the "
       "geometric mean over what neighbours share. Times are shown, not judged.</p>\n";
   for (const Json& device : history) {
@@ -87,7 +84,7 @@ std::string history_page(const Json& history) {
     }
     page += figure_of(device) + table_of(device);
   }
-  return page + page_end();
+  return page + "</main>" + page_end();
 }
 
 }  // namespace triptych::report

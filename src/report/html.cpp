@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 #include "core/text.hpp"
 
@@ -80,6 +81,27 @@ std::string data_uri(std::span<const std::byte> png) {
     }
   }
   return result;
+}
+
+std::string without_repeated_pictures(std::string_view page) {
+  static constexpr std::string_view image = "<img ";
+  static constexpr std::string_view source = "src=\"data:";
+  std::map<std::string_view, std::size_t> first;
+  std::string result;
+  std::size_t number = 0;
+  for (std::size_t at = page.find(image); at != std::string_view::npos; at = page.find(image)) {
+    at += image.size();
+    result += page.substr(0, at);
+    page.remove_prefix(at);
+    const std::size_t end = page.find('"', source.size());
+    if (page.starts_with(source) && end != std::string_view::npos) {
+      const auto [same, is_new] = first.try_emplace(page.substr(0, end + 1), number);
+      result += is_new ? std::string(same->first) : fmt::format("data-same=\"{}\"", same->second);
+      page.remove_prefix(end + 1);
+    }
+    ++number;
+  }
+  return result + std::string(page);
 }
 
 namespace {

@@ -20,6 +20,10 @@ namespace triptych::report {
 // "data:image/png;base64,…"
 [[nodiscard]] std::string data_uri(std::span<const std::byte> png);
 
+// The page with each picture's bytes once: an image that repeats an earlier one has, in place of
+// its `src`, `data-same` with the number of that image among all `img` elements.
+[[nodiscard]] std::string without_repeated_pictures(std::string_view page);
+
 // A table from cells that are HTML already; the first row is its head. Columns of quantities
 // are set flush right by the style sheet's class "number".
 [[nodiscard]] std::string table(const std::vector<std::vector<std::string>>& rows,

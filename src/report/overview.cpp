@@ -83,17 +83,17 @@ KindRow row_of(const Kind& kind, std::span<const GateResult* const> results) {
     }
   }
   const std::size_t right = all[Verdict::pass] + all[Verdict::improved];
-  KindRow row{kind.name, "–", Verdict::skipped, std::string(kind.none)};
+  KindRow row{kind.check, kind.name, "–", Verdict::skipped, std::string(kind.none)};
   if (all[Verdict::regression] > 0) {
-    row = {kind.name, "FAIL", Verdict::regression,
+    row = {kind.check, kind.name, "FAIL", Verdict::regression,
            places(by_device, Verdict::regression, kind.wrong)};
   } else if (all[Verdict::cannot_judge] > 0) {
-    row = {kind.name, "no verdict", Verdict::cannot_judge,
+    row = {kind.check, kind.name, "no verdict", Verdict::cannot_judge,
            places(by_device, Verdict::cannot_judge, "not judged")};
   } else if (right > 0) {
-    row = {kind.name, "pass", Verdict::pass, fmt::format("{} {}", right, kind.passed)};
+    row = {kind.check, kind.name, "pass", Verdict::pass, fmt::format("{} {}", right, kind.passed)};
   } else if (all[Verdict::waived] > 0) {
-    row = {kind.name, "waived", Verdict::waived, ""};
+    row = {kind.check, kind.name, "waived", Verdict::waived, ""};
   }
   for (const auto& [verdict, word] : {std::pair(Verdict::waived, "waived"),
                                       {Verdict::improved, "better"},

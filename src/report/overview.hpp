@@ -14,6 +14,7 @@
 namespace triptych::report {
 
 struct KindRow {
+  judge::Check check;
   std::string_view kind;     // "Pictures"
   std::string_view verdict;  // "FAIL", "pass", "no verdict", "waived", "–"
   judge::Verdict worst;      // skipped where there is none

@@ -5,6 +5,7 @@
 #include "report/html.hpp"
 #include "report/page_frame.hpp"
 #include "report/page_sections.hpp"
+#include "triptych_report_embedded.hpp"
 
 namespace triptych::report {
 namespace {
@@ -22,29 +23,54 @@ std::string common_line(const PlanData& plan) {
   return common.empty() ? common : "<p>All scenes: " + escape(common) + ".</p>\n";
 }
 
+std::string devices_of(const PlanData& plan) {
+  std::string text;
+  for (const auto& [device, clocks] : plan.devices) {
+    text += (text.empty() ? "" : " ") + escape(device.id);
+  }
+  return text;
+}
+
 std::string plan_part(const PlanReport& report, const PlanData& plan) {
-  return fmt::format("<section id=\"{}\"><h2>{}</h2><p>{}</p>", plan.anchor, escape(plan.name),
-                     escape(report.verdict.headline())) +
+  return fmt::format(
+             "<section id=\"{}\" data-kind=\"plan\" data-suite=\"{}\" data-device=\"{}\"><h2>{}"
+             "</h2><p>{}</p>",
+             plan.prefix, escape(suite_of(plan)), devices_of(plan), escape(plan.name),
+             escape(report.verdict.headline())) +
          system_line(report.run) + common_line(plan) + accuracy_section(plan) +
          correlation_section(plan) + devices_section(plan) + times_section(plan) +
          speed_of_light_section(plan) + counts_section(plan) + "</section>\n";
+}
+
+// Findings stand beside the pictures where there are any.
+std::string first_part(const Overview& all, const PictureSources& sources,
+                       std::span<const PlanData> plans) {
+  const std::string pictures = pictures_section(sources, plans);
+  const bool beside = !all.open.empty() && !pictures.empty();
+  return fmt::format("<div class=\"{}\"><div>{}</div><div>{}</div></div>\n",
+                     beside ? "columns" : "", findings_section(all, plans), pictures);
 }
 
 }  // namespace
 
 std::string page(const record::Store& store, const PageRequest& request) {
   std::vector<PlanData> plans;
+  std::vector<const judge::GateResult*> results;
   for (const PlanReport& report : request.plans) {
-    plans.push_back({.anchor = fmt::format("plan{}", plans.size()),
+    plans.push_back({.prefix = fmt::format("plan{}", plans.size()),
                      .name = report.run.plan,
                      .devices = store.devices(report.run.id),
                      .records = store.records(report.run.id),
                      .verdict = &report.verdict});
+    results.push_back(&report.verdict);
   }
-  std::string text = page_begin("Triptych report") + verdict_section(plans) +
-                     pictures_section(store, plans, request.truth);
+  const Overview all = overview(std::span<const judge::GateResult* const>(results));
+  const JudgedPictures judged = judged_pictures(all, plans);
+  std::string text = page_begin("Triptych report") + verdict_card(all, plans) + filters(plans) +
+                     "<main>" + first_part(all, {store, request.truth, judged}, plans);
   for (std::size_t i = 0; i < plans.size(); ++i) text += plan_part(request.plans[i], plans[i]);
-  return text + page_end();
+  return without_repeated_pictures(text) + "</main>" + comparison_dialog() +
+         page_end(embedded("page.js"));
 }
 
 }  // namespace triptych::report

@@ -38,7 +38,7 @@ std::string fit_text(const CorrelationPair& pair) {
 ScatterFigure scatter_of(const CorrelationPair& pair) {
   const bool cost = pair.signal == "cost";
   const double unit = std::log(1e-6);  // instructions in millions, nanoseconds in milliseconds
-  const std::string_view unit_name = cost ? "million instructions" : "ms";
+  const std::string_view unit_name = cost ? "M instructions" : "ms";
   ScatterFigure scatter{.across = fmt::format("{}, {}", pair.device_a, unit_name),
                         .up = fmt::format("{}, {}", pair.device_b, unit_name),
                         .points = {}};

@@ -16,8 +16,9 @@ std::string page_begin(std::string_view title) {
   return text + "</style></head><body>\n";
 }
 
-std::string page_end() {
-  return "</body></html>\n";
+std::string page_end(std::string_view script) {
+  if (script.empty()) return "</body></html>\n";
+  return fmt::format("<script>{}</script></body></html>\n", script);
 }
 
 std::string folded(std::string_view summary, const std::string& body) {

@@ -2,29 +2,52 @@
 // The sections of the page; each is HTML, empty where it has nothing to show.
 
 #include <functional>
+#include <map>
+#include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "judge/gate/gate.hpp"
 #include "record/store.hpp"
+#include "report/overview.hpp"
 
 namespace triptych::report {
 
 struct PlanData {
-  std::string anchor;  // prefix of element ids on the page
+  std::string prefix;  // of element ids on the page
   std::string name;
   std::vector<record::Store::DeviceEntry> devices;
   std::vector<record::Record> records;
   const judge::GateResult* verdict = nullptr;
 };
 
-// The verdict, the row of each kind of check, the findings by cause.
-[[nodiscard]] std::string verdict_section(std::span<const PlanData> plans);
+// What was said of a picture.
+struct Judged {
+  std::set<std::string_view> checks;
+  std::string cause;  // element id of the first open one; empty where there is none
+};
+using JudgedPictures = std::map<std::string, Judged>;  // by picture_id
+[[nodiscard]] JudgedPictures judged_pictures(const Overview& all, std::span<const PlanData> plans);
+
+struct PictureSources {
+  const record::Store& store;
+  const std::function<judge::TruthPair(const record::Record&)>& truth;
+  const JudgedPictures& judged;
+};
+
+// The verdict with links to its causes.
+[[nodiscard]] std::string verdict_card(const Overview& all, std::span<const PlanData> plans);
+// Of what the page is about; hidden until its script shows them.
+[[nodiscard]] std::string filters(std::span<const PlanData> plans);
+// The row of each kind of check, the findings by cause.
+[[nodiscard]] std::string findings_section(const Overview& all, std::span<const PlanData> plans);
 // Of all plans: what is wrong first, else a picture of each scene; the others folded.
-[[nodiscard]] std::string pictures_section(
-    const record::Store& store, std::span<const PlanData> plans,
-    const std::function<judge::TruthPair(const record::Record&)>& truth);
+[[nodiscard]] std::string pictures_section(const PictureSources& sources,
+                                           std::span<const PlanData> plans);
+// Two pictures of a scene under a slider; closed until its script opens it.
+[[nodiscard]] std::string comparison_dialog();
 // Of one plan.
 [[nodiscard]] std::string devices_section(const PlanData& plan);
 [[nodiscard]] std::string times_section(const PlanData& plan);
@@ -34,6 +57,9 @@ struct PlanData {
 // Of the scenes whose accuracy the verdict tells.
 [[nodiscard]] std::string accuracy_section(const PlanData& plan);
 [[nodiscard]] std::string counts_section(const PlanData& plan);
+
+// Empty where nothing was recorded.
+[[nodiscard]] std::string suite_of(const PlanData& plan);
 
 // The element id of what was drawn of a configuration on a device.
 [[nodiscard]] std::string picture_id(const PlanData& plan, const std::string& device,

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <ranges>
 
 #include "core/hash.hpp"
@@ -30,33 +32,65 @@ std::string_view css_class(core::ExitCode code) {
 }
 
 std::string lead(const Overview& all) {
-  if (all.open.empty()) {
-    return all.code == core::ExitCode::pass ? "All that was asked for is right."
-                                            : "Nothing was decided.";
+  if (all.open.size() == 1) return "One cause:";
+  if (!all.open.empty()) return fmt::format("{} causes, the worst first:", all.open.size());
+  return all.code == core::ExitCode::pass ? "All that was asked for is right."
+                                          : "Nothing was decided.";
+}
+
+std::string cause_id(std::size_t number) {
+  return fmt::format("cause{}", number);
+}
+
+// A link to each cause in sight, and one to where the others are folded.
+std::string contents(const Overview& all) {
+  if (all.open.empty()) return {};
+  std::string text = "<ol class=\"causes\">";
+  const std::size_t shown = std::min(openly_listed, all.open.size());
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Cause& cause = all.open[i];
+    text += fmt::format("<li><a href=\"#{}\">{}: {}</a></li>", cause_id(i),
+                        judge::name_of(cause.group.first->check), breakable(place_of(cause)));
   }
-  return fmt::format("{}, first of all {}: {}",
-                     all.open.size() == 1 ? "One cause" : fmt::format("{} causes", all.open.size()),
-                     judge::name_of(all.open.front().group.first->check),
-                     place_of(all.open.front()));
+  if (shown < all.open.size()) {
+    text += fmt::format("<li><a href=\"#{}\">{} more</a></li>", cause_id(shown),
+                        all.open.size() - shown);
+  }
+  return text + "</ol>";
 }
 
 std::string card(const Overview& all, std::span<const PlanData> plans) {
   std::string names;
   for (const PlanData& plan : plans) {
-    names += fmt::format(" · <a href=\"#{}\">{}</a>", plan.anchor, escape(plan.name));
+    names += fmt::format(" · <a href=\"#{}\">{}</a>", plan.prefix, escape(plan.name));
   }
   return fmt::format(
-      "<header class=\"{}\"><h1>{} ({})</h1><p class=\"lead\">{}</p><p>Triptych · {} {}{}</p>"
-      "</header>\n",
-      css_class(all.code), word_of(all.code), static_cast<int>(all.code), escape(lead(all)),
+      "<header id=\"verdict\" class=\"{}\"><h1>{} ({})</h1><p class=\"lead\">{}</p>{}"
+      "<p>Triptych · {} {}{}</p></header>\n",
+      css_class(all.code), word_of(all.code), static_cast<int>(all.code), lead(all), contents(all),
       all.devices, all.devices == 1 ? "device" : "devices", names);
+}
+
+// With a link to the first cause of its kind.
+std::string word_of(const KindRow& row, const Overview& all) {
+  const bool work = row.check == judge::Check::counters || row.check == judge::Check::statistics;
+  const auto first = std::ranges::find_if(all.open, [&](const Cause& cause) {
+    const bool told_with_picture = work && cause.group.changed_with_it > 0;
+    return cause.group.first->check == row.check || told_with_picture;
+  });
+  const bool open =
+      row.worst == judge::Verdict::regression || row.worst == judge::Verdict::cannot_judge;
+  if (!open || first == all.open.end()) return std::string(row.verdict);
+  const auto number = static_cast<std::size_t>(first - all.open.begin());
+  return fmt::format("<a href=\"#{}\">{}</a>", cause_id(number), row.verdict);
 }
 
 std::string kinds(const Overview& all) {
   std::string text = "<table class=\"kinds\">\n";
   for (const KindRow& row : all.rows) {
-    text += fmt::format("<tr><td>{}</td><td class=\"verdict {}\">{}</td><td>{}</td></tr>\n",
-                        row.kind, judge::name_of(row.worst), row.verdict, escape(row.sentence));
+    text += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td class=\"verdict {}\">{}</td><td>{}</td></tr>\n", row.kind,
+        judge::name_of(row.worst), word_of(row, all), escape(row.sentence));
   }
   return text + "</table>\n";
 }
@@ -87,25 +121,54 @@ std::string picture_link(const PlanData& plan, const Finding& finding) {
                      picture_id(plan, finding.device, finding.configuration));
 }
 
-std::string article(const Cause& cause, const PlanData& plan) {
+std::string links(const Cause& cause, const PlanData& plan) {
+  const Finding& first = *cause.group.first;
+  if (!is_open(first)) return {};
+  return picture_link(plan, first) + " <a href=\"#verdict\">verdict</a>";
+}
+
+// An option and its value stay on one line where they fit.
+std::string command_block(std::string_view command) {
+  if (command.empty()) return {};
+  std::string text = "<pre><span>";
+  std::size_t from = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    if (command[i] == '\'') quoted = !quoted;
+    if (quoted || !command.substr(i).starts_with(" --")) continue;
+    text += escape(command.substr(from, i - from)) + "</span> <span>";
+    from = i + 1;
+  }
+  return text + escape(command.substr(from)) + "</span></pre>";
+}
+
+std::string article(const Cause& cause, const PlanData& plan, const std::string& id) {
   const Finding& first = *cause.group.first;
   const std::string command = command_of(first, *cause.result);
   const bool several = cause.group.configurations > 1;
   return fmt::format(
-      "<article class=\"{0}\"><h3><span class=\"verdict {0}\">{1}</span> {2}</h3><p>{3}{4}</p>"
-      "{5}{6}</article>\n",
-      judge::name_of(first.verdict), judge::name_of(first.check), breakable(place_of(cause)),
-      escape(message_of(cause)), is_open(first) ? picture_link(plan, first) : "",
+      "<article class=\"{0}\"{1} data-kind=\"{2}\" data-device=\"{3}\" data-suite=\"{4}\" "
+      "data-check=\"{5}\"><h3><span class=\"verdict {0}\">{5}</span> {6}</h3><p>{7}{8}</p>{9}{10}"
+      "</article>\n",
+      judge::name_of(first.verdict), id, is_open(first) ? "finding" : "remark",
+      escape(first.device), escape(suite_of(plan)), judge::name_of(first.check),
+      breakable(place_of(cause)), escape(message_of(cause)), links(cause, plan),
       first.configuration.empty()
           ? ""
           : fmt::format("<p class=\"system\">{}{}</p>", several ? "the smallest: " : "",
                         breakable(first.configuration)),
-      command.empty() ? "" : "<pre>" + escape(command) + "</pre>");
+      command_block(command));
 }
 
-std::string listed(std::span<const Cause> causes, std::span<const PlanData> plans) {
+// Those that are open have ids, by their number.
+std::string listed(std::span<const Cause> causes, std::span<const PlanData> plans,
+                   std::optional<std::size_t> first_number) {
   std::string text;
-  for (const Cause& cause : causes) text += article(cause, plan_of(cause, plans));
+  for (std::size_t i = 0; i < causes.size(); ++i) {
+    const std::string id =
+        first_number ? fmt::format(" id=\"{}\"", cause_id(*first_number + i)) : "";
+    text += article(causes[i], plan_of(causes[i], plans), id);
+  }
   return text;
 }
 
@@ -113,27 +176,52 @@ std::string findings(const Overview& all, std::span<const PlanData> plans) {
   const std::span<const Cause> open(all.open);
   const std::size_t shown = std::min(openly_listed, open.size());
   std::string text;
-  if (shown > 0) text += "<h2 id=\"findings\">Findings</h2>\n" + listed(open.first(shown), plans);
+  if (shown > 0) {
+    text += "<h2 id=\"findings\">Findings</h2>\n" + listed(open.first(shown), plans, 0);
+  }
   text += folded(fmt::format("{} more causes", open.size() - shown),
-                 listed(open.subspan(shown), plans));
+                 listed(open.subspan(shown), plans, shown));
   return text + folded(fmt::format("{} remarks that decide nothing: advice, what devices cannot "
                                    "do, known deviations",
                                    all.aside.size()),
-                       listed(all.aside, plans));
+                       listed(all.aside, plans, std::nullopt));
 }
 
 }  // namespace
 
-std::string verdict_section(std::span<const PlanData> plans) {
-  std::vector<const judge::GateResult*> results;
-  for (const PlanData& plan : plans) results.push_back(plan.verdict);
-  const Overview all = overview(std::span<const judge::GateResult* const>(results));
-  return card(all, plans) + kinds(all) + bounds(all) + findings(all, plans);
+std::string verdict_card(const Overview& all, std::span<const PlanData> plans) {
+  return card(all, plans);
+}
+
+std::string findings_section(const Overview& all, std::span<const PlanData> plans) {
+  return kinds(all) + bounds(all) + findings(all, plans);
+}
+
+JudgedPictures judged_pictures(const Overview& all, std::span<const PlanData> plans) {
+  std::map<const Finding*, std::size_t> causes;
+  for (std::size_t i = 0; i < all.open.size(); ++i) {
+    for (const Finding* member : all.open[i].group.members) causes.emplace(member, i);
+  }
+  JudgedPictures judged;
+  for (const PlanData& plan : plans) {
+    for (const Finding& finding : plan.verdict->findings) {
+      if (finding.configuration.empty()) continue;
+      Judged& of = judged[picture_id(plan, finding.device, finding.configuration)];
+      of.checks.insert(judge::name_of(finding.check));
+      const auto cause = causes.find(&finding);
+      if (cause != causes.end() && of.cause.empty()) of.cause = cause_id(cause->second);
+    }
+  }
+  return judged;
+}
+
+std::string suite_of(const PlanData& plan) {
+  return plan.records.empty() ? "" : plan.records.front().suite;
 }
 
 std::string picture_id(const PlanData& plan, const std::string& device,
                        const std::string& configuration) {
-  return fmt::format("{}-{}", plan.anchor, core::content_hash(device + '\n' + configuration));
+  return fmt::format("{}-{}", plan.prefix, core::content_hash(device + '\n' + configuration));
 }
 
 }  // namespace triptych::report

@@ -1,0 +1,132 @@
+// Pictures that repeat, filters, the comparison of two pictures, links into what is folded. Controls
+// are hidden until this shows them.
+'use strict';
+const all = (selector, within = document) => [...within.querySelectorAll(selector)];
+const find = (selector, within = document) => within.querySelector(selector);
+
+function showRepeated(images) {
+  for (const image of images.filter(each => 'same' in each.dataset)) {
+    image.src = images[+image.dataset.same].src;
+  }
+}
+
+// A link into a folded part opens it.
+function openTarget() {
+  const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  if (!target) return;
+  for (let part = target.closest('details'); part; part = part.parentElement.closest('details')) {
+    part.open = true;
+  }
+  target.scrollIntoView();
+}
+
+function startFilters(form) {
+  const kinds = [['finding', all('[data-kind=finding]')], ['picture', all('[data-kind=picture]')],
+                 ['plan', all('[data-kind=plan]')]];
+  const apply = () => {
+    const wanted = all('select', form).filter(select => select.value);
+    const fits = part => wanted.every(({ name, value }) =>
+      !part.dataset[name] || part.dataset[name].split(' ').includes(value));
+    const counts = kinds.filter(([, parts]) => parts.length).map(([kind, parts]) => {
+      for (const part of parts) part.hidden = !fits(part);
+      const shown = parts.filter(part => !part.hidden).length;
+      return `${shown} of ${parts.length} ${kind}${parts.length === 1 ? '' : 's'}`;
+    });
+    for (const scene of all('.scene')) scene.hidden = !find('[data-kind]:not([hidden])', scene);
+    find('output', form).textContent = wanted.length ? `Shown: ${counts.join(', ')}` : '';
+    find('button', form).hidden = !wanted.length;
+  };
+  form.addEventListener('change', apply);
+  form.addEventListener('reset', () => setTimeout(apply));
+  form.hidden = false;
+  apply();
+}
+
+// Every picture of a scene once, by its name.
+function picturesOf(scene) {
+  const named = new Map();
+  for (const section of all(`[data-scene="${scene}"]`)) {
+    for (const image of all('img', section)) named.set(image.alt, image);
+  }
+  return named;
+}
+
+function startComparison(dialog) {
+  const [left, right] = all('select', dialog);
+  const [under, over] = all('.layer img', dialog);
+  const view = find('.view', dialog);
+  const slider = find('input', dialog);
+  const zoom = find('.zoom', dialog);
+  const place = find('output', dialog);
+  let pictures = new Map();
+  let worst = null;
+
+  const cut = () => view.style.setProperty('--cut', `${slider.value}%`);
+  const show = () => {
+    under.src = pictures.get(right.value).src;
+    over.src = pictures.get(left.value).src;
+    under.alt = `right: ${right.value}`;
+    over.alt = `left: ${left.value}`;
+  };
+  const magnify = on => {
+    zoom.setAttribute('aria-pressed', on);
+    view.classList.toggle('zoomed', on);
+    place.textContent = worst ? `The worst pixel: ${worst.x}, ${worst.y}, from the top left` : '';
+  };
+  zoom.addEventListener('click', () => magnify(!view.classList.contains('zoomed')));
+  slider.addEventListener('input', cut);
+  dialog.addEventListener('change', show);
+
+  const open = section => {
+    pictures = picturesOf(section.dataset.scene);
+    const own = all('img', section).map(image => image.alt);
+    for (const select of [left, right]) {
+      select.replaceChildren(...[...pictures.keys()].map(name => new Option(name, name)));
+    }
+    left.value = own[0];
+    right.value = own[1] ?? own[0];
+    const image = find('img', section);
+    const { width, height } = image;
+    view.style.aspectRatio = `${image.getAttribute('width')} / ${image.getAttribute('height')}`;
+    worst = 'x' in section.dataset ? { x: +section.dataset.x, y: +section.dataset.y } : null;
+    zoom.hidden = !worst;
+    if (worst) magnifyAt(view, worst, +image.getAttribute('width'), +image.getAttribute('height'));
+    find('h2', dialog).textContent = section.dataset.title;
+    slider.value = 50;
+    cut();
+    show();
+    magnify(false);
+    dialog.showModal();
+  };
+  for (const section of all('[data-scene]').filter(each => all('img', each).length > 1)) {
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.textContent = 'Compare with a slider';
+    button.setAttribute('aria-label', `Compare with a slider: ${section.dataset.title}`);
+    button.addEventListener('click', () => open(section));
+    section.append(button);
+  }
+}
+
+// 16 pixels across, the worst in their middle unless it lies at the border.
+function magnifyAt(view, { x, y }, width, height) {
+  const scale = Math.max(1, width / 16);
+  const shift = share => Math.min(0, Math.max(1 - scale, 0.5 - share * scale));
+  const across = shift((x + 0.5) / width);
+  const down = shift((y + 0.5) / height);
+  const set = (name, value) => view.style.setProperty(name, value);
+  set('--scale', scale);
+  set('--across', `${100 * across}%`);
+  set('--down', `${100 * down}%`);
+  set('--mark-left', `${100 * (across + x / width * scale)}%`);
+  set('--mark-top', `${100 * (down + y / height * scale)}%`);
+  set('--mark-width', `${100 * scale / width}%`);
+  set('--mark-height', `${100 * scale / height}%`);
+}
+
+
+showRepeated(all('img'));
+addEventListener('hashchange', openTarget);
+startFilters(find('#filters'));
+startComparison(find('#compare'));
+openTarget();
