@@ -44,7 +44,7 @@ std::string figure_of(const Scene& scene, const std::vector<std::string>& techni
   Axis up;
   for (const Row& row : scene.rows) up.names.push_back(row.device + " " + row.technique);
   Figure figure("Times of frames: " + scene.title,
-                {.title = "time of a frame, ms", .logarithmic = true}, up, 320,
+                {.title = "time of a frame, ms", .logarithmic = true}, up, 180,
                 18 * static_cast<double>(scene.rows.size()));
   for (std::size_t i = 0; i < scene.rows.size(); ++i) {
     const Row& row = scene.rows[i];

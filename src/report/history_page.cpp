@@ -54,7 +54,7 @@ std::string figure_of(const Json& device) {
 
 std::string table_of(const Json& device) {
   std::vector<std::vector<std::string>> rows{
-      {"store", "begun", "driver", "cost", "time", "against the one before"}};
+      {"store", "begun", "driver", "cost", "time", "changes"}};
   for (const Json& point : device.at("points")) {
     const std::string changes = point.at("changes").get<std::string>();
     const std::string_view summary =

@@ -115,7 +115,8 @@ bool is_quantity(std::string_view cell) {
   }
   const auto letters = std::ranges::count_if(
       cell, [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
-  return letters <= 2 && std::ranges::count(cell, '.') <= 1;
+  const bool is_time = cell.find(':') != std::string_view::npos;
+  return letters <= 2 && std::ranges::count(cell, '.') <= 1 && !is_time;
 }
 
 // Below their heads, of cells that hold something.

@@ -42,11 +42,6 @@ struct Scene {
   [[nodiscard]] std::pair<bool, bool> rank() const { return {wrong(), panels.front().drawn}; }
 };
 
-bool has_tile(const record::Record& record) {
-  return !record.image.empty() || (record.outcome != record::Outcome::measured &&
-                                   record.outcome != record::Outcome::skipped);
-}
-
 void append_scenes(std::vector<Scene>& scenes, const PictureSources& sources, const PlanData& plan,
                    bool name_plan) {
   std::vector<std::string> order;
@@ -99,6 +94,11 @@ std::string one_of_each(std::span<const Scene> scenes) {
 }
 
 }  // namespace
+
+bool has_tile(const record::Record& record) {
+  return !record.image.empty() || (record.outcome != record::Outcome::measured &&
+                                   record.outcome != record::Outcome::skipped);
+}
 
 std::string pictures_section(const PictureSources& sources, std::span<const PlanData> plans) {
   std::vector<Scene> scenes;

@@ -46,6 +46,8 @@ struct PictureSources {
 // Of all plans: what is wrong first, else a picture of each scene; the others folded.
 [[nodiscard]] std::string pictures_section(const PictureSources& sources,
                                            std::span<const PlanData> plans);
+// Whether it drew a picture, or ended instead of drawing one.
+[[nodiscard]] bool has_tile(const record::Record& record);
 // Two pictures of a scene under a slider; closed until its script opens it.
 [[nodiscard]] std::string comparison_dialog();
 // Of one plan.

@@ -110,11 +110,10 @@ const PlanData& plan_of(const Cause& cause, std::span<const PlanData> plans) {
   return *std::ranges::find(plans, cause.result, &PlanData::verdict);
 }
 
-// Of what drew a picture, or ended instead of drawing one.
 std::string picture_link(const PlanData& plan, const Finding& finding) {
   const auto drawn = [&](const record::Record& record) {
     return record.device == finding.device && record.configuration == finding.configuration &&
-           record.outcome != record::Outcome::skipped;
+           has_tile(record);
   };
   if (!std::ranges::any_of(plan.records, drawn)) return {};
   return fmt::format(" <a href=\"#{}\">picture</a>",

@@ -40,6 +40,7 @@ constexpr std::array<std::pair<std::string_view, ParticleFault>, 7> particle_fau
 }};
 constexpr std::array<std::string_view, 3> mishaps{"crash", "hang", "device_lost"};
 constexpr std::string_view slowdown = "slowdown:";
+constexpr std::string_view lost_counter = "lost_counter";
 
 template <typename Faults>
 auto named(const Faults& faults, std::string_view name) {
@@ -95,17 +96,20 @@ std::string plant_names() {
   for (const auto& [name, unused] : volume_faults) names.push_back(name);
   for (const auto& [name, unused] : particle_faults) names.push_back(name);
   names.insert(names.end(), mishaps.begin(), mishaps.end());
+  names.push_back(lost_counter);
   return fmt::format("{}, slowdown:PERCENT (0.01 to 100)", fmt::join(names, ", "));
 }
 
 void check_plant(std::string_view fault) {
   if (named(volume_faults, fault) || named(particle_faults, fault) || is_mishap(fault)) return;
+  if (fault == lost_counter) return;
   if (fault.starts_with(slowdown) && stride_of(fault.substr(slowdown.size()))) return;
   throw core::InputError(fmt::format("unknown fault '{}'; there are: {}", fault, plant_names()));
 }
 
 void apply_plant(std::string_view fault, Work& work) {
   check_plant(fault);
+  if (fault == lost_counter) return;
   if (fault == "crash") crash();
   if (fault == "hang") hang();
   if (fault == "device_lost") throw core::DeviceLost("plant", "device_lost");
@@ -123,6 +127,12 @@ void apply_plant(std::string_view fault, Work& work) {
     plant_into(volume->options, volume_faults);
   } else {
     plant_into(std::get<ParticleWork>(work.scene).options, particle_faults);
+  }
+}
+
+void apply_plant(std::string_view fault, record::Record& record) {
+  if (fault == lost_counter && !record.counters.empty()) {
+    record.counters.erase(record.counters.begin());
   }
 }
 

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "measure/contract/backend.hpp"
+#include "record/record.hpp"
 
 namespace triptych::measure {
 
 // Plants a fault in what is measured, to prove that the gate catches it: a technique::Fault by
-// name, "slowdown:PERCENT" (real extra work), "crash", "hang", "device_lost".
+// name, "slowdown:PERCENT" (real extra work), "crash", "hang", "device_lost", "lost_counter".
 struct Plant {
   std::string fault;
   std::string only;  // glob over configuration keys and device ids; empty: everywhere
@@ -33,5 +34,8 @@ void check_plant(std::string_view fault);
 // SIGSEGV, "hang" never returns, "device_lost" throws DeviceLost. Throws NotSupported when this
 // kind of work has no such fault.
 void apply_plant(std::string_view fault, Work& work);
+
+// "lost_counter" takes the first of our own counters away; other faults change nothing here.
+void apply_plant(std::string_view fault, record::Record& record);
 
 }  // namespace triptych::measure

@@ -225,6 +225,7 @@ class Worker {
     answer.record.prepare_ns = prepare_ns;
     answer.record.factors = std::move(configuration);
     describe_work(work, *device_, answer.record);
+    for (const std::string& plant : job.plants) apply_plant(plant, answer.record);
     if (plain) {
       twins_.add(*plain, configuration_key(suite_, job.configuration), work, measured.image);
     }

@@ -22,7 +22,7 @@ function openTarget() {
 
 function startFilters(form) {
   const kinds = [['finding', all('[data-kind=finding]')], ['picture', all('[data-kind=picture]')],
-                 ['plan', all('[data-kind=plan]')]];
+                 ['remark', all('[data-kind=remark]')], ['plan', all('[data-kind=plan]')]];
   const apply = () => {
     const wanted = all('select', form).filter(select => select.value);
     const fits = part => wanted.every(({ name, value }) =>

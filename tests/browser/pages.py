@@ -1,0 +1,74 @@
+"""Pages as a gate leaves them on this machine's devices: one that passes, one with an injected fault of each kind.
+
+Small scenes, baselines of their own. Every run is measured by the program under test."""
+import os
+import subprocess
+
+DEVICES = ["gl:llvmpipe-egl", "opencl:pocl", "vulkan:lavapipe"]
+COST = """suite: volume
+checks: [cost, memory, correlation]
+technique: [raycast]
+data: [generate:sparse_field:32]
+transfer_function: [haze, surfaces]
+step: [2, 3, 4, 6, 8]
+viewport: [16]
+"""
+PLANS = {
+    "volume/quick": ["technique=raycast,raycast_fragment", "data=generate:marschner_lobb:32", "viewport=64",
+                     "transfer_function=surfaces"],
+    "particles/quick": ["technique=quad_screen,tiles", "data=generate:uniform:1000", "viewport=64",
+                        "camera=orbit_y:1/8"],
+    "cost.yaml": [],
+}
+FAULTS = {
+    "volume/quick": ["half_voxel_shift@vulkan:*", "lost_counter@opencl:*"],
+    "particles/quick": ["crash@gl:*", "hang@opencl:*"],
+    "cost.yaml": ["slowdown:20@vulkan:*"],
+}
+
+
+class Triptych:
+    """The program in a folder of its own."""
+
+    def __init__(self, program, folder):
+        self.program = program
+        self.folder = folder
+
+    def __call__(self, *arguments, code=0):
+        done = subprocess.run([self.program, *arguments], cwd=self.folder, capture_output=True, text=True,
+                              env=dict(os.environ, TRIPTYCH_DATA=""), timeout=600)
+        if done.returncode != code:
+            raise AssertionError(f"{' '.join(arguments)}: {done.returncode}, not {code}\n{done.stdout}{done.stderr}")
+        return done.stdout
+
+    def devices(self):
+        return [device for device in DEVICES if device in self("devices")]
+
+
+def factors(plan):
+    return [word for factor in PLANS[plan] for word in ("--set", factor)]
+
+
+def measure(triptych, store, faults):
+    """`faults`: by plan, those to inject."""
+    chosen = [word for device in DEVICES for word in ("--device", device)]
+    for plan in PLANS:
+        injected = [word for fault in faults.get(plan, []) for word in ("--plant", fault)]
+        triptych("run", plan, *factors(plan), *chosen, *injected, "--limit", "4", "--store", store)
+
+
+def make(triptych):
+    """{name of the page: its file}, in the program's folder."""
+    with open(os.path.join(triptych.folder, "cost.yaml"), "w", encoding="utf-8") as file:
+        file.write(COST)
+    measure(triptych, "pass.sqlite", {})
+    for plan in PLANS:
+        triptych("accept", plan, "--store", "pass.sqlite", "--baselines", "accepted", "--reason", "the page's test")
+    measure(triptych, "fail.sqlite", FAULTS)
+    pages = {}
+    for name in ("pass", "fail"):
+        triptych("report", "--store", f"{name}.sqlite", "--baselines", "accepted", "--out", f"{name}.html")
+        pages[name] = os.path.join(triptych.folder, f"{name}.html")
+    triptych("history", "pass.sqlite", "fail.sqlite", "--out", "history.html")
+    pages["history"] = os.path.join(triptych.folder, "history.html")
+    return pages
