@@ -26,7 +26,7 @@ class Failed(Exception):
 class Browser:
     def __init__(self, seconds=60):
         self.seconds = seconds
-        self.folder = tempfile.TemporaryDirectory(prefix="triptych-browser-")
+        self.folder = tempfile.TemporaryDirectory(prefix="triptych-browser-", ignore_cleanup_errors=True)
         self.events = []
         self.number = 0
         self.rest = b""
