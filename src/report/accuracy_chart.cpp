@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -48,6 +49,7 @@ class Diagram {
                 230, 150) {}
 
   [[nodiscard]] std::string svg() {
+    name_front();
     for (const accuracy::AccuracyFamily& family : scene_.families) add_family(family);
     if (figure_.empty()) return {};
     add_front();
@@ -56,6 +58,15 @@ class Diagram {
   }
 
  private:
+  void name_front() {
+    for (const accuracy::AccuracyFamily& family : scene_.families) {
+      const bool in_front = std::ranges::any_of(family.members, [&](std::size_t i) {
+        return std::ranges::find(scene_.front, i) != scene_.front.end();
+      });
+      if (!in_front || named_.size() == colour_count) continue;
+      named_.insert(colour_name(family, scene_.cases[family.members.front()]));
+    }
+  }
   // What has no error or no cost has no place on such axes.
   [[nodiscard]] std::optional<Figure::Place> place_of(std::size_t i) const {
     const accuracy::AccuracyCase& each = scene_.cases[i];
@@ -63,7 +74,10 @@ class Diagram {
     if (!paid || !(*paid > 0) || !(each.rmse > 0)) return std::nullopt;
     return Figure::Place{each.rmse, *paid};
   }
+  // Where there are more families than colours, those that reach the front have one.
   std::string_view colour(const std::string& name) {
+    const bool has_one = named_.contains(name) || colours_.contains(name);
+    if (!has_one && (scene_.families.size() > colour_count || name.empty())) return "soft";
     const auto [found, added] = colours_.try_emplace(name, colour_of(colours_.size()));
     if (added && !name.empty()) figure_.legend(name, {.colour = found->second});
     return found->second;
@@ -102,6 +116,7 @@ class Diagram {
   const accuracy::AccuracyScene& scene_;
   Cost cost_;
   Figure figure_;
+  std::set<std::string> named_;
   std::map<std::string, std::string_view> colours_;
 };
 

@@ -39,6 +39,7 @@ struct Style {
   double width = 1.2;  // of lines
 };
 // For the nth of several; the ninth looks like the first.
+constexpr std::size_t colour_count = 8;
 [[nodiscard]] std::string_view colour_of(std::size_t index);
 
 class Figure {

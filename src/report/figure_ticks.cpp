@@ -78,8 +78,8 @@ std::string short_number(double value) {
 }
 
 std::string_view colour_of(std::size_t index) {
-  static constexpr std::array<std::string_view, 8> all{"c0", "c1", "c2", "c3",
-                                                       "c4", "c5", "c6", "c7"};
+  static constexpr std::array<std::string_view, colour_count> all{"c0", "c1", "c2", "c3",
+                                                                  "c4", "c5", "c6", "c7"};
   return all[index % all.size()];
 }
 

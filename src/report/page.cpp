@@ -42,13 +42,13 @@ std::string plan_part(const PlanReport& report, const PlanData& plan) {
          speed_of_light_section(plan) + counts_section(plan) + "</section>\n";
 }
 
-// Findings stand beside the pictures where there are any.
+// Findings stand beside the pictures where any of these is wrong.
 std::string first_part(const Overview& all, const PictureSources& sources,
                        std::span<const PlanData> plans) {
-  const std::string pictures = pictures_section(sources, plans);
-  const bool beside = !all.open.empty() && !pictures.empty();
+  const Pictures pictures = pictures_section(sources, plans);
+  const bool beside = !all.open.empty() && pictures.wrong;
   return fmt::format("<div class=\"{}\"><div>{}</div><div>{}</div></div>\n",
-                     beside ? "columns" : "", findings_section(all, plans), pictures);
+                     beside ? "columns" : "", findings_section(all, plans), pictures.html);
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ bool has_tile(const record::Record& record) {
                                    record.outcome != record::Outcome::skipped);
 }
 
-std::string pictures_section(const PictureSources& sources, std::span<const PlanData> plans) {
+Pictures pictures_section(const PictureSources& sources, std::span<const PlanData> plans) {
   std::vector<Scene> scenes;
   for (const PlanData& plan : plans) append_scenes(scenes, sources, plan, plans.size() > 1);
   if (scenes.empty()) return {};
@@ -125,7 +125,7 @@ std::string pictures_section(const PictureSources& sources, std::span<const Plan
     left += scene.panels.size() - open;
   }
   if (!any_wrong) text += one_of_each(std::span(scenes).first(shown));
-  return text + folded(fmt::format("{} more pictures", left), rest);
+  return {text + folded(fmt::format("{} more pictures", left), rest), any_wrong};
 }
 
 }  // namespace triptych::report

@@ -44,8 +44,12 @@ struct PictureSources {
 // The row of each kind of check, the findings by cause.
 [[nodiscard]] std::string findings_section(const Overview& all, std::span<const PlanData> plans);
 // Of all plans: what is wrong first, else a picture of each scene; the others folded.
-[[nodiscard]] std::string pictures_section(const PictureSources& sources,
-                                           std::span<const PlanData> plans);
+struct Pictures {
+  std::string html;
+  bool wrong = false;
+};
+[[nodiscard]] Pictures pictures_section(const PictureSources& sources,
+                                        std::span<const PlanData> plans);
 // Whether it drew a picture, or ended instead of drawing one.
 [[nodiscard]] bool has_tile(const record::Record& record);
 // Two pictures of a scene under a slider; closed until its script opens it.

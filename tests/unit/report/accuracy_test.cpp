@@ -42,7 +42,7 @@ TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
 
 TEST(AccuracySection, TellsOrdersTimesAndParts) {
   judge::GateResult verdict;
-  PlanData plan{.anchor = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
+  PlanData plan{.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
   EXPECT_EQ(accuracy_section(plan), "");
   verdict.accuracies = {some_scene()};
   const std::string text = accuracy_section(plan);
@@ -60,7 +60,7 @@ TEST(AccuracySection, ComparesDevicesByTheArea) {
   accuracy::evaluate(slower);
   judge::GateResult verdict;
   verdict.accuracies = {some_scene(), slower};
-  const PlanData plan{.anchor = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
+  const PlanData plan{.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
   const std::string text = accuracy_section(plan);
   EXPECT_THAT(text, HasSubstr(">3.00<"));
   EXPECT_THAT(text, HasSubstr(">1.00<"));
@@ -76,7 +76,7 @@ TEST(AccuracySection, TellsPicturesOfOneDataApart) {
   for (accuracy::AccuracyCase& each : scene.cases) each.factors["viewport"] = "64";
   judge::GateResult verdict;
   verdict.accuracies = {scene, finer};
-  const PlanData plan{.anchor = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
+  const PlanData plan{.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
   const std::string text = accuracy_section(plan);
   EXPECT_THAT(text, HasSubstr("ball &lt;1&gt;, viewport=128"));
   EXPECT_THAT(text, HasSubstr("viewport 64 → 128, another picture"));
@@ -90,7 +90,7 @@ TEST(AccuracySection, WithoutTimesTellsErrorsAlone) {
   accuracy::evaluate(scene);
   judge::GateResult verdict;
   verdict.accuracies = {scene};
-  const PlanData plan{.anchor = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
+  const PlanData plan{.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
   const std::string text = accuracy_section(plan);
   EXPECT_THAT(text, HasSubstr("2.00 ± 0.00 (3 steps)"));
   EXPECT_THAT(text, testing::Not(HasSubstr("time of a frame, ms")));

@@ -84,7 +84,7 @@ TEST(CorrelationSection, FoldsPairsInWhichNothingMoved) {
   quiet.device_b = "gl:quiet";
   moved.points[0].outlier = true;
   const judge::GateResult verdict{.correlations = {moved, quiet}};
-  const std::string text = correlation_section({.anchor = "plan", .verdict = &verdict});
+  const std::string text = correlation_section({.prefix = "plan", .verdict = &verdict});
   const auto folded = text.find("<details>");
   ASSERT_NE(folded, std::string::npos) << text;
   EXPECT_LT(text.find("gl:y against gl:x"), folded);
