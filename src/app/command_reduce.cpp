@@ -67,7 +67,9 @@ class Trial {
   reduction::Evidence evidence(const measure::Configuration& configuration) {
     reduction::Evidence evidence{
         .truth = [this](const record::Record& record) { return truths_.of(record); },
-        .picture = [this](const record::Record& record) { return store_.picture(record.image); }};
+        .picture = [this](const record::Record& record) { return store_.picture(record.image); },
+        .open_counts =
+            [this](const record::Record& record) { return truths_.open_counts_of(record); }};
     if (other_) {
       evidence.other = [this, &configuration](const record::Record&) {
         return other_->draw(configuration);

@@ -30,7 +30,7 @@ std::string counters_fault(const record::Record& record, const Evidence& evidenc
   if (other.outcome != record::Outcome::measured) return {};
   judge::StoredCounters counted;
   for (const auto& [name, value] : other.counters) counted[name][other.device] = value;
-  return judge::counters_fault(record, counted);
+  return judge::counters_fault(record, counted, evidence.open_counts);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/image.hpp"
+#include "judge/gate/open_counts.hpp"
 #include "judge/stress/stress.hpp"
 #include "record/record.hpp"
 
@@ -28,6 +29,7 @@ struct Evidence {
   // The same configuration's record on another device, whose counters are right; nothing: counters
   // are held against nobody's.
   std::function<record::Record(const record::Record&)> other = {};
+  judge::FindOpenCounts open_counts = {};
 };
 
 // It ended without a picture, else its picture is beyond the bound of the truth, else its counters

@@ -7,7 +7,7 @@
 
 #include "judge/agreement.hpp"
 #include "judge/gate/counters_fault.hpp"
-#include "judge/gate/open_fragments.hpp"
+#include "judge/gate/open_counts.hpp"
 #include "judge/gate/run_view.hpp"
 
 namespace triptych::judge {
@@ -71,25 +71,6 @@ void compare_own(const std::string& name, std::uint64_t stored, const record::Re
       fmt::format("{} {} → {} ({:+.4g} %)", name, stored, found->second, 100 * relative));
 }
 
-// What rounding and rasterization leave open of a record's counters; found once it matters.
-class OpenCounts {
- public:
-  OpenCounts(const RunView& view, const record::Record& record) : view_(view), record_(record) {}
-
-  [[nodiscard]] double of(const std::string& name) {
-    const double fragments = open_fragments(name, record_);
-    if (fragments > 0 || !view_.request.open_counts) return fragments;
-    if (!known_) known_ = view_.request.open_counts(record_);
-    const auto found = known_->find(name);
-    return found == known_->end() ? 0 : found->second;
-  }
-
- private:
-  const RunView& view_;
-  const record::Record& record_;
-  std::optional<std::map<std::string, double>> known_;
-};
-
 // Of another device or driver version. A counter may have no meaning here: it need not be there.
 void compare_with_others(const std::string& name, const Range& range, const record::Record& record,
                          OpenCounts& open, Differences& out) {
@@ -132,7 +113,7 @@ Finding check_record(const RunView& view, const record::Record& record,
   }
   Differences differences;
   const bool known_driver = knows_driver(view, view.device(record));
-  OpenCounts open(view, record);
+  OpenCounts open(record, view.request.open_counts);
   for (const auto& [name, values] : stored) {
     compare_counter(name, values, record, known_driver, open, differences);
   }
@@ -154,10 +135,12 @@ Finding check_record(const RunView& view, const record::Record& record,
 
 }  // namespace
 
-std::string counters_fault(const record::Record& record, const StoredCounters& of_others) {
+std::string counters_fault(const record::Record& record, const StoredCounters& of_others,
+                           const FindOpenCounts& open_counts) {
   Differences differences;
+  OpenCounts open(record, open_counts);
   for (const auto& [name, values] : of_others) {
-    compare_with_others(name, Range(values), record, differences);
+    compare_with_others(name, Range(values), record, open, differences);
   }
   return fmt::format("{}", fmt::join(differences.wrong, "; "));
 }

@@ -17,6 +17,7 @@
 #include "core/image.hpp"
 #include "judge/baselines/baselines.hpp"
 #include "judge/correlation/pair.hpp"
+#include "judge/gate/open_counts.hpp"
 #include "judge/stress/stress.hpp"
 #include "record/store.hpp"
 
@@ -91,10 +92,8 @@ struct GateRequest {
   std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
   // What must hold of a record beside its truth; nothing: no record has any.
   FindExpectations expectations = {};
-  // By how much a record's counters may differ between two right devices
-  // (SuiteWithTruth::open_counts). Asked only where they differ; nothing: not at all.
-  std::function<std::map<std::string, double>(const record::Record&)> open_counts = {};
-  std::string today;  // ISO date, for the expiry of waivers
+  FindOpenCounts open_counts = {};  // asked only where counters differ
+  std::string today;                // ISO date, for the expiry of waivers
   // A configuration that is slower than stored by more than its interval and 2 % is a regression;
   // else times advise.
   bool times_decide = false;
