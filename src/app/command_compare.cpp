@@ -107,9 +107,8 @@ core::ExitCode diff(const DiffArguments& arguments) {
   const record::Store a = open_to_judge(arguments.a);
   record::Store b = open_to_judge(arguments.b);
   Truths truths(registry, b);
-  const comparison::StoreDiff found = comparison::diff_stores(
-      a, b, arguments.devices,
-      [&](const record::Record& record) -> const judge::TruthPair& { return truths.of(record); });
+  const comparison::StoreDiff found =
+      comparison::diff_stores(a, b, arguments.devices, known_truth(truths));
   fmt::print("{}", arguments.json ? core::json_text(comparison::to_json(found), 2) + "\n"
                                   : comparison::to_text(found));
   return found.exit_code();

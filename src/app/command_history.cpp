@@ -43,9 +43,7 @@ core::ExitCode history(const HistoryArguments& arguments) {
   comparison::HistoryBuilder builder(arguments.devices);
   for (record::Store* store : comparison::in_order(given)) {
     Truths truths(registry, *store);
-    builder.add(*store, [&](const record::Record& record) -> const judge::TruthPair& {
-      return truths.of(record);
-    });
+    builder.add(*store, known_truth(truths));
   }
   if (builder.devices().empty()) {
     throw core::NotSupported("the stores hold no run of such a device: see `triptych devices`");

@@ -90,9 +90,7 @@ class Comparer {
     for (const measure::Plant& plant : options.plants) measure::check_plant(plant.fault);
     if (comparing.budget_s > 0) options.budget = std::chrono::seconds(comparing.budget_s);
     comparison::ComparisonResult result = comparison::compare(
-        options, registry_.suite(options.plan.suite), store_,
-        [&](const record::Record& record) -> const judge::TruthPair& { return truths_.of(record); },
-        show);
+        options, registry_.suite(options.plan.suite), store_, known_truth(truths_), show);
     if (::isatty(STDERR_FILENO) == 1) say("\r\033[K");
     return {std::move(result), command_of(comparing, typed, options.plan)};
   }

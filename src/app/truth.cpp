@@ -133,6 +133,14 @@ judge::GateRequest request_of(Truths& truths, const std::string& plan) {
       .data_hash = [&truths](const record::Record& record) { return truths.data_hash_of(record); }};
 }
 
+comparison::KnownTruth known_truth(Truths& truths) {
+  return {.picture = [&truths](const record::Record& record) -> const judge::TruthPair& {
+            return truths.of(record);
+          },
+          .open_counts =
+              [&truths](const record::Record& record) { return truths.open_counts_of(record); }};
+}
+
 measure::RequestPictures pictures_of(Truths& truths) {
   return {.limit = [&truths](const record::Record& record) { return truths.limit_of(record); },
           .truth = [&truths](const record::Record& record) { return truths.of(record).truth; },

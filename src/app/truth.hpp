@@ -3,6 +3,7 @@
 #include <string>
 
 #include "app/registry.hpp"
+#include "comparison/run_diff.hpp"
 #include "core/image_io.hpp"
 #include "judge/gate/gate.hpp"
 #include "measure/request/error_request.hpp"
@@ -51,6 +52,9 @@ class Truths {
 // A request to judge a plan on all devices by every check that is made for it, with these truths,
 // today.
 [[nodiscard]] judge::GateRequest request_of(Truths& truths, const std::string& plan);
+
+// What two runs are compared by.
+[[nodiscard]] comparison::KnownTruth known_truth(Truths& truths);
 
 // What a requested error is told from.
 [[nodiscard]] measure::RequestPictures pictures_of(Truths& truths);

@@ -68,7 +68,7 @@ Compared compared_by(const ConfigurationDiff& diff, const measure::Configuration
 }  // namespace
 
 ComparisonResult compare(const ComparisonOptions& options, const measure::Suite& suite,
-                         record::Store& store, const KeptTruth& truth, const Tell& tell) {
+                         record::Store& store, const KnownTruth& truth, const Tell& tell) {
   const measure::Stopwatch stopwatch;
   measure::SidesRun sides{options.plan,
                           suite,

@@ -11,7 +11,7 @@
 #include "accuracy/image_metrics.hpp"
 #include "judge/agreement.hpp"
 #include "judge/baselines/frame_change.hpp"
-#include "judge/gate/open_fragments.hpp"
+#include "judge/gate/open_counts.hpp"
 
 namespace triptych::comparison {
 namespace {
@@ -79,7 +79,9 @@ class Finder {
         same_setup_(same_setup),
         same_driver_(a.device.statistics_key() == b.device.statistics_key()),
         same_device_(a.device.key() == b.device.key()),
-        same_id_(a.device.id == b.device.id) {}
+        same_id_(a.device.id == b.device.id),
+        open_a_(a.record, a.open_counts),
+        open_b_(b.record, b.open_counts) {}
 
   Comparison find() && {
     if (!both_measured()) return std::move(result_);
@@ -228,7 +230,7 @@ class Finder {
     const double reference = std::max(1.0, static_cast<double>(std::max(*a, *b)));
     const double difference = std::abs(static_cast<double>(*b) - static_cast<double>(*a));
     const bool open = difference <= judge::counters_across_devices * reference ||
-                      difference <= judge::open_fragments(name, b_.record);
+                      difference <= open_a_.of(name) || difference <= open_b_.of(name);
     if (same_driver_) {
       add(Kind::regression, about, change(*a, *b) + ", on the same driver", ratio);
     } else if (!open) {
@@ -273,6 +275,8 @@ class Finder {
   bool same_driver_;
   bool same_device_;
   bool same_id_;
+  judge::OpenCounts open_a_;
+  judge::OpenCounts open_b_;
   Comparison result_;
 };
 

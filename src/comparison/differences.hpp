@@ -37,6 +37,7 @@ struct ComparedSide {
   const core::Image& image;  // empty for a technique without a picture
   const judge::TruthPair* truth = nullptr;
   std::string no_truth = {};  // why there is none
+  judge::FindOpenCounts open_counts = {};
 };
 
 struct Comparison {

@@ -108,7 +108,7 @@ HistoryBuilder::Points HistoryBuilder::points_of(const record::Store& store) con
   return points;
 }
 
-void HistoryBuilder::add_changes(const record::Store& store, const KeptTruth& truth,
+void HistoryBuilder::add_changes(const record::Store& store, const KnownTruth& truth,
                                  Points& points) const {
   for (const DeviceChange& change : diff_stores(*before_, store, devices_, truth).devices) {
     const DifferenceGroups groups = groups_of(change);
@@ -118,7 +118,7 @@ void HistoryBuilder::add_changes(const record::Store& store, const KeptTruth& tr
   }
 }
 
-void HistoryBuilder::add(const record::Store& store, const KeptTruth& truth) {
+void HistoryBuilder::add(const record::Store& store, const KnownTruth& truth) {
   auto measured = by_device(store);
   Points points = points_of(store);
   for (auto& [id, point] : points) {

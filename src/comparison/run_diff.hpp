@@ -11,13 +11,17 @@
 
 #include "comparison/differences.hpp"
 #include "judge/baselines/work.hpp"
+#include "judge/gate/open_counts.hpp"
 #include "record/store.hpp"
 
 namespace triptych::comparison {
 
-// The truth of a record with its bound, for as long as the comparison takes; throws core::Error
-// where there is none.
-using KeptTruth = std::function<const judge::TruthPair&(const record::Record&)>;
+// What is right of a record: the truth with its bound, for as long as the comparison takes, which
+// throws core::Error where there is none; and what rounding leaves open of its counters.
+struct KnownTruth {
+  std::function<const judge::TruthPair&(const record::Record&)> picture;
+  judge::FindOpenCounts open_counts = {};
+};
 
 // One device of one run.
 struct RunSide {
@@ -42,7 +46,7 @@ struct RunDiff {
 };
 
 // `same_setup`: as find_differences.
-[[nodiscard]] RunDiff diff_runs(const RunSide& a, const RunSide& b, const KeptTruth& truth,
+[[nodiscard]] RunDiff diff_runs(const RunSide& a, const RunSide& b, const KnownTruth& truth,
                                 bool same_setup);
 
 // Differences of one kind about one thing, told once.

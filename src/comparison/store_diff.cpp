@@ -53,7 +53,7 @@ void add_new(const std::vector<Difference>& more, std::vector<Difference>& diffe
 class Diffing {
  public:
   Diffing(const record::Store& a, const record::Store& b, const std::vector<std::string>& devices,
-          const KeptTruth& truth)
+          const KnownTruth& truth)
       : a_(a), b_(b), globs_(devices), truth_(truth) {}
 
   void add_plan(const std::string& plan, const std::string& run_a, const std::string& run_b) {
@@ -104,7 +104,7 @@ class Diffing {
   const record::Store& a_;
   const record::Store& b_;
   const std::vector<std::string>& globs_;
-  const KeptTruth& truth_;
+  const KnownTruth& truth_;
   std::map<std::string, DeviceChange> changes_;  // by device
   std::set<std::string> only_one_;
 };
@@ -148,7 +148,7 @@ core::ExitCode StoreDiff::exit_code() const {
 }
 
 StoreDiff diff_stores(const record::Store& a, const record::Store& b,
-                      const std::vector<std::string>& devices, const KeptTruth& truth) {
+                      const std::vector<std::string>& devices, const KnownTruth& truth) {
   Diffing diffing(a, b, devices, truth);
   diffing.add_plans();
   return std::move(diffing).diff();

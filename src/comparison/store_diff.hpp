@@ -36,7 +36,7 @@ struct StoreDiff {
 // any. `truth`: of records of both. Throws as record::Store does.
 [[nodiscard]] StoreDiff diff_stores(const record::Store& a, const record::Store& b,
                                     const std::vector<std::string>& devices,
-                                    const KeptTruth& truth);
+                                    const KnownTruth& truth);
 
 // Each device with both versions, then its differences by kind, worst first, then the verdict.
 [[nodiscard]] std::string to_text(const StoreDiff& diff);

@@ -47,8 +47,8 @@ class Differences : public testing::Test {
   }
 
   [[nodiscard]] Comparison find(bool same_setup = true) const {
-    return find_differences({record_a, device_a, image_a, &truth},
-                            {record_b, device_b, image_b, &truth}, same_setup);
+    return find_differences({record_a, device_a, image_a, &truth, {}, open_counts},
+                            {record_b, device_b, image_b, &truth, {}, open_counts}, same_setup);
   }
   // The one difference there must be.
   [[nodiscard]] Difference only(bool same_setup = true) const {
@@ -61,11 +61,23 @@ class Differences : public testing::Test {
   record::Record record_a, record_b;
   core::Image image_a{4, 4}, image_b{4, 4};
   judge::TruthPair truth{core::Image(4, 4), core::Image(4, 4)};
+  judge::FindOpenCounts open_counts;
 };
 
 TEST_F(Differences, EqualRecordsHaveNone) {
   EXPECT_THAT(find().differences, IsEmpty());
   EXPECT_THAT(find().void_time, IsEmpty());
+}
+
+TEST_F(Differences, AcrossDriversAsManyCountsAreOpenAsRoundingDecides) {
+  use_another_driver();
+  open_counts = [](const record::Record&) {
+    return std::map<std::string, double>{{"samples", 1000}};
+  };
+  record_b.counters["samples"] = 999000;
+  EXPECT_EQ(only().kind, DifferenceKind::changed);
+  record_b.counters["samples"] = 998999;
+  EXPECT_EQ(only().kind, DifferenceKind::regression);
 }
 
 TEST_F(Differences, ACounterThatChangesByOneIsARegressionOnTheSameDriver) {
