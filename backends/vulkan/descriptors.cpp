@@ -29,15 +29,17 @@ Layout make_layout(const Gpu& gpu, vk::ArrayProxy<const vk::DescriptorSetLayoutB
 }
 
 vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,
-                                   std::uint32_t storage_buffers) {
-  const std::array<vk::DescriptorPoolSize, 3> sizes{{
+                                   std::uint32_t storage_buffers, std::uint32_t texel_buffers) {
+  const std::array<vk::DescriptorPoolSize, 4> sizes{{
       {.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = 2 * sets},
       {.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 2 * sets},
       {.type = vk::DescriptorType::eStorageBuffer, .descriptorCount = storage_buffers * sets},
+      {.type = vk::DescriptorType::eUniformTexelBuffer, .descriptorCount = texel_buffers * sets},
   }};
+  const std::uint32_t kinds = texel_buffers > 0 ? 4 : 3;  // none of a kind may not be asked for
   return {gpu.device,
           vk::DescriptorPoolCreateInfo{.maxSets = sets,
-                                       .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
+                                       .poolSizeCount = kinds,
                                        .pPoolSizes = sizes.data()}};
 }
 
@@ -65,6 +67,18 @@ void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                                                          .descriptorType = type,
                                                          .pBufferInfo = &info},
                                   {});
+}
+
+void bind_texels(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
+                 const vk::raii::BufferView& view) {
+  const vk::BufferView texels = *view;
+  gpu.device.updateDescriptorSets(
+      vk::WriteDescriptorSet{.dstSet = set,
+                             .dstBinding = binding,
+                             .descriptorCount = 1,
+                             .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
+                             .pTexelBufferView = &texels},
+      {});
 }
 
 void bind_texture(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding, const Image& image,

@@ -18,9 +18,11 @@ struct Layout {
                                  vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings,
                                  std::uint32_t push_bytes = 0);
 
-// Room for this many sets, each with up to two uniform buffers, two textures and `storage_buffers`.
+// Room for this many sets, each with up to two uniform buffers, two textures, `storage_buffers` and
+// `texel_buffers`.
 [[nodiscard]] vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,
-                                                 std::uint32_t storage_buffers = 3);
+                                                 std::uint32_t storage_buffers = 3,
+                                                 std::uint32_t texel_buffers = 0);
 // The sets are freed with the pool.
 [[nodiscard]] std::vector<vk::DescriptorSet> allocate_sets(const Gpu& gpu,
                                                            const vk::raii::DescriptorPool& pool,
@@ -30,6 +32,9 @@ struct Layout {
 // The whole buffer. Throws core::NotSupported where that is more than maxStorageBufferRange.
 void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  vk::DescriptorType type, const Buffer& buffer);
+// A view of a buffer that was made for uniform texels.
+void bind_texels(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
+                 const vk::raii::BufferView& view);
 // The image must be in eShaderReadOnlyOptimal when it is used.
 void bind_texture(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding, const Image& image,
                   const vk::raii::Sampler& sampler);

@@ -28,7 +28,8 @@ Buffer upload_property(const Gpu& gpu, const technique::Arrangement& arrangement
   const Fill fill = [&](std::size_t begin, std::span<std::byte> out) {
     arrangement.copy(property, begin, out);
   };
-  return make_buffer(gpu, arrangement.bytes(property), fill, eVertexBuffer | eStorageBuffer);
+  return make_buffer(gpu, arrangement.bytes(property), fill,
+                     eVertexBuffer | eStorageBuffer | eUniformTexelBuffer);
 }
 
 double sprite_growth(const Gpu& gpu) {

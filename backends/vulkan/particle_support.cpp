@@ -99,8 +99,7 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
   if (technique == "polygon_tess") {
     if (auto reason = corners_reason(gpu, work.options.corners)) return reason;
   }
-  const bool before_pixels = needs != Needs::nothing;
-  if (before_pixels && gpu.features.vertexPipelineStoresAndAtomics == VK_FALSE) {
+  if (needs != Needs::nothing && gpu.features.vertexPipelineStoresAndAtomics == VK_FALSE) {
     return "the device lacks vertexPipelineStoresAndAtomics, which counting needs";
   }
   if (work.options.culling != technique::Culling::none) {
@@ -110,7 +109,8 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
   constexpr std::uint64_t colour = 4 * sizeof(float);
   constexpr std::uint64_t depth = sizeof(float);
   const bool reads_depths = work.options.culling == technique::Culling::occlusion;
-  const std::uint64_t pixel_bytes = before_pixels ? (reads_depths ? depth : 0) : colour;
+  std::uint64_t pixel_bytes = reads_depths ? depth : 0;
+  if (technique == "tiles") pixel_bytes = depth + sizeof(std::uint32_t);  // and a particle
   if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
     return reason;
   }

@@ -19,13 +19,6 @@ vk::QueryPipelineStatisticFlags common_statistics() {
          eClippingInvocations | eClippingPrimitives | eFragmentShaderInvocations;
 }
 
-// Reversed depth: the nearest is the greatest, and the first drawn stays on a tie.
-vk::CompareOp depth_compare(ParticleFault fault) {
-  if (fault == ParticleFault::reversed_depth) return vk::CompareOp::eLess;
-  if (fault == ParticleFault::unresolved_ties) return vk::CompareOp::eGreaterOrEqual;
-  return vk::CompareOp::eGreater;
-}
-
 std::vector<vk::DescriptorSetLayoutBinding> bindings() {
   auto all = particle_bindings();
   all.push_back(storage_binding(commands_binding, vk::ShaderStageFlagBits::eCompute));

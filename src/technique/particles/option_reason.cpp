@@ -20,8 +20,8 @@ std::optional<std::string> fault_reason(bool tiles, const ParticleOptions& optio
       if (in_tiles) return std::nullopt;
       return "lost_at_border is a fault of tiles: here the rasterizer decides what a sprite covers";
     case ParticleFault::missing_barrier:
-      if (in_tiles) return std::nullopt;
-      return "missing_barrier is a fault of work groups: sprites are drawn without any";
+      if (rasterizer == SpriteRasterizer::in_tiles) return std::nullopt;
+      return "missing_barrier is a fault of work groups that wait for each other: here none does";
     case ParticleFault::none:
     case ParticleFault::small_sprite:
     case ParticleFault::unresolved_ties:

@@ -14,6 +14,15 @@ namespace {
 struct Need {
   double pixels = 0;   // that are drawn
   double entries = 0;  // of large spheres: one in each tile
+  std::uint64_t large = 0;
+  bool small = false;  // one may be small
+
+  void add(const Need& more) {
+    pixels += more.pixels;
+    entries += more.entries;
+    large += more.large;
+    small = small || more.small;
+  }
 };
 
 class NeedBound {
@@ -30,9 +39,7 @@ class NeedBound {
   [[nodiscard]] Need of(const Arrangement& arrangement, const Cell& cell) const {
     Need all;
     for (std::size_t k = cell.begin; k < cell.begin + cell.count; ++k) {
-      const Need one = of(arrangement.sphere(k));
-      all.pixels += one.pixels;
-      all.entries += one.entries;
+      all.add(of(arrangement.sphere(k)));
     }
     return all;
   }
@@ -48,19 +55,25 @@ class NeedBound {
     if (z <= -r) return {};
     double columns = columns_;
     double rows = rows_;
+    bool small = true;  // as little of it may be in sight
     if (z > 1.001 * r) {
       const double width = extent(glm::dot(to, right_), z, r, half_x_);
       const double height = extent(glm::dot(to, camera_.up), z, r, half_y_);
       if (width <= 0 || height <= 0) return {};
-      if (std::max(width, height) < tile_edge) return {.pixels = width * height, .entries = 0};
+      if (std::max(width, height) < tile_edge) return {.pixels = width * height, .small = true};
+      small = std::max(width, height) < tile_edge + slack;
       columns = std::min(columns, std::floor(width / tile_edge) + 2);
       rows = std::min(rows, std::floor(height / tile_edge) + 2);
     }
-    return {.pixels = tile_pixels * columns * rows, .entries = columns * rows};
+    return {.pixels = tile_pixels * columns * rows,
+            .entries = columns * rows,
+            .large = 1,
+            .small = small};
   }
 
   // Pixels of one axis between the sphere's two tangents, (a·z ± r·√(a² + z² − r²))/(z² − r²) on
-  // the image plane, as far as they lie within ±half; three more for the margin and rounding. Not
+  // the image plane, as far as they lie within ±half; three more for the margin and rounding, so
+  // that a sphere which is small after all has less than `slack` too many. Not
   // positive where the sphere is not in sight.
   [[nodiscard]] double extent(double a, double z, double r, double half) const {
     const double k2 = (z - r) * (z + r);
@@ -69,6 +82,7 @@ class NeedBound {
     const double high = std::min((a * z + reach) / k2, half);
     return (high - low) / pixel_ + 3;
   }
+  static constexpr double slack = 6;
 
   const scene::Camera& camera_;
   glm::dvec3 right_;
@@ -94,6 +108,7 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
     round.entries = static_cast<std::uint64_t>(need.entries);
     out.rounds.push_back(round);
     out.entries = std::max(out.entries, round.entries);
+    out.small = out.small || need.small;
     covered += need.pixels;
     round = {.first = round.first + round.cells};
     need = {};
@@ -101,14 +116,17 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
   for (const Cell& cell : arrangement.cells) {
     const Need more = bound.of(arrangement, cell);
     if (need.pixels >= std::max(pixels, covered / 2) || round.cells == most_cells ||
-        need.entries + more.entries > static_cast<double>(most_entries)) {
+        need.entries + more.entries > static_cast<double>(most_entries) ||
+        need.large + more.large > most_large_spheres) {
       finish();
     }
     ++round.cells;
-    need.pixels += more.pixels;
-    need.entries += more.entries;
+    need.add(more);
   }
   finish();
+  for (std::size_t i = 0; i + 1 < out.rounds.size(); ++i) {
+    out.carried = out.carried || out.rounds[i].entries > 0;
+  }
   return out;
 }
 

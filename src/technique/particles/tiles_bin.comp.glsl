@@ -1,6 +1,6 @@
 // One work group per cell, one invocation per particle: small spheres are drawn, large ones counted.
 layout(local_size_x = 64) in;
-layout(std430) TRI_BINDING(3) readonly buffer Spheres { vec4 spheres[]; };
+TRI_BINDING(17) uniform samplerBuffer sphere_texels;
 layout(std430) TRI_BINDING(12) readonly buffer CellEnds { uint cell_ends[]; };
 
 // Raises the depth of the pixels that the sphere covers; whether any of them now shows it, or might.
@@ -11,9 +11,8 @@ bool draw_small(vec4 sphere, ivec4 rectangle, int count) {
   int right = rectangle.x + rectangle.z;
   for (int i = 0; i < count; ++i) {
     uint key = sphere_key(sphere, pixel);
-    uint place = pixel_index(pixel);
-    if (key > 0u && key >= pixels[place]) {
-      atomicMax(pixels[place], key);
+    if (key > 0u && key >= depth_seen(pixel)) {  // or what it was a moment ago
+      atomicMax(pixels[pixel_index(pixel)], key);
       seen = true;
     }
     ++pixel.x;
@@ -29,12 +28,12 @@ bool count_large(uint front, ivec4 rectangle, int count) {
   bool entered = false;
   ivec2 tile = first;
   for (int i = 0; i < count; ++i) {
-    uint index = tile_index(tile);
-    if (front >= tiles[index].farthest) {
+    int index = tile_index(tile);
+    if (front >= farthest_in(index)) {
       atomicAdd(tiles[index].entries, 1u);
       entered = true;
 #if TRI_COUNT
-      add_count(TRI_COUNT_BIN_ENTRIES, index, 1u);
+      add_count(TRI_COUNT_BIN_ENTRIES, uint(index), 1u);
 #endif
     }
     ++tile.x;
@@ -43,8 +42,16 @@ bool count_large(uint front, ivec4 rectangle, int count) {
   return entered;
 }
 
+// Once: threads would fight for the line that others read from.
+void use_tiles(ivec4 rectangle) {
+  ivec4 around = tiles_around(rectangle);
+  for (int k = 0; k < 4; ++k) {
+    if (tile_state(around[k]).w == 0u) atomicOr(tiles[around[k]].used, 1u);
+  }
+}
+
 void bin(uint particle) {
-  vec4 sphere = camera_space(spheres[particle]);
+  vec4 sphere = camera_space(texelFetch(sphere_texels, int(particle)));
   ivec4 rectangle = pixel_rectangle(sphere);
   uint front = front_key(sphere);
   bool covers = rectangle.z > 0;
@@ -54,10 +61,11 @@ void bin(uint particle) {
   int tile_count = covers && !small ? tile_span.x * tile_span.y : 0;
   bool seen = draw_small(sphere, rectangle, pixel_count);
   bool entered = count_large(front, rectangle, tile_count);
+  if (seen) use_tiles(rectangle);
   if (seen || entered) {
     uint place = seen ? atomicAdd(small_kept, 1u) : large_place(atomicAdd(large_kept, 1u));
-    kept_spheres[place] = sphere;
     kept[place] = particle;
+    camera_spheres[particle] = sphere;
   }
 #if TRI_COUNT
   if (covers) add_count(TRI_COUNT_SPRITES, particle, 1u);

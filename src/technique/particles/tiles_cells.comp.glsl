@@ -18,7 +18,7 @@ bool behind_everything(Cell cell) {
   int count = rectangle.z > 0 ? span.x * span.y : 0;
   uint farthest = TRI_LARGEST_KEY;
   for (int i = 0; i < count && count <= most && farthest > nearest; ++i) {
-    farthest = min(farthest, tiles[tile_index(first + ivec2(i % span.x, i / span.x))].farthest);
+    farthest = min(farthest, farthest_in(tile_index(first + ivec2(i % span.x, i / span.x))));
   }
   return count <= most && nearest < farthest;
 }

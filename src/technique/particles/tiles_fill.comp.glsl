@@ -4,8 +4,8 @@ layout(local_size_x = 64) in;
 void main() {
   uint stride = 64u * gl_NumWorkGroups.x;
   for (uint n = gl_GlobalInvocationID.x; n < large_kept; n += stride) {
-    uint place = large_place(n);
-    vec4 sphere = kept_spheres[place];
+    uint particle = kept[large_place(n)];
+    vec4 sphere = texelFetch(camera_texels, int(particle));
     ivec4 rectangle = pixel_rectangle(sphere);
     uint front = front_key(sphere);
     ivec2 first = rectangle.xy / TRI_TILE;
@@ -13,8 +13,8 @@ void main() {
     int count = (last.x - first.x + 1) * (last.y - first.y + 1);
     ivec2 tile = first;
     for (int i = 0; i < count; ++i) {
-      uint index = tile_index(tile);
-      if (front >= tiles[index].farthest) entries[atomicAdd(tiles[index].next, 1u)] = place;
+      int index = tile_index(tile);
+      if (front >= farthest_in(index)) entries[atomicAdd(tiles[index].next, 1u)] = particle;
       ++tile.x;
       if (tile.x > last.x) tile = ivec2(first.x, tile.y + 1);
     }

@@ -2,9 +2,12 @@
 layout(local_size_x = 64) in;
 
 void main() {
-  uint index = gl_GlobalInvocationID.x;
+  int index = int(gl_GlobalInvocationID.x);
   ivec2 grid = tile_grid();
-  if (index >= uint(grid.x * grid.y)) return;
+  if (index >= grid.x * grid.y) return;
   uint count = tiles[index].entries;
-  if (count > 0u) tiles[index].next = atomicAdd(placed_entries, count);
+  if (count > 0u) {
+    tiles[index].next = atomicAdd(placed_entries, count);
+    tiles[index].used = 1u;
+  }
 }

@@ -1,7 +1,0 @@
-#version 450
-#extension GL_GOOGLE_include_directive : require
-#include "particle_prelude.glsl"
-#include "particles/camera_space.glsl"
-#include "particles/sprite.glsl"
-#include "particles/tiles.glsl"
-#include "particles/tiles_resolve.comp.glsl"

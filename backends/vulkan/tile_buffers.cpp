@@ -1,0 +1,132 @@
+#include "backends/vulkan/tile_buffers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "core/error.hpp"
+
+namespace triptych::vulkan_backend {
+namespace {
+
+constexpr std::uint32_t tile_edge{technique::tile_edge};
+constexpr std::uint32_t block_edge = 4;  // TRI_BLOCK
+constexpr vk::DeviceSize word = sizeof(std::uint32_t);
+constexpr vk::DeviceSize tile_bytes = 4 * word;
+constexpr vk::DeviceSize header_bytes = 4 * word;
+constexpr std::uint32_t texel_bindings = id_texels_binding - camera_texels_binding + 1;
+
+std::uint32_t parts(std::uint32_t size, std::uint32_t part) {
+  return (size + part - 1) / part;
+}
+
+Buffer words(const Gpu& gpu, vk::DeviceSize count) {
+  using enum vk::BufferUsageFlagBits;
+  return {gpu, word * std::max<vk::DeviceSize>(count, 4),
+          eStorageBuffer | eUniformTexelBuffer | eTransferDst, Place::device};
+}
+
+// With work planted, a particle may be kept twice, and a sphere have each of its entries twice.
+std::uint64_t times(const measure::ParticleWork& work) {
+  return work.options.extra_work_stride > 0 ? 2 : 1;
+}
+
+vk::raii::BufferView texel_view(const Gpu& gpu, const Buffer& buffer, vk::Format format) {
+  const vk::DeviceSize size = format == vk::Format::eR32Uint ? word : 4 * word;
+  const vk::DeviceSize most = gpu.properties.limits.maxTexelBufferElements;
+  if (buffer.size() / size > most) {
+    throw core::NotSupported(fmt::format("needs {} texels in one buffer; maxTexelBufferElements = {}",
+                                         buffer.size() / size, most));
+  }
+  return {gpu.device,
+          vk::BufferViewCreateInfo{.buffer = buffer.get(), .format = format, .range = VK_WHOLE_SIZE}};
+}
+
+}  // namespace
+
+std::vector<vk::DescriptorSetLayoutBinding> tile_bindings(bool carried) {
+  using Stage = vk::ShaderStageFlagBits;
+  auto all = particle_bindings();
+  for (std::uint32_t at = camera_spheres_binding; at <= cell_ends_binding; ++at) {
+    all.push_back(storage_binding(at, Stage::eCompute));
+  }
+  const std::uint32_t last = carried ? large_particle_binding : id_texels_binding;
+  for (std::uint32_t at = camera_texels_binding; at <= last; ++at) {
+    const bool image = at >= large_depth_binding;
+    all.push_back({.binding = at,
+                   .descriptorType = image ? vk::DescriptorType::eCombinedImageSampler
+                                           : vk::DescriptorType::eUniformTexelBuffer,
+                   .descriptorCount = 1,
+                   .stageFlags = Stage::eVertex | Stage::eFragment | Stage::eCompute});
+  }
+  return all;
+}
+
+vk::raii::DescriptorPool tile_pool(const Gpu& gpu) {
+  return make_pool(gpu, 1, cell_ends_binding + 1, texel_bindings);
+}
+
+TileBuffers::TileBuffers(const Gpu& gpu, const measure::ParticleWork& work,
+                         const ParticleData& data, const technique::TileRounds& rounds)
+    : gpu_(gpu),
+      columns_(parts(static_cast<std::uint32_t>(work.scene.width), tile_edge)),
+      rows_(parts(static_cast<std::uint32_t>(work.scene.height), tile_edge)),
+      plane_(word * static_cast<vk::DeviceSize>(work.scene.width) *
+             static_cast<vk::DeviceSize>(work.scene.height)),
+      small_(rounds.small),
+      camera_spheres_(words(gpu, 4 * vk::DeviceSize{data.particles()})),
+      kept_(words(gpu, times(work) * data.particles())),
+      tiles_(words(gpu, (header_bytes + tile_bytes * columns_ * rows_) / word)),
+      entries_(words(gpu, times(work) * rounds.entries)),
+      pixels_(words(gpu, 2 * plane_ / word)),
+      cell_ends_(words(gpu, data.cells())) {
+  const auto add = [&](std::uint32_t binding, const Buffer& buffer, vk::Format format) {
+    texels_.push_back({binding, texel_view(gpu, buffer, format)});
+  };
+  add(camera_texels_binding, camera_spheres_, vk::Format::eR32G32B32A32Sfloat);
+  add(tile_texels_binding, tiles_, vk::Format::eR32G32B32A32Uint);
+  add(entry_texels_binding, entries_, vk::Format::eR32Uint);
+  add(pixel_texels_binding, pixels_, vk::Format::eR32Uint);
+  add(sphere_texels_binding, data.spheres(), vk::Format::eR32G32B32A32Sfloat);
+  add(colour_texels_binding, data.colours(), vk::Format::eR32Uint);
+  add(id_texels_binding, data.ids(), vk::Format::eR32Uint);
+  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) { clear_pixels(commands); });
+}
+
+std::uint32_t TileBuffers::blocks() const noexcept {
+  return parts(columns_, block_edge) * parts(rows_, block_edge);
+}
+
+void TileBuffers::bind(vk::DescriptorSet set) const {
+  const auto storage = [&](std::uint32_t binding, const Buffer& buffer) {
+    bind_buffer(gpu_, set, binding, vk::DescriptorType::eStorageBuffer, buffer);
+  };
+  storage(camera_spheres_binding, camera_spheres_);
+  storage(kept_binding, kept_);
+  storage(tiles_binding, tiles_);
+  storage(entries_binding, entries_);
+  storage(pixels_binding, pixels_);
+  storage(cell_ends_binding, cell_ends_);
+  for (const Texels& each : texels_) bind_texels(gpu_, set, each.binding, each.view);
+}
+
+void TileBuffers::clear_pixels(const vk::raii::CommandBuffer& commands) const {
+  constexpr std::uint32_t none = 0xFFFFFFFF;
+  commands.fillBuffer(pixels_.get(), 0, plane_, 0);
+  commands.fillBuffer(pixels_.get(), plane_, plane_, none);
+}
+
+void TileBuffers::clear(const vk::raii::CommandBuffer& commands) const {
+  commands.fillBuffer(tiles_.get(), 0, VK_WHOLE_SIZE, 0);
+  if (small_) clear_pixels(commands);
+}
+
+// Behind the count of small spheres.
+void TileBuffers::start_round(const vk::raii::CommandBuffer& commands) const {
+  commands.fillBuffer(tiles_.get(), word, 2 * word, 0);
+  barrier(commands);
+}
+
+}  // namespace triptych::vulkan_backend

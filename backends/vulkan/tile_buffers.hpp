@@ -1,0 +1,71 @@
+#pragma once
+// What the passes of technique/particles/tiles.glsl hand to each other.
+
+#include <cstdint>
+#include <vector>
+
+#include "backends/vulkan/particle_data.hpp"
+#include "technique/particles/tile_rounds.hpp"
+
+namespace triptych::vulkan_backend {
+
+// Bindings of tiles.glsl, and of tile_grid.glsl for what is read as texels.
+enum TileBinding : std::uint32_t {
+  camera_spheres_binding = first_free_binding,
+  kept_binding,
+  tiles_binding,
+  entries_binding,
+  pixels_binding,
+  cell_ends_binding,
+  camera_texels_binding,
+  tile_texels_binding,
+  entry_texels_binding,
+  pixel_texels_binding,
+  sphere_texels_binding,
+  colour_texels_binding,
+  id_texels_binding,
+  large_depth_binding,
+  large_particle_binding
+};
+// `carried`: the two images of a TileTarget too.
+[[nodiscard]] std::vector<vk::DescriptorSetLayoutBinding> tile_bindings(bool carried);
+[[nodiscard]] vk::raii::DescriptorPool tile_pool(const Gpu& gpu);
+
+class TileBuffers {
+ public:
+  // Throws core::NotSupported where a buffer has more texels than the device can see.
+  TileBuffers(const Gpu& gpu, const measure::ParticleWork& work, const ParticleData& data,
+              const technique::TileRounds& rounds);
+
+  void bind(vk::DescriptorSet set) const;
+  // Empty tiles, and pixels unless no round ever draws into them.
+  void clear(const vk::raii::CommandBuffer& commands) const;
+  // No large spheres and no entries.
+  void start_round(const vk::raii::CommandBuffer& commands) const;
+
+  [[nodiscard]] std::uint32_t tiles() const noexcept { return columns_ * rows_; }
+  // Of TRI_BLOCK × TRI_BLOCK tiles, which are drawn together.
+  [[nodiscard]] std::uint32_t blocks() const noexcept;
+
+ private:
+  struct Texels {
+    std::uint32_t binding;
+    vk::raii::BufferView view;
+  };
+  void clear_pixels(const vk::raii::CommandBuffer& commands) const;
+
+  const Gpu& gpu_;
+  std::uint32_t columns_;
+  std::uint32_t rows_;
+  vk::DeviceSize plane_;  // bytes
+  bool small_;
+  Buffer camera_spheres_;
+  Buffer kept_;
+  Buffer tiles_;
+  Buffer entries_;
+  Buffer pixels_;
+  Buffer cell_ends_;
+  std::vector<Texels> texels_;
+};
+
+}  // namespace triptych::vulkan_backend

@@ -1,0 +1,44 @@
+// What all passes of `tiles` share (tiles.glsl says which there are): the grid, the keys that a pixel keeps,
+// and everything that is only read, as texels: a software device fetches those for all lanes at once, but
+// loads from storage buffers lane by lane.
+
+#define TRI_TILE 16             // pixels along a tile's edge
+#define TRI_BLOCK 4             // tiles along the edge of what is drawn together
+#define TRI_LARGEST_KEY 0xFFFFFFFFu
+#define TRI_NO_PARTICLE 0xFFFFFFFFu
+
+TRI_BINDING(13) uniform samplerBuffer camera_texels;  // spheres in camera space, by particle
+TRI_BINDING(14) uniform usamplerBuffer tile_texels;   // a header, then a Tile each
+TRI_BINDING(15) uniform usamplerBuffer entry_texels;  // particles
+TRI_BINDING(16) uniform usamplerBuffer pixel_texels;  // two planes: depth key, particle key of small spheres
+TRI_BINDING(18) uniform usamplerBuffer colour_texels;  // 1 or 4 words per particle
+#define TRI_COLOUR_WORD(n) texelFetch(colour_texels, int(n)).x
+
+int plane_size() { return u.viewport.x * u.viewport.y; }
+ivec2 tile_grid() { return (u.viewport.xy + (TRI_TILE - 1)) / TRI_TILE; }
+int pixel_index(ivec2 pixel) { return pixel.y * u.viewport.x + pixel.x; }
+int tile_index(ivec2 tile) { return tile.y * tile_grid().x + tile.x; }
+
+// A tile: entries of this round; the end of them; the smallest depth key of its pixels, 0 while one is empty;
+// whether anything was ever drawn into it.
+uvec4 tile_state(int index) { return texelFetch(tile_texels, 1 + index); }
+uint farthest_in(int index) { return tile_state(index).z; }
+
+// Keys: the nearest depth has the largest, 0 is none; the first particle has the smallest. The planted
+// faults turn them round: 2 unresolved ties, 3 reversed depth, 4 the sphere's back for its front, 6 lost at
+// a tile's border.
+uint depth_key(float depth) {
+  uint bits = floatBitsToUint(depth);
+  return TRI_FAULT == 3 ? ~bits : bits;
+}
+float depth_of_key(uint key) { return uintBitsToFloat(TRI_FAULT == 3 ? ~key : key); }
+uint particle_key(uint particle) { return TRI_FAULT == 2 ? ~particle & 0x7FFFFFFFu : particle; }
+uint particle_of_key(uint key) { return TRI_FAULT == 2 ? ~key & 0x7FFFFFFFu : key; }
+
+// The depth key of the sphere in this pixel, 0 where the ray misses it.
+uint sphere_key(vec4 c, ivec2 pixel) {
+  vec2 s = pixel_ray(pixel);
+  float discriminant = tri_sphere_discriminant(c.x, c.y, c.z, c.w, s.x, s.y);
+  float distance = tri_sphere_distance(c.x, c.y, c.z, s.x, s.y, max(discriminant, 0.0));
+  return discriminant >= 0.0 && distance > 0.0 ? depth_key(tri_depth(u.eye.w, distance)) : 0u;
+}
