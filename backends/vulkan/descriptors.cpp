@@ -30,13 +30,14 @@ Layout make_layout(const Gpu& gpu, vk::ArrayProxy<const vk::DescriptorSetLayoutB
 
 vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,
                                    std::uint32_t storage_buffers, std::uint32_t texel_buffers) {
-  const std::array<vk::DescriptorPoolSize, 4> sizes{{
+  const std::array<vk::DescriptorPoolSize, 5> sizes{{
       {.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = 2 * sets},
       {.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 2 * sets},
       {.type = vk::DescriptorType::eStorageBuffer, .descriptorCount = storage_buffers * sets},
+      {.type = vk::DescriptorType::eStorageImage, .descriptorCount = sets},
       {.type = vk::DescriptorType::eUniformTexelBuffer, .descriptorCount = texel_buffers * sets},
   }};
-  const std::uint32_t kinds = texel_buffers > 0 ? 4 : 3;  // none of a kind may not be asked for
+  const std::uint32_t kinds = texel_buffers > 0 ? 5 : 3;  // none of a kind may not be asked for
   return {gpu.device,
           vk::DescriptorPoolCreateInfo{.maxSets = sets,
                                        .poolSizeCount = kinds,
@@ -78,6 +79,19 @@ void bind_texels(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                              .descriptorCount = 1,
                              .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
                              .pTexelBufferView = &texels},
+      {});
+}
+
+void bind_storage_image(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
+                        const Image& image) {
+  const vk::DescriptorImageInfo info{.imageView = image.view(),
+                                     .imageLayout = vk::ImageLayout::eGeneral};
+  gpu.device.updateDescriptorSets(
+      vk::WriteDescriptorSet{.dstSet = set,
+                             .dstBinding = binding,
+                             .descriptorCount = 1,
+                             .descriptorType = vk::DescriptorType::eStorageImage,
+                             .pImageInfo = &info},
       {});
 }
 

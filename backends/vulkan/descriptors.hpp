@@ -18,8 +18,8 @@ struct Layout {
                                  vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings,
                                  std::uint32_t push_bytes = 0);
 
-// Room for this many sets, each with up to two uniform buffers, two textures, `storage_buffers` and
-// `texel_buffers`.
+// Room for this many sets, each with up to two uniform buffers, two textures, `storage_buffers`, a
+// storage image and `texel_buffers`, where there are any of those.
 [[nodiscard]] vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,
                                                  std::uint32_t storage_buffers = 3,
                                                  std::uint32_t texel_buffers = 0);
@@ -35,6 +35,9 @@ void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
 // A view of a buffer that was made for uniform texels.
 void bind_texels(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  const vk::raii::BufferView& view);
+// The image must be in eGeneral when it is used.
+void bind_storage_image(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
+                        const Image& image);
 // The image must be in eShaderReadOnlyOptimal when it is used.
 void bind_texture(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding, const Image& image,
                   const vk::raii::Sampler& sampler);

@@ -35,6 +35,16 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& ne
                           .memoryTypeIndex = memory_type(gpu, needed.memoryTypeBits, place)}};
 }
 
+// Makes transfer writes visible to the host once the submission's fence is signalled.
+void release_to_host(const vk::raii::CommandBuffer& commands) {
+  const vk::MemoryBarrier barrier{.srcAccessMask = vk::AccessFlagBits::eTransferWrite,
+                                  .dstAccessMask = vk::AccessFlagBits::eHostRead};
+  commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost,
+                           {}, barrier, {}, {});
+}
+
+}  // namespace
+
 void change_layout(const vk::raii::CommandBuffer& commands, const Image& image,
                    vk::ImageLayout from, vk::ImageLayout to) {
   const vk::ImageMemoryBarrier barrier{
@@ -49,16 +59,6 @@ void change_layout(const vk::raii::CommandBuffer& commands, const Image& image,
   commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands,
                            vk::PipelineStageFlagBits::eAllCommands, {}, {}, {}, barrier);
 }
-
-// Makes transfer writes visible to the host once the submission's fence is signalled.
-void release_to_host(const vk::raii::CommandBuffer& commands) {
-  const vk::MemoryBarrier barrier{.srcAccessMask = vk::AccessFlagBits::eTransferWrite,
-                                  .dstAccessMask = vk::AccessFlagBits::eHostRead};
-  commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost,
-                           {}, barrier, {}, {});
-}
-
-}  // namespace
 
 Buffer::Buffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, Place place)
     : size_(size),

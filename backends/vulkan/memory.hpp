@@ -60,6 +60,10 @@ class Image {
   measure::MemoryLedger::Entry held_;
 };
 
+// Orders it behind all that was written before.
+void change_layout(const vk::raii::CommandBuffer& commands, const Image& image,
+                   vk::ImageLayout from, vk::ImageLayout to);
+
 // Writes the bytes of a buffer that begin at `begin`.
 using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
 

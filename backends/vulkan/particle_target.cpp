@@ -27,33 +27,31 @@ Image make_target(const Gpu& gpu, const scene::ParticleScene& scene, vk::Format 
       depth ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor};
 }
 
-vk::AttachmentDescription attachment(vk::Format format, bool continued, vk::ImageLayout layout) {
+vk::AttachmentDescription attachment(vk::Format format, bool continued) {
+  using enum vk::ImageLayout;
   return {.format = format,
           .loadOp = continued ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear,
           .storeOp = vk::AttachmentStoreOp::eStore,
           .stencilLoadOp = vk::AttachmentLoadOp::eDontCare,
           .stencilStoreOp = vk::AttachmentStoreOp::eDontCare,
-          .initialLayout = continued ? layout : vk::ImageLayout::eUndefined,
-          .finalLayout = layout};
+          .initialLayout = continued ? eTransferSrcOptimal : eUndefined,
+          .finalLayout = eTransferSrcOptimal};
 }
 
-}  // namespace
-
-vk::raii::RenderPass depth_pass(const Gpu& gpu, const std::vector<vk::Format>& formats,
-                                bool continued, vk::ImageLayout layout) {
-  std::vector<vk::AttachmentDescription> attachments;
-  std::vector<vk::AttachmentReference> references;
-  for (const vk::Format format : formats) {
-    references.push_back({.attachment = static_cast<std::uint32_t>(attachments.size()),
-                          .layout = vk::ImageLayout::eColorAttachmentOptimal});
-    attachments.push_back(attachment(format, continued, layout));
-  }
-  references.back().layout = vk::ImageLayout::eDepthStencilAttachmentOptimal;
+vk::raii::RenderPass make_pass(const Gpu& gpu, bool continued) {
+  using enum vk::ImageLayout;
+  const std::array<vk::AttachmentDescription, 3> attachments{attachment(colour_format, continued),
+                                                             attachment(id_format, continued),
+                                                             attachment(depth_format, continued)};
+  const std::array<vk::AttachmentReference, 2> colours{
+      {{.attachment = 0, .layout = eColorAttachmentOptimal},
+       {.attachment = 1, .layout = eColorAttachmentOptimal}}};
+  const vk::AttachmentReference depth{.attachment = 2, .layout = eDepthStencilAttachmentOptimal};
   const vk::SubpassDescription subpass{
       .pipelineBindPoint = vk::PipelineBindPoint::eGraphics,
-      .colorAttachmentCount = static_cast<std::uint32_t>(references.size() - 1),
-      .pColorAttachments = references.data(),
-      .pDepthStencilAttachment = &references.back()};
+      .colorAttachmentCount = static_cast<std::uint32_t>(colours.size()),
+      .pColorAttachments = colours.data(),
+      .pDepthStencilAttachment = &depth};
   return {gpu.device, vk::RenderPassCreateInfo{
                           .attachmentCount = static_cast<std::uint32_t>(attachments.size()),
                           .pAttachments = attachments.data(),
@@ -61,8 +59,8 @@ vk::raii::RenderPass depth_pass(const Gpu& gpu, const std::vector<vk::Format>& f
                           .pSubpasses = &subpass}};
 }
 
-vk::raii::Framebuffer depth_framebuffer(const Gpu& gpu, const vk::raii::RenderPass& pass,
-                                        std::span<const vk::ImageView> views, vk::Extent3D extent) {
+vk::raii::Framebuffer make_framebuffer(const Gpu& gpu, const vk::raii::RenderPass& pass,
+                                       std::span<const vk::ImageView> views, vk::Extent3D extent) {
   return {gpu.device,
           vk::FramebufferCreateInfo{.renderPass = *pass,
                                     .attachmentCount = static_cast<std::uint32_t>(views.size()),
@@ -72,18 +70,7 @@ vk::raii::Framebuffer depth_framebuffer(const Gpu& gpu, const vk::raii::RenderPa
                                     .layers = 1}};
 }
 
-void begin_pass(const vk::raii::CommandBuffer& commands, const vk::raii::RenderPass& pass,
-                const vk::raii::Framebuffer& framebuffer, vk::Extent3D extent,
-                std::span<const vk::ClearValue> clear) {
-  const vk::Rect2D everything{.extent = {extent.width, extent.height}};
-  commands.beginRenderPass({.renderPass = *pass,
-                            .framebuffer = *framebuffer,
-                            .renderArea = everything,
-                            .clearValueCount = static_cast<std::uint32_t>(clear.size()),
-                            .pClearValues = clear.data()},
-                           vk::SubpassContents::eInline);
-  commands.setScissor(0, everything);
-}
+}  // namespace
 
 vk::CompareOp depth_compare(technique::ParticleFault fault) {
   using technique::ParticleFault;
@@ -117,18 +104,25 @@ ParticleTarget::ParticleTarget(const Gpu& gpu, const scene::ParticleScene& scene
       colour_(make_target(gpu, scene, colour_format)),
       ids_(make_target(gpu, scene, id_format)),
       depth_(make_target(gpu, scene, depth_format)),
-      clearing_(depth_pass(gpu, formats(), false, vk::ImageLayout::eTransferSrcOptimal)),
-      continuing_(depth_pass(gpu, formats(), true, vk::ImageLayout::eTransferSrcOptimal)),
-      framebuffer_(depth_framebuffer(gpu, clearing_,
-                                     std::array{colour_.view(), ids_.view(), depth_.view()},
-                                     colour_.extent())) {}
+      clearing_(make_pass(gpu, false)),
+      continuing_(make_pass(gpu, true)),
+      framebuffer_(make_framebuffer(gpu, clearing_,
+                                    std::array{colour_.view(), ids_.view(), depth_.view()},
+                                    colour_.extent())) {}
 
 std::vector<vk::Format> ParticleTarget::formats() {
   return {colour_format, id_format, depth_format};
 }
 
 void ParticleTarget::begin(const vk::raii::CommandBuffer& commands, bool continued) const {
-  begin_pass(commands, continued ? continuing_ : clearing_, framebuffer_, extent(), clear_);
+  const vk::Rect2D everything{.extent = {extent().width, extent().height}};
+  commands.beginRenderPass({.renderPass = continued ? *continuing_ : *clearing_,
+                            .framebuffer = *framebuffer_,
+                            .renderArea = everything,
+                            .clearValueCount = static_cast<std::uint32_t>(clear_.size()),
+                            .pClearValues = clear_.data()},
+                           vk::SubpassContents::eInline);
+  commands.setScissor(0, everything);
 }
 
 core::Image ParticleTarget::read(const Gpu& gpu) const {

@@ -1,5 +1,4 @@
 #pragma once
-#include <span>
 #include <vector>
 
 #include "backends/vulkan/memory.hpp"
@@ -17,20 +16,6 @@ void resolve_depth(core::Image& image, double near);
 
 // How many different particles the picture shows.
 [[nodiscard]] std::uint64_t visible_ids(const core::Image& image);
-
-// A pass over attachments of these formats, the last of them the depth, which it leaves in that
-// layout. A continued one keeps what is there; the other clears.
-[[nodiscard]] vk::raii::RenderPass depth_pass(const Gpu& gpu,
-                                              const std::vector<vk::Format>& formats,
-                                              bool continued, vk::ImageLayout layout);
-[[nodiscard]] vk::raii::Framebuffer depth_framebuffer(const Gpu& gpu,
-                                                      const vk::raii::RenderPass& pass,
-                                                      std::span<const vk::ImageView> views,
-                                                      vk::Extent3D extent);
-// On everything, the scissor too.
-void begin_pass(const vk::raii::CommandBuffer& commands, const vk::raii::RenderPass& pass,
-                const vk::raii::Framebuffer& framebuffer, vk::Extent3D extent,
-                std::span<const vk::ClearValue> clear);
 
 // What sprites are drawn into: colour, ids and reversed depth.
 class ParticleTarget {

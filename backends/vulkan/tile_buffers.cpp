@@ -14,8 +14,9 @@ namespace {
 constexpr std::uint32_t tile_edge{technique::tile_edge};
 constexpr std::uint32_t block_edge = 4;  // TRI_BLOCK
 constexpr vk::DeviceSize word = sizeof(std::uint32_t);
-constexpr vk::DeviceSize tile_bytes = 4 * word;
-constexpr vk::DeviceSize header_bytes = 4 * word;
+constexpr vk::DeviceSize tile_bytes = 8 * word;
+constexpr vk::DeviceSize header_bytes = 8 * word;
+constexpr vk::DeviceSize groups_at = 4 * word;  // in the header
 constexpr std::uint32_t texel_bindings = id_texels_binding - camera_texels_binding + 1;
 
 std::uint32_t parts(std::uint32_t size, std::uint32_t part) {
@@ -25,7 +26,14 @@ std::uint32_t parts(std::uint32_t size, std::uint32_t part) {
 Buffer words(const Gpu& gpu, vk::DeviceSize count) {
   using enum vk::BufferUsageFlagBits;
   return {gpu, word * std::max<vk::DeviceSize>(count, 4),
-          eStorageBuffer | eUniformTexelBuffer | eTransferDst, Place::device};
+          eStorageBuffer | eUniformTexelBuffer | eIndirectBuffer | eTransferDst, Place::device};
+}
+
+// Pairs of pixels, one above the other; as good as none where no sphere may be large.
+vk::Extent3D pairs(const scene::ParticleScene& scene, const technique::TileRounds& rounds) {
+  if (rounds.entries == 0) return {1, 1, 1};
+  return {static_cast<std::uint32_t>(scene.width), parts(static_cast<std::uint32_t>(scene.height), 2),
+          1};
 }
 
 // With work planted, a particle may be kept twice, and a sphere have each of its entries twice.
@@ -46,20 +54,20 @@ vk::raii::BufferView texel_view(const Gpu& gpu, const Buffer& buffer, vk::Format
 
 }  // namespace
 
-std::vector<vk::DescriptorSetLayoutBinding> tile_bindings(bool carried) {
+std::vector<vk::DescriptorSetLayoutBinding> tile_bindings() {
   using Stage = vk::ShaderStageFlagBits;
   auto all = particle_bindings();
   for (std::uint32_t at = camera_spheres_binding; at <= cell_ends_binding; ++at) {
     all.push_back(storage_binding(at, Stage::eCompute));
   }
-  const std::uint32_t last = carried ? large_particle_binding : id_texels_binding;
-  for (std::uint32_t at = camera_texels_binding; at <= last; ++at) {
-    const bool image = at >= large_depth_binding;
+  constexpr vk::ShaderStageFlags every = Stage::eVertex | Stage::eFragment | Stage::eCompute;
+  for (std::uint32_t at = camera_texels_binding; at <= large_pixels_binding; ++at) {
+    const bool image = at == large_pixels_binding;
     all.push_back({.binding = at,
-                   .descriptorType = image ? vk::DescriptorType::eCombinedImageSampler
+                   .descriptorType = image ? vk::DescriptorType::eStorageImage
                                            : vk::DescriptorType::eUniformTexelBuffer,
                    .descriptorCount = 1,
-                   .stageFlags = Stage::eVertex | Stage::eFragment | Stage::eCompute});
+                   .stageFlags = every});
   }
   return all;
 }
@@ -81,7 +89,9 @@ TileBuffers::TileBuffers(const Gpu& gpu, const measure::ParticleWork& work,
       tiles_(words(gpu, (header_bytes + tile_bytes * columns_ * rows_) / word)),
       entries_(words(gpu, times(work) * rounds.entries)),
       pixels_(words(gpu, 2 * plane_ / word)),
-      cell_ends_(words(gpu, data.cells())) {
+      cell_ends_(words(gpu, data.cells())),
+      large_pixels_(gpu, vk::ImageType::e2D, vk::Format::eR32G32B32A32Uint,
+                    pairs(work.scene, rounds), vk::ImageUsageFlagBits::eStorage) {
   const auto add = [&](std::uint32_t binding, const Buffer& buffer, vk::Format format) {
     texels_.push_back({binding, texel_view(gpu, buffer, format)});
   };
@@ -92,7 +102,10 @@ TileBuffers::TileBuffers(const Gpu& gpu, const measure::ParticleWork& work,
   add(sphere_texels_binding, data.spheres(), vk::Format::eR32G32B32A32Sfloat);
   add(colour_texels_binding, data.colours(), vk::Format::eR32Uint);
   add(id_texels_binding, data.ids(), vk::Format::eR32Uint);
-  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) { clear_pixels(commands); });
+  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
+    clear_pixels(commands);
+    change_layout(commands, large_pixels_, vk::ImageLayout::eUndefined, vk::ImageLayout::eGeneral);
+  });
 }
 
 std::uint32_t TileBuffers::blocks() const noexcept {
@@ -110,6 +123,7 @@ void TileBuffers::bind(vk::DescriptorSet set) const {
   storage(pixels_binding, pixels_);
   storage(cell_ends_binding, cell_ends_);
   for (const Texels& each : texels_) bind_texels(gpu_, set, each.binding, each.view);
+  bind_storage_image(gpu_, set, large_pixels_binding, large_pixels_);
 }
 
 void TileBuffers::clear_pixels(const vk::raii::CommandBuffer& commands) const {
@@ -125,8 +139,12 @@ void TileBuffers::clear(const vk::raii::CommandBuffer& commands) const {
 
 // Behind the count of small spheres.
 void TileBuffers::start_round(const vk::raii::CommandBuffer& commands) const {
-  commands.fillBuffer(tiles_.get(), word, 2 * word, 0);
+  commands.fillBuffer(tiles_.get(), word, 4 * word, 0);
   barrier(commands);
+}
+
+void TileBuffers::dispatch_listed(const vk::raii::CommandBuffer& commands) const {
+  commands.dispatchIndirect(tiles_.get(), groups_at);
 }
 
 }  // namespace triptych::vulkan_backend

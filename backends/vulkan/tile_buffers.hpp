@@ -24,11 +24,9 @@ enum TileBinding : std::uint32_t {
   sphere_texels_binding,
   colour_texels_binding,
   id_texels_binding,
-  large_depth_binding,
-  large_particle_binding
+  large_pixels_binding
 };
-// `carried`: the two images of a TileTarget too.
-[[nodiscard]] std::vector<vk::DescriptorSetLayoutBinding> tile_bindings(bool carried);
+[[nodiscard]] std::vector<vk::DescriptorSetLayoutBinding> tile_bindings();
 [[nodiscard]] vk::raii::DescriptorPool tile_pool(const Gpu& gpu);
 
 class TileBuffers {
@@ -40,12 +38,14 @@ class TileBuffers {
   void bind(vk::DescriptorSet set) const;
   // Empty tiles, and pixels unless no round ever draws into them.
   void clear(const vk::raii::CommandBuffer& commands) const;
-  // No large spheres and no entries.
+  // No large spheres, no entries and no tiles drawn into.
   void start_round(const vk::raii::CommandBuffer& commands) const;
 
   [[nodiscard]] std::uint32_t tiles() const noexcept { return columns_ * rows_; }
   // Of TRI_BLOCK × TRI_BLOCK tiles, which are drawn together.
   [[nodiscard]] std::uint32_t blocks() const noexcept;
+  // As many groups as there are tiles that the round draws into.
+  void dispatch_listed(const vk::raii::CommandBuffer& commands) const;
 
  private:
   struct Texels {
@@ -65,6 +65,7 @@ class TileBuffers {
   Buffer entries_;
   Buffer pixels_;
   Buffer cell_ends_;
+  Image large_pixels_;
   std::vector<Texels> texels_;
 };
 

@@ -11,7 +11,6 @@
 #include "backends/vulkan/techniques.hpp"
 #include "backends/vulkan/tile_buffers.hpp"
 #include "backends/vulkan/tile_pipelines.hpp"
-#include "backends/vulkan/tile_target.hpp"
 #include "core/error.hpp"
 #include "technique/particles/tile_rounds.hpp"
 
@@ -46,20 +45,17 @@ class TilesFrames final : public measure::Prepared {
   [[nodiscard]] std::string kernel_hash() const override { return tiles_hash(constants_); }
 
  private:
-  struct Draws {
-    vk::Pipeline large;  // null where no round needs it
-    vk::Pipeline show;
-  };
-  void bind();
+  void bind() const;
   void run(const vk::raii::CommandBuffer& commands, vk::Pipeline pipeline,
            std::uint32_t groups) const;
   void push(const vk::raii::CommandBuffer& commands, std::uint32_t first_cell,
             std::uint32_t cells) const;
-  void draw(const vk::raii::CommandBuffer& commands, vk::Pipeline pipeline) const;
   void record(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
               bool counting) const;
   void bin(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
            const technique::TileRound& round, std::uint32_t again) const;
+  void resolve(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
+               const technique::TileRound& round) const;
   void show(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines) const;
 
   const Gpu& gpu_;
@@ -71,12 +67,11 @@ class TilesFrames final : public measure::Prepared {
   TileBuffers buffers_;
   std::uint32_t tile_groups_;  // an invocation per tile
   ParticleTarget target_;
-  std::optional<TileTarget> large_;
   Layout layout_;
   vk::raii::DescriptorPool pool_;
   vk::DescriptorSet set_;  // freed with the pool
   TilePipelines pipelines_;
-  Draws draws_;
+  vk::Pipeline show_;
   std::optional<TilePipelines> counting_pipelines_;
   Frames frames_;
 };
@@ -108,39 +103,32 @@ TilesFrames::TilesFrames(const Gpu& gpu, const Instance& instance,
       options_(work.options),
       rounds_(rounds_of(gpu, work, arrangement)),
       constants_(TileConstants{particle_constants(gpu, work),
-                               static_cast<std::int32_t>(options_.culling)}),
+                               static_cast<std::int32_t>(options_.culling),
+                               rounds_.entries > 0 ? 1 : 0}),
       data_(gpu, work, arrangement),
       buffers_(gpu, work, data_, rounds_),
       tile_groups_(groups_for(buffers_.tiles(), group)),
       target_(gpu, work.scene,
               options_.fault == technique::ParticleFault::reversed_depth ? 1.0F : 0.0F),
-      layout_(make_layout(gpu, tile_bindings(rounds_.carried), sizeof(RoundOf))),
+      layout_(make_layout(gpu, tile_bindings(), sizeof(RoundOf))),
       pool_(tile_pool(gpu)),
       set_(allocate_sets(gpu, pool_, layout_, 1).front()),
-      pipelines_(gpu, layout_, constants_, false, rounds_.carried),
+      pipelines_(gpu, layout_, constants_, false),
+      show_(tiles_show(gpu, layout_, target_.pass(),
+                       {.colour_targets = ParticleTarget::colour_targets,
+                        .depth = depth_compare(options_.fault),
+                        .extent = target_.extent(),
+                        .formats = ParticleTarget::formats()},
+                       constants_)),
       frames_((bind(), gpu), tile_statistics(), [this](const vk::raii::CommandBuffer& commands) {
         record(commands, pipelines_, false);
       }) {
   instance_.check_validation();
 }
 
-// The rest of what a recording needs.
-void TilesFrames::bind() {
+void TilesFrames::bind() const {
   data_.bind(set_, Fetch::by_index);
   buffers_.bind(set_);
-  DrawState state{.colour_targets = ParticleTarget::colour_targets,
-                  .depth = depth_compare(options_.fault),
-                  .extent = target_.extent(),
-                  .formats = ParticleTarget::formats()};
-  const TileDraw shown = rounds_.carried ? TileDraw::show_with_large : TileDraw::show;
-  draws_.show = tile_draw(gpu_, layout_, target_.pass(), shown, state, constants_);
-  if (!rounds_.carried) return;
-  large_.emplace(gpu_, target_.extent().width, target_.extent().height);
-  large_->bind(gpu_, set_);
-  state.colour_targets = 1;
-  state.depth = vk::CompareOp::eGreater;
-  state.formats = TileTarget::formats();
-  draws_.large = tile_draw(gpu_, layout_, large_->pass(), TileDraw::large, state, constants_);
 }
 
 void TilesFrames::run(const vk::raii::CommandBuffer& commands, vk::Pipeline pipeline,
@@ -155,13 +143,6 @@ void TilesFrames::push(const vk::raii::CommandBuffer& commands, std::uint32_t fi
                                   RoundOf{first_cell, cells});
 }
 
-// A pass is open: an instance per block of tiles.
-void TilesFrames::draw(const vk::raii::CommandBuffer& commands, vk::Pipeline pipeline) const {
-  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
-  commands.draw(4, buffers_.blocks(), 0, 0);
-  commands.endRenderPass();
-}
-
 // Cells of the round `again` are binned twice: planted work that changes nothing.
 void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                       const technique::TileRound& round, std::uint32_t again) const {
@@ -171,14 +152,22 @@ void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelin
   run(commands, pipelines[TilePass::bin], round.cells);
   if (again > 0) run(commands, pipelines[TilePass::bin], again);
   barrier(commands);
-  if (round.entries == 0) return;
+}
+
+// Draws the round's large spheres, and notes what is hidden.
+void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
+                          const technique::TileRound& round) const {
   run(commands, pipelines[TilePass::place], tile_groups_);
   barrier(commands);
-  run(commands, pipelines[TilePass::fill], spread_groups);
+  if (round.entries > 0) {
+    run(commands, pipelines[TilePass::fill], spread_groups);
+    barrier(commands);
+  }
+  commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines[TilePass::resolve]);
+  buffers_.dispatch_listed(commands);
   barrier(commands);
 }
 
-// What the last round has left, with all that was drawn before.
 void TilesFrames::show(const vk::raii::CommandBuffer& commands,
                        const TilePipelines& pipelines) const {
   if (rounds_.small) {
@@ -186,7 +175,9 @@ void TilesFrames::show(const vk::raii::CommandBuffer& commands,
     barrier(commands);
   }
   target_.begin(commands, false);
-  draw(commands, draws_.show);
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, show_);
+  commands.draw(4, buffers_.blocks(), 0, 0);
+  commands.endRenderPass();
 }
 
 void TilesFrames::record(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
@@ -198,7 +189,6 @@ void TilesFrames::record(const vk::raii::CommandBuffer& commands, const TilePipe
   barrier(commands);
   const auto stride = static_cast<std::uint32_t>(options_.extra_work_stride);
   std::uint32_t done = 0;
-  bool large = false;
   for (const technique::TileRound& round : rounds_.rounds) {
     const std::uint32_t end = round.first + round.cells;
     const std::uint32_t due = stride == 0 || counting ? 0 : groups_for(end, stride) - done;
@@ -206,15 +196,12 @@ void TilesFrames::record(const vk::raii::CommandBuffer& commands, const TilePipe
     done += again;
     buffers_.start_round(commands);
     bin(commands, pipelines, round, again);
-    if (&round == &rounds_.rounds.back()) break;
-    if (round.entries > 0) {
-      large_->begin(commands, large);
-      draw(commands, draws_.large);
+    const bool last = &round == &rounds_.rounds.back();
+    if (!last || round.entries > 0) resolve(commands, pipelines, round);
+    if (!last) {
+      run(commands, pipelines[TilePass::settle], tile_groups_);
       barrier(commands);
-      large = true;
     }
-    run(commands, pipelines[large ? TilePass::farthest_large : TilePass::farthest], tile_groups_);
-    barrier(commands);
   }
   show(commands, pipelines);
 }
@@ -223,7 +210,7 @@ measure::Frame TilesFrames::frame(measure::Purpose purpose) {
   return translated([&] {
     const bool counting = purpose == measure::Purpose::counters;
     if (counting && !frames_.can_count()) {
-      counting_pipelines_.emplace(gpu_, layout_, constants_, true, rounds_.carried);
+      counting_pipelines_.emplace(gpu_, layout_, constants_, true);
       frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
         record(commands, *counting_pipelines_, true);
       });

@@ -4,12 +4,13 @@
 
 #define TRI_TILE 16             // pixels along a tile's edge
 #define TRI_BLOCK 4             // tiles along the edge of what is drawn together
+#define TRI_PARTICLE_BITS 28    // of an entry
 #define TRI_LARGEST_KEY 0xFFFFFFFFu
 #define TRI_NO_PARTICLE 0xFFFFFFFFu
 
 TRI_BINDING(13) uniform samplerBuffer camera_texels;  // spheres in camera space, by particle
-TRI_BINDING(14) uniform usamplerBuffer tile_texels;   // a header, then a Tile each
-TRI_BINDING(15) uniform usamplerBuffer entry_texels;  // particles
+TRI_BINDING(14) uniform usamplerBuffer tile_texels;   // a header, then a Tile each, of two texels
+TRI_BINDING(15) uniform usamplerBuffer entry_texels;
 TRI_BINDING(16) uniform usamplerBuffer pixel_texels;  // two planes: depth key, particle key of small spheres
 TRI_BINDING(18) uniform usamplerBuffer colour_texels;  // 1 or 4 words per particle
 #define TRI_COLOUR_WORD(n) texelFetch(colour_texels, int(n)).x
@@ -19,10 +20,15 @@ ivec2 tile_grid() { return (u.viewport.xy + (TRI_TILE - 1)) / TRI_TILE; }
 int pixel_index(ivec2 pixel) { return pixel.y * u.viewport.x + pixel.x; }
 int tile_index(ivec2 tile) { return tile.y * tile_grid().x + tile.x; }
 
-// A tile: entries of this round; the end of them; the smallest depth key of its pixels, 0 while one is empty;
-// whether anything was ever drawn into it.
-uvec4 tile_state(int index) { return texelFetch(tile_texels, 1 + index); }
+// A tile: entries of this round; the end of them; the smallest depth key of its pixels, 0 while one is empty; flags.
+uvec4 tile_state(int index) { return texelFetch(tile_texels, 2 + 2 * index); }
 uint farthest_in(int index) { return tile_state(index).z; }
+#define TRI_USED 1u       // anything was ever drawn into it
+#define TRI_TOUCHED 2u    // small spheres were, in this round
+#define TRI_HAS_LARGE 4u  // large_pixels holds what earlier rounds have drawn
+
+// Depth key and particle key of large spheres, two rows of pixels in one.
+TRI_BINDING(20) layout(rgba32ui) uniform uimage2D large_pixels;
 
 // Keys: the nearest depth has the largest, 0 is none; the first particle has the smallest. The planted
 // faults turn them round: 2 unresolved ties, 3 reversed depth, 4 the sphere's back for its front, 6 lost at
@@ -35,9 +41,8 @@ float depth_of_key(uint key) { return uintBitsToFloat(TRI_FAULT == 3 ? ~key : ke
 uint particle_key(uint particle) { return TRI_FAULT == 2 ? ~particle & 0x7FFFFFFFu : particle; }
 uint particle_of_key(uint key) { return TRI_FAULT == 2 ? ~key & 0x7FFFFFFFu : key; }
 
-// The depth key of the sphere in this pixel, 0 where the ray misses it.
-uint sphere_key(vec4 c, ivec2 pixel) {
-  vec2 s = pixel_ray(pixel);
+// The depth key of the sphere on the ray through this place of the image plane, 0 where the ray misses it.
+uint sphere_key(vec4 c, vec2 s) {
   float discriminant = tri_sphere_discriminant(c.x, c.y, c.z, c.w, s.x, s.y);
   float distance = tri_sphere_distance(c.x, c.y, c.z, s.x, s.y, max(discriminant, 0.0));
   return discriminant >= 0.0 && distance > 0.0 ? depth_key(tri_depth(u.eye.w, distance)) : 0u;

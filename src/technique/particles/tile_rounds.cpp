@@ -124,9 +124,6 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
     need.add(more);
   }
   finish();
-  for (std::size_t i = 0; i + 1 < out.rounds.size(); ++i) {
-    out.carried = out.carried || out.rounds[i].entries > 0;
-  }
   return out;
 }
 

@@ -22,12 +22,11 @@ struct TileRounds {
   std::vector<TileRound> rounds;  // all cells, front to back
   std::uint64_t entries = 0;      // (tile, large sphere) pairs that a round may have at most
   bool small = false;             // there may be small spheres
-  bool carried = false;           // there may be large ones before the last round
 };
 
 // Large spheres that a round has at most, unless a single cell has more: a tile's loop over its
 // entries then ends before Mesa ends it (docs/accuracy.md).
-inline constexpr std::uint64_t most_large_spheres = 32768;
+inline constexpr std::uint64_t most_large_spheres = 32000;
 
 // A round draws about as many pixels as the picture has, or half as many as all rounds before it:
 // early ones hide what later ones hold, and each costs a pass over all tiles. A round has no more

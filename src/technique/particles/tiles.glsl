@@ -3,28 +3,29 @@
 //   tiles_bin      finds the pixels of every particle in them: those of small ones are drawn at once, one
 //                  invocation per sphere, by an atomic maximum on each pixel's depth; large ones are counted
 //                  for each tile they reach,
-//   tiles_place    gives each tile a place for its entries,
-//   tiles_fill     writes the entries;
-// then, unless it is the last round,
-//   tiles_draw     draws each tile's entries into a depth buffer, with the particle that each pixel shows,
-//   tiles_farthest notes the farthest depth of each tile, by which later rounds leave out what is hidden;
+//   tiles_place    lists the tiles that this round draws into, and gives each a place for its entries,
+//   tiles_fill     writes the entries,
+//   tiles_resolve  draws the entries of the listed tiles, a few invocations each,
+//   tiles_settle   notes the farthest depth of each, by which later rounds leave out what is hidden;
 // and in the end
 //   tiles_index    finds the lowest particle at each pixel's depth among the small ones,
-//   tiles_draw     draws the last round's entries too, and colours every pixel once (TRI_SHOW).
-// tiles_draw is a fragment shader on blocks of tiles that hold something (tiles_draw.vert.glsl): a rasterizer
-// writes whole rows of pixels where compute stores word by word, and what is empty costs nothing. No pass
-// waits within a work group.
+//   tiles_show     colours every pixel once, as a fragment shader on blocks of tiles that hold something.
+// A tile that holds nothing costs nothing. No pass waits within a work group, and pixels leave as vectors: through
+// images and the rasterizer. Devices without vectors of their own loads take storage buffers word by word.
 // Everything a pixel keeps is a maximum of keys (depth) and a minimum of keys (particle), so that the
 // picture does not depend on the order of anything.
 //
 // The backend gives TRI_ROUND, a uvec2: first cell and number of cells, and TRI_CULLING
 // (technique::Culling), both of which may vary at run time.
 
-struct Tile {  // tile_state()
-  uint entries;
+struct Tile {
+  uint entries;   // tile_state()
   uint next;      // where the next entry goes; after tiles_fill the end of them
   uint farthest;
-  uint used;
+  uint flags;
+  uint coming;    // farthest, after this round
+  uint listed;    // the n-th tile that is drawn into in this round
+  uint no_state[2];
 };
 
 layout(std430) TRI_BINDING(7) writeonly buffer CameraSpheres { vec4 camera_spheres[]; };  // by particle
@@ -34,7 +35,8 @@ layout(std430) TRI_BINDING(9) buffer Tiles {
   uint small_kept;
   uint large_kept;
   uint placed_entries;
-  uint no_state;
+  uint tiles_listed;
+  uint groups[4];  // for tiles_resolve, as an indirect dispatch reads them
   Tile tiles[];
 };
 layout(std430) TRI_BINDING(10) buffer Entries { uint entries[]; };

@@ -10,7 +10,7 @@ bool draw_small(vec4 sphere, ivec4 rectangle, int count) {
   ivec2 pixel = rectangle.xy;
   int right = rectangle.x + rectangle.z;
   for (int i = 0; i < count; ++i) {
-    uint key = sphere_key(sphere, pixel);
+    uint key = sphere_key(sphere, pixel_ray(pixel));
     if (key > 0u && key >= depth_seen(pixel)) {  // or what it was a moment ago
       atomicMax(pixels[pixel_index(pixel)], key);
       seen = true;
@@ -46,7 +46,8 @@ bool count_large(uint front, ivec4 rectangle, int count) {
 void use_tiles(ivec4 rectangle) {
   ivec4 around = tiles_around(rectangle);
   for (int k = 0; k < 4; ++k) {
-    if (tile_state(around[k]).w == 0u) atomicOr(tiles[around[k]].used, 1u);
+    const uint flags = TRI_USED | TRI_TOUCHED;
+    if ((tile_state(around[k]).w & flags) != flags) atomicOr(tiles[around[k]].flags, flags);
   }
 }
 

@@ -1,6 +1,16 @@
 // Puts each large sphere of the round into the tiles for which tiles_bin counted it.
 layout(local_size_x = 64) in;
 
+// An entry: the particle, and above it a bit for each quarter of the tile that the sphere may reach. Particles of one
+// storage buffer have fewer bits.
+uint entry(uint particle, ivec4 rectangle, ivec2 tile) {
+  ivec2 low = rectangle.xy - TRI_TILE * tile;
+  ivec2 high = low + rectangle.zw - 1;
+  uint columns = (low.x < TRI_TILE / 2 ? 1u : 0u) | (high.x >= TRI_TILE / 2 ? 2u : 0u);
+  uint quarters = (low.y < TRI_TILE / 2 ? columns : 0u) | (high.y >= TRI_TILE / 2 ? columns << 2 : 0u);
+  return particle | quarters << TRI_PARTICLE_BITS;
+}
+
 void main() {
   uint stride = 64u * gl_NumWorkGroups.x;
   for (uint n = gl_GlobalInvocationID.x; n < large_kept; n += stride) {
@@ -14,7 +24,9 @@ void main() {
     ivec2 tile = first;
     for (int i = 0; i < count; ++i) {
       int index = tile_index(tile);
-      if (front >= farthest_in(index)) entries[atomicAdd(tiles[index].next, 1u)] = particle;
+      if (front >= farthest_in(index)) {
+        entries[atomicAdd(tiles[index].next, 1u)] = entry(particle, rectangle, tile);
+      }
       ++tile.x;
       if (tile.x > last.x) tile = ivec2(first.x, tile.y + 1);
     }

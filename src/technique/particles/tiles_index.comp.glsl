@@ -11,7 +11,7 @@ void main() {
     ivec2 pixel = rectangle.xy;
     int right = rectangle.x + rectangle.z;
     for (int i = 0; i < count; ++i) {
-      uint key = sphere_key(sphere, pixel);
+      uint key = sphere_key(sphere, pixel_ray(pixel));
       if (key > 0u && key == depth_seen(pixel)) {
         atomicMin(pixels[plane_size() + pixel_index(pixel)], particle_key(particle));
       }

@@ -1,13 +1,25 @@
-// One invocation per tile: a place for its entries. Their order among tiles means nothing.
+// One invocation per tile: whether it is drawn into in this round, and a place for its entries. Their order among tiles
+// means nothing.
 layout(local_size_x = 64) in;
 
+void list_tile(uint index) {
+  const uint most_groups = 65535u;
+  uint n = atomicAdd(tiles_listed, 1u);
+  tiles[n].listed = index;
+  atomicMax(groups[0], min(n + 1u, most_groups));
+  groups[1] = 1u;
+  groups[2] = 1u;
+}
+
 void main() {
-  int index = int(gl_GlobalInvocationID.x);
+  uint index = gl_GlobalInvocationID.x;
   ivec2 grid = tile_grid();
-  if (index >= grid.x * grid.y) return;
+  if (index >= uint(grid.x * grid.y)) return;
   uint count = tiles[index].entries;
-  if (count > 0u) {
-    tiles[index].next = atomicAdd(placed_entries, count);
-    tiles[index].used = 1u;
-  }
+  uint flags = tiles[index].flags;
+  if (count == 0u && (flags & TRI_TOUCHED) == 0u) return;
+  list_tile(index);
+  tiles[index].next = atomicAdd(placed_entries, count);
+  tiles[index].flags = flags | TRI_USED;
+  tiles[index].coming = TRI_LARGEST_KEY;
 }

@@ -1,8 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "particle_prelude.glsl"
+#include "tiles_prelude.glsl"
 #include "particles/camera_space.glsl"
-#include "particles/colour.glsl"
+#include "particles/sprite.glsl"
 #include "particles/tile_grid.glsl"
-#include "particles/storage.glsl"
-#include "particles/tiles_draw.frag.glsl"
+#include "particles/tiles.glsl"
+#include "particles/tiles_resolve.comp.glsl"

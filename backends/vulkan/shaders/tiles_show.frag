@@ -1,8 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "particle_prelude.glsl"
+layout(constant_id = 8) const int TRI_LARGE = 1;
 #include "particles/camera_space.glsl"
-#include "particles/sprite.glsl"
+#include "particles/colour.glsl"
 #include "particles/tile_grid.glsl"
-#include "particles/tiles.glsl"
-#include "particles/tiles_farthest.comp.glsl"
+#include "particles/storage.glsl"
+#include "particles/tiles_show.frag.glsl"

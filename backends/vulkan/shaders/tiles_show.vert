@@ -5,4 +5,4 @@
 #define TRI_INSTANCE gl_InstanceIndex
 #define TRI_CORNER gl_VertexIndex
 #include "particles/tile_grid.glsl"
-#include "particles/tiles_draw.vert.glsl"
+#include "particles/tiles_show.vert.glsl"

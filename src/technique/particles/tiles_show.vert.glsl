@@ -1,5 +1,4 @@
-// One instance of four vertices per block of tiles; a block without anything to draw is nowhere. With TRI_SHOW
-// that is a tile which was ever drawn into, otherwise one with entries in this round.
+// One instance of four vertices per block of tiles; a block that nothing was ever drawn into is nowhere.
 
 void main() {
   ivec2 grid = tile_grid();
@@ -9,8 +8,7 @@ void main() {
   bool empty = true;
   for (int y = first.y; y < end.y; ++y) {
     for (int x = first.x; x < end.x; ++x) {
-      uvec4 state = tile_state(tile_index(ivec2(x, y)));
-      if ((TRI_SHOW == 1 ? state.w : state.x) > 0u) empty = false;
+      if ((tile_state(tile_index(ivec2(x, y))).w & TRI_USED) != 0u) empty = false;
     }
   }
   ivec2 corner = ivec2((TRI_CORNER & 1) == 0 ? first.x : end.x, TRI_CORNER < 2 ? first.y : end.y);
