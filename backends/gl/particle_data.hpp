@@ -19,6 +19,10 @@ class ParticleData {
   // devices whose shaders are not told the base.
   void bind(const Api& gl) const;
 
+  [[nodiscard]] const Buffer& spheres() const noexcept { return spheres_; }
+  [[nodiscard]] const Buffer& colours() const noexcept { return colours_; }
+  [[nodiscard]] const Buffer& ids() const noexcept { return ids_; }
+
   // Frames from now on are seen from this scene's camera.
   void look_from(const Api& gl, const measure::ParticleWork& work,
                  const technique::Arrangement& arrangement) const;

@@ -4,30 +4,40 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "backends/gl/cell_draws.hpp"
-#include "backends/gl/particle_target.hpp"
 #include "backends/gl/volume_data.hpp"
-#include "technique/particles/tile_rounds.hpp"
+#include "core/error.hpp"
+#include "core/image.hpp"
 
 namespace triptych::gl_backend {
 namespace {
 
-// Bindings of technique/particles/tiles.glsl and its passes.
+// Bindings of technique/particles/tiles.glsl, tile_grid.glsl and the passes.
 constexpr GLuint binding_cells = 6;
-constexpr GLuint binding_kept_spheres = 7;
+constexpr GLuint binding_camera_spheres = 7;
 constexpr GLuint binding_kept = 8;
 constexpr GLuint binding_tiles = 9;
 constexpr GLuint binding_entries = 10;
 constexpr GLuint binding_pixels = 11;
 constexpr GLuint binding_cell_ends = 12;
-constexpr GLuint binding_picture = 13;
+constexpr GLuint binding_camera_texels = 13;
+constexpr GLuint binding_tile_texels = 14;
+constexpr GLuint binding_entry_texels = 15;
+constexpr GLuint binding_pixel_texels = 16;
+constexpr GLuint binding_sphere_texels = 17;
+constexpr GLuint binding_colour_texels = 18;
+constexpr GLuint binding_id_texels = 19;
+constexpr GLuint image_unit = 0;  // TRI_LARGE_PIXELS
 
 constexpr std::size_t word = sizeof(GLuint);
-constexpr std::size_t header_words = 4;  // small_kept, large_kept, placed_entries, no_state
-constexpr std::size_t tile_words = 4;
-constexpr std::size_t planes = 4;
+constexpr std::size_t header_words = 8;  // small_kept … groups
+constexpr std::size_t groups_at = 4 * word;
+constexpr std::size_t tile_words = 8;
+constexpr std::size_t planes = 2;
+constexpr GLuint block_edge = 4;  // TRI_BLOCK
 
 GLuint parts(int size, int part) {
   return static_cast<GLuint>((size + part - 1) / part);
@@ -53,11 +63,25 @@ void copy(const Api& gl, const Buffer& from, const Buffer& to, std::size_t at, s
                        static_cast<GLsizeiptr>(size));
 }
 
-template <class T>
-void read_back(const Api& gl, const Buffer& from, std::size_t at, std::vector<T>& to) {
-  gl.BindBuffer(GL_COPY_READ_BUFFER, from.get());
-  gl.GetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(at),
-                      static_cast<GLsizeiptr>(to.size() * sizeof(T)), to.data());
+std::size_t colour_words(scene::ColourKind colour) {
+  return colour == scene::ColourKind::rgba32 ? 4 : 1;
+}
+
+// Pairs of pixels, one above the other; as good as none where no sphere may be large.
+Texture pair_texture(const Api& gl, int width, int height, bool any) {
+  const GLsizei columns = any ? width : 1;
+  const GLsizei rows = any ? (height + 1) / 2 : 1;
+  Texture texture(gl);
+  gl.BindTexture(GL_TEXTURE_2D, texture.get());
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32UI, columns, rows, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                nullptr);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+  gl.check("glTexImage2D");
+  texture.holds(gl.held.image(4 * word * static_cast<std::uint64_t>(columns) *
+                              static_cast<std::uint64_t>(rows)));
+  return texture;
 }
 
 }  // namespace
@@ -92,26 +116,53 @@ std::optional<std::string> TileBuffers::unsupported(const Api& gl,
 }
 
 TileBuffers::TileBuffers(const Api& gl, const scene::ParticleScene& scene,
-                         const technique::Arrangement& arrangement, std::uint64_t entries,
+                         const technique::Arrangement& arrangement,
+                         const technique::TileRounds& rounds, const ParticleData& data,
                          int extra_work_stride)
     : width_(scene.width),
       height_(scene.height),
       tiles_{parts(width_, technique::tile_edge), parts(height_, technique::tile_edge)},
       cells_(cell_buffer(gl, arrangement.cells)),
+      small_(rounds.small),
+      camera_spheres_(words(gl, 4 * arrangement.count())),
       tile_states_(device_buffer(gl, tile_bytes())),
       pixels_(device_buffer(gl, planes * pixel_bytes())),
       cell_ends_(words(gl, arrangement.cells.size())),
-      picture_(device_buffer(gl, 4 * pixel_bytes())),
+      large_pixels_(pair_texture(gl, width_, height_, rounds.entries > 0)),
       zeros_(filled(gl, std::max(pixel_bytes(), tile_bytes()) / word, 0)),
       no_particles_(filled(gl, pixel_bytes() / word, core::Image::no_particle)) {
   const std::size_t times = extra_work_stride == 0 ? 1 : 2;
-  const std::size_t most_kept = std::max<std::size_t>(times * arrangement.count(), 4);
-  kept_spheres_ = words(gl, 4 * most_kept);
-  kept_ = words(gl, most_kept);
-  entries_ = words(gl, times * entries);
+  const std::size_t count = std::max<std::size_t>(arrangement.count(), 1);
+  kept_ = words(gl, times * count);
+  entries_ = words(gl, times * rounds.entries);
   if (extra_work_stride != 0) {
     thinned_ = cell_buffer(gl, thinned(arrangement.cells, extra_work_stride));
   }
+  const std::size_t entry_bytes = word * std::max<std::size_t>(times * rounds.entries, 4);
+  see(gl, binding_camera_texels, camera_spheres_.get(), 4 * word * count, GL_RGBA32F);
+  see(gl, binding_tile_texels, tile_states_.get(), tile_bytes(), GL_RGBA32UI);
+  see(gl, binding_entry_texels, entries_.get(), entry_bytes, GL_R32UI);
+  see(gl, binding_pixel_texels, pixels_.get(), planes * pixel_bytes(), GL_R32UI);
+  see(gl, binding_sphere_texels, data.spheres().get(), 4 * word * count, GL_RGBA32F);
+  see(gl, binding_colour_texels, data.colours().get(),
+      colour_words(scene.particles->colour) * word * count, GL_R32UI);
+  see(gl, binding_id_texels, data.ids().get(), word * count, GL_R32UI);
+  gl.check("glTexBuffer");
+  clear_pixels(gl);
+}
+
+void TileBuffers::see(const Api& gl, GLuint binding, GLuint buffer, std::size_t bytes,
+                      GLenum format) {
+  const std::size_t texels = bytes / (format == GL_R32UI ? word : 4 * word);
+  const auto most = static_cast<std::size_t>(gl.limit(GL_MAX_TEXTURE_BUFFER_SIZE));
+  if (texels > most) {
+    throw core::NotSupported(
+        fmt::format("needs {} texels in one buffer; GL_MAX_TEXTURE_BUFFER_SIZE is {}", texels, most));
+  }
+  Texture texture(gl);
+  gl.BindTexture(GL_TEXTURE_BUFFER, texture.get());
+  gl.TexBuffer(GL_TEXTURE_BUFFER, format, buffer);
+  texels_.push_back({binding, std::move(texture)});
 }
 
 std::size_t TileBuffers::pixel_bytes() const {
@@ -122,12 +173,18 @@ std::size_t TileBuffers::tile_bytes() const {
   return word * (header_words + tile_words * tiles_[0] * tiles_[1]);
 }
 
-std::array<GLuint, 2> TileBuffers::groups_for_tiles() const {
-  return {(tiles_[0] * tiles_[1] + 63) / 64, 1};
+GLuint TileBuffers::groups_for_tiles() const {
+  return (tiles_[0] * tiles_[1] + 63) / 64;
 }
 
-std::array<GLuint, 2> TileBuffers::groups_of_pixels() const {
-  return {parts(width_, 8), parts(height_, 8)};
+GLuint TileBuffers::blocks() const {
+  return (tiles_[0] + block_edge - 1) / block_edge * ((tiles_[1] + block_edge - 1) / block_edge);
+}
+
+void TileBuffers::dispatch_listed(const Api& gl) const {
+  gl.MemoryBarrier(GL_COMMAND_BARRIER_BIT);
+  gl.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, tile_states_.get());
+  gl.DispatchComputeIndirect(static_cast<GLintptr>(groups_at));
 }
 
 void TileBuffers::bind(const Api& gl) const {
@@ -135,13 +192,18 @@ void TileBuffers::bind(const Api& gl) const {
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.get());
   };
   use(binding_cells, cells_);
-  use(binding_kept_spheres, kept_spheres_);
+  use(binding_camera_spheres, camera_spheres_);
   use(binding_kept, kept_);
   use(binding_tiles, tile_states_);
   use(binding_entries, entries_);
   use(binding_pixels, pixels_);
   use(binding_cell_ends, cell_ends_);
-  use(binding_picture, picture_);
+  for (const Texels& each : texels_) {
+    gl.ActiveTexture(GL_TEXTURE0 + each.binding);
+    gl.BindTexture(GL_TEXTURE_BUFFER, each.texture.get());
+  }
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindImageTexture(image_unit, large_pixels_.get(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32UI);
 }
 
 void TileBuffers::choose(const Api& gl, Cells cells) const {
@@ -149,31 +211,20 @@ void TileBuffers::choose(const Api& gl, Cells cells) const {
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_cells, chosen.get());
 }
 
+void TileBuffers::clear_pixels(const Api& gl) const {
+  copy(gl, zeros_, pixels_, 0, pixel_bytes());
+  copy(gl, no_particles_, pixels_, pixel_bytes(), pixel_bytes());
+}
+
 void TileBuffers::clear(const Api& gl) const {
   gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   copy(gl, zeros_, tile_states_, 0, tile_bytes());
-  for (std::size_t plane = 0; plane < planes; ++plane) {
-    copy(gl, plane % 2 == 0 ? zeros_ : no_particles_, pixels_, plane * pixel_bytes(),
-         pixel_bytes());
-  }
+  if (small_) clear_pixels(gl);
 }
 
 void TileBuffers::start_round(const Api& gl) const {
   gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  copy(gl, zeros_, tile_states_, word, 2 * word);  // large_kept, placed_entries
-}
-
-core::Image TileBuffers::read(const Api& gl, double near) const {
-  core::Image image(width_, height_);
-  image.depth.resize(image.pixel_count());
-  image.ids.resize(image.pixel_count());
-  gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  read_back(gl, picture_, 0, image.rgba);
-  read_back(gl, pixels_, 0, image.depth);
-  read_back(gl, pixels_, pixel_bytes(), image.ids);
-  gl.check("glGetBufferSubData");
-  to_distances(image, near);
-  return image;
+  copy(gl, zeros_, tile_states_, word, 4 * word);  // behind the count of small spheres
 }
 
 }  // namespace triptych::gl_backend

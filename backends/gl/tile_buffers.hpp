@@ -3,10 +3,15 @@
 #include <optional>
 #include <string>
 
+#include <span>
+#include <vector>
+
 #include "backends/gl/objects.hpp"
+#include "backends/gl/particle_data.hpp"
 #include "core/image.hpp"
 #include "scene/particle_scene.hpp"
 #include "technique/particles/arrangement.hpp"
+#include "technique/particles/tile_rounds.hpp"
 
 namespace triptych::gl_backend {
 
@@ -21,29 +26,35 @@ class TileBuffers {
   [[nodiscard]] static std::optional<std::string> unsupported(const Api& gl,
                                                               const scene::ParticleScene& scene);
 
-  // `entries`: the most that a round may have. With an extra_work_stride other than 0 there are
-  // thinned cells too, and room for all particles twice.
+  // With an extra_work_stride other than 0 there are thinned cells too, and room for all particles
+  // twice. Throws core::NotSupported where a buffer has more texels than the device can see.
   TileBuffers(const Api& gl, const scene::ParticleScene& scene,
-              const technique::Arrangement& arrangement, std::uint64_t entries,
-              int extra_work_stride);
+              const technique::Arrangement& arrangement, const technique::TileRounds& rounds,
+              const ParticleData& data, int extra_work_stride);
 
-  // Bindings 6…13 of the shared sources.
+  // Bindings 6…20 of the shared sources.
   void bind(const Api& gl) const;
   void choose(const Api& gl, Cells cells) const;
-  // Empty pixels, tiles and lists.
+  // Empty tiles and lists, and pixels unless no round ever draws into them.
   void clear(const Api& gl) const;
-  // No large spheres and no entries.
+  // No large spheres, no entries and no tiles drawn into.
   void start_round(const Api& gl) const;
-  [[nodiscard]] core::Image read(const Api& gl, double near) const;
 
-  // Work groups, along both axes: one per tile; 64 tiles each; 8×8 pixels each; and as many as go
-  // through a list of unknown length together.
-  [[nodiscard]] std::array<GLuint, 2> tiles() const { return tiles_; }
-  [[nodiscard]] std::array<GLuint, 2> groups_for_tiles() const;
-  [[nodiscard]] std::array<GLuint, 2> groups_of_pixels() const;
-  [[nodiscard]] static std::array<GLuint, 2> spread_groups() { return {256, 1}; }
+  // Work groups: 64 tiles each; as many as there are tiles that the round draws into; and as many
+  // as go through a list of unknown length together.
+  [[nodiscard]] GLuint groups_for_tiles() const;
+  void dispatch_listed(const Api& gl) const;
+  static constexpr GLuint spread_groups = 256;
+  // Of TRI_BLOCK × TRI_BLOCK tiles, which are drawn together.
+  [[nodiscard]] GLuint blocks() const;
 
  private:
+  struct Texels {
+    GLuint binding;
+    Texture texture;
+  };
+  void clear_pixels(const Api& gl) const;
+  void see(const Api& gl, GLuint binding, GLuint buffer, std::size_t bytes, GLenum format);
   [[nodiscard]] std::size_t pixel_bytes() const;
   [[nodiscard]] std::size_t tile_bytes() const;
 
@@ -52,13 +63,15 @@ class TileBuffers {
   std::array<GLuint, 2> tiles_;
   Buffer cells_;
   Buffer thinned_;
-  Buffer kept_spheres_;
+  bool small_;
+  Buffer camera_spheres_;
   Buffer kept_;
   Buffer tile_states_;
   Buffer entries_;
   Buffer pixels_;
   Buffer cell_ends_;
-  Buffer picture_;
+  Texture large_pixels_;
+  std::vector<Texels> texels_;
   Buffer zeros_;         // what tiles, and a plane of depths, begin with
   Buffer no_particles_;  // and a plane of particle keys
 };

@@ -1,4 +1,4 @@
-// Spheres binned into tiles and resolved per pixel by depth and id, in compute shaders
+// Spheres binned into tiles in compute shaders, the nearest hit of each pixel shaded once
 // (technique/particles/tiles.glsl says in which passes).
 #include <fmt/format.h>
 
@@ -8,6 +8,7 @@
 #include "backends/gl/particle_data.hpp"
 #include "backends/gl/particle_limits.hpp"
 #include "backends/gl/particle_source.hpp"
+#include "backends/gl/particle_target.hpp"
 #include "backends/gl/prepared.hpp"
 #include "backends/gl/techniques.hpp"
 #include "backends/gl/tile_buffers.hpp"
@@ -20,31 +21,51 @@ using measure::Purpose;
 using technique::Culling;
 
 constexpr GLuint group_size = 64;
-constexpr std::array<std::string_view, 8> passes{"cells",   "bin",      "place", "fill",
-                                                 "resolve", "farthest", "index", "shade"};
-enum Pass : std::size_t { cells, bin, place, fill, resolve, farthest, index, shade };
+constexpr std::array<std::string_view, 7> passes{"cells",   "bin",    "place", "fill",
+                                                 "resolve", "settle", "index"};
+enum Pass : std::size_t { cells, bin, place, fill, resolve, settle, index };
 
 struct Programs {
   std::array<Program, passes.size()> of;
+  Program show;
   std::vector<std::string> sources;
 };
 
-Programs make_programs(const Api& gl, const ParticleConstants& constants, Culling culling) {
-  Programs programs;
-  const std::string defines = fmt::format(
-      "#define TRI_CULLING {}\n#define TRI_ROUND round_cells\nuniform uvec2 round_cells;\n",
+// GL counts image units by themselves, and from few.
+std::string tile_defines(Culling culling, bool large) {
+  return fmt::format(
+      "#define TRI_LARGE {:d}\n#define TRI_CULLING {}\n#define TRI_LARGE_PIXELS 0\n", int{large},
       static_cast<int>(culling));
+}
+
+Programs make_programs(const Api& gl, const ParticleConstants& constants, Culling culling,
+                       bool large) {
+  Programs programs;
+  const auto program = [&](const std::vector<ParticleStage>& described,
+                           const ParticleConstants& with) {
+    const std::vector<Stage> stages = particle_stages(gl, with, described);
+    for (const Stage& stage : stages) programs.sources.push_back(stage.source);
+    return link(gl, stages);
+  };
+  const std::string defines = tile_defines(culling, large);
   for (std::size_t i = 0; i < passes.size(); ++i) {
     std::vector<std::string_view> files{"sprite.glsl"};
     if (i == cells || i == bin) files.emplace_back("cells.glsl");
-    if (i == shade) files.emplace_back("storage.glsl");
     const std::string main_file = fmt::format("tiles_{}.comp.glsl", passes[i]);
-    files.insert(files.end(), {"tiles.glsl", main_file});
-    const std::vector<Stage> stages =
-        particle_stages(gl, constants, {{GL_COMPUTE_SHADER, files, defines}});
-    programs.sources.push_back(stages.front().source);
-    programs.of[i] = link(gl, stages);
+    files.insert(files.end(), {"tile_grid.glsl", "tiles.glsl", main_file});
+    programs.of[i] = program(
+        {{GL_COMPUTE_SHADER, files,
+          defines + "#define TRI_ROUND round_cells\nuniform uvec2 round_cells;\n"}},
+        constants);
   }
+  ParticleConstants showing = constants;
+  showing.count = false;
+  programs.show = program(
+      {{GL_VERTEX_SHADER,
+        {"tile_grid.glsl", "tiles_show.vert.glsl"},
+        defines + "#define TRI_INSTANCE gl_InstanceID\n#define TRI_CORNER gl_VertexID\n"},
+       {GL_FRAGMENT_SHADER, {"tile_grid.glsl", "storage.glsl", "tiles_show.frag.glsl"}, defines}},
+      showing);
   return programs;
 }
 
@@ -54,13 +75,15 @@ class TilesDrawing final : public Drawing {
                const technique::Arrangement& arrangement)
       : options_(work.options),
         near_(work.scene.camera.near),
+        background_(work.scene.background),
         particles_(arrangement.count()),
         constants_(particle_constants(work)),
         rounds_(rounds_of(gl, work.scene, arrangement)),
         data_(gl, work, arrangement),
-        buffers_(gl, work.scene, arrangement, rounds_.entries, options_.extra_work_stride),
+        buffers_(gl, work.scene, arrangement, rounds_, data_, options_.extra_work_stride),
+        target_(gl, work.scene.width, work.scene.height, options_.fault),
         cells_(arrangement.cells.size()),
-        programs_(make_programs(gl, constants_, options_.culling)) {
+        programs_(make_programs(gl, constants_, options_.culling, rounds_.entries > 0)) {
     kernel_hash_ = hash_of(gl, programs_.sources);
   }
 
@@ -76,26 +99,30 @@ class TilesDrawing final : public Drawing {
         ParticleConstants constants = constants_;
         constants.count = true;
         counting_.emplace(
-            Counting{make_programs(gl, constants, options_.culling), ParticleCounters(gl)});
+            Counting{make_programs(gl, constants, options_.culling, rounds_.entries > 0),
+                     ParticleCounters(gl)});
       }
       counting_->counters.start(gl);
     }
     data_.bind(gl);
     buffers_.bind(gl);
+    target_.bind(gl);
   }
 
   void submit(const Api& gl, Purpose purpose) override {
     const bool counting = purpose == Purpose::counters;
     const Programs& programs = counting ? counting_->programs : programs_;
     draw_depths(gl, programs, !counting && options_.extra_work_stride != 0);
-    run(gl, programs, index, buffers_.spread_groups());
-    run(gl, programs, shade, buffers_.groups_of_pixels());
+    if (rounds_.small) run(gl, programs, index, TileBuffers::spread_groups);
+    target_.clear(gl, background_);
+    gl.UseProgram(programs.show.get());
+    gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(buffers_.blocks()));
   }
 
   [[nodiscard]] record::Counts counters(const Api& gl) const override {
     const std::vector<std::uint64_t> sums = counting_->counters.sums(gl);
     record::Counts counts =
-        common_counts(options_, cells_, particles_, sums, buffers_.read(gl, near_).ids);
+        common_counts(options_, cells_, particles_, sums, target_.read(gl, near_).ids);
     // Fragments are what a rasterizer makes.
     for (const char* name : {"fragments", "fragments_discarded", "fragments_kept"}) {
       counts.erase(name);
@@ -103,7 +130,7 @@ class TilesDrawing final : public Drawing {
     counts.emplace("bin_entries", sums[static_cast<std::size_t>(Counted::bin_entries)]);
     return counts;
   }
-  [[nodiscard]] core::Image read(const Api& gl) const override { return buffers_.read(gl, near_); }
+  [[nodiscard]] core::Image read(const Api& gl) const override { return target_.read(gl, near_); }
   [[nodiscard]] std::string kernel_hash() const override { return kernel_hash_; }
 
  private:
@@ -120,23 +147,29 @@ class TilesDrawing final : public Drawing {
         TileBuffers::wanted_entries);
   }
 
-  static void run(const Api& gl, const Programs& programs, Pass pass,
-                  std::array<GLuint, 2> groups) {
-    gl.UseProgram(programs.of[pass].get());
-    gl.DispatchCompute(groups[0], groups[1], 1);
-    gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  // What is written is read as texels, images or storage.
+  static void finish(const Api& gl) {
+    gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                     GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 
-  void run_on(const Api& gl, const Programs& programs, Pass pass, const technique::TileRound& round,
-              GLuint groups) const {
+  static void run(const Api& gl, const Programs& programs, Pass pass, GLuint groups) {
+    gl.UseProgram(programs.of[pass].get());
+    gl.DispatchCompute(groups, 1, 1);
+    finish(gl);
+  }
+
+  static void run_on(const Api& gl, const Programs& programs, Pass pass,
+                     const technique::TileRound& round, GLuint groups) {
     const GLuint program = programs.of[pass].get();
     gl.UseProgram(program);
     gl.Uniform2ui(gl.GetUniformLocation(program, "round_cells"), round.first, round.cells);
     gl.DispatchCompute(groups, 1, 1);
-    gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    finish(gl);
   }
 
-  void bin_cells(const Api& gl, const Programs& programs, const technique::TileRound& round) const {
+  static void bin_cells(const Api& gl, const Programs& programs,
+                        const technique::TileRound& round) {
     run_on(gl, programs, cells, round, (round.cells + group_size - 1) / group_size);
     run_on(gl, programs, bin, round, round.cells);
   }
@@ -153,23 +186,31 @@ class TilesDrawing final : public Drawing {
         bin_cells(gl, programs, round);
         buffers_.choose(gl, TileBuffers::Cells::all);
       }
-      if (round.entries > 0 || options_.fault == technique::ParticleFault::missing_barrier) {
-        run(gl, programs, place, buffers_.groups_for_tiles());
-        run(gl, programs, fill, buffers_.spread_groups());
-        run(gl, programs, resolve, buffers_.tiles());
-      } else {
-        run(gl, programs, farthest, buffers_.groups_for_tiles());
-      }
+      const bool last = &round == &rounds_.rounds.back();
+      if (!last || round.entries > 0) resolve_tiles(gl, programs, round);
+      if (!last) run(gl, programs, settle, buffers_.groups_for_tiles());
     }
+  }
+
+  // Draws the round's large spheres, and notes what is hidden.
+  void resolve_tiles(const Api& gl, const Programs& programs,
+                     const technique::TileRound& round) const {
+    run(gl, programs, place, buffers_.groups_for_tiles());
+    if (round.entries > 0) run(gl, programs, fill, TileBuffers::spread_groups);
+    gl.UseProgram(programs.of[resolve].get());
+    buffers_.dispatch_listed(gl);
+    finish(gl);
   }
 
   technique::ParticleOptions options_;
   double near_;
+  std::array<float, 4> background_;
   std::uint64_t particles_;
   ParticleConstants constants_;
   technique::TileRounds rounds_;
   ParticleData data_;
   TileBuffers buffers_;
+  ParticleTarget target_;
   std::uint64_t cells_;
   Programs programs_;
   std::string kernel_hash_;

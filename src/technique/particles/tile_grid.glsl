@@ -28,7 +28,10 @@ uint farthest_in(int index) { return tile_state(index).z; }
 #define TRI_HAS_LARGE 4u  // large_pixels holds what earlier rounds have drawn
 
 // Depth key and particle key of large spheres, two rows of pixels in one.
-TRI_BINDING(20) layout(rgba32ui) uniform uimage2D large_pixels;
+#ifndef TRI_LARGE_PIXELS
+#define TRI_LARGE_PIXELS 20
+#endif
+TRI_BINDING(TRI_LARGE_PIXELS) layout(rgba32ui) uniform uimage2D large_pixels;
 
 // Keys: the nearest depth has the largest, 0 is none; the first particle has the smallest. The planted
 // faults turn them round: 2 unresolved ties, 3 reversed depth, 4 the sphere's back for its front, 6 lost at
