@@ -224,7 +224,7 @@ void TileBuffers::clear(const Api& gl) const {
 
 void TileBuffers::start_round(const Api& gl) const {
   gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  copy(gl, zeros_, tile_states_, word, 4 * word);  // behind the count of small spheres
+  copy(gl, zeros_, tile_states_, word, 5 * word);  // behind the count of small spheres
 }
 
 }  // namespace triptych::gl_backend

@@ -139,7 +139,7 @@ void TileBuffers::clear(const vk::raii::CommandBuffer& commands) const {
 
 // Behind the count of small spheres.
 void TileBuffers::start_round(const vk::raii::CommandBuffer& commands) const {
-  commands.fillBuffer(tiles_.get(), word, 4 * word, 0);
+  commands.fillBuffer(tiles_.get(), word, 5 * word, 0);
   barrier(commands);
 }
 

@@ -18,6 +18,8 @@
 // The backend gives TRI_ROUND, a uvec2: first cell and number of cells, and TRI_CULLING
 // (technique::Culling), both of which may vary at run time.
 
+#define TRI_MOST_GROUPS 65535u  // along one axis of a dispatch
+
 struct Tile {
   uint entries;   // tile_state()
   uint next;      // where the next entry goes; after tiles_fill the end of them

@@ -3,11 +3,10 @@
 layout(local_size_x = 64) in;
 
 void list_tile(uint index) {
-  const uint most_groups = 65535u;
   uint n = atomicAdd(tiles_listed, 1u);
   tiles[n].listed = index;
-  atomicMax(groups[0], min(n + 1u, most_groups));
-  groups[1] = 1u;
+  atomicMax(groups[0], min(n + 1u, TRI_MOST_GROUPS));
+  atomicMax(groups[1], n / TRI_MOST_GROUPS + 1u);
   groups[2] = 1u;
 }
 

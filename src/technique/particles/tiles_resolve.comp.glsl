@@ -25,15 +25,15 @@ uvec4 with_sphere(uvec4 pair, vec4 sphere, uint particle, float right, float upp
                wins_below ? below : pair.z, wins_below ? particle : pair.w);
 }
 
-// The next entry that reaches this quarter, 0 when there is none. A loop of its own: where lanes run in step,
-// only a loop leaves anything out.
+// The next entry that reaches this quarter, 0 when there is none. A loop of its own: where lanes run in step, only a loop
+// leaves anything out. And one that asks at its end: asked at its beginning, they would go through it once more, idle.
 uint next_entry(inout uint at, uint end, uint quarter) {
   uint found = 0u;
-  while (at < end && found == 0u) {
-    uint entry = texelFetch(entry_texels, int(at)).x;
+  do {
+    uint entry = at < end ? texelFetch(entry_texels, int(at)).x : 0u;
     found = (entry & quarter) != 0u ? entry : 0u;
     ++at;
-  }
+  } while (at < end && found == 0u);
   return found;
 }
 
@@ -45,15 +45,18 @@ void draw_entries(uint at, uint end, uint quarter, ivec2 pixel, inout Column col
     upper[k] = pixel_ray(pixel + ivec2(0, 2 * k)).y;
     lower[k] = pixel_ray(pixel + ivec2(0, 2 * k + 1)).y;
   }
-  for (uint entry = next_entry(at, end, quarter); entry != 0u; entry = next_entry(at, end, quarter)) {
+  uint entry = next_entry(at, end, quarter);
+  do {
     uint particle = entry & (1u << TRI_PARTICLE_BITS) - 1u;
     vec4 sphere = texelFetch(camera_texels, int(particle));
+    if (entry == 0u) sphere = vec4(0.0, 0.0, -1.0, 0.0);  // none: out of sight
     particle = particle_key(particle);
     column.a = with_sphere(column.a, sphere, particle, right, upper.x, lower.x);
     column.b = with_sphere(column.b, sphere, particle, right, upper.y, lower.y);
     column.c = with_sphere(column.c, sphere, particle, right, upper.z, lower.z);
     column.d = with_sphere(column.d, sphere, particle, right, upper.w, lower.w);
-  }
+    entry = next_entry(at, end, quarter);
+  } while (entry != 0u);
 }
 
 // What a pixel shows, or more where it is beyond the picture.
@@ -93,5 +96,6 @@ void resolve(int index) {
 }
 
 void main() {
-  for (uint n = gl_WorkGroupID.x; n < tiles_listed; n += gl_NumWorkGroups.x) resolve(int(tiles[n].listed));
+  uint n = gl_WorkGroupID.y * TRI_MOST_GROUPS + gl_WorkGroupID.x;
+  if (n < tiles_listed) resolve(int(tiles[n].listed));
 }
