@@ -156,8 +156,8 @@ void TileBuffers::see(const Api& gl, GLuint binding, GLuint buffer, std::size_t 
   const std::size_t texels = bytes / (format == GL_R32UI ? word : 4 * word);
   const auto most = static_cast<std::size_t>(gl.limit(GL_MAX_TEXTURE_BUFFER_SIZE));
   if (texels > most) {
-    throw core::NotSupported(
-        fmt::format("needs {} texels in one buffer; GL_MAX_TEXTURE_BUFFER_SIZE is {}", texels, most));
+    throw core::NotSupported(fmt::format(
+        "needs {} texels in one buffer; GL_MAX_TEXTURE_BUFFER_SIZE is {}", texels, most));
   }
   Texture texture(gl);
   gl.BindTexture(GL_TEXTURE_BUFFER, texture.get());

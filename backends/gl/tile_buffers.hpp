@@ -1,9 +1,8 @@
 #pragma once
 #include <array>
 #include <optional>
-#include <string>
-
 #include <span>
+#include <string>
 #include <vector>
 
 #include "backends/gl/objects.hpp"

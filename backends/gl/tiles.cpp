@@ -33,9 +33,8 @@ struct Programs {
 
 // GL counts image units by themselves, and from few.
 std::string tile_defines(Culling culling, bool large) {
-  return fmt::format(
-      "#define TRI_LARGE {:d}\n#define TRI_CULLING {}\n#define TRI_LARGE_PIXELS 0\n", int{large},
-      static_cast<int>(culling));
+  return fmt::format("#define TRI_LARGE {:d}\n#define TRI_CULLING {}\n#define TRI_LARGE_PIXELS 0\n",
+                     int{large}, static_cast<int>(culling));
 }
 
 Programs make_programs(const Api& gl, const ParticleConstants& constants, Culling culling,
@@ -53,10 +52,10 @@ Programs make_programs(const Api& gl, const ParticleConstants& constants, Cullin
     if (i == cells || i == bin) files.emplace_back("cells.glsl");
     const std::string main_file = fmt::format("tiles_{}.comp.glsl", passes[i]);
     files.insert(files.end(), {"tile_grid.glsl", "tiles.glsl", main_file});
-    programs.of[i] = program(
-        {{GL_COMPUTE_SHADER, files,
-          defines + "#define TRI_ROUND round_cells\nuniform uvec2 round_cells;\n"}},
-        constants);
+    programs.of[i] =
+        program({{GL_COMPUTE_SHADER, files,
+                  defines + "#define TRI_ROUND round_cells\nuniform uvec2 round_cells;\n"}},
+                constants);
   }
   ParticleConstants showing = constants;
   showing.count = false;

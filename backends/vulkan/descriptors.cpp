@@ -38,10 +38,8 @@ vk::raii::DescriptorPool make_pool(const Gpu& gpu, std::uint32_t sets,
       {.type = vk::DescriptorType::eUniformTexelBuffer, .descriptorCount = texel_buffers * sets},
   }};
   const std::uint32_t kinds = texel_buffers > 0 ? 5 : 3;  // none of a kind may not be asked for
-  return {gpu.device,
-          vk::DescriptorPoolCreateInfo{.maxSets = sets,
-                                       .poolSizeCount = kinds,
-                                       .pPoolSizes = sizes.data()}};
+  return {gpu.device, vk::DescriptorPoolCreateInfo{
+                          .maxSets = sets, .poolSizeCount = kinds, .pPoolSizes = sizes.data()}};
 }
 
 std::vector<vk::DescriptorSet> allocate_sets(const Gpu& gpu, const vk::raii::DescriptorPool& pool,

@@ -32,8 +32,8 @@ Buffer words(const Gpu& gpu, vk::DeviceSize count) {
 // Pairs of pixels, one above the other; as good as none where no sphere may be large.
 vk::Extent3D pairs(const scene::ParticleScene& scene, const technique::TileRounds& rounds) {
   if (rounds.entries == 0) return {1, 1, 1};
-  return {static_cast<std::uint32_t>(scene.width), parts(static_cast<std::uint32_t>(scene.height), 2),
-          1};
+  return {static_cast<std::uint32_t>(scene.width),
+          parts(static_cast<std::uint32_t>(scene.height), 2), 1};
 }
 
 // With work planted, a particle may be kept twice, and a sphere have each of its entries twice.
@@ -45,11 +45,11 @@ vk::raii::BufferView texel_view(const Gpu& gpu, const Buffer& buffer, vk::Format
   const vk::DeviceSize size = format == vk::Format::eR32Uint ? word : 4 * word;
   const vk::DeviceSize most = gpu.properties.limits.maxTexelBufferElements;
   if (buffer.size() / size > most) {
-    throw core::NotSupported(fmt::format("needs {} texels in one buffer; maxTexelBufferElements = {}",
-                                         buffer.size() / size, most));
+    throw core::NotSupported(fmt::format(
+        "needs {} texels in one buffer; maxTexelBufferElements = {}", buffer.size() / size, most));
   }
-  return {gpu.device,
-          vk::BufferViewCreateInfo{.buffer = buffer.get(), .format = format, .range = VK_WHOLE_SIZE}};
+  return {gpu.device, vk::BufferViewCreateInfo{
+                          .buffer = buffer.get(), .format = format, .range = VK_WHOLE_SIZE}};
 }
 
 }  // namespace

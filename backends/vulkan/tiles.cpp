@@ -1,5 +1,6 @@
-// Small spheres drawn by an invocation each, large ones binned into tiles in compute; the nearest hit
-// per pixel by depth and arrangement index (technique/particles/tiles.glsl says in which passes).
+// Small spheres drawn by an invocation each, large ones binned into tiles in compute; the nearest
+// hit per pixel by depth and arrangement index (technique/particles/tiles.glsl says in which
+// passes).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -43,7 +43,32 @@ TEST(TileRounds, HoldEveryCellOnceAndKeepTheirLimits) {
 
 TEST(TileRounds, SmallSpheresNeedNoEntries) {
   const scene::ParticleScene scene = uniform(20000, 0.2);
-  EXPECT_EQ(tile_rounds(scene, arrange(scene), 65535, 1000).entries, 0U);
+  const TileRounds rounds = tile_rounds(scene, arrange(scene), 65535, 1000);
+  EXPECT_EQ(rounds.entries, 0U);
+  EXPECT_TRUE(rounds.small);
+}
+
+// Nothing is cleared for small ones where there cannot be any.
+TEST(TileRounds, LargeSpheresAlonePromiseThatNoneIsSmall) {
+  const scene::ParticleScene large = uniform(8, 2);
+  EXPECT_FALSE(tile_rounds(large, arrange(large), 65535, 1U << 20U).small);
+  scene::ParticleScene edge = large;  // where one may be in sight by a few pixels only
+  edge.camera.eye = {5, 5, 5};
+  EXPECT_TRUE(tile_rounds(edge, arrange(edge), 65535, 1U << 20U).small);
+}
+
+// A tile's loop over its entries stays below what Mesa's drivers allow.
+TEST(TileRounds, ARoundHasNotMoreLargeSpheresThanALoopMayTake) {
+  scene::ParticleScene scene = uniform(200000, 1000);
+  scene.width = scene.height = 16;
+  const Arrangement arrangement = arrange(scene);
+  for (const TileRound& round : tile_rounds(scene, arrangement, 65535, 1U << 24U).rounds) {
+    std::uint64_t spheres = 0;
+    for (std::uint32_t i = round.first; i < round.first + round.cells; ++i) {
+      spheres += arrangement.cells[i].count;
+    }
+    EXPECT_LE(spheres, most_large_spheres);
+  }
 }
 
 TEST(TileRounds, ASphereAroundTheEyeMayEnterEveryTile) {
