@@ -25,8 +25,9 @@ uvec4 with_sphere(uvec4 pair, vec4 sphere, uint particle, float right, float upp
                wins_below ? below : pair.z, wins_below ? particle : pair.w);
 }
 
-// The next entry that reaches this quarter, 0 when there is none. A loop of its own: where lanes run in step, only a loop
-// leaves anything out. And one that asks at its end: asked at its beginning, they would go through it once more, idle.
+// The next entry that reaches this quarter, 0 when there is none. A loop of its own: where lanes run in step,
+// only a loop leaves anything out. And one that asks at its end: asked at its beginning, they would go through
+// it once more, idle.
 uint next_entry(inout uint at, uint end, uint quarter) {
   uint found = 0u;
   do {
