@@ -59,10 +59,11 @@ void bin(uint particle) {
   bool small = covers && is_small(rectangle);
   int pixel_count = small && front >= farthest_around(rectangle) ? rectangle.z * rectangle.w : 0;
   ivec2 tile_span = (rectangle.xy + rectangle.zw - 1) / TRI_TILE - rectangle.xy / TRI_TILE + 1;
+  // Whether it is seen or not, which hangs on what else was drawn a moment ago: so that work repeats.
+  if (pixel_count > 0) use_tiles(rectangle);
   int tile_count = covers && !small ? tile_span.x * tile_span.y : 0;
   bool seen = draw_small(sphere, rectangle, pixel_count);
   bool entered = count_large(front, rectangle, tile_count);
-  if (seen) use_tiles(rectangle);
   if (seen || entered) {
     uint place = seen ? atomicAdd(small_kept, 1u) : large_place(atomicAdd(large_kept, 1u));
     kept[place] = particle;
