@@ -65,6 +65,13 @@ void add_baselines_option(CLI::App& command, std::string& folder) {
       });
 }
 
+void add_limit_option(CLI::App& command, int& seconds, const std::string& what) {
+  command
+      .add_option("--limit", seconds, fmt::format("Seconds after which {} counts as hung", what))
+      ->capture_default_str()
+      ->check(CLI::Range(1, 86400));
+}
+
 measure::Overrides parse_overrides(const std::vector<std::string>& set) {
   measure::Overrides overrides;
   for (const std::string& each : set) {

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "measure/plan/plan.hpp"
 #include "measure/run/runner.hpp"
+#include "record/hung.hpp"
 
 namespace triptych::app {
 
@@ -47,6 +48,10 @@ struct PlanArguments {
 
 // The folder of the baselines; one without a name would be the folder the program is started in.
 void add_baselines_option(CLI::App& command, std::string& folder);
+
+// Seconds until `what` counts as hung.
+inline constexpr int standard_limit_s = record::standard_limit.count();
+void add_limit_option(CLI::App& command, int& seconds, const std::string& what);
 
 // "factor=a,b" → {factor, {a, b}}, each value as record::escaped spells it or plainly; throws
 // core::InputError.

@@ -153,9 +153,7 @@ void add_compare_commands(Commands& commands) {
                    "Seconds after which no doubt about a time is followed any further (default: "
                    "none)")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--limit", comparing.limit_s, "Seconds after which one answer counts as hung")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 86400));
+  add_limit_option(*command, comparing.limit_s, "one answer");
   command->add_option("--store", comparing.store,
                       "SQLite file that keeps both runs (default: nothing is kept)");
   command->add_option("--seed", comparing.seed, "Of the order in which times are taken")

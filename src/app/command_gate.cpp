@@ -83,6 +83,7 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
   request.required_devices = arguments.required;
   request.checks = judged.checks;
   request.times_decide = arguments.times;
+  request.part = !arguments.choice.set.empty() || !arguments.choice.shard.empty();
   return request;
 }
 
@@ -159,6 +160,7 @@ void accept_one(const AcceptArguments& arguments, const std::string& typed, reco
   const judge::GateRequest judged = request_of(truths, plan);
   const judge::AcceptRequest request{
       .plan = plan,
+      .argument = typed,
       .reason = arguments.reason,
       .only = arguments.only,
       .date = today(),

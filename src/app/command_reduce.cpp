@@ -96,6 +96,7 @@ std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
                           .device = frame.device,
                           .factors = record::parse_factor_list(record.configuration),
                           .injected = arguments.frame.plants,
+                          .limit = record::limit_in(failure.message),
                           .more = {"--truth", "--out", "again"},
                           .environment = device.environment};
   if (!picture) command.more.insert(command.more.begin(), {"--against", arguments.against});
@@ -199,9 +200,7 @@ void add_reduce_command(Commands& commands) {
   command->add_option("--out", arguments->frame.out, "Folder to write into")->capture_default_str();
   command->add_option("--against", arguments->against,
                       "A device whose counters are right: others are a failure too");
-  command->add_option("--limit", arguments->limit_s, "Seconds after which a frame counts as hung")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 86400));
+  add_limit_option(*command, arguments->limit_s, "a frame");
   command->add_option("--frames", arguments->frames, "Draw at most so many")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));

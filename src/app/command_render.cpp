@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 struct RenderArguments {
   FrameArguments frame;
   std::optional<std::string> error;  // as it was typed
+  int limit_s = standard_limit_s;
   bool truth = false;
 };
 
@@ -52,7 +53,8 @@ struct Drawn {
 std::string measure_in(const Drawing& drawing, const measure::Plan& plan) {
   const measure::RunResult result =
       measure::run_plan(plan, drawing.devices, drawing.suite, drawing.store,
-                        {.plants = parse_plants(drawing.arguments.frame.plants),
+                        {.limit = std::chrono::seconds(drawing.arguments.limit_s),
+                         .plants = parse_plants(drawing.arguments.frame.plants),
                          .worker_command = {own_program(), "worker", "--device"}},
                         [](const measure::Progress& progress) {
                           if (progress.loading) show_loading(*progress.loading);
@@ -120,6 +122,7 @@ void add_render_command(Commands& commands) {
                       "E or E:METRIC, with rms (the default), covered, p99.9 or max: the error "
                       "against the scene's limit. Chooses the fastest step, quadrature, ert, adapt "
                       "and skip that keep it");
+  add_limit_option(*command, arguments->limit_s, "the frame");
   command->add_flag("--truth", arguments->truth,
                     "Hold it against the reference: writes truth.exr, truth.png and "
                     "difference.png, ends with 1 where it is wrong");

@@ -33,7 +33,7 @@ struct RunArguments {
   bool resume = false;
   std::set<std::pair<std::string, std::string>> again;
   int jobs = 0;
-  int limit_s = 60;
+  int limit_s = standard_limit_s;
   std::optional<std::uint64_t> memory;  // bytes
   bool measure_every = false;
   bool brief = false;
@@ -286,11 +286,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
                      "Glob over device ids (repeatable; default: all)");
   command.add_option("--store", arguments.store, "SQLite file for the records")
       ->capture_default_str();
-  command
-      .add_option("--limit", arguments.limit_s,
-                  "Seconds after which a configuration counts as hung")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 86400));
+  add_limit_option(command, arguments.limit_s, "a configuration");
   constexpr std::uint64_t least_memory = std::uint64_t{64} << 20;
   command
       .add_option("--memory", arguments.memory,

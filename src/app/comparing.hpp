@@ -23,7 +23,7 @@ struct Comparing {
   std::vector<std::string> plants = {};  // into b
   std::string store = {};                // keeps both runs of each plan; empty: nothing does
   int budget_s = 0;                      // none
-  int limit_s = 60;
+  int limit_s = standard_limit_s;
   std::uint64_t seed = 1;
   bool times = true;
 };

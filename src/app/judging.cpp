@@ -12,6 +12,7 @@
 #include "core/foreign_error.hpp"
 #include "core/quoting.hpp"
 #include "measure/plan/plan.hpp"
+#include "record/factor_list.hpp"
 #include "report/benchmark_json.hpp"
 #include "report/folder.hpp"
 #include "report/junit.hpp"
@@ -57,27 +58,40 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
 judge::GateResult judge_named(const record::Store& store, const std::string& run,
                               const std::string& baselines, const judge::GateRequest& request) {
   return core::naming(fmt::format("{}: run {}", store.file().string(), run), [&] {
-    return judge::judge_run(store, run, judge::Baselines(baselines, request.plan), request);
+    judge::GateResult result =
+        judge::judge_run(store, run, judge::Baselines(baselines, request.plan), request);
+    if (baselines != default_baselines().string()) result.baselines = baselines;
+    return result;
   });
 }
 
 judge::GateRequest request_of(Truths& truths, const measure::Plan& plan,
                               const measure::Suite& suite) {
   judge::GateRequest request = request_of(truths, plan.name);
+  request.argument = plan.argument;
   request.plan_hash = plan.hash;
   for (const measure::Configuration& each : plan.configurations) {
     request.expected.push_back(measure::configuration_key(suite, each));
+    const auto said = record::parse_factor_list(request.expected.back());
+    for (const std::string& factor : plan.named) {
+      if (!said.contains(factor)) request.defaults.emplace(factor, each.at(factor));
+    }
   }
   return request;
 }
 
-std::string page_of(const record::Store& store, Truths& truths, const std::string& baselines) {
+std::string page_of(const record::Store& store, Truths& truths, const std::string& baselines,
+                    const std::vector<judge::GateResult>& judged) {
   report::PageRequest request{
       .plans = {}, .truth = [&](const record::Record& record) { return truths.of(record); }};
   for (const record::Run& run : latest_runs(store)) {
-    request.plans.push_back(
-        {.run = run,
-         .verdict = judge_named(store, run.id, baselines, request_of(truths, run.plan))});
+    judge::GateRequest asked = request_of(truths, run.plan);
+    for (const judge::GateResult& each : judged) {
+      if (each.run != run.id) continue;
+      asked.argument = each.argument;
+      asked.defaults = each.defaults;
+    }
+    request.plans.push_back({.run = run, .verdict = judge_named(store, run.id, baselines, asked)});
   }
   return core::naming(store.file().string(), [&] { return report::page(store, request); });
 }
@@ -91,8 +105,9 @@ core::ExitCode tell_verdict(const record::Store& store, Truths& truths,
   std::vector<std::string> written;
   if (!files.folder.empty()) {
     require_writable(files.folder);
-    written = report::write_folder(files.folder, results, page_of(store, truths, baselines),
-                                   report::benchmark_json(store, latest_runs(store)));
+    written =
+        report::write_folder(files.folder, results, page_of(store, truths, baselines, results),
+                             report::benchmark_json(store, latest_runs(store)));
   }
   if (files.json == "-") {
     fmt::print("{}", report::json(results));

@@ -45,8 +45,10 @@ core::ExitCode tell_verdict(const record::Store& store, Truths& truths,
                             const std::vector<judge::GateResult>& results, double seconds,
                             const VerdictFiles& files);
 
-// The report on the latest run of each plan in a store, which holds one.
+// The report on the latest run of each plan in a store, which holds one. `judged`: whose commands
+// it repeats.
 [[nodiscard]] std::string page_of(const record::Store& store, Truths& truths,
-                                  const std::string& baselines);
+                                  const std::string& baselines,
+                                  const std::vector<judge::GateResult>& judged = {});
 
 }  // namespace triptych::app

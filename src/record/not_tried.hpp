@@ -8,8 +8,8 @@
 
 namespace triptych::record {
 
-// Then the levels that they share.
-inline constexpr std::string_view not_tried = "; not tried, as others ended so with ";
+// Then " with " and the levels that they share, where they share any.
+inline constexpr std::string_view not_tried = "; not tried, as others ended so";
 
 [[nodiscard]] inline bool was_not_tried(const Record& record) {
   return record.reason.find(not_tried) != std::string::npos;

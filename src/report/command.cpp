@@ -1,7 +1,10 @@
 #include "report/command.hpp"
 
+#include <fmt/format.h>
+
 #include "core/quoting.hpp"
 #include "record/factor_list.hpp"
+#include "record/hung.hpp"
 
 namespace triptych::report {
 
@@ -12,6 +15,9 @@ std::string text_of(const Command& command) {
     words.insert(words.end(), {"--set", record::factor_list({{factor, level}})});
   }
   for (const std::string& fault : command.injected) words.insert(words.end(), {"--plant", fault});
+  if (command.limit && *command.limit != record::standard_limit) {
+    words.insert(words.end(), {"--limit", fmt::format("{}", command.limit->count())});
+  }
   words.insert(words.end(), command.more.begin(), command.more.end());
   std::string text;
   for (const auto& [name, value] : command.environment) {

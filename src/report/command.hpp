@@ -1,7 +1,9 @@
 #pragma once
 // Commands to paste.
 
+#include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@ struct Command {
   std::string device;
   std::map<std::string, std::string> factors;           // that have not their defaults
   std::vector<std::string> injected = {};               // faults
+  std::optional<std::chrono::seconds> limit = {};       // of one frame, where it is not the usual
   std::vector<std::string> more = {};                   // words at the end
   std::map<std::string, std::string> environment = {};  // set for the device
 };

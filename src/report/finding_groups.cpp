@@ -11,6 +11,7 @@
 
 #include "core/text.hpp"
 #include "record/factor_list.hpp"
+#include "record/hung.hpp"
 #include "record/not_tried.hpp"
 #include "report/command.hpp"
 
@@ -206,6 +207,29 @@ class Grouping {
   std::map<std::tuple<Verdict, Check, std::string_view, std::string>, Members> by_shape_;
 };
 
+// A hang too, whose limit `render` takes.
+bool is_told_by_a_picture(const Finding& finding) {
+  return finding.check == Check::image || finding.check == Check::stress ||
+         finding.check == Check::accuracy || record::limit_in(finding.message);
+}
+
+bool is_told_by_the_gate(Check check) {
+  return check == Check::counters || check == Check::statistics || check == Check::cost ||
+         check == Check::memory;
+}
+
+// What is wrong by what is stored alone is measured and judged again, into a store of its own.
+void judge_again(const Finding& finding, const judge::GateResult& result, Command& command) {
+  command.command = "gate";
+  command.object = result.argument.empty() ? record::plan_argument(result.plan) : result.argument;
+  command.factors.insert(result.defaults.begin(), result.defaults.end());
+  command.more = {"--measure", "--check", std::string(judge::name_of(finding.check)), "--store",
+                  "repro.sqlite"};
+  if (!result.baselines.empty()) {
+    command.more.insert(command.more.end(), {"--baselines", result.baselines});
+  }
+}
+
 }  // namespace
 
 std::string FindingGroup::subject() const {
@@ -249,24 +273,17 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
                   .object = finding.test.substr(0, finding.test.find('.')),
                   .device = finding.device,
                   .factors = factors_of(finding),
-                  .injected = finding.injected};
-  switch (finding.check) {
-    case Check::image:
-    case Check::stress:
-      command.more = {"--truth", "--out", "repro"};
-      break;
-    case Check::counters:
-    case Check::statistics:
-    case Check::accuracy:
-      command.more = {"--out", "repro"};
-      break;
-    case Check::cost:
-    case Check::memory:
-      command.command = "run";
-      command.object = record::plan_argument(result.plan);
-      break;
-    default:
-      return {};  // one run of a time shows nothing
+                  .injected = finding.injected,
+                  .limit = record::limit_in(finding.message),
+                  .more = {"--truth", "--out", "repro"}};
+  // Counting has a limit of its own.
+  if (finding.check == Check::cost) command.limit.reset();
+  if (is_told_by_a_picture(finding)) {
+    if (finding.check == Check::accuracy) command.more.erase(command.more.begin());
+  } else if (is_told_by_the_gate(finding.check)) {
+    judge_again(finding, result, command);
+  } else {
+    return {};  // one run of a time shows nothing
   }
   if (const auto set = result.environments.find(finding.device); set != result.environments.end()) {
     command.environment = set->second;

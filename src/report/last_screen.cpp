@@ -86,7 +86,24 @@ class Screen {
     const std::size_t used = width_of(left) + width_of(right);
     add(left + std::string(used + 3 < width_ ? width_ - used : 3, ' ') +
         coloured(right, verdict_of(all.code)));
+    if (!all.open.empty()) add(worst_of(all.open.front()));
     add("");
+  }
+
+  // "✗ image on gl:x: crashed: …": cause and place in one line.
+  [[nodiscard]] std::string worst_of(const Cause& cause) const {
+    const judge::Finding& first = *cause.group.first;
+    return fmt::format(
+        "  {} {}", sign_of(first),
+        core::printable(
+            fmt::format("{} {} {}: {}", judge::name_of(first.check),
+                        first.device.empty() ? "of" : "on",
+                        first.device.empty() ? cause.result->plan : first.device, first.message),
+            width_ - 4));
+  }
+
+  [[nodiscard]] std::string sign_of(const judge::Finding& finding) const {
+    return coloured(finding.verdict == Verdict::regression ? "✗" : "?", finding.verdict);
   }
 
   // As many as fit above the last lines.
@@ -107,9 +124,8 @@ class Screen {
 
   [[nodiscard]] std::vector<std::string> lines_of(const Cause& cause) const {
     const judge::Finding& first = *cause.group.first;
-    const std::string_view sign = first.verdict == Verdict::regression ? "✗" : "?";
     std::vector<std::string> lines{fmt::format(
-        "  {} {}", coloured(sign, first.verdict),
+        "  {} {}", sign_of(first),
         core::printable(fmt::format("{}: {}", judge::name_of(first.check), place_of(cause)),
                         width_ - 4))};
     append_wrapped(lines, core::printable(message_of(cause), longest_message * (width_ - 6)), "");

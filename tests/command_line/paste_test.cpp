@@ -3,28 +3,46 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <regex>
 #include <string>
 
-#include "core/json.hpp"
 #include "program.hpp"
 #include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-// From "triptych " to the end of the screen's block, its lines joined as a shell does; without the
-// program's name.
-std::string printed_command(const std::string& screen) {
-  const std::size_t begin = screen.find("triptych render");
-  if (begin == std::string::npos) return {};
-  const std::size_t end = screen.find("\n\n", begin);
-  std::string command = screen.substr(begin, end - begin);
-  for (std::size_t at = 0; (at = command.find("\\\n", at)) != std::string::npos;) {
-    command.erase(at, 2);
-  }
-  return command.substr(std::string_view("triptych ").size());
+struct Printed {
+  std::string environment;  // before the program
+  std::string arguments;
+};
+
+// The screen's first command, its lines joined as a shell does.
+Printed printed_command(const std::string& screen) {
+  constexpr std::string_view program = "triptych ";
+  static const std::regex line_with_command("\n    (\\w+=\\S+ (\\\\\n +)?)*triptych ");
+  std::smatch found;
+  if (!std::regex_search(screen, found, line_with_command)) return {};
+  const auto begin = static_cast<std::size_t>(found.position()) + 1;
+  const std::string lines = screen.substr(begin, screen.find("\n\n", begin) - begin);
+  const std::string text = std::regex_replace(lines, std::regex("\\\\\n +"), "");
+  const std::size_t name = text.find(program);
+  return {text.substr(0, name), text.substr(name + program.size())};
+}
+
+std::string first_lines(const std::string& screen) {
+  std::size_t end = screen.find("Triptych   ");
+  for (int line = 0; line < 3 && end != std::string::npos; ++line) end = screen.find('\n', end + 1);
+  return screen.substr(0, end);
+}
+
+Printed without(Printed command, const std::string& part) {
+  const std::size_t at = command.arguments.find(part);
+  if (at != std::string::npos) command.arguments.erase(at, part.size());
+  return command;
 }
 
 class Paste : public testing::Test {
@@ -32,6 +50,10 @@ class Paste : public testing::Test {
   [[nodiscard]] std::string script(const std::string& failures) const {
     return fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": 1e5{}}})", picture.string(),
                        failures);
+  }
+
+  [[nodiscard]] Result paste(const Printed& command, const std::string& device = "{}") const {
+    return program.run(command.arguments, device, "env " + command.environment);
   }
 
   Program program;
@@ -45,32 +67,26 @@ TEST_F(Paste, TheCommandOfAWrongPictureShowsIt) {
   const Result judged = program.run(
       fmt::format("gate volume/quick {} --store s.sqlite --baselines none --out out", tiny));
   ASSERT_EQ(judged.code, 1) << judged.output;
-  const std::string command = printed_command(judged.output);
-  ASSERT_FALSE(command.empty()) << judged.output;
-  const Result pasted = program.run(command, broken);
-  EXPECT_EQ(pasted.code, 1) << command << pasted.output;
+  const Printed command = printed_command(judged.output);
+  ASSERT_FALSE(command.arguments.empty()) << judged.output;
+  const Result pasted = paste(command, broken);
+  EXPECT_EQ(pasted.code, 1) << command.arguments << pasted.output;
   EXPECT_THAT(pasted.output, HasSubstr("pixels are over the bound against the truth"));
   EXPECT_TRUE(std::filesystem::exists(program.folder() / "repro/difference.png"));
-  const Result mended = program.run(command, script(""));
+  const Result mended = paste(command, script(""));
   EXPECT_EQ(mended.code, 0) << mended.output;
   EXPECT_THAT(mended.output, HasSubstr("within the bound of the truth"));
 }
 
 struct Injected {
   const char* fault;
-  const char* says;   // the last screen
-  int code;           // of the pasted command
-  const char* shows;  // what it prints
+  const char* says;        // the last screen, in its first lines
+  int code;                // of the pasted command
+  const char* shows;       // what it prints
+  const char* extra = "";  // that the command has
 };
 
-class PasteInjected : public Paste, public testing::WithParamInterface<Injected> {
- protected:
-  // 0 where nothing was drawn.
-  [[nodiscard]] std::size_t counters_in_frame() const {
-    if (!std::filesystem::exists(program.folder() / "repro/frame.json")) return 0;
-    return core::Json::parse(program.read("repro/frame.json")).at("counters").size();
-  }
-};
+class PasteInjected : public Paste, public testing::WithParamInterface<Injected> {};
 
 TEST_P(PasteInjected, TheCommandShowsTheFaultAndNothingWithoutIt) {
   const Injected& injected = GetParam();
@@ -83,26 +99,77 @@ TEST_P(PasteInjected, TheCommandShowsTheFaultAndNothingWithoutIt) {
   const Result judged =
       program.run(fmt::format("gate volume/quick {} --store s.sqlite --baselines b", tiny));
   EXPECT_EQ(judged.code, 1) << judged.output;
-  EXPECT_THAT(judged.output, HasSubstr(injected.says));
-  std::string command = printed_command(judged.output);
-  ASSERT_THAT(command, HasSubstr(fmt::format("--plant {}", injected.fault))) << judged.output;
-  const Result pasted = program.run(command, right);
-  EXPECT_EQ(pasted.code, injected.code) << command << pasted.output;
-  EXPECT_THAT(pasted.output, HasSubstr(injected.shows));
-  const std::size_t counters = counters_in_frame();
+  EXPECT_THAT(first_lines(judged.output),
+              AllOf(HasSubstr(injected.says), HasSubstr("null:scripted")));
   const std::string plant = fmt::format("--plant {}", injected.fault);
-  command.erase(command.find(plant), plant.size());
-  const Result mended = program.run(command, right);
+  const Printed command = printed_command(judged.output);
+  ASSERT_THAT(command.arguments, AllOf(HasSubstr(plant), HasSubstr(injected.extra)))
+      << judged.output;
+  const Result pasted = paste(command, right);
+  EXPECT_EQ(pasted.code, injected.code) << command.arguments << pasted.output;
+  EXPECT_THAT(pasted.output, HasSubstr(injected.shows));
+  const Result mended = paste(without(command, plant), right);
   EXPECT_EQ(mended.code, 0) << mended.output;
-  EXPECT_LT(counters, counters_in_frame());
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Faults, PasteInjected,
-    testing::Values(Injected{"crash", "crashed: killed by SIGSEGV", 3, "SIGSEGV"},
-                    Injected{"device_lost", "lost: ", 3, "device_lost"},
-                    Injected{"lost_counter", " is missing, stored ", 0, "repro/image.exr"}),
-    [](const auto& each) { return std::string(each.param.fault); });
+INSTANTIATE_TEST_SUITE_P(Faults, PasteInjected,
+                         testing::Values(Injected{"crash", "crashed: killed by SIGSEGV", 3,
+                                                  "SIGSEGV"},
+                                         Injected{"hang", "hung: no answer within 2 s", 3,
+                                                  "no answer within 2 s", "--limit 2"},
+                                         Injected{"device_lost", "lost: ", 3, "device_lost"},
+                                         Injected{"lost_counter", " is missing, stored ", 1,
+                                                  " is missing, stored ", "gate volume/quick"}),
+                         [](const auto& each) { return std::string(each.param.fault); });
+
+// On a real device, as the scripted one computes nothing.
+class PasteOnDevice : public Paste {
+ protected:
+  static constexpr const char* device = "opencl:pocl";
+
+  // The command that the gate's last screen prints about a file's plan with this fault, that has
+  // the checks; none: nothing was measured, as the device is not here.
+  Printed command_about(const std::string& fault, const std::string& checks,
+                        const std::string& says) {
+    std::filesystem::create_directory(program.folder() / "my plans");
+    program.write("my plans/small.yaml",
+                  fmt::format("{}checks: [{}]\nstep: [1, 2]\n", tiny_plan, checks));
+    const std::string measure = fmt::format("run 'my plans/small.yaml' --device {}", device);
+    const Result accepted = program.run(measure + " --store a.sqlite");
+    if (accepted.output.find(" 2 measured") == std::string::npos) return {};
+    EXPECT_EQ(
+        program.run("accept 'my plans/small.yaml' --store a.sqlite --baselines b --reason new")
+            .code,
+        0);
+    EXPECT_EQ(program.run(fmt::format("{} --store s.sqlite --plant {}", measure, fault)).code, 0);
+    const Result judged = program.run("gate 'my plans/small.yaml' --store s.sqlite --baselines b");
+    EXPECT_EQ(judged.code, 1) << judged.output;
+    EXPECT_THAT(first_lines(judged.output), AllOf(HasSubstr(says), HasSubstr(device)));
+    return printed_command(judged.output);
+  }
+  void expect_code(const Printed& command, int code) const {
+    const Result pasted = paste(command);
+    EXPECT_EQ(pasted.code, code) << command.arguments << '\n' << pasted.output;
+  }
+};
+
+TEST_F(PasteOnDevice, TheCommandOfASlowerKernelCountsAndJudgesItAgain) {
+  const Printed command = command_about("slowdown:5", "cost", "instructions ");
+  if (command.arguments.empty() && !HasFailure()) GTEST_SKIP() << device << " counts nothing here";
+  EXPECT_THAT(command.arguments,
+              AllOf(HasSubstr("gate 'my plans/small.yaml' "), HasSubstr("--set step=1 ")));
+  expect_code(command, 1);
+  expect_code(without(command, "--plant slowdown:5"), 0);
+}
+
+TEST_F(PasteOnDevice, TheCommandOfAShiftedPictureDrawsItAgain) {
+  const Printed command = command_about("half_voxel_shift", "image", "over the bound");
+  if (command.arguments.empty() && !HasFailure()) GTEST_SKIP() << "there is no " << device;
+  EXPECT_THAT(command.arguments, HasSubstr("render volume "));
+  expect_code(command, 1);
+  EXPECT_TRUE(std::filesystem::exists(program.folder() / "repro/difference.png"));
+  expect_code(without(command, "--plant half_voxel_shift"), 0);
+}
 
 }  // namespace
 }  // namespace triptych::command_line

@@ -327,7 +327,8 @@ void refuse_part(const Accepted& accepted, const Baselines& stored, const std::s
       "{} --resume, accept what it has with --only GLOB, or drop them with --drop where the plan "
       "has them no longer",
       run, missing.size(), known.size(), missing.front(), missing.size() > 1 ? "; …" : "",
-      core::shell_quoted(record::plan_argument(request.plan))));
+      core::shell_quoted(request.argument.empty() ? record::plan_argument(request.plan)
+                                                  : request.argument)));
 }
 
 // Everything that is stored and as it was accepted; nothing where that is to be dropped.

@@ -136,8 +136,7 @@ void report_missing(const RunView& view, const record::Device& device,
       view, device, *view.checks.begin(), Verdict::cannot_judge,
       fmt::format("missing rows: of {} {} configurations there is no record of {}; finish the run "
                   "with triptych run {} --resume",
-                  wanted.size(), kind, examples_of(missing),
-                  core::shell_quoted(record::plan_argument(view.request.plan)))));
+                  wanted.size(), kind, examples_of(missing), core::shell_quoted(view.argument()))));
   set_number(findings.back(), "missing", static_cast<double>(missing.size()));
 }
 
@@ -282,6 +281,8 @@ GateResult judge_run(const record::Store& store, const std::string& run, const B
                      const GateRequest& request) {
   const RunView view = view_of(store, run, baselines, request);
   GateResult result{.plan = request.plan, .run = run, .findings = {}};
+  result.argument = view.argument();
+  result.defaults = request.defaults;
   report_what_is_there(view, result);
   const WrongImages wrong = run_exact_checks(view, result);
   if (judges_times(view)) append(result.findings, check_timings(view, wrong));

@@ -63,6 +63,9 @@ struct GateResult {
   std::set<std::string> devices = {};  // that measured something, of those asked for
   // What was set for a device when it was measured, by its id; commands repeat it.
   std::map<std::string, std::map<std::string, std::string>> environments = {};
+  std::string argument = {};                         // as of the request, never empty
+  std::map<std::string, std::string> defaults = {};  // likewise
+  std::string baselines = {};                        // the folder, where commands have to name it
   // Of which all findings are advice or reasons for not judging.
   [[nodiscard]] std::vector<std::string> nothing_decided() const;
   [[nodiscard]] core::ExitCode exit_code() const;
@@ -81,6 +84,8 @@ struct GateResult {
 
 struct GateRequest {
   std::string plan;
+  // The plan as commands take it; empty: its name has to do (record::plan_argument).
+  std::string argument = {};
   std::set<Check> checks;            // empty: those of the run's plan (checked_in)
   std::vector<std::string> devices;  // globs; empty: all in the run
   std::vector<std::string>
@@ -101,6 +106,8 @@ struct GateRequest {
   // Empty: not known.
   std::string plan_hash = {};
   std::vector<std::string> expected = {};
+  // Levels that these keys leave out, of the factors that the plan names.
+  std::map<std::string, std::string> defaults = {};
   // `expected` is but a part of the plan: what was accepted beside it is not missed.
   bool part = false;
   // What is known to fail or to be skipped; all else has to pass, and a skip that is not among them

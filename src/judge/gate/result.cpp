@@ -160,8 +160,12 @@ std::string RunView::plan_test(Check check) const {
   return fmt::format("{}.{}", test, name_of(check));
 }
 
+std::string RunView::argument() const {
+  return request.argument.empty() ? record::plan_argument(request.plan) : request.argument;
+}
+
 std::string RunView::accept_command() const {
-  return fmt::format("triptych accept {} --reason TEXT", core::shell_quoted(request.plan));
+  return fmt::format("triptych accept {} --reason TEXT", core::shell_quoted(argument()));
 }
 
 Finding finding_about(const record::Record& record, Check check, Verdict verdict,

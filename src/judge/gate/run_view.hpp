@@ -27,6 +27,8 @@ struct RunView {
   }
   // For findings that belong to no device: the test id without one.
   [[nodiscard]] std::string plan_test(Check check) const;
+  // The plan as commands take it.
+  [[nodiscard]] std::string argument() const;
   // The command that would make or renew the baselines.
   [[nodiscard]] std::string accept_command() const;
 };

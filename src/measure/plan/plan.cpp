@@ -175,6 +175,10 @@ OpenPlan open_plan(std::string_view name_or_file, const Overrides& overrides,
   plan.summary = text.summary;
   if (!text.checks.empty()) plan.checks = text.checks;
   plan.hash = core::content_hash(source.yaml);
+  plan.argument = name_or_file;
+  for (const ValuesByFactor& block : blocks) {
+    for (const auto& [factor, values] : block) plan.named.insert(factor);
+  }
   return {std::move(plan), suite, std::move(combinations), std::move(places)};
 }
 

@@ -2,6 +2,7 @@
 // Plans: factors and their values in YAML; all combinations are made.
 
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,6 +26,8 @@ struct Plan {
   record::Checks checks = standard_checks();
   // Of its text: another plan of the same name has another. Empty where it has no text.
   std::string hash;
+  std::string argument = {};         // as it was typed
+  std::set<std::string> named = {};  // factors that its text or an override names
 
   [[nodiscard]] static record::Checks standard_checks();
   [[nodiscard]] bool timed() const { return checks.contains(record::Check::timing); }

@@ -18,13 +18,15 @@
 #include "measure/protocol/plant.hpp"
 #include "measure/protocol/protocol.hpp"
 #include "measure/system/interrupt.hpp"
+#include "record/hung.hpp"
 #include "record/store.hpp"
 
 namespace triptych::measure {
 
 struct RunOptions {
   Protocol protocol;
-  std::chrono::seconds limit{60};  // of one configuration; a worker past it is killed and replaced
+  // Of one configuration; a worker past it is killed and replaced.
+  std::chrono::seconds limit = record::standard_limit;
   std::chrono::seconds start_limit{60};  // of opening a device and calibrating its clocks
   bool resume = false;  // continue the plan's latest run: what has a record is left alone
   // Device and configuration of records that a resumed run holds and yet draws again.

@@ -58,8 +58,9 @@ std::optional<SameFailure::Foretold> SameFailure::foretold(
       return no_matter.contains(level.first) ||
              std::ranges::find(varied_, level.first) == varied_.end();
     });
-    return Foretold{failure.outcome, fmt::format("{}{}{}", failure.reason, record::not_tried,
-                                                 record::factor_list(shared))};
+    return Foretold{failure.outcome,
+                    fmt::format("{}{}{}{}", failure.reason, record::not_tried,
+                                shared.empty() ? "" : " with ", record::factor_list(shared))};
   }
   return std::nullopt;
 }

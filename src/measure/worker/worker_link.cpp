@@ -11,6 +11,7 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "record/hung.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -87,8 +88,7 @@ WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseco
     if (over || !answers_open_) return bury();
     if (!in_time) {
       static_cast<void>(bury("late"));
-      return Late{with_last_words(
-          fmt::format("no answer within {:.3g} s", std::chrono::duration<double>(limit).count()))};
+      return Late{with_last_words(record::no_answer_within(limit))};
     }
   }
 }

@@ -38,6 +38,14 @@ TEST(SameFailure, TwoAlikeForetellTheRestThatSharesTheirLevels) {
   EXPECT_TRUE(failures.foretold(raycast("cube", "3"))) << "it is not the data's";
 }
 
+TEST(SameFailure, WhereNothingIsSharedNothingIsNamed) {
+  SameFailure failures({"step"});
+  failures.saw(raycast("ball", "1"), ended(Outcome::crashed, "SIGSEGV"));
+  failures.saw(raycast("ball", "2"), ended(Outcome::crashed, "SIGSEGV"));
+  EXPECT_EQ(failures.foretold(raycast("ball", "3")).value().reason,
+            "SIGSEGV; not tried, as others ended so");
+}
+
 // What does not matter to one case does not to the next: that one is paid for once.
 TEST(SameFailure, WhatDoesNotMatterIsRemembered) {
   SameFailure failures({"data", "step"});

@@ -12,6 +12,7 @@ using judge::Check;
 using judge::Finding;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using enum judge::Verdict;
 
 Finding finding(judge::Verdict verdict, const std::string& device, const std::string& configuration,
@@ -126,8 +127,27 @@ TEST(CommandOf, DrawsTheConfigurationAgain) {
   Finding injected = wrong;
   injected.injected = {"coarse_filter"};
   EXPECT_THAT(command_of(injected, quick), HasSubstr(" --plant coarse_filter --truth --out"));
+  Finding hung =
+      finding(regression, "gl:x", "step=1", "hung: no answer within 2 s; it last said: x");
+  EXPECT_THAT(command_of(hung, quick), HasSubstr(" --limit 2 --truth --out"));
+  hung.message = "hung: no answer within 60 s";  // as long as `render` waits anyway
+  EXPECT_THAT(command_of(hung, quick), Not(HasSubstr("--limit")));
+}
+
+// Of what is stored, a command has to judge by it: of one configuration of the plan as it was
+// typed.
+TEST(CommandOf, JudgesAgainWhatIsHeldAgainstBaselines) {
   const Finding cost = finding(regression, "gl:x", "step=1", "more", Check::cost);
-  EXPECT_EQ(command_of(cost, quick), "triptych run volume/quick --device gl:x --set step=1");
+  judge::GateResult mine{.plan = "mine", .run = "r", .findings = {}};
+  EXPECT_EQ(command_of(cost, mine),
+            "triptych gate FOLDER/mine.yaml --device gl:x --set step=1 --measure --check cost "
+            "--store repro.sqlite");
+  mine.argument = "a b/mine.yaml";
+  mine.defaults = {{"skip", "distance"}};
+  mine.baselines = "b";
+  EXPECT_EQ(command_of(cost, mine),
+            "triptych gate 'a b/mine.yaml' --device gl:x --set skip=distance --set step=1 "
+            "--measure --check cost --store repro.sqlite --baselines b");
 }
 
 TEST(CommandOf, IsNothingWhereNoneShowsIt) {
