@@ -159,7 +159,7 @@ void add_compare_commands(Commands& commands) {
   command->add_option("--seed", comparing.seed, "Of the order in which times are taken")
       ->capture_default_str();
   command->add_option("--plant", comparing.plants,
-                      "Plant a fault into side b, to prove that it is found; as for run");
+                      "Inject a fault into side b, to prove that it is found; as for run");
   command->add_flag("--json", arguments->json, "Print everything as JSON");
 }
 

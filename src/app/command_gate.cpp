@@ -131,8 +131,7 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
 
 void refuse_bad_files(const GateArguments& arguments) {
   if (!arguments.plants.empty() && !arguments.measure && arguments.base.empty()) {
-    throw core::InputError(
-        "--plant needs --measure or --base: it is planted into what is measured");
+    throw core::InputError("--plant needs --measure or --base: it goes into what is measured");
   }
   std::vector<NamedFile> read{{"--store", arguments.store}};
   for (const std::string& plan : arguments.plans) read.push_back({"PLAN", plan});

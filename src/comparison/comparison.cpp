@@ -43,7 +43,7 @@ ComparisonProgress as_ours(const measure::Progress& progress) {
 void choose_clock(const ConfigurationDiff& diff, Compared& compared) {
   const auto [a, b] = diff.device_clock_trusted;
   if (a && b) {
-    compared.clock = measure::TurnClock::device;
+    compared.clock = measure::SideClock::device;
   } else if (!a && !b) {
     compared.why_wall = "the device clocks of both sides cannot be believed here";
   } else {

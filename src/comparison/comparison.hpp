@@ -11,8 +11,8 @@
 #include "comparison/pairwise.hpp"
 #include "comparison/run_diff.hpp"
 #include "measure/plan/plan.hpp"
+#include "measure/run/interleaved.hpp"
 #include "measure/run/runner.hpp"
-#include "measure/run/turns.hpp"
 
 namespace triptych::comparison {
 
@@ -38,12 +38,12 @@ struct Compared {
   // How the side ended that did not do its part, with the reason; skipped: it cannot.
   std::optional<record::Outcome> ended;
   PairVerdict verdict = PairVerdict::undecided;
-  std::string reason;  // of no verdict, or of one that the confirmation took back
-  Shift shift;         // of ln t, b against a; meaningless when ended
-  int blocks = 0;      // of the first launch
-  int launches = 0;    // fresh ones that confirmed, or did not
-  int frames_per_turn = 1;
-  measure::TurnClock clock = measure::TurnClock::wall;
+  std::string reason;    // of no verdict, or of one that the confirmation took back
+  Shift shift;           // of ln t, b against a; meaningless when ended
+  int blocks = 0;        // of the first process run
+  int process_runs = 0;  // fresh ones that confirmed, or did not
+  int frames_per_batch = 1;
+  measure::SideClock clock = measure::SideClock::wall;
   std::string why_wall;  // why not the device's clocks
   double seconds = 0;    // spent on it
   std::optional<judge::WorkChange> work;
@@ -67,7 +67,7 @@ struct ComparisonResult {
 };
 
 struct ComparisonProgress {
-  std::string stage;  // "what repeats", "first look", "more blocks", "fresh launch 2 of 5"
+  std::string stage;  // "what repeats", "first look", "more blocks", "fresh process run 2 of 5"
   std::string configuration;
   int done = 0;
   int total = 0;
@@ -77,7 +77,7 @@ struct ComparisonProgress {
 
 using Tell = std::function<void(const ComparisonProgress&)>;
 
-// Both sides' runs go into the store. Throws as measure::run_sides and measure::Turns do.
+// Both sides' runs go into the store. Throws as measure::run_sides and measure::Interleaved do.
 [[nodiscard]] ComparisonResult compare(const ComparisonOptions& options,
                                        const measure::Suite& suite, record::Store& store,
                                        const KnownTruth& truth, const Tell& tell);

@@ -257,7 +257,7 @@ class Finder {
     if (same_driver_ && !unsteady) {
       add(Kind::regression, about, change(*a, *b) + ", on the same driver", ratio);
     } else if (!on_a.empty() || !on_b.empty()) {
-      add(Kind::dialect, about,
+      add(Kind::calibration, about,
           fmt::format("{}; a: {}; b: {}", change(*a, *b), on_a.empty() ? "exact" : on_a,
                       on_b.empty() ? "exact" : on_b),
           ratio);
@@ -290,8 +290,8 @@ std::string_view name_of(DifferenceKind kind) {
       return "cannot judge";
     case Kind::fixed:
       return "fixed";
-    case Kind::dialect:
-      return "dialect";
+    case Kind::calibration:
+      return "calibration";
     case Kind::changed:
       break;
   }
@@ -316,7 +316,7 @@ std::vector<Difference> find_differences(const record::Device& a, const record::
     }
   };
   look(Kind::changed, "limit", a.limits, b.limits);
-  look(Kind::dialect, "statistic", a.statistics_dialect, b.statistics_dialect);
+  look(Kind::calibration, "statistic", a.statistics_dialect, b.statistics_dialect);
   return differences;
 }
 

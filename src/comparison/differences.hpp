@@ -14,11 +14,11 @@
 namespace triptych::comparison {
 
 enum class DifferenceKind : std::uint8_t {
-  regression,  // b is wrong or does more, or changed what must not change
-  unjudged,    // nothing to judge by: no truth, or b cannot do any more what a can
-  fixed,       // a is wrong, or cannot do it; b is right
-  dialect,     // a statistic that at least one of the drivers counts in its own way
-  changed      // two devices may differ so, or b does less
+  regression,   // b is wrong or does more, or changed what must not change
+  unjudged,     // nothing to judge by: no truth, or b cannot do any more what a can
+  fixed,        // a is wrong, or cannot do it; b is right
+  calibration,  // a statistic that at least one of the drivers counts in its own way
+  changed       // two devices may differ so, or b does less
 };
 [[nodiscard]] std::string_view name_of(DifferenceKind kind);
 

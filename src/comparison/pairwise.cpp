@@ -86,7 +86,8 @@ std::size_t averages_outside(std::size_t n, double tail) {
   return k;
 }
 
-// Launches closer than this would be the timers' doing: no clock resolves a millionth of a turn.
+// Process runs closer than this would be the timers' doing: no clock resolves a millionth of a
+// batch.
 constexpr double least_variance = 1e-12;
 
 PairVerdict unconfirmed(const Interval& interval, const SequentialDesign& design) {
@@ -191,11 +192,11 @@ std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
   std::vector<double> degrees;
   for (std::size_t i = 0; i < suspects.size(); ++i) {
     results[i].shift = {not_a_number, {-infinite, infinite}};
-    const std::vector<double>& launches = suspects[i].launches;
-    if (launches.size() < least_launches) continue;
+    const std::vector<double>& process_runs = suspects[i].process_runs;
+    if (process_runs.size() < least_process_runs) continue;
     judged.push_back(i);
-    variances.push_back(std::max(estimation::sample_variance(launches), least_variance));
-    degrees.push_back(static_cast<double>(launches.size() - 1));
+    variances.push_back(std::max(estimation::sample_variance(process_runs), least_variance));
+    degrees.push_back(static_cast<double>(process_runs.size() - 1));
   }
   const estimation::VariancePrior prior = estimation::fit_variance_prior(variances, degrees);
   std::vector<double> p_values;
@@ -204,8 +205,8 @@ std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
     Confirmation& result = results[judged[k]];
     const double freedom = prior.degrees + degrees[k];
     const double error = std::sqrt(estimation::moderated_variance(prior, variances[k], degrees[k]) /
-                                   static_cast<double>(suspect.launches.size()));
-    const double centre = estimation::mean(suspect.launches);
+                                   static_cast<double>(suspect.process_runs.size()));
+    const double centre = estimation::mean(suspect.process_runs);
     const double reach = estimation::student_t_upper_quantile(q, freedom) * error;
     const double beyond = (suspect.slower ? centre : -centre) - design.tolerated;
     result.shift = {centre, {centre - reach, centre + reach}};
@@ -225,15 +226,15 @@ std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
 std::vector<Confirmation> confirm_in_looks(std::vector<Suspect>& suspects,
                                            const ConfirmationDesign& confirmation,
                                            const SequentialDesign& design,
-                                           const LaunchAgain& launch_again) {
+                                           const RunAgain& run_again) {
   std::vector<Confirmation> results(suspects.size());
   std::vector<std::size_t> open(suspects.size());
   std::iota(open.begin(), open.end(), std::size_t{0});
   bool more = true;
-  std::size_t launches = 0;
+  std::size_t process_runs = 0;
   for (const std::size_t look : confirmation.looks) {
     if (open.empty() || !more) break;
-    while (more && launches < look) more = launch_again(open, ++launches, look);
+    while (more && process_runs < look) more = run_again(open, ++process_runs, look);
     const auto judged = confirm(suspects, confirmation.q_of_a_look(), design);
     for (const std::size_t i : open) results[i] = judged[i];
     std::erase_if(open,

@@ -1,7 +1,7 @@
 #pragma once
-// Two things measured in turns: is one slower than the other? Plain functions of numbers: the
-// differences d of ln t between side b and side a, one per block of turns (measure/run/turns.hpp),
-// so that d > 0 says b is slower.
+// Two things measured by interleaved A/B: is one slower than the other? Plain functions of numbers:
+// the differences d of ln t between side b and side a, one per block of batches
+// (measure/run/interleaved.hpp), so that d > 0 says b is slower.
 
 #include <array>
 #include <cstddef>
@@ -73,18 +73,18 @@ struct Look {
 };
 [[nodiscard]] Look look_at(std::span<const double> differences, const SequentialDesign& design);
 
-// One launch's blocks agree with each other more than launches do (memory layout, thread
-// placement), so what one launch says is believed only once fresh launches say it again.
+// One process run's blocks agree with each other more than process runs do (memory layout, thread
+// placement), so what one process run says is believed only once fresh process runs say it again.
 struct Suspect {
-  std::vector<double> launches;  // the estimated shift of each fresh launch
-  bool slower = true;            // else faster: what the first launch said
+  std::vector<double> process_runs;  // the estimated shift of each fresh process run
+  bool slower = true;                // else faster: what the first process run said
 };
-inline constexpr std::size_t least_launches = 2;  // fewer have no scatter
+inline constexpr std::size_t least_process_runs = 2;  // fewer have no scatter
 
 // Two looks, the second at what the first leaves open, each at an equal share of `q`.
 struct ConfirmationDesign {
-  std::array<std::size_t, 2> looks{5, 10};  // fresh launches
-  std::size_t blocks_per_launch = 24;
+  std::array<std::size_t, 2> looks{5, 10};  // fresh process runs
+  std::size_t blocks_per_process_run = 24;
   // False among what is confirmed, at all looks together: what a look adds to the false
   // discoveries' share is at most its own share of them.
   double q = 0.02;
@@ -94,25 +94,25 @@ struct ConfirmationDesign {
 
 struct Confirmation {
   PairVerdict verdict = PairVerdict::undecided;  // slower or faster only as suspected
-  Shift shift;   // mean of the launches; Student's t leaves out `q` on each side of the interval
+  Shift shift;  // mean of the process runs; Student's t leaves out `q` on each side of the interval
   double p = 1;  // of a shift no larger than what is tolerated
 };
-// Student's t of the launches' mean against τ₀, the variance between launches moderated over the
-// suspects; Benjamini & Hochberg at `q` over the suspects. That holds for all configurations: the
-// launch that chose the suspects is none of those that confirm, and no other is called anything.
-// What is not confirmed is the same where its interval says so, and undecided where there are fewer
-// than least_launches.
+// Student's t of the process runs' mean against τ₀, the variance between process runs moderated
+// over the suspects; Benjamini & Hochberg at `q` over the suspects. That holds for all
+// configurations: the process run that chose the suspects is none of those that confirm, and no
+// other is called anything. What is not confirmed is the same where its interval says so, and
+// undecided where there are fewer than least_process_runs.
 [[nodiscard]] std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
                                                 const SequentialDesign& design);
 
-// Adds one fresh launch to each of the suspects `open`, the `number`-th, towards the look after
-// `until`; false where none can be had any more.
-using LaunchAgain =
+// Adds one fresh process run to each of the suspects `open`, the `number`-th, towards the look
+// after `until`; false where none can be had any more.
+using RunAgain =
     std::function<bool(std::span<const std::size_t> open, std::size_t number, std::size_t until)>;
 // All looks of a confirmation; what one of them settles is measured no more.
 [[nodiscard]] std::vector<Confirmation> confirm_in_looks(std::vector<Suspect>& suspects,
                                                          const ConfirmationDesign& confirmation,
                                                          const SequentialDesign& design,
-                                                         const LaunchAgain& launch_again);
+                                                         const RunAgain& run_again);
 
 }  // namespace triptych::comparison

@@ -25,8 +25,8 @@ std::string settle(const Compared& compared, const ComparisonCommand& command) {
   return text;
 }
 
-std::string_view name_of(measure::TurnClock clock) {
-  return clock == measure::TurnClock::device ? "device" : "wall";
+std::string_view name_of(measure::SideClock clock) {
+  return clock == measure::SideClock::device ? "device" : "wall";
 }
 
 // "1.052 [1.047, 1.058]"
@@ -39,7 +39,8 @@ std::string line_of(const Compared& compared, const ComparisonCommand& command) 
   std::string line = fmt::format("{:<12}", compared.verdict_name());
   if (compared.blocks > 0 && !compared.ended) {
     line += fmt::format("{}  {} blocks", ratio_of(compared.shift), compared.blocks);
-    if (compared.launches > 0) line += fmt::format(" and {} fresh launches", compared.launches);
+    if (compared.process_runs > 0)
+      line += fmt::format(" and {} fresh process runs", compared.process_runs);
     line += fmt::format(", {} clock", name_of(compared.clock));
   }
   line += fmt::format("  {:.1f} s  {}", compared.seconds, compared.key);
@@ -93,9 +94,9 @@ core::Json to_json(const Compared& compared, bool timed, const ComparisonCommand
   }
   if (compared.blocks > 0) {
     json["clock"] = name_of(compared.clock);
-    json["frames_per_turn"] = compared.frames_per_turn;
+    json["frames_per_batch"] = compared.frames_per_batch;
     if (!compared.why_wall.empty()) json["why_wall"] = compared.why_wall;
-    if (compared.launches > 0) json["launches"] = compared.launches;
+    if (compared.process_runs > 0) json["process_runs"] = compared.process_runs;
   }
   if (compared.blocks > 0 && !compared.ended) {
     const auto set = [&json](const char* name, double ln) {

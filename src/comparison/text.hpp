@@ -28,8 +28,8 @@ struct ComparisonCommand {
 // {"plan", "sides", "a", "b" (devices), "seconds", "exit_code", "headline", "differences" (of the
 // devices), "configurations": [{"configuration", "reason", "differences": [{"kind", "about",
 // "text", "ratio"}], "work"; of times "verdict", "ratio", "ratio_low", "ratio_high", "blocks",
-// "launches", "frames_per_turn", "clock", "why_wall", "seconds", "settle"}]}; what is not known is
-// left out.
+// "process_runs", "frames_per_batch", "clock", "why_wall", "seconds", "settle"}]}; what is not
+// known is left out.
 [[nodiscard]] nlohmann::json to_json(const ComparisonResult& result,
                                      const ComparisonCommand& command);
 

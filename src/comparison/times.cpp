@@ -15,7 +15,7 @@ namespace triptych::comparison {
 namespace {
 
 using measure::Side;
-using measure::TurnClock;
+using measure::SideClock;
 
 // A configuration with what it takes to go on measuring it.
 struct Entry {
@@ -29,11 +29,11 @@ class Timer {
   Timer(const ComparisonOptions& options, const Tell& tell, std::vector<Compared>& compared)
       : options_(options),
         tell_(tell),
-        turns_({.suite = options.plan.suite,
-                .kinds = measure::work_kinds(options.plan),
-                .limit = options.limit,
-                .seed = options.seed},
-               options.a, options.b) {
+        interleaved_({.suite = options.plan.suite,
+                      .kinds = measure::work_kinds(options.plan),
+                      .limit = options.limit,
+                      .seed = options.seed},
+                     options.a, options.b) {
     for (Compared& each : compared) {
       if (!each.reason.empty()) continue;  // no time of it means anything
       entries_.push_back({each,
@@ -95,9 +95,9 @@ class Timer {
   void hold(Entry& entry) {
     if (held_ == &entry) return;
     held_ = nullptr;
-    turns_.hold(entry.compared.configuration, entry.plants, entry.compared.clock,
-                loading_of(entry));
-    entry.compared.frames_per_turn = turns_.frames_per_turn();
+    interleaved_.hold(entry.compared.configuration, entry.plants, entry.compared.clock,
+                      loading_of(entry));
+    entry.compared.frames_per_batch = interleaved_.frames_per_batch();
     held_ = &entry;
   }
 
@@ -105,15 +105,15 @@ class Timer {
     hold(entry);
     const bool first = entry.blocks.empty();
     while (static_cast<int>(entry.blocks.size()) < blocks && (first || !over_budget())) {
-      entry.blocks.push_back(turns_.block());
+      entry.blocks.push_back(interleaved_.block());
     }
   }
 
   void judge_blocks(Entry& entry) {
     Compared& compared = entry.compared;
-    if (compared.clock == TurnClock::device && !measure::device_clock_holds(entry.blocks)) {
-      compared.clock = TurnClock::wall;
-      compared.why_wall = "the device times of these turns cannot be true";
+    if (compared.clock == SideClock::device && !measure::device_clock_holds(entry.blocks)) {
+      compared.clock = SideClock::wall;
+      compared.why_wall = "the device times of these batches cannot be true";
     }
     const Look look = look_at(measure::differences(entry.blocks, compared.clock), options_.design);
     compared.verdict = look.verdict;
@@ -181,74 +181,74 @@ class Timer {
   void confirm_suspects() {
     const std::vector<Entry*> suspected = suspects();
     if (suspected.empty()) return;
-    std::vector<Suspect> launched;
+    std::vector<Suspect> fresh;
     for (const Entry* entry : suspected) {
-      launched.push_back({{}, entry->compared.verdict == PairVerdict::slower});
+      fresh.push_back({{}, entry->compared.verdict == PairVerdict::slower});
     }
     const measure::Stopwatch stopwatch;
     int done = 0;
-    const auto launch = [&](std::span<const std::size_t> open, std::size_t number,
-                            std::size_t until) {
-      const bool enough = number > least_launches && over_budget();
+    const auto process_run = [&](std::span<const std::size_t> open, std::size_t number,
+                                 std::size_t until) {
+      const bool enough = number > least_process_runs && over_budget();
       const bool all_ended = std::ranges::all_of(
           open, [&](std::size_t i) { return suspected[i]->compared.ended.has_value(); });
-      if (enough || all_ended || !relaunched()) return false;
+      if (enough || all_ended || !restarted()) return false;
       const auto left = static_cast<int>((until - number + 1) * open.size());
       const int total = done + left;
       for (const std::size_t i : open) {
         const double each_s = done > 0 ? stopwatch.seconds() / done : 0;
-        say(fmt::format("fresh launch {} of {}", number, until), *suspected[i], done, total,
+        say(fmt::format("fresh process run {} of {}", number, until), *suspected[i], done, total,
             each_s * (total - done));
-        launch_again(*suspected[i], launched[i]);
+        run_again(*suspected[i], fresh[i]);
         ++done;
       }
       return true;
     };
     const auto confirmed =
-        confirm_in_looks(launched, options_.confirmation, options_.design, launch);
+        confirm_in_looks(fresh, options_.confirmation, options_.design, process_run);
     for (std::size_t i = 0; i < suspected.size(); ++i) {
-      if (!suspected[i]->compared.ended) take(confirmed[i], launched[i], suspected[i]->compared);
+      if (!suspected[i]->compared.ended) take(confirmed[i], fresh[i], suspected[i]->compared);
     }
   }
 
-  // What is not confirmed for lack of launches says so.
-  bool relaunched() {
+  // What is not confirmed for lack of process runs says so.
+  bool restarted() {
     held_ = nullptr;
     try {
-      turns_.relaunch();
+      interleaved_.restart();
       return true;
     } catch (const measure::SideEnded&) {
       return false;
     }
   }
 
-  void launch_again(Entry& entry, Suspect& suspect) {
+  void run_again(Entry& entry, Suspect& suspect) {
     if (entry.compared.ended) return;
     about(entry, [&] {
       hold(entry);
       std::vector<measure::Block> blocks;
-      while (blocks.size() < options_.confirmation.blocks_per_launch) {
-        blocks.push_back(turns_.block());
+      while (blocks.size() < options_.confirmation.blocks_per_process_run) {
+        blocks.push_back(interleaved_.block());
       }
-      if (entry.compared.clock == TurnClock::device && !measure::device_clock_holds(blocks)) return;
+      if (entry.compared.clock == SideClock::device && !measure::device_clock_holds(blocks)) return;
       const auto differences = measure::differences(blocks, entry.compared.clock);
       const double level = options_.design.alpha_of_a_look();
-      suspect.launches.push_back(estimate_shift(differences, level).estimate);
+      suspect.process_runs.push_back(estimate_shift(differences, level).estimate);
     });
   }
 
   static void take(const Confirmation& confirmed, const Suspect& suspect, Compared& compared) {
     const auto suspected = std::exchange(compared.verdict, confirmed.verdict);
-    if (suspect.launches.size() < least_launches) {
-      compared.reason =
-          fmt::format("{} at first, but fresh launches could not be measured", name_of(suspected));
+    if (suspect.process_runs.size() < least_process_runs) {
+      compared.reason = fmt::format("{} at first, but fresh process runs could not be measured",
+                                    name_of(suspected));
       return;
     }
-    compared.launches = static_cast<int>(suspect.launches.size());
+    compared.process_runs = static_cast<int>(suspect.process_runs.size());
     if (confirmed.verdict != suspected) {
-      compared.reason =
-          fmt::format("{} in one launch by {:+.2f} %, not so in {} fresh ones", name_of(suspected),
-                      100 * std::expm1(compared.shift.estimate), compared.launches);
+      compared.reason = fmt::format("{} in one process run by {:+.2f} %, not so in {} fresh ones",
+                                    name_of(suspected), 100 * std::expm1(compared.shift.estimate),
+                                    compared.process_runs);
     }
     compared.shift = confirmed.shift;
   }
@@ -278,7 +278,7 @@ class Timer {
   const ComparisonOptions& options_;
   const Tell& tell_;
   measure::Stopwatch since_start_;
-  measure::Turns turns_;
+  measure::Interleaved interleaved_;
   std::vector<Entry> entries_;
   const Entry* held_ = nullptr;  // by both workers
 };

@@ -8,7 +8,7 @@
 namespace triptych::comparison {
 
 // Sets the verdict on the time of each configuration that has no reason against it. Throws as
-// measure::Turns does.
+// measure::Interleaved does.
 void measure_times(const ComparisonOptions& options, const Tell& tell,
                    std::vector<Compared>& compared);
 

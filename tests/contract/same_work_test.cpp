@@ -1,7 +1,7 @@
 // What the suites say that a scene cannot tell apart (measure::Suite::plain) is the same work on
 // every device: the same counts, the same bits.
 
-#include "measure/contract/twins.hpp"
+#include "measure/contract/equivalents.hpp"
 #include "particle_scenes.hpp"
 #include "suites/particles/plain_work.hpp"
 #include "suites/volume/plain_work.hpp"

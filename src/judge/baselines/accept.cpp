@@ -259,8 +259,8 @@ void refuse_unfit(const std::vector<record::Record>& records, const std::string&
     }
     if (!record.planted.empty()) {
       throw core::InputError(
-          fmt::format("run {} holds the planted fault '{}' ({} on {}); it is never a baseline", run,
-                      record.planted, record.configuration, record.device));
+          fmt::format("run {} holds the injected fault '{}' ({} on {}); it is never a baseline",
+                      run, record.planted, record.configuration, record.device));
     }
   }
 }

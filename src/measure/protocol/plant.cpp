@@ -120,7 +120,7 @@ void apply_plant(std::string_view fault, Work& work) {
       options.extra_work_stride = *stride_of(fault.substr(slowdown.size()));
     } else {
       throw core::NotSupported(
-          fmt::format("technique {} has no fault '{}' to plant", work.technique, fault));
+          fmt::format("technique {} has no fault '{}' to inject", work.technique, fault));
     }
   };
   if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {

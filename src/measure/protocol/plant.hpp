@@ -1,5 +1,5 @@
 #pragma once
-// Planted faults: to prove that the gate catches them and that a worker's death costs one
+// Injected faults: to prove that the gate catches them and that a worker's death costs one
 // configuration.
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace triptych::measure {
 
-// Plants a fault in what is measured, to prove that the gate catches it: a technique::Fault by
+// A fault put into what is measured, to prove that the gate catches it: a technique::Fault by
 // name, "slowdown:PERCENT" (real extra work), "crash", "hang", "device_lost", "lost_counter".
 struct Plant {
   std::string fault;

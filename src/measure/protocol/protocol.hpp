@@ -29,8 +29,8 @@ struct Protocol {
   bool timed = true;
   // Nothing but the instructions of the third frame (counting/emulator.hpp).
   bool counted = false;
-  // Else a configuration that does the very work of one before (measure/contract/twins.hpp) takes
-  // over what that one told.
+  // Else a configuration that does the very work of one before (measure/contract/equivalents.hpp)
+  // takes over what that one told.
   bool measure_every = false;
 };
 

@@ -25,7 +25,7 @@ DeviceRun::DeviceRun(const RunContext& context, std::string device)
     : context_(context),
       device_(std::move(device)),
       cache_(cache_name(side(), context.plan.counted())),
-      seat_(worker_setup(side(), context.plan.counted(), cache_, context.options.start_limit),
+      slot_(worker_setup(side(), context.plan.counted(), cache_, context.options.start_limit),
             context.interrupts) {
   remember();
 }
@@ -41,8 +41,8 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
   if (const auto reason = no_emulator()) {
     done = {ended(record::Outcome::skipped, *reason)};
   } else if (!ensure_worker()) {
-    done = {ended(seat_.unsupported() ? record::Outcome::skipped : record::Outcome::failed,
-                  seat_.why_closed())};
+    done = {ended(slot_.unsupported() ? record::Outcome::skipped : record::Outcome::failed,
+                  slot_.why_closed())};
   } else if (job.protocol.counted && known_->cpu_features.empty()) {
     done = {ended(record::Outcome::skipped,
                   "its instructions cannot be counted: it does not compute on the processor")};
@@ -79,7 +79,7 @@ Done DeviceRun::pass_by(const Configuration& configuration, const std::string& k
 }
 
 void DeviceRun::finish() {
-  seat_.finish();
+  slot_.finish();
 }
 
 // A resumed run goes on with the clocks it began with: records of one run rest on one verdict.
@@ -123,7 +123,7 @@ void DeviceRun::sign(const Job& job, const std::string& key, record::Record& rec
 }
 
 bool DeviceRun::ensure_worker() {
-  return seat_.open(
+  return slot_.open(
       [this] {
         return Start{.suite = context_.plan.suite, .kinds = context_.kinds, .clocks = clocks_};
       },
@@ -148,7 +148,7 @@ Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
   auto reply = exchange(to_message(job), on_loading);
   if (const auto* lost = std::get_if<Ended>(&reply)) return {ended(lost->outcome, lost->reason)};
   Answer& answer = std::get<Answer>(reply);
-  if (answer.record.outcome == record::Outcome::lost) seat_.vacate();
+  if (answer.record.outcome == record::Outcome::lost) slot_.vacate();
   Done done{.record = std::move(answer.record),
             .exr = std::move(answer.exr),
             .work_ns = answer.worker_ns - answer.record.overhead_ns};
@@ -161,7 +161,7 @@ std::variant<Answer, DeviceRun::Ended> DeviceRun::exchange(const Message& messag
   const std::chrono::seconds limit = context_.plan.counted()
                                          ? std::max(counted_limit, context_.options.limit)
                                          : context_.options.limit;
-  WorkerLink::Reply reply = seat_.worker().ask(message, limit, on_loading);
+  WorkerLink::Reply reply = slot_.worker().ask(message, limit, on_loading);
   std::optional<Ended> ended;
   if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
     ended = {record::Outcome::crashed, std::move(died->reason)};
@@ -175,7 +175,7 @@ std::variant<Answer, DeviceRun::Ended> DeviceRun::exchange(const Message& messag
       ended = {record::Outcome::failed, error.what()};
     }
   }
-  seat_.vacate();
+  slot_.vacate();
   return std::move(*ended);
 }
 

@@ -11,8 +11,8 @@
 #include "measure/run/runner.hpp"
 #include "measure/system/environment.hpp"
 #include "measure/system/interrupt.hpp"
-#include "measure/worker/worker_seat.hpp"
 #include "measure/worker/worker_setup.hpp"
+#include "measure/worker/worker_slot.hpp"
 
 namespace triptych::measure {
 
@@ -62,13 +62,13 @@ class DeviceRun {
   void finish();
 
   // Opening the driver and calibrating its clocks is the device's work, not ours.
-  [[nodiscard]] double opening_ns() const { return seat_.opening_ns(); }
+  [[nodiscard]] double opening_ns() const { return slot_.opening_ns(); }
 
  private:
   [[nodiscard]] SideOptions side() const;
   void remember();
   [[nodiscard]] Protocol protocol() const;
-  // As WorkerSeat::open.
+  // As WorkerSlot::open.
   bool ensure_worker();
   void greet(const Hello& hello);
   [[nodiscard]] Job job(const Configuration& configuration, const std::string& key) const;
@@ -85,7 +85,7 @@ class DeviceRun {
   const RunContext& context_;
   std::string device_;
   CacheFolder cache_;
-  WorkerSeat seat_;
+  WorkerSlot slot_;
   std::optional<record::Device> known_;
   std::vector<record::ClockTrust> clocks_;
 };

@@ -53,7 +53,8 @@ struct RunResult {
   std::string run;  // id in the store
   // What the run holds of the plan on its devices: with `resume`, from before too.
   int measured = 0;
-  int taken_over = 0;  // of those, by another configuration's frames (measure/contract/twins.hpp)
+  int taken_over =
+      0;  // of those, by another configuration's frames (measure/contract/equivalents.hpp)
   int skipped = 0;
   int failed = 0;        // failed, crashed, hung or lost
   int there_before = 0;  // of all these, those that a resumed run held already

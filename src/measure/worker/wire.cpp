@@ -216,12 +216,12 @@ Message to_message(const Release&) {
   return {{{"type", "release"}}, {}};
 }
 
-Message to_message(const Turn& turn) {
+Message to_message(const Batch& batch) {
   return {{{"type", "turn"},
-           {"outcome", record::name_of(turn.outcome)},
-           {"reason", turn.reason},
-           {"wall_ns", turn.wall_ns},
-           {"device_ns", turn.device_ns}},
+           {"outcome", record::name_of(batch.outcome)},
+           {"reason", batch.reason},
+           {"wall_ns", batch.wall_ns},
+           {"device_ns", batch.device_ns}},
           {}};
 }
 
@@ -292,13 +292,13 @@ std::optional<Release> as_release(const Message& message) {
   return is(message, "release") ? std::optional(Release{}) : std::nullopt;
 }
 
-std::optional<Turn> as_turn(const Message& message) {
+std::optional<Batch> as_batch(const Message& message) {
   if (!is(message, "turn")) return std::nullopt;
   return reading("turn", [&] {
-    return Turn{.outcome = record::outcome(message.json.at("outcome").get<std::string>()),
-                .reason = message.json.at("reason"),
-                .wall_ns = message.json.at("wall_ns"),
-                .device_ns = message.json.at("device_ns")};
+    return Batch{.outcome = record::outcome(message.json.at("outcome").get<std::string>()),
+                 .reason = message.json.at("reason"),
+                 .wall_ns = message.json.at("wall_ns"),
+                 .device_ns = message.json.at("device_ns")};
   });
 }
 

@@ -5,10 +5,10 @@
 //
 //   supervisor → worker   start   suite, kinds of work the plan needs, clocks already known
 //   worker → supervisor   hello   device, clocks      | refused   reason
-//   supervisor → worker   job     one configuration with the protocol and what is planted
+//   supervisor → worker   job     one configuration with the protocol and its injected faults
 //   worker → supervisor   loading how far a large data set is loaded; any number before the answer
 //   worker → supervisor   answer  record, time taken; the image as EXR follows as binary
-// and, for measuring two workers in turns:
+// and, for measuring two workers by interleaved A/B:
 //   supervisor → worker   hold    one configuration to be prepared and kept
 //   supervisor → worker   frames  how many timed frames of what is kept to draw now
 //   supervisor → worker   release what is kept is freed
@@ -95,7 +95,7 @@ struct Release {};
 
 // What came of one of them. Of a configuration that cannot be held, or failed in a frame, nothing
 // is held any longer.
-struct Turn {
+struct Batch {
   record::Outcome outcome = record::Outcome::measured;
   std::string reason;             // for every outcome but measured
   std::vector<double> wall_ns;    // one per frame drawn
@@ -111,7 +111,7 @@ struct Turn {
 [[nodiscard]] Message to_message(const Hold& hold);
 [[nodiscard]] Message to_message(const Frames& frames);
 [[nodiscard]] Message to_message(const Release& release);
-[[nodiscard]] Message to_message(const Turn& turn);
+[[nodiscard]] Message to_message(const Batch& batch);
 
 // Empty when the message is of another type. Throw InputError when it lacks something.
 [[nodiscard]] std::optional<Start> as_start(const Message& message);
@@ -123,6 +123,6 @@ struct Turn {
 [[nodiscard]] std::optional<Hold> as_hold(const Message& message);
 [[nodiscard]] std::optional<Frames> as_frames(const Message& message);
 [[nodiscard]] std::optional<Release> as_release(const Message& message);
-[[nodiscard]] std::optional<Turn> as_turn(const Message& message);
+[[nodiscard]] std::optional<Batch> as_batch(const Message& message);
 
 }  // namespace triptych::measure

@@ -15,7 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
-#include "measure/contract/twins.hpp"
+#include "measure/contract/equivalents.hpp"
 #include "measure/protocol/clock.hpp"
 #include "measure/protocol/dialect.hpp"
 #include "measure/protocol/plant.hpp"
@@ -121,37 +121,37 @@ class Worker {
     return answer;
   }
 
-  [[nodiscard]] Turn hold(const Hold& hold) {
-    return turn([&](Turn&) {
+  [[nodiscard]] Batch hold(const Hold& hold) {
+    return batch([&](Batch&) {
       held_.reset();
       Configuration configuration = hold.configuration;
       held_ = device_->prepare(supported_work(configuration, hold.plants));
     });
   }
 
-  [[nodiscard]] Turn draw(const Frames& frames) {
-    return turn([&](Turn& turn) {
+  [[nodiscard]] Batch draw(const Frames& frames) {
+    return batch([&](Batch& batch) {
       if (!held_) throw core::InputError("frames are asked for, but no configuration is held");
       for (int i = 0; i < frames.count; ++i) {
         const Frame frame = held_->frame(Purpose::timing);
-        turn.wall_ns.push_back(frame.wall_ns);
-        if (frame.device_ns) turn.device_ns.push_back(*frame.device_ns);
+        batch.wall_ns.push_back(frame.wall_ns);
+        if (frame.device_ns) batch.device_ns.push_back(*frame.device_ns);
       }
-      if (turn.device_ns.size() != turn.wall_ns.size()) turn.device_ns.clear();
+      if (batch.device_ns.size() != batch.wall_ns.size()) batch.device_ns.clear();
     });
   }
 
-  [[nodiscard]] Turn release() {
-    return turn([this](Turn&) { held_.reset(); });
+  [[nodiscard]] Batch release() {
+    return batch([this](Batch&) { held_.reset(); });
   }
 
  private:
   template <typename Act>
-  Turn turn(const Act& act) {
-    Turn turn;
-    outcome_of([&] { act(turn); }, data_,
+  Batch batch(const Act& act) {
+    Batch batch;
+    outcome_of([&] { act(batch); }, data_,
                [&](record::Outcome outcome, const std::string& reason) {
-                 turn = {.outcome = outcome, .reason = reason, .wall_ns = {}, .device_ns = {}};
+                 batch = {.outcome = outcome, .reason = reason, .wall_ns = {}, .device_ns = {}};
                  // Freeing objects of a lost device is what drivers are worst at.
                  if (outcome == record::Outcome::lost) {
                    static_cast<void>(held_.release());
@@ -159,7 +159,7 @@ class Worker {
                    held_.reset();
                  }
                });
-    return turn;
+    return batch;
   }
 
   // Of a configuration that was not measured nothing may look as if it had been.
@@ -203,10 +203,10 @@ class Worker {
     const bool may_share = !job.protocol.measure_every && job.plants.empty();
     std::optional<PlainWork> plain;
     if (may_share) plain = suite_.plain(configuration, work);
-    if (const auto twin = plain ? twins_.find(*plain) : std::nullopt) {
+    if (const auto equivalent = plain ? equivalents_.find(*plain) : std::nullopt) {
       answer.record.outcome = record::Outcome::measured;
-      answer.record.same_as = twin->key;
-      answer.record.reason = twin->reason;
+      answer.record.same_as = equivalent->key;
+      answer.record.reason = equivalent->reason;
       answer.record.prepare_ns = whole.ns();
       answer.record.factors = std::move(configuration);
       return;
@@ -227,7 +227,7 @@ class Worker {
     describe_work(work, *device_, answer.record);
     for (const std::string& plant : job.plants) apply_plant(plant, answer.record);
     if (plain) {
-      twins_.add(*plain, configuration_key(suite_, job.configuration), work, measured.image);
+      equivalents_.add(*plain, configuration_key(suite_, job.configuration), work, measured.image);
     }
     if (technique::technique(work.technique).picture) {
       answer.exr = core::encode_exr(measured.image);
@@ -255,7 +255,7 @@ class Worker {
   std::vector<record::ClockTrust> clocks_;
   std::optional<InstructionCounter> counter_;
   std::unique_ptr<Prepared> held_;
-  Twins twins_;
+  Equivalents equivalents_;
   std::string data_;         // of the configuration that is being worked on
   double measuring_ns_ = 0;  // of the last job: what measure() accounts for itself
 };
@@ -279,19 +279,19 @@ record::Outcome serve_one(Worker& worker, const Message& message, int answer_fd)
     send(answer_fd, to_message(std::move(answer)));
     return outcome;
   }
-  Turn turn;
+  Batch batch;
   if (const auto hold = as_hold(message)) {
-    turn = worker.hold(*hold);
+    batch = worker.hold(*hold);
   } else if (const auto frames = as_frames(message)) {
-    turn = worker.draw(*frames);
+    batch = worker.draw(*frames);
   } else if (as_release(message)) {
-    turn = worker.release();
+    batch = worker.release();
   } else {
     throw core::InputError(fmt::format("a worker is asked for what it does not know: '{}'",
                                        message.json.value("type", "")));
   }
-  send(answer_fd, to_message(turn));
-  return turn.outcome;
+  send(answer_fd, to_message(batch));
+  return batch.outcome;
 }
 
 int serve(const Backend& backend, std::string_view device_id, const FindSuite& find_suite,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "measure/system/environment.hpp"
-#include "measure/worker/worker_seat.hpp"
+#include "measure/worker/worker_slot.hpp"
 
 namespace triptych::measure {
 

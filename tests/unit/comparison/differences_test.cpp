@@ -107,7 +107,7 @@ TEST_F(Differences, AStatisticIsHeldToWhatItsDriversCanCount) {
   use_another_driver();
   EXPECT_EQ(only().kind, DifferenceKind::changed);  // both exact, but the API leaves it open
   device_a.statistics_dialect["fragment_invocations"] = "inflated: 1.02 to 3.9";
-  EXPECT_EQ(only().kind, DifferenceKind::dialect);
+  EXPECT_EQ(only().kind, DifferenceKind::calibration);
   EXPECT_THAT(only().text, HasSubstr("a: inflated: 1.02 to 3.9; b: exact"));
 }
 
@@ -124,10 +124,10 @@ TEST_F(Differences, AStatisticThatOnlyOneDriverTellsIsExpected) {
   EXPECT_THAT(only().text, HasSubstr("only b tells it: 6"));
 }
 
-TEST_F(Differences, AnUnsteadyStatisticIsADialectEvenOnOneDriver) {
+TEST_F(Differences, AnUnsteadyStatisticIsReportedEvenOnOneDriver) {
   device_a.statistics_dialect["fragment_invocations"] = "unsteady";
   record_b.statistics["fragment_invocations"] = 101;
-  EXPECT_EQ(only().kind, DifferenceKind::dialect);
+  EXPECT_EQ(only().kind, DifferenceKind::calibration);
 }
 
 TEST_F(Differences, OtherBitsWithinTheBoundAreExpectedOfOtherCodeOnly) {
@@ -228,7 +228,7 @@ TEST(DeviceDifferences, LimitsAreGainedLostAndChanged) {
   EXPECT_EQ(found[0].text, "1 → 2");
   EXPECT_EQ(found[1].text, "gone, was 1");
   EXPECT_EQ(found[2].text, "new: 1");
-  EXPECT_EQ(found[3].kind, DifferenceKind::dialect);
+  EXPECT_EQ(found[3].kind, DifferenceKind::calibration);
   b.id = "gl:llvmpipe-egl";
   EXPECT_THAT(find_differences(a, b), IsEmpty());
 }

@@ -138,13 +138,13 @@ TEST(Shift, TooFewDifferencesHaveAnEndlessInterval) {
   EXPECT_TRUE(std::isnan(estimate_shift({}, 0.01).estimate));
 }
 
-// One comparison on a synthetic machine: both sides share a slow drift (AR(1) from turn to turn),
-// each turn has noise of its own, and now and then something takes a share of the machine away.
+// One comparison on a synthetic machine: both sides share a slow drift (AR(1) from batch to batch),
+// each batch has noise of its own, and now and then something takes a share of the machine away.
 struct Machine {
   double noise = 0.01;
   double drift = 0.01;        // standard deviation of the drift
-  double persistence = 0.98;  // from one turn to the next
-  double disturbed = 0.02;    // share of turns half as long again
+  double persistence = 0.98;  // from one batch to the next
+  double disturbed = 0.02;    // share of batches half as long again
 
   [[nodiscard]] std::vector<double> blocks(double shift, int count, core::Random& random) const {
     std::vector<double> differences;
@@ -153,9 +153,9 @@ struct Machine {
     for (int i = 0; i < count; ++i) {
       const bool b_first = random.uniform() < 0.5;
       double difference = 0;
-      for (int turn = 0; turn < 4; ++turn) {
+      for (int batch = 0; batch < 4; ++batch) {
         level = persistence * level + step * normal(random);
-        const bool outer = turn == 0 || turn == 3;
+        const bool outer = batch == 0 || batch == 3;
         const bool b = outer == b_first;
         double ln_time = level + noise * normal(random) + (b ? shift : 0);
         if (random.uniform() < disturbed) ln_time += 0.4;
@@ -241,23 +241,23 @@ TEST(Sequential, LooksFollowOneAnother) {
   EXPECT_NEAR(design.alpha_of_a_look(), 0.01 / 6, 1e-15);
 }
 
-std::vector<double> launches(double shift, double between, core::Random& random) {
+std::vector<double> process_runs(double shift, double between, core::Random& random) {
   std::vector<double> result;
   for (int i = 0; i < 5; ++i) result.push_back(shift + between * normal(random));
   return result;
 }
 
-TEST(Confirm, WhatFreshLaunchesRepeatIsBelieved) {
+TEST(Confirm, WhatFreshProcessRunsRepeatIsBelieved) {
   core::Random random(11);
-  const std::vector<Suspect> suspects{{launches(std::log(1.05), 0.003, random), true},
-                                      {launches(-std::log(1.05), 0.003, random), false}};
+  const std::vector<Suspect> suspects{{process_runs(std::log(1.05), 0.003, random), true},
+                                      {process_runs(-std::log(1.05), 0.003, random), false}};
   const auto confirmed = confirm(suspects, 0.05, SequentialDesign::standard());
   EXPECT_EQ(confirmed[0].verdict, PairVerdict::slower);
   EXPECT_EQ(confirmed[1].verdict, PairVerdict::faster);
   EXPECT_NEAR(confirmed[0].shift.estimate, std::log(1.05), 0.005);
 }
 
-TEST(Confirm, WhatOneLaunchAloneSaidIsTakenBack) {
+TEST(Confirm, WhatOneProcessRunAloneSaidIsTakenBack) {
   const std::vector<Suspect> suspects{{{0.001, -0.002, 0.0, 0.002, -0.001}, true}};
   const auto confirmed = confirm(suspects, 0.05, SequentialDesign::standard());
   EXPECT_EQ(confirmed[0].verdict, PairVerdict::same);
@@ -274,20 +274,20 @@ TEST(Confirm, CountsTheSuspectsAsHypotheses) {
   EXPECT_NE(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);
 }
 
-TEST(Confirm, LaunchesOfAnotherSuspectLendTheirVariance) {
+TEST(Confirm, ProcessRunsOfAnotherSuspectLendTheirVariance) {
   core::Random random(12);
   std::vector<Suspect> suspects{{{0.0301, 0.0302, 0.0301, 0.0302, 0.0301}, true}};
   const double alone = confirm(suspects, 0.05, SequentialDesign::standard())[0].p;
-  for (int i = 0; i < 20; ++i) suspects.push_back({launches(0, 0.02, random), true});
+  for (int i = 0; i < 20; ++i) suspects.push_back({process_runs(0, 0.02, random), true});
   EXPECT_GT(confirm(suspects, 0.05, SequentialDesign::standard())[0].p, alone);
 }
 
-TEST(Confirm, EqualLaunchesAreNoZeroOverZero) {
+TEST(Confirm, EqualProcessRunsAreNoZeroOverZero) {
   const std::vector<Suspect> suspects{{std::vector<double>(5, std::log(1.05)), true}};
   EXPECT_EQ(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);
 }
 
-TEST(Confirm, OneLaunchHasNoScatter) {
+TEST(Confirm, OneProcessRunHasNoScatter) {
   const std::vector<Suspect> suspects{{{0.5}, true}, {{}, true}, {std::vector(5, 0.05), true}};
   const auto confirmed = confirm(suspects, 0.05, SequentialDesign::standard());
   EXPECT_EQ(confirmed[0].verdict, PairVerdict::undecided);
@@ -295,21 +295,21 @@ TEST(Confirm, OneLaunchHasNoScatter) {
   EXPECT_EQ(confirmed[2].verdict, PairVerdict::slower);
 }
 
-// Launches of each suspect, handed out one by one.
-struct Launcher {
-  std::vector<std::vector<double>> launches;
-  std::vector<std::vector<std::size_t>> asked;  // which suspects, by launch
+// Process runs of each suspect, handed out one by one.
+struct ProcessRuns {
+  std::vector<std::vector<double>> process_runs;
+  std::vector<std::vector<std::size_t>> asked;  // which suspects, by process run
 
   std::vector<Confirmation> confirm_all() {
-    std::vector<Suspect> suspects(launches.size());
+    std::vector<Suspect> suspects(process_runs.size());
     return confirm_in_looks(
         suspects, {}, SequentialDesign::standard(),
         [&](std::span<const std::size_t> open, std::size_t number, std::size_t /*until*/) {
           asked.emplace_back(open.begin(), open.end());
           bool any = false;
           for (const std::size_t i : open) {
-            if (number > launches[i].size()) continue;
-            suspects[i].launches.push_back(launches[i][number - 1]);
+            if (number > process_runs[i].size()) continue;
+            suspects[i].process_runs.push_back(process_runs[i][number - 1]);
             any = true;
           }
           return any;
@@ -317,37 +317,37 @@ struct Launcher {
   }
 };
 
-// Five launches settle what is plain; what they leave open is launched five times more.
+// Five process runs settle what is plain; what they leave open is run five times more.
 TEST(ConfirmInLooks, GoesOnWithWhatIsOpen) {
   core::Random random(21);
   std::vector<double> scattered{0.05, 0.01, 0.06, 0.012, 0.05, 0.035, 0.03, 0.04, 0.036, 0.03};
-  Launcher launcher{.launches = {std::vector(10, 0.05), scattered, std::vector(10, 0.0)},
+  ProcessRuns given{.process_runs = {std::vector(10, 0.05), scattered, std::vector(10, 0.0)},
                     .asked = {}};
-  for (double& launch : launcher.launches[0]) launch += 0.001 * normal(random);
-  for (double& launch : launcher.launches[2]) launch += 0.001 * normal(random);
-  const auto confirmed = launcher.confirm_all();
+  for (double& process_run : given.process_runs[0]) process_run += 0.001 * normal(random);
+  for (double& process_run : given.process_runs[2]) process_run += 0.001 * normal(random);
+  const auto confirmed = given.confirm_all();
   EXPECT_EQ(confirmed[0].verdict, PairVerdict::slower);
   EXPECT_EQ(confirmed[1].verdict, PairVerdict::slower);
   EXPECT_EQ(confirmed[2].verdict, PairVerdict::same);
-  ASSERT_EQ(launcher.asked.size(), 10U);
-  EXPECT_THAT(launcher.asked[4], testing::ElementsAre(0, 1, 2));
-  EXPECT_THAT(launcher.asked[5], testing::ElementsAre(1));
+  ASSERT_EQ(given.asked.size(), 10U);
+  EXPECT_THAT(given.asked[4], testing::ElementsAre(0, 1, 2));
+  EXPECT_THAT(given.asked[5], testing::ElementsAre(1));
 }
 
-TEST(ConfirmInLooks, EndsWithTheLaunchesThatThereAre) {
-  Launcher few{.launches = {{0.05, 0.051, 0.049}}, .asked = {}};
+TEST(ConfirmInLooks, EndsWithTheProcessRunsThatThereAre) {
+  ProcessRuns few{.process_runs = {{0.05, 0.051, 0.049}}, .asked = {}};
   EXPECT_EQ(few.confirm_all()[0].verdict, PairVerdict::slower);
   EXPECT_EQ(few.asked.size(), 4U);
-  Launcher none{.launches = {{}}, .asked = {}};
+  ProcessRuns none{.process_runs = {{}}, .asked = {}};
   EXPECT_EQ(none.confirm_all()[0].verdict, PairVerdict::undecided);
-  EXPECT_TRUE(Launcher().confirm_all().empty());
+  EXPECT_TRUE(ProcessRuns().confirm_all().empty());
 }
 
-// Launches shift every block of theirs: one launch's interval is far too narrow, and what it alone
-// calls slower must not survive. Over families of 24 configurations, none of them slower by more
-// than what is tolerated, false discoveries are among at most q of 200 families: at q = .02 more
-// than 10 come about with a probability below .003.
-TEST(ConfirmInLooks, LaunchEffectsAreSeldomBelieved) {
+// Process runs shift every block of theirs: one process run's interval is far too narrow, and what
+// it alone calls slower must not survive. Over families of 24 configurations, none of them slower
+// by more than what is tolerated, false discoveries are among at most q of 200 families: at q = .02
+// more than 10 come about with a probability below .003.
+TEST(ConfirmInLooks, ProcessRunEffectsAreSeldomBelieved) {
   const SequentialDesign design = SequentialDesign::standard();
   const double between = 0.01;
   core::Random random(13);
@@ -355,17 +355,17 @@ TEST(ConfirmInLooks, LaunchEffectsAreSeldomBelieved) {
   int families_wrong = 0;
   constexpr int families = 200;
   for (int family = 0; family < families; ++family) {
-    Launcher launcher;
+    ProcessRuns given;
     for (int i = 0; i < 24; ++i) {
-      // This launch alone looks slower.
+      // This process run alone looks slower.
       if (between * normal(random) < 0.015) continue;
-      launcher.launches.emplace_back();
-      for (int launch = 0; launch < 10; ++launch) {
-        launcher.launches.back().push_back(design.tolerated + between * normal(random));
+      given.process_runs.emplace_back();
+      for (int process_run = 0; process_run < 10; ++process_run) {
+        given.process_runs.back().push_back(design.tolerated + between * normal(random));
       }
     }
-    suspected += launcher.launches.size();
-    families_wrong += std::ranges::any_of(launcher.confirm_all(),
+    suspected += given.process_runs.size();
+    families_wrong += std::ranges::any_of(given.confirm_all(),
                                           [](const Confirmation& each) {
                                             return each.verdict == PairVerdict::slower;
                                           })

@@ -66,7 +66,7 @@ TEST(Wire, AJobCarriesProtocolAndPlants) {
   EXPECT_EQ(back->plants, job.plants);
 }
 
-TEST(Wire, TurnsAreAskedForAndAnswered) {
+TEST(Wire, BatchesAreAskedForAndAnswered) {
   const auto hold =
       as_hold(to_message(Hold{.configuration = {{"step", "0.5"}}, .plants = {"slowdown:5"}}));
   ASSERT_TRUE(hold);
@@ -75,17 +75,17 @@ TEST(Wire, TurnsAreAskedForAndAnswered) {
   EXPECT_EQ(as_frames(to_message(Frames{.count = 7}))->count, 7);
   EXPECT_TRUE(as_release(to_message(Release{})));
   EXPECT_FALSE(as_release(to_message(Frames{})));
-  const Turn sent{.outcome = record::Outcome::lost,
-                  .reason = "gone",
-                  .wall_ns = {1.0 / 3, 2e9},
-                  .device_ns = {0.25}};
-  const auto turn = as_turn(to_message(sent));
-  ASSERT_TRUE(turn);
-  EXPECT_EQ(turn->outcome, sent.outcome);
-  EXPECT_EQ(turn->reason, sent.reason);
-  EXPECT_EQ(turn->wall_ns, sent.wall_ns);
-  EXPECT_EQ(turn->device_ns, sent.device_ns);
-  EXPECT_THROW(static_cast<void>(as_turn({{{"type", "turn"}}, {}})), core::InputError);
+  const Batch sent{.outcome = record::Outcome::lost,
+                   .reason = "gone",
+                   .wall_ns = {1.0 / 3, 2e9},
+                   .device_ns = {0.25}};
+  const auto batch = as_batch(to_message(sent));
+  ASSERT_TRUE(batch);
+  EXPECT_EQ(batch->outcome, sent.outcome);
+  EXPECT_EQ(batch->reason, sent.reason);
+  EXPECT_EQ(batch->wall_ns, sent.wall_ns);
+  EXPECT_EQ(batch->device_ns, sent.device_ns);
+  EXPECT_THROW(static_cast<void>(as_batch({{{"type", "turn"}}, {}})), core::InputError);
 }
 
 TEST(Wire, LoadingIsNoAnswer) {

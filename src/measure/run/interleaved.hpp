@@ -1,7 +1,7 @@
 #pragma once
-// Two workers that take turns on one machine, so that whatever slows the machine down slows both.
-// Blocks of turns in random order, A B B A or B A A B: a drift that is linear over four turns
-// cancels out of their difference. Short turns are taken so several times, and the least of each
+// Two workers that alternate on one machine, so that whatever slows the machine down slows both.
+// Blocks of batches in random order, A B B A or B A A B: a drift that is linear over four batches
+// cancels out of their difference. Short batches are taken so several times, and the least of each
 // of the four counts: what disturbs one side's processor and not the other's comes and goes within
 // tens of milliseconds, and only adds.
 
@@ -40,7 +40,7 @@ class SideEnded : public core::Error {
   record::Outcome outcome_;
 };
 
-// Mean time of a frame in each of a side's two turns, the least of those that a block took so.
+// Mean time of a frame in each of a side's two batches, the least of those that a block took so.
 struct SideTimes {
   std::array<double, 2> wall_ns{};
   std::optional<std::array<double, 2>> device_ns;  // where the device told it of every frame
@@ -52,36 +52,36 @@ struct Block {
   SideTimes b;
 };
 
-enum class TurnClock : std::uint8_t { wall, device };
+enum class SideClock : std::uint8_t { wall, device };
 
 // d = ½(ln b₁ + ln b₂ − ln a₁ − ln a₂) of each block. Device times must be there for
-// TurnClock::device; a time of nothing counts as a nanosecond.
-[[nodiscard]] std::vector<double> differences(std::span<const Block> blocks, TurnClock clock);
+// SideClock::device; a time of nothing counts as a nanosecond.
+[[nodiscard]] std::vector<double> differences(std::span<const Block> blocks, SideClock clock);
 
 // Whether the device times of both sides can be true at all (plausible(),
 // measure/protocol/clock.hpp).
 [[nodiscard]] bool device_clock_holds(std::span<const Block> blocks);
 
-struct TurnOptions {
+struct InterleavedOptions {
   std::string suite;
   std::vector<std::string> kinds;        // of work that the plan needs: their clocks are calibrated
   std::chrono::seconds limit{60};        // of one answer; a worker past it is killed
   std::chrono::seconds start_limit{60};  // of opening a device and calibrating its clocks
-  // Shorter frames are batched, as many on either side, until a turn lasts this long.
-  double least_turn_ns = 1e6;
-  // The four turns are taken again until a block lasts this long.
+  // Shorter frames are batched, as many on either side, until a batch lasts this long.
+  double least_batch_ns = 1e6;
+  // The four batches are taken again until a block lasts this long.
   double least_block_ns = 40e6;
   std::uint64_t seed = 1;  // of the blocks' orders
 };
 
-class Turns {
+class Interleaved {
  public:
   // Opens both. Throws InputError for an environment that forbids measuring, NotSupported with the
   // reason when a side cannot be opened.
-  Turns(TurnOptions options, const SideOptions& a, const SideOptions& b);
-  ~Turns();
-  Turns(const Turns&) = delete;
-  Turns& operator=(const Turns&) = delete;
+  Interleaved(InterleavedOptions options, const SideOptions& a, const SideOptions& b);
+  ~Interleaved();
+  Interleaved(const Interleaved&) = delete;
+  Interleaved& operator=(const Interleaved&) = delete;
 
   // Device and clocks, as the first worker of the side told them.
   [[nodiscard]] const Hello& hello(Side side) const;
@@ -89,31 +89,31 @@ class Turns {
   // All that follow throw SideEnded, and Interrupted when a signal asks to stop.
 
   // Both sides prepare the configuration, keep it and draw a few frames: warm, and for knowing how
-  // many make a turn by `clock`, and how many turns a block. What was held before is released.
+  // many make a batch by `clock`, and how many batches a block. What was held before is released.
   void hold(const Configuration& configuration,
-            const std::array<std::vector<std::string>, 2>& plants, TurnClock clock,
+            const std::array<std::vector<std::string>, 2>& plants, SideClock clock,
             const OnLoading& on_loading = {});
-  [[nodiscard]] int frames_per_turn() const noexcept { return frames_per_turn_; }
-  // How often a block takes its four turns.
+  [[nodiscard]] int frames_per_batch() const noexcept { return frames_per_batch_; }
+  // How often a block takes its four batches.
   [[nodiscard]] int times_per_block() const noexcept { return times_per_block_; }
   // One block of what is held.
   [[nodiscard]] Block block();
   void release();
 
   // Both workers leave and new ones are opened; nothing is held.
-  void relaunch();
+  void restart();
 
  private:
-  class Seat;
-  // The four turns once more; of each what it took now counts where `block` has no less.
-  void take_turns(Block& block);
-  [[nodiscard]] Seat& seat(Side side) const { return *seats_.at(side == Side::a ? 0 : 1); }
+  class Slot;
+  // The four batches once more; of each what it took now counts where `block` has no less.
+  void take_batches(Block& block);
+  [[nodiscard]] Slot& slot(Side side) const { return *slots_.at(side == Side::a ? 0 : 1); }
 
-  TurnOptions options_;
+  InterleavedOptions options_;
   core::Random random_;
   InterruptGuard interrupts_;
-  std::array<std::unique_ptr<Seat>, 2> seats_;
-  int frames_per_turn_ = 1;
+  std::array<std::unique_ptr<Slot>, 2> slots_;
+  int frames_per_batch_ = 1;
   int times_per_block_ = 1;
 };
 

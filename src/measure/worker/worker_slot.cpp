@@ -1,4 +1,4 @@
-#include "measure/worker/worker_seat.hpp"
+#include "measure/worker/worker_slot.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 namespace triptych::measure {
 
-bool WorkerSeat::open(const std::function<Start()>& start,
+bool WorkerSlot::open(const std::function<Start()>& start,
                       const std::function<void(const Hello&)>& greeted) {
   constexpr int most_attempts = 2;
   for (int attempt = 0; !occupied() && why_closed_.reason.empty(); ++attempt) {
@@ -20,12 +20,12 @@ bool WorkerSeat::open(const std::function<Start()>& start,
   return occupied();
 }
 
-void WorkerSeat::finish() {
+void WorkerSlot::finish() {
   if (worker_) worker_->finish();
   worker_.reset();
 }
 
-Refused WorkerSeat::try_to_open(const Start& start,
+Refused WorkerSlot::try_to_open(const Start& start,
                                 const std::function<void(const Hello&)>& greeted) {
   std::vector<std::string> command = setup_.command;
   command.push_back(setup_.device);

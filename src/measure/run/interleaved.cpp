@@ -1,4 +1,4 @@
-#include "measure/run/turns.hpp"
+#include "measure/run/interleaved.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "measure/protocol/clock.hpp"
 #include "measure/protocol/count_to_fill.hpp"
-#include "measure/worker/worker_seat.hpp"
+#include "measure/worker/worker_slot.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -39,12 +39,12 @@ SideEnded::SideEnded(Side side, record::Outcome outcome, const std::string& reas
       side_(side),
       outcome_(outcome) {}
 
-std::vector<double> differences(std::span<const Block> blocks, TurnClock clock) {
+std::vector<double> differences(std::span<const Block> blocks, SideClock clock) {
   std::vector<double> result;
   result.reserve(blocks.size());
   for (const Block& block : blocks) {
     const auto ln_time = [clock](const SideTimes& times) {
-      return ln_mean(clock == TurnClock::device ? times.device_ns.value() : times.wall_ns);
+      return ln_mean(clock == SideClock::device ? times.device_ns.value() : times.wall_ns);
     };
     result.push_back(ln_time(block.b) - ln_time(block.a));
   }
@@ -67,20 +67,21 @@ bool device_clock_holds(std::span<const Block> blocks) {
 }
 
 // A side with the worker that serves it just now.
-class Turns::Seat {
+class Interleaved::Slot {
  public:
-  Seat(Side side, const SideOptions& of, const TurnOptions& options, InterruptGuard& interrupts)
+  Slot(Side side, const SideOptions& of, const InterleavedOptions& options,
+       InterruptGuard& interrupts)
       : side_(side),
         options_(options),
         cache_(cache_name(of, false)),
-        seat_(worker_setup(of, false, cache_, options.start_limit), interrupts) {}
+        slot_(worker_setup(of, false, cache_, options.start_limit), interrupts) {}
 
   [[nodiscard]] const Hello& hello() const { return hello_; }
-  [[nodiscard]] const std::string& why_closed() const { return seat_.why_closed(); }
+  [[nodiscard]] const std::string& why_closed() const { return slot_.why_closed(); }
 
-  // As WorkerSeat::open. Further workers rest on the first one's verdict on the clocks.
+  // As WorkerSlot::open. Further workers rest on the first one's verdict on the clocks.
   bool open() {
-    return seat_.open(
+    return slot_.open(
         [this] {
           return Start{.suite = options_.suite, .kinds = options_.kinds, .clocks = hello_.clocks};
         },
@@ -89,13 +90,13 @@ class Turns::Seat {
         });
   }
 
-  void close() { seat_.finish(); }
+  void close() { slot_.finish(); }
 
   // Throws SideEnded unless a message of the wanted kind comes back.
   template <typename As>
   auto ask(const Message& message, As as, const OnLoading& on_loading) {
     if (!open()) throw SideEnded(side_, record::Outcome::failed, why_closed());
-    WorkerLink::Reply reply = seat_.worker().ask(message, options_.limit, on_loading);
+    WorkerLink::Reply reply = slot_.worker().ask(message, options_.limit, on_loading);
     if (const auto* died = std::get_if<WorkerLink::Died>(&reply)) {
       give_up(record::Outcome::crashed, died->reason);
     }
@@ -115,20 +116,20 @@ class Turns::Seat {
   // Throws SideEnded for an outcome that is none of a measured configuration.
   void require_measured(record::Outcome outcome, const std::string& reason) {
     if (outcome == record::Outcome::measured) return;
-    if (outcome == record::Outcome::lost) seat_.vacate();
+    if (outcome == record::Outcome::lost) slot_.vacate();
     throw SideEnded(side_, outcome, reason);
   }
 
-  Turn turn(const Message& message, const OnLoading& on_loading = {}) {
-    Turn turn = ask(
-        message, [](const Message& answer) { return as_turn(answer); }, on_loading);
-    require_measured(turn.outcome, turn.reason);
-    return turn;
+  Batch batch(const Message& message, const OnLoading& on_loading = {}) {
+    Batch batch = ask(
+        message, [](const Message& answer) { return as_batch(answer); }, on_loading);
+    require_measured(batch.outcome, batch.reason);
+    return batch;
   }
 
   // The times of so many frames.
-  Turn draw(int frames) {
-    Turn drawn = turn(to_message(Frames{.count = frames}));
+  Batch draw(int frames) {
+    Batch drawn = batch(to_message(Frames{.count = frames}));
     if (drawn.wall_ns.size() != static_cast<std::size_t>(frames)) {
       give_up(record::Outcome::failed,
               fmt::format("{} frames were asked for, {} drawn", frames, drawn.wall_ns.size()));
@@ -137,99 +138,100 @@ class Turns::Seat {
   }
 
   void release() {
-    if (seat_.occupied()) static_cast<void>(turn(to_message(Release{})));
+    if (slot_.occupied()) static_cast<void>(batch(to_message(Release{})));
   }
 
  private:
   [[noreturn]] void give_up(record::Outcome outcome, const std::string& reason) {
-    seat_.vacate();
+    slot_.vacate();
     throw SideEnded(side_, outcome, reason);
   }
 
   Side side_;
-  const TurnOptions& options_;
+  const InterleavedOptions& options_;
   CacheFolder cache_;
-  WorkerSeat seat_;
+  WorkerSlot slot_;
   Hello hello_;
 };
 
-Turns::Turns(TurnOptions options, const SideOptions& a, const SideOptions& b)
+Interleaved::Interleaved(InterleavedOptions options, const SideOptions& a, const SideOptions& b)
     : options_(std::move(options)), random_(options_.seed) {
   if (const auto reason = forbids_measuring()) throw core::InputError(*reason);
   for (const SideOptions* side : {&a, &b}) {
     if (const auto reason = forbids_measuring(side->environment)) throw core::InputError(*reason);
   }
-  seats_[0] = std::make_unique<Seat>(Side::a, a, options_, interrupts_);
-  seats_[1] = std::make_unique<Seat>(Side::b, b, options_, interrupts_);
+  slots_[0] = std::make_unique<Slot>(Side::a, a, options_, interrupts_);
+  slots_[1] = std::make_unique<Slot>(Side::b, b, options_, interrupts_);
   // Clocks are calibrated one after the other: neither disturbs the other's.
-  for (const auto& each : seats_) {
+  for (const auto& each : slots_) {
     if (!each->open()) throw core::NotSupported(each->why_closed());
   }
 }
 
-Turns::~Turns() = default;
+Interleaved::~Interleaved() = default;
 
-const Hello& Turns::hello(Side side) const {
-  return seat(side).hello();
+const Hello& Interleaved::hello(Side side) const {
+  return slot(side).hello();
 }
 
-void Turns::hold(const Configuration& configuration,
-                 const std::array<std::vector<std::string>, 2>& plants, TurnClock clock,
-                 const OnLoading& on_loading) {
+void Interleaved::hold(const Configuration& configuration,
+                       const std::array<std::vector<std::string>, 2>& plants, SideClock clock,
+                       const OnLoading& on_loading) {
   constexpr int warm_up_frames = 3;
   constexpr int most_frames = 1000;
   constexpr int most_times = 10;
   for (const Side side : both) {
     const Hold request{configuration, plants.at(side == Side::a ? 0 : 1)};
-    static_cast<void>(seat(side).turn(to_message(request), on_loading));
+    static_cast<void>(slot(side).batch(to_message(request), on_loading));
   }
   double fastest_ns = infinite;
   for (const Side side : both) {
-    const Turn turn = seat(side).draw(warm_up_frames);
-    const bool by_device = clock == TurnClock::device && !turn.device_ns.empty();
-    fastest_ns = std::min(fastest_ns, std::ranges::min(by_device ? turn.device_ns : turn.wall_ns));
+    const Batch batch = slot(side).draw(warm_up_frames);
+    const bool by_device = clock == SideClock::device && !batch.device_ns.empty();
+    fastest_ns =
+        std::min(fastest_ns, std::ranges::min(by_device ? batch.device_ns : batch.wall_ns));
   }
-  frames_per_turn_ = count_to_fill(options_.least_turn_ns, fastest_ns, most_frames);
+  frames_per_batch_ = count_to_fill(options_.least_batch_ns, fastest_ns, most_frames);
   times_per_block_ =
-      count_to_fill(options_.least_block_ns, 4 * frames_per_turn_ * fastest_ns, most_times);
-  for (const Side side : both) static_cast<void>(seat(side).draw(frames_per_turn_));
+      count_to_fill(options_.least_block_ns, 4 * frames_per_batch_ * fastest_ns, most_times);
+  for (const Side side : both) static_cast<void>(slot(side).draw(frames_per_batch_));
 }
 
-Block Turns::block() {
+Block Interleaved::block() {
   Block block{.b_first = random_.uniform() < 0.5, .a = {}, .b = {}};
   for (SideTimes* times : {&block.a, &block.b}) {
     times->wall_ns.fill(infinite);
     times->device_ns.emplace().fill(infinite);
   }
-  for (int i = 0; i < times_per_block_; ++i) take_turns(block);
+  for (int i = 0; i < times_per_block_; ++i) take_batches(block);
   return block;
 }
 
-void Turns::take_turns(Block& block) {
+void Interleaved::take_batches(Block& block) {
   const Side first = block.b_first ? Side::b : Side::a;
   const Side second = block.b_first ? Side::a : Side::b;
-  std::array<std::size_t, 2> turns{};
+  std::array<std::size_t, 2> batches{};
   for (const Side side : {first, second, second, first}) {
-    const Turn turn = seat(side).draw(frames_per_turn_);
+    const Batch batch = slot(side).draw(frames_per_batch_);
     SideTimes& times = side == Side::a ? block.a : block.b;
-    const std::size_t number = turns.at(side == Side::a ? 0 : 1)++;
+    const std::size_t number = batches.at(side == Side::a ? 0 : 1)++;
     double& wall_ns = times.wall_ns.at(number);
-    wall_ns = std::min(wall_ns, mean_of(turn.wall_ns));
-    if (turn.device_ns.empty()) times.device_ns.reset();
+    wall_ns = std::min(wall_ns, mean_of(batch.wall_ns));
+    if (batch.device_ns.empty()) times.device_ns.reset();
     if (!times.device_ns) continue;
     double& device_ns = times.device_ns->at(number);
-    device_ns = std::min(device_ns, mean_of(turn.device_ns));
+    device_ns = std::min(device_ns, mean_of(batch.device_ns));
   }
 }
 
-void Turns::release() {
-  for (const Side side : both) seat(side).release();
+void Interleaved::release() {
+  for (const Side side : both) slot(side).release();
 }
 
-void Turns::relaunch() {
-  for (const auto& each : seats_) each->close();
+void Interleaved::restart() {
+  for (const auto& each : slots_) each->close();
   for (const Side side : both) {
-    if (!seat(side).open()) throw SideEnded(side, record::Outcome::failed, seat(side).why_closed());
+    if (!slot(side).open()) throw SideEnded(side, record::Outcome::failed, slot(side).why_closed());
   }
 }
 

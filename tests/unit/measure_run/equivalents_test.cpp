@@ -1,6 +1,6 @@
 // What counts as the same work, and what runs make of it.
 
-#include "measure/contract/twins.hpp"
+#include "measure/contract/equivalents.hpp"
 
 #include <limits>
 
@@ -42,36 +42,36 @@ TEST(LeastTransmittance, IsNothingWhereItCannotBeSeen) {
             0);
 }
 
-class TwinsOf : public testing::Test {
+class EquivalentsOf : public testing::Test {
  protected:
   static PlainWork plain(const std::string& step, double ends_below) {
     return {.levels = {{"step", step}}, .ends_below = ends_below};
   }
-  TwinsOf() { twins.add(plain("1", 0), "first", volume_over(0), picture({0.75F})); }
-  Twins twins;
+  EquivalentsOf() { equivalents.add(plain("1", 0), "first", volume_over(0), picture({0.75F})); }
+  Equivalents equivalents;
 };
 
-TEST_F(TwinsOf, RaysThatEndBelowWhatTheyReachAreTheSame) {
-  const auto twin = twins.find(plain("1", 0.125));
-  ASSERT_TRUE(twin);
-  EXPECT_EQ(twin->key, "first");
-  EXPECT_EQ(twin->reason, "ert: no ray gets darker than 0.25");
-  EXPECT_FALSE(twins.find(plain("1", 0.3)));
-  EXPECT_FALSE(twins.find(plain("2", 0.125)));
+TEST_F(EquivalentsOf, RaysThatEndBelowWhatTheyReachAreTheSame) {
+  const auto equivalent = equivalents.find(plain("1", 0.125));
+  ASSERT_TRUE(equivalent);
+  EXPECT_EQ(equivalent->key, "first");
+  EXPECT_EQ(equivalent->reason, "ert: no ray gets darker than 0.25");
+  EXPECT_FALSE(equivalents.find(plain("1", 0.3)));
+  EXPECT_FALSE(equivalents.find(plain("2", 0.125)));
 }
 
-TEST_F(TwinsOf, WhatEndedRaysTellsNothingOfLess) {
-  twins.add(plain("2", 0.3), "second", volume_over(0), picture({0.75F}));
-  EXPECT_FALSE(twins.find(plain("2", 0)));
-  EXPECT_TRUE(twins.find(plain("2", 0.3)));
+TEST_F(EquivalentsOf, WhatEndedRaysTellsNothingOfLess) {
+  equivalents.add(plain("2", 0.3), "second", volume_over(0), picture({0.75F}));
+  EXPECT_FALSE(equivalents.find(plain("2", 0)));
+  EXPECT_TRUE(equivalents.find(plain("2", 0.3)));
 }
 
-TEST_F(TwinsOf, TheReasonNamesWhatWasReplacedInOneOfThem) {
+TEST_F(EquivalentsOf, TheReasonNamesWhatWasReplacedInOneOfThem) {
   PlainWork leaps = plain("1", 0);
   leaps.why["skip"] = "nothing is empty";
-  const auto twin = twins.find(leaps);
-  ASSERT_TRUE(twin);
-  EXPECT_EQ(twin->reason, "skip: nothing is empty");
+  const auto equivalent = equivalents.find(leaps);
+  ASSERT_TRUE(equivalent);
+  EXPECT_EQ(equivalent->reason, "skip: nothing is empty");
 }
 
 // The fake suite's data "full" cannot tell skip=bricks from none.

@@ -19,9 +19,9 @@ struct WorkerSetup {
   std::chrono::milliseconds limit{};  // of opening the device and calibrating its clocks
 };
 
-class WorkerSeat {
+class WorkerSlot {
  public:
-  WorkerSeat(WorkerSetup setup, InterruptGuard& interrupts)
+  WorkerSlot(WorkerSetup setup, InterruptGuard& interrupts)
       : setup_(std::move(setup)), interrupts_(interrupts) {}
 
   // True where a worker is there or could be started; it is told `start` and what it greets with is
@@ -33,7 +33,7 @@ class WorkerSeat {
   // Whether it is something that the device lacks.
   [[nodiscard]] bool unsupported() const noexcept { return why_closed_.unsupported; }
 
-  // The worker, of a seat that is open.
+  // The worker, of a slot that is open.
   [[nodiscard]] WorkerLink& worker() const { return *worker_; }
   [[nodiscard]] bool occupied() const noexcept { return worker_ != nullptr; }
 

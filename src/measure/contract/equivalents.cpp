@@ -1,4 +1,4 @@
-#include "measure/contract/twins.hpp"
+#include "measure/contract/equivalents.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,7 +48,7 @@ double least_transmittance(const Work& work, const core::Image& picture) {
   return least > 0 ? least : 0;
 }
 
-std::optional<Twin> Twins::find(const PlainWork& plain) const {
+std::optional<Equivalent> Equivalents::find(const PlainWork& plain) const {
   const auto same = known_.find(plain.levels);
   if (same == known_.end()) return std::nullopt;
   for (const Known& known : same->second) {
@@ -56,14 +56,14 @@ std::optional<Twin> Twins::find(const PlainWork& plain) const {
         known.plain.ends_below != plain.ends_below &&
         known.least_transmittance <= std::max(known.plain.ends_below, plain.ends_below);
     if (told_apart) continue;
-    return Twin{.key = known.key,
-                .reason = reason_for(known.plain, plain, known.least_transmittance)};
+    return Equivalent{.key = known.key,
+                      .reason = reason_for(known.plain, plain, known.least_transmittance)};
   }
   return std::nullopt;
 }
 
-void Twins::add(const PlainWork& plain, const std::string& key, const Work& work,
-                const core::Image& picture) {
+void Equivalents::add(const PlainWork& plain, const std::string& key, const Work& work,
+                      const core::Image& picture) {
   known_[plain.levels].push_back({key, plain, least_transmittance(work, picture)});
 }
 

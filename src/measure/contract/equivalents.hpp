@@ -13,7 +13,7 @@
 namespace triptych::measure {
 
 // A configuration measured before whose frames were the very work that another would do.
-struct Twin {
+struct Equivalent {
   std::string key;
   std::string reason;  // for people: "skip: no brick of this scene is empty"
 };
@@ -21,9 +21,9 @@ struct Twin {
 // What one device has measured. A ray that never gets darker than some transmittance ends nowhere
 // early below it: of configurations that differ by that threshold alone, one frame's picture tells
 // for all. Everything else a suite has to know beforehand (Suite::plain).
-class Twins {
+class Equivalents {
  public:
-  [[nodiscard]] std::optional<Twin> find(const PlainWork& plain) const;
+  [[nodiscard]] std::optional<Equivalent> find(const PlainWork& plain) const;
 
   // `picture` as drawn by the configuration `key`.
   void add(const PlainWork& plain, const std::string& key, const Work& work,

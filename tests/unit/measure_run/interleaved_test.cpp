@@ -1,4 +1,4 @@
-#include "measure/run/turns.hpp"
+#include "measure/run/interleaved.hpp"
 
 #include <cmath>
 
@@ -23,14 +23,14 @@ class TurnsTest : public RunTest {
     a.command = b.command = {MEASURE_RUN_HELPER, "worker"};
   }
 
-  [[nodiscard]] Turns open() const { return {options_, a, b}; }
+  [[nodiscard]] Interleaved open() const { return {options_, a, b}; }
   [[nodiscard]] Configuration configuration() { return small_plan().configurations.front(); }
-  void hold(Turns& turns, const std::vector<std::string>& plants_b = {}) {
-    turns.hold(configuration(), {std::vector<std::string>{}, plants_b}, TurnClock::wall);
+  void hold(Interleaved& interleaved, const std::vector<std::string>& plants_b = {}) {
+    interleaved.hold(configuration(), {std::vector<std::string>{}, plants_b}, SideClock::wall);
   }
-  static std::vector<Block> blocks(Turns& turns, int count) {
+  static std::vector<Block> blocks(Interleaved& interleaved, int count) {
     std::vector<Block> result;
-    while (static_cast<int>(result.size()) < count) result.push_back(turns.block());
+    while (static_cast<int>(result.size()) < count) result.push_back(interleaved.block());
     return result;
   }
 
@@ -40,39 +40,39 @@ class TurnsTest : public RunTest {
     Outcome outcome;
     std::string reason;
   };
-  std::optional<Ended> ended(Turns& turns, const std::string& fault) {
+  std::optional<Ended> ended(Interleaved& interleaved, const std::string& fault) {
     try {
-      hold(turns, {fault});
+      hold(interleaved, {fault});
     } catch (const SideEnded& error) {
       return Ended{error.side(), error.outcome(), error.what()};
     }
     return std::nullopt;
   }
 
-  TurnOptions options_{.suite = "fake", .kinds = {"compute"}};
+  InterleavedOptions options_{.suite = "fake", .kinds = {"compute"}};
   SideOptions a;
   SideOptions b;
 };
 
 TEST_F(TurnsTest, TheDifferenceIsTheLogarithmOfTheRatio) {
   b.environment = {script_with(R"("base_ns": 3e6, "devices": [1.1])")};
-  Turns turns = open();
-  hold(turns);
-  const std::vector<Block> all = blocks(turns, 6);
-  EXPECT_EQ(turns.frames_per_turn(), 1);
-  EXPECT_EQ(turns.times_per_block(), 4);  // of four turns of 3 ms, 40 at least
-  EXPECT_THAT(differences(all, TurnClock::wall), Each(DoubleNear(std::log(1.1), 1e-9)));
-  EXPECT_THAT(differences(all, TurnClock::device), Each(DoubleNear(std::log(1.1), 1e-9)));
+  Interleaved interleaved = open();
+  hold(interleaved);
+  const std::vector<Block> all = blocks(interleaved, 6);
+  EXPECT_EQ(interleaved.frames_per_batch(), 1);
+  EXPECT_EQ(interleaved.times_per_block(), 4);  // of four batches of 3 ms, 40 at least
+  EXPECT_THAT(differences(all, SideClock::wall), Each(DoubleNear(std::log(1.1), 1e-9)));
+  EXPECT_THAT(differences(all, SideClock::device), Each(DoubleNear(std::log(1.1), 1e-9)));
   EXPECT_TRUE(device_clock_holds(all));
 }
 
 TEST_F(TurnsTest, OrdersAreBothThereAndFollowFromTheSeed) {
   const auto orders = [this](std::uint64_t seed) {
     options_.seed = seed;
-    Turns turns = open();
-    hold(turns);
+    Interleaved interleaved = open();
+    hold(interleaved);
     std::vector<bool> result;
-    for (const Block& block : blocks(turns, 16)) result.push_back(block.b_first);
+    for (const Block& block : blocks(interleaved, 16)) result.push_back(block.b_first);
     return result;
   };
   const std::vector<bool> first = orders(1);
@@ -85,72 +85,72 @@ TEST_F(TurnsTest, OrdersAreBothThereAndFollowFromTheSeed) {
 TEST_F(TurnsTest, ShortFramesAreBatchedAlikeOnBothSides) {
   a.environment = {script_with(R"("base_ns": 1e5, "ns_per_sample": 0)")};
   b.environment = {script_with(R"("base_ns": 4e5, "ns_per_sample": 0)")};
-  Turns turns = open();
-  hold(turns);
-  EXPECT_EQ(turns.frames_per_turn(), 10);  // the faster side's turn lasts the millisecond
-  EXPECT_EQ(turns.times_per_block(), 10);  // and a block of its turns 40
-  const Block block = turns.block();
+  Interleaved interleaved = open();
+  hold(interleaved);
+  EXPECT_EQ(interleaved.frames_per_batch(), 10);  // the faster side's batch lasts the millisecond
+  EXPECT_EQ(interleaved.times_per_block(), 10);   // and a block of its batches 40
+  const Block block = interleaved.block();
   EXPECT_NEAR(block.a.wall_ns[0], 1e5, 1);  // means, not sums
   EXPECT_NEAR(block.b.wall_ns[1], 4e5, 1);
 }
 
-// All ten of b's first or of its second turns in a block are disturbed once in 85000.
+// All ten of b's first or of its second batches in a block are disturbed once in 85000.
 TEST_F(TurnsTest, WhatDisturbsSomeOfABlocksTurnsDoesNotCount) {
   a.environment = {script_with(R"("base_ns": 1e6, "ns_per_sample": 0)")};
   b.environment = {script_with(
       R"("base_ns": 1e6, "ns_per_sample": 0, "outlier_share": 0.3, "outlier_factor": 2)")};
-  options_.least_turn_ns = 1;
-  Turns turns = open();
-  hold(turns);
-  ASSERT_EQ(turns.times_per_block(), 10);
-  EXPECT_THAT(differences(blocks(turns, 12), TurnClock::wall), Each(DoubleNear(0, 1e-9)));
+  options_.least_batch_ns = 1;
+  Interleaved interleaved = open();
+  hold(interleaved);
+  ASSERT_EQ(interleaved.times_per_block(), 10);
+  EXPECT_THAT(differences(blocks(interleaved, 12), SideClock::wall), Each(DoubleNear(0, 1e-9)));
 }
 
 TEST_F(TurnsTest, AClockThatTellsNothingOrLiesDoesNotHold) {
   b.environment = {script_with(R"("base_ns": 3e6, "device_over_wall": null)")};
   {
-    Turns turns = open();
-    hold(turns);
-    const std::vector<Block> all = blocks(turns, 4);
+    Interleaved interleaved = open();
+    hold(interleaved);
+    const std::vector<Block> all = blocks(interleaved, 4);
     EXPECT_FALSE(device_clock_holds(all));
     EXPECT_FALSE(all.front().b.device_ns);
     EXPECT_TRUE(all.front().a.device_ns);
   }
   b.environment = {script_with(R"("base_ns": 3e6, "device_over_wall": 0.1)")};
-  Turns turns = open();
-  EXPECT_FALSE(turns.hello(Side::b).clocks.front().trusted);
-  EXPECT_TRUE(turns.hello(Side::a).clocks.front().trusted);
-  hold(turns);
-  EXPECT_FALSE(device_clock_holds(blocks(turns, 4)));
+  Interleaved interleaved = open();
+  EXPECT_FALSE(interleaved.hello(Side::b).clocks.front().trusted);
+  EXPECT_TRUE(interleaved.hello(Side::a).clocks.front().trusted);
+  hold(interleaved);
+  EXPECT_FALSE(device_clock_holds(blocks(interleaved, 4)));
 }
 
 TEST_F(TurnsTest, ACrashCostsOneConfigurationAndNamesItsSide) {
-  Turns turns = open();
-  const auto end = ended(turns, "crash");
+  Interleaved interleaved = open();
+  const auto end = ended(interleaved, "crash");
   ASSERT_TRUE(end);
   EXPECT_EQ(end->side, Side::b);
   EXPECT_EQ(end->outcome, Outcome::crashed);
   EXPECT_THAT(end->reason, HasSubstr("SIGSEGV"));
-  hold(turns);
-  EXPECT_THAT(differences(blocks(turns, 2), TurnClock::wall), Each(DoubleNear(0, 1e-9)));
+  hold(interleaved);
+  EXPECT_THAT(differences(blocks(interleaved, 2), SideClock::wall), Each(DoubleNear(0, 1e-9)));
   EXPECT_EQ(started_workers().size(), 3U);
 }
 
 TEST_F(TurnsTest, AHangCostsItsLimit) {
   options_.limit = std::chrono::seconds(1);
-  Turns turns = open();
-  const auto end = ended(turns, "hang");
+  Interleaved interleaved = open();
+  const auto end = ended(interleaved, "hang");
   ASSERT_TRUE(end);
   EXPECT_EQ(end->outcome, Outcome::hung);
-  hold(turns);
+  hold(interleaved);
 }
 
 TEST_F(TurnsTest, ALostDeviceCostsItsWorker) {
-  Turns turns = open();
-  const auto end = ended(turns, "device_lost");
+  Interleaved interleaved = open();
+  const auto end = ended(interleaved, "device_lost");
   ASSERT_TRUE(end);
   EXPECT_EQ(end->outcome, Outcome::lost);
-  hold(turns);
+  hold(interleaved);
   EXPECT_EQ(started_workers().size(), 3U);
 }
 
@@ -158,37 +158,37 @@ TEST_F(TurnsTest, AnErrorInAFrameEndsTheBlockAndNoWorker) {
   b.environment = {script_with(
       R"("base_ns": 3e6, "failures": [{"kind": "api_error", "at": "frame", "frame": 12, "only": "*data=*"}])")};
   options_.kinds = {};  // the calibration's frames would meet it too
-  Turns turns = open();
-  hold(turns);
+  Interleaved interleaved = open();
+  hold(interleaved);
   try {
-    blocks(turns, 12);
+    blocks(interleaved, 12);
     FAIL() << "nothing was thrown";
   } catch (const SideEnded& error) {
     EXPECT_EQ(error.side(), Side::b);
     EXPECT_EQ(error.outcome(), Outcome::failed);
     EXPECT_THAT(error.what(), HasSubstr("NULL_ERROR"));
   }
-  EXPECT_THROW(static_cast<void>(turns.block()), SideEnded);  // nothing is held any longer
+  EXPECT_THROW(static_cast<void>(interleaved.block()), SideEnded);  // nothing is held any longer
   EXPECT_EQ(started_workers().size(), 2U);
 }
 
 TEST_F(TurnsTest, NothingIsDrawnOfWhatIsNotHeld) {
-  Turns turns = open();
-  EXPECT_THROW(static_cast<void>(turns.block()), SideEnded);
-  hold(turns);
-  static_cast<void>(turns.block());
-  turns.release();
-  EXPECT_THROW(static_cast<void>(turns.block()), SideEnded);
+  Interleaved interleaved = open();
+  EXPECT_THROW(static_cast<void>(interleaved.block()), SideEnded);
+  hold(interleaved);
+  static_cast<void>(interleaved.block());
+  interleaved.release();
+  EXPECT_THROW(static_cast<void>(interleaved.block()), SideEnded);
 }
 
 TEST_F(TurnsTest, FreshLaunchesAreNewProcesses) {
-  Turns turns = open();
-  hold(turns);
-  turns.relaunch();
+  Interleaved interleaved = open();
+  hold(interleaved);
+  interleaved.restart();
   EXPECT_EQ(started_workers().size(), 4U);
-  EXPECT_THROW(static_cast<void>(turns.block()), SideEnded);
-  hold(turns);
-  EXPECT_EQ(turns.block().a.wall_ns, turns.block().b.wall_ns);
+  EXPECT_THROW(static_cast<void>(interleaved.block()), SideEnded);
+  hold(interleaved);
+  EXPECT_EQ(interleaved.block().a.wall_ns, interleaved.block().b.wall_ns);
 }
 
 TEST_F(TurnsTest, ADeviceThatIsNotThereIsRefusedAtOnce) {
@@ -202,14 +202,14 @@ TEST_F(TurnsTest, AnEnvironmentThatChangesTheWorkIsRefused) {
 }
 
 TEST(TurnDifferences, ADriftThatIsLinearOverABlockCancels) {
-  // ln t = 0, 0.1, 0.2, 0.3 over the four turns, b slower by 0.05.
+  // ln t = 0, 0.1, 0.2, 0.3 over the four batches, b slower by 0.05.
   const Block abba{.b_first = false,
                    .a = {.wall_ns = {1e6, 1e6 * std::exp(0.3)}, .device_ns = {}},
                    .b = {.wall_ns = {1e6 * std::exp(0.15), 1e6 * std::exp(0.25)}, .device_ns = {}}};
   const Block baab{.b_first = true,
                    .a = {.wall_ns = {1e6 * std::exp(0.1), 1e6 * std::exp(0.2)}, .device_ns = {}},
                    .b = {.wall_ns = {1e6 * std::exp(0.05), 1e6 * std::exp(0.35)}, .device_ns = {}}};
-  EXPECT_THAT(differences(std::vector{abba, baab}, TurnClock::wall), Each(DoubleNear(0.05, 1e-12)));
+  EXPECT_THAT(differences(std::vector{abba, baab}, SideClock::wall), Each(DoubleNear(0.05, 1e-12)));
 }
 
 }  // namespace
