@@ -29,7 +29,11 @@ TEST_F(GateTest, CommandsAreQuoted) {
   add_run("a");
   GateRequest request = request_;
   request.plan = "ev$(touch x)";
-  EXPECT_THAT(text(gate("a", request)), HasSubstr("triptych accept 'ev$(touch x)' --reason"));
+  EXPECT_THAT(text(gate("a", request)),
+              HasSubstr("triptych accept 'FOLDER/ev$(touch x).yaml' --reason"));
+  request.argument = "my/ev$(touch x).yaml";
+  EXPECT_THAT(text(gate("a", request)),
+              HasSubstr("triptych accept 'my/ev$(touch x).yaml' --reason"));
 }
 
 TEST_F(GateTest, AWrongPictureIsSeenWithoutBaselines) {
