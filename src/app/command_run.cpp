@@ -154,6 +154,28 @@ struct Bench {
   record::Store& store;
 };
 
+bool hits(const measure::Plant& fault, const Bench& bench, const measure::Plan& plan) {
+  const measure::Suite& suite = bench.registry.suite(plan.suite);
+  return std::ranges::any_of(plan.configurations, [&](const measure::Configuration& each) {
+    const std::string key = measure::configuration_key(suite, each);
+    return std::ranges::any_of(bench.devices, [&](const std::string& device) {
+      return !measure::faults_for({&fault, 1}, key, device).empty();
+    });
+  });
+}
+
+// Who injects a fault and sees a pass would think that it was not caught.
+void tell_faults_that_hit_nothing(const Bench& bench, const std::vector<measure::Plan>& plans,
+                                  const std::vector<measure::Plant>& faults) {
+  for (const measure::Plant& fault : faults) {
+    const auto hit = [&](const measure::Plan& plan) { return hits(fault, bench, plan); };
+    if (std::ranges::any_of(plans, hit)) continue;
+    say("triptych: --plant {}@{} hits nothing: no configuration or device is called so; `triptych "
+        "list PLAN` tells their names, which leave defaults out\n",
+        fault.fault, fault.only);
+  }
+}
+
 std::vector<measure::RunResult> measure_and_tell(const Bench& bench,
                                                  const std::vector<measure::Plan>& plans) {
   const measure::RunOptions options = options_of(bench.arguments);
@@ -164,6 +186,7 @@ std::vector<measure::RunResult> measure_and_tell(const Bench& bench,
   }
   std::vector<measure::RunResult> results =
       measure::run_plans(runs, bench.devices, bench.store, show);
+  tell_faults_that_hit_nothing(bench, plans, options.plants);
   for (std::size_t i = 0; i < plans.size(); ++i) tell(bench.arguments, plans[i], results[i]);
   return results;
 }
@@ -303,7 +326,7 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
   command.add_flag("--measure-every", arguments.measure_every,
                    "Measure configurations too that their scene cannot tell from one before");
   command.add_option("--plant", arguments.plants,
-                     "Plant a fault to prove that the gate catches it: " + measure::plant_names() +
+                     "Inject a fault to prove that the gate catches it: " + measure::plant_names() +
                          "; FAULT@GLOB limits it to configurations or devices");
 }
 

@@ -27,6 +27,17 @@ TEST(Faults, AHangCostsOneConfiguration) {
   EXPECT_NE(result.output.find("hung"), std::string::npos) << result.output;
 }
 
+// The plan's haze is a default, and stands in no configuration's name.
+TEST(Faults, AFaultThatHitsNothingIsTold) {
+  const Program program;
+  const Result missed = program.run(three + " --plant 'crash@*haze*'");
+  EXPECT_EQ(missed.code, 0) << missed.output;
+  EXPECT_NE(missed.output.find("--plant crash@*haze* hits nothing"), std::string::npos)
+      << missed.output;
+  const Result hit = program.run(three + " --plant 'extra_sample@null:*'");
+  EXPECT_EQ(hit.output.find("hits nothing"), std::string::npos) << hit.output;
+}
+
 TEST(Faults, ALostDeviceCostsOneConfiguration) {
   const Program program;
   const Result result = program.run(three + " --plant 'device_lost@*step=0.5*'");
