@@ -1,0 +1,44 @@
+#pragma once
+// The layer's place between the loader and the driver.
+
+#include <vulkan/vk_layer.h>
+#include <vulkan/vulkan_core.h>
+
+#include <span>
+#include <string_view>
+
+namespace triptych::layer {
+
+// A command that the layer takes.
+struct Hook {
+  std::string_view change;  // the fault that it makes; empty: it is part of every lowered limit
+  std::string_view command;
+  PFN_vkVoidFunction function;
+};
+
+template <class Function>
+[[nodiscard]] Hook hook(std::string_view change, std::string_view command, Function* function) {
+  return {change, command, reinterpret_cast<PFN_vkVoidFunction>(function)};
+}
+
+// The same command of the next layer or the driver. `handle` is an instance, physical device,
+// device, queue or command buffer.
+[[nodiscard]] PFN_vkVoidFunction next_of(const void* handle, const char* command);
+
+template <class Command>
+[[nodiscard]] Command next(const void* handle, const char* command) {
+  return reinterpret_cast<Command>(next_of(handle, command));
+}
+
+// Says on stderr in one line what a device with this limit would not take; from here on every
+// submission fails.
+VkResult refuse(std::string_view what);
+
+[[nodiscard]] std::span<const Hook> description_hooks();
+[[nodiscard]] std::span<const Hook> memory_hooks();
+[[nodiscard]] std::span<const Hook> queue_hooks();
+[[nodiscard]] std::span<const Hook> refusal_hooks();
+[[nodiscard]] std::span<const Hook> state_fault_hooks();
+[[nodiscard]] std::span<const Hook> command_fault_hooks();
+
+}  // namespace triptych::layer

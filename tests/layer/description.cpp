@@ -1,0 +1,173 @@
+#include "tests/layer/description.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+
+#include "tests/layer/chain.hpp"
+#include "tests/layer/change.hpp"
+
+namespace triptych::layer {
+namespace {
+
+template <class Member>
+using Named = std::pair<std::string_view, Member>;
+using Limits = VkPhysicalDeviceLimits;
+using Features = VkPhysicalDeviceFeatures;
+
+constexpr std::array<Named<std::uint32_t Limits::*>, 14> numbers{{
+    {"maxImageDimension1D", &Limits::maxImageDimension1D},
+    {"maxImageDimension2D", &Limits::maxImageDimension2D},
+    {"maxImageDimension3D", &Limits::maxImageDimension3D},
+    {"maxStorageBufferRange", &Limits::maxStorageBufferRange},
+    {"maxUniformBufferRange", &Limits::maxUniformBufferRange},
+    {"maxComputeSharedMemorySize", &Limits::maxComputeSharedMemorySize},
+    {"maxComputeWorkGroupInvocations", &Limits::maxComputeWorkGroupInvocations},
+    {"maxPerStageDescriptorStorageBuffers", &Limits::maxPerStageDescriptorStorageBuffers},
+    {"maxPerStageResources", &Limits::maxPerStageResources},
+    {"maxDescriptorSetStorageBuffers", &Limits::maxDescriptorSetStorageBuffers},
+    {"maxTessellationGenerationLevel", &Limits::maxTessellationGenerationLevel},
+    {"maxDrawIndirectCount", &Limits::maxDrawIndirectCount},
+    {"subPixelPrecisionBits", &Limits::subPixelPrecisionBits},
+    {"subTexelPrecisionBits", &Limits::subTexelPrecisionBits},
+}};
+
+constexpr std::array<Named<VkBool32 Features::*>, 9> features_named{{
+    {"geometryShader", &Features::geometryShader},
+    {"tessellationShader", &Features::tessellationShader},
+    {"multiDrawIndirect", &Features::multiDrawIndirect},
+    {"drawIndirectFirstInstance", &Features::drawIndirectFirstInstance},
+    {"largePoints", &Features::largePoints},
+    {"pipelineStatisticsQuery", &Features::pipelineStatisticsQuery},
+    {"vertexPipelineStoresAndAtomics", &Features::vertexPipelineStoresAndAtomics},
+    {"fragmentStoresAndAtomics", &Features::fragmentStoresAndAtomics},
+    {"shaderFloat64", &Features::shaderFloat64},
+}};
+
+// Lowered by a rule of their own, here or in memory.cpp and queues.cpp.
+constexpr std::array<std::string_view, 12> others{
+    "maxComputeWorkGroupSize", "maxComputeWorkGroupCount",
+    "maxFramebufferWidth",     "pointSizeRange",
+    "pointSizeGranularity",    "timestampComputeAndGraphics",
+    "timestampValidBits",      "graphicsQueue",
+    "computeFamilyFirst",      "linearFilter",
+    "hostVisibleDeviceLocal",  "memoryHeapSize"};
+
+template <class Table>
+auto find(const Table& table) {
+  return std::ranges::find_if(table, [](const auto& each) { return asked(each.first); });
+}
+
+VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice physical,
+                                      VkPhysicalDeviceProperties* properties) {
+  next<PFN_vkGetPhysicalDeviceProperties>(physical, "vkGetPhysicalDeviceProperties")(physical,
+                                                                                     properties);
+  lower(properties->limits);
+}
+
+VKAPI_ATTR void VKAPI_CALL properties2(VkPhysicalDevice physical,
+                                       VkPhysicalDeviceProperties2* properties) {
+  next<PFN_vkGetPhysicalDeviceProperties2>(physical, "vkGetPhysicalDeviceProperties2")(physical,
+                                                                                       properties);
+  lower(properties->properties.limits);
+}
+
+VKAPI_ATTR void VKAPI_CALL features(VkPhysicalDevice physical, VkPhysicalDeviceFeatures* features) {
+  next<PFN_vkGetPhysicalDeviceFeatures>(physical, "vkGetPhysicalDeviceFeatures")(physical,
+                                                                                 features);
+  lower(*features);
+}
+
+VKAPI_ATTR void VKAPI_CALL features2(VkPhysicalDevice physical,
+                                     VkPhysicalDeviceFeatures2* features) {
+  next<PFN_vkGetPhysicalDeviceFeatures2>(physical, "vkGetPhysicalDeviceFeatures2")(physical,
+                                                                                   features);
+  lower(features->features);
+}
+
+// `linearFilter`: none for single channels, which is what volumes have.
+VKAPI_ATTR void VKAPI_CALL format_properties(VkPhysicalDevice physical, VkFormat format,
+                                             VkFormatProperties* properties) {
+  next<PFN_vkGetPhysicalDeviceFormatProperties>(physical, "vkGetPhysicalDeviceFormatProperties")(
+      physical, format, properties);
+  const bool single = format == VK_FORMAT_R8_UNORM || format == VK_FORMAT_R16_UNORM ||
+                      format == VK_FORMAT_R32_SFLOAT;
+  if (asked("linearFilter") && single) {
+    properties->optimalTilingFeatures &=
+        ~VkFormatFeatureFlags{VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT};
+  }
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL image_properties(VkPhysicalDevice physical, VkFormat format,
+                                                VkImageType type, VkImageTiling tiling,
+                                                VkImageUsageFlags usage, VkImageCreateFlags flags,
+                                                VkImageFormatProperties* properties) {
+  const VkResult result = next<PFN_vkGetPhysicalDeviceImageFormatProperties>(
+      physical, "vkGetPhysicalDeviceImageFormatProperties")(physical, format, type, tiling, usage,
+                                                            flags, properties);
+  const std::array names{"maxImageDimension1D", "maxImageDimension2D", "maxImageDimension3D"};
+  if (asked(names.at(static_cast<std::size_t>(type)))) {
+    for (std::uint32_t* side : {&properties->maxExtent.width, &properties->maxExtent.height,
+                                &properties->maxExtent.depth}) {
+      *side = std::min(*side, asked_number());
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+bool known_limit(std::string_view name) {
+  return std::ranges::find(numbers, name, &Named<std::uint32_t Limits::*>::first) !=
+             numbers.end() ||
+         std::ranges::find(features_named, name, &Named<VkBool32 Features::*>::first) !=
+             features_named.end() ||
+         std::ranges::find(others, name) != others.end();
+}
+
+void lower(VkPhysicalDeviceLimits& limits) {
+  if (const auto* found = find(numbers); found != numbers.end()) {
+    limits.*found->second = asked_number();
+  }
+  if (asked("maxComputeWorkGroupSize")) {
+    for (std::uint32_t& side : limits.maxComputeWorkGroupSize) side = asked_number();
+  }
+  if (asked("maxComputeWorkGroupCount")) {
+    for (std::uint32_t& side : limits.maxComputeWorkGroupCount) side = asked_number();
+  }
+  if (asked("maxFramebufferWidth")) {
+    limits.maxFramebufferWidth = limits.maxFramebufferHeight = asked_number();
+  }
+  if (asked("pointSizeRange")) limits.pointSizeRange[1] = static_cast<float>(change().value);
+  if (asked("pointSizeGranularity")) {
+    limits.pointSizeGranularity = static_cast<float>(change().value);
+  }
+  if (asked("timestampComputeAndGraphics") || asked("timestampValidBits")) {
+    limits.timestampComputeAndGraphics = VK_FALSE;
+  }
+}
+
+void lower(VkPhysicalDeviceFeatures& features) {
+  if (const auto* found = find(features_named); found != features_named.end()) {
+    features.*found->second = VK_FALSE;
+  }
+}
+
+bool enables_hidden(const VkPhysicalDeviceFeatures& features) {
+  const auto* found = find(features_named);
+  return found != features_named.end() && features.*found->second == VK_TRUE;
+}
+
+std::span<const Hook> description_hooks() {
+  static const std::array hooks{
+      hook("", "vkGetPhysicalDeviceProperties", &properties),
+      hook("", "vkGetPhysicalDeviceProperties2", &properties2),
+      hook("", "vkGetPhysicalDeviceFeatures", &features),
+      hook("", "vkGetPhysicalDeviceFeatures2", &features2),
+      hook("", "vkGetPhysicalDeviceFormatProperties", &format_properties),
+      hook("", "vkGetPhysicalDeviceImageFormatProperties", &image_properties)};
+  return hooks;
+}
+
+}  // namespace triptych::layer

@@ -1,0 +1,85 @@
+// Memory as a card of its own has it: what is on the device the host does not see.
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <set>
+
+#include "tests/layer/chain.hpp"
+#include "tests/layer/change.hpp"
+
+namespace triptych::layer {
+namespace {
+
+// The types that the program sees; the driver has its own number 0 for both.
+enum Type : std::uint32_t { on_device, on_host, types };
+
+std::mutex mutex;
+std::set<VkDeviceMemory> unseen;  // by the host
+
+bool apart() {
+  return asked("hostVisibleDeviceLocal");
+}
+
+VKAPI_ATTR void VKAPI_CALL memory_properties(VkPhysicalDevice physical,
+                                             VkPhysicalDeviceMemoryProperties* memory) {
+  next<PFN_vkGetPhysicalDeviceMemoryProperties>(physical, "vkGetPhysicalDeviceMemoryProperties")(
+      physical, memory);
+  if (asked("memoryHeapSize")) memory->memoryHeaps[0].size = asked_number();
+  if (!apart()) return;
+  memory->memoryHeapCount = types;
+  memory->memoryHeaps[on_host] = {.size = memory->memoryHeaps[0].size, .flags = 0};
+  memory->memoryHeaps[on_device].flags = VK_MEMORY_HEAP_DEVICE_LOCAL_BIT;
+  memory->memoryTypeCount = types;
+  memory->memoryTypes[on_device] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, on_device};
+  memory->memoryTypes[on_host] = {
+      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, on_host};
+}
+
+VKAPI_ATTR void VKAPI_CALL buffer_needs(VkDevice device, VkBuffer buffer,
+                                        VkMemoryRequirements* needs) {
+  next<PFN_vkGetBufferMemoryRequirements>(device, "vkGetBufferMemoryRequirements")(device, buffer,
+                                                                                   needs);
+  if (apart()) needs->memoryTypeBits = 1U << on_device | 1U << on_host;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateInfo* info,
+                                        const VkAllocationCallbacks* allocator,
+                                        VkDeviceMemory* memory) {
+  if (asked("memoryHeapSize") && info->allocationSize > asked_number()) {
+    return refuse("vkAllocateMemory: more than the heap has");
+  }
+  VkMemoryAllocateInfo below = *info;
+  if (apart()) below.memoryTypeIndex = 0;
+  const VkResult result =
+      next<PFN_vkAllocateMemory>(device, "vkAllocateMemory")(device, &below, allocator, memory);
+  if (result == VK_SUCCESS && apart()) {
+    const std::lock_guard lock(mutex);
+    if (info->memoryTypeIndex == on_device) {
+      unseen.insert(*memory);
+    } else {
+      unseen.erase(*memory);
+    }
+  }
+  return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL map(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset,
+                                   VkDeviceSize size, VkMemoryMapFlags flags, void** data) {
+  {
+    const std::lock_guard lock(mutex);
+    if (unseen.contains(memory)) return refuse("vkMapMemory of memory that the host cannot see");
+  }
+  return next<PFN_vkMapMemory>(device, "vkMapMemory")(device, memory, offset, size, flags, data);
+}
+
+}  // namespace
+
+std::span<const Hook> memory_hooks() {
+  static const std::array hooks{hook("", "vkGetPhysicalDeviceMemoryProperties", &memory_properties),
+                                hook("", "vkGetBufferMemoryRequirements", &buffer_needs),
+                                hook("", "vkAllocateMemory", &allocate),
+                                hook("", "vkMapMemory", &map)};
+  return hooks;
+}
+
+}  // namespace triptych::layer

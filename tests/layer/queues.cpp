@@ -1,0 +1,98 @@
+#include "tests/layer/queues.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+#include "tests/layer/chain.hpp"
+#include "tests/layer/change.hpp"
+
+namespace triptych::layer {
+namespace {
+
+// Of the pool made last; the program has one.
+std::atomic<bool> pool_draws = true;
+
+// `computeFamilyFirst`: before the driver's family another one, without drawing or clock.
+bool one_more() {
+  return asked("computeFamilyFirst");
+}
+
+std::uint32_t driver_family(std::uint32_t family) {
+  return one_more() && family > 0 ? family - 1 : family;
+}
+
+bool draws(std::uint32_t family) {
+  return !asked("graphicsQueue") && (!one_more() || family > 0);
+}
+
+VKAPI_ATTR void VKAPI_CALL families(VkPhysicalDevice physical, std::uint32_t* count,
+                                    VkQueueFamilyProperties* properties) {
+  const auto below = next<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
+      physical, "vkGetPhysicalDeviceQueueFamilyProperties");
+  std::uint32_t of_driver = 0;
+  below(physical, &of_driver, nullptr);
+  std::vector<VkQueueFamilyProperties> all(of_driver);
+  below(physical, &of_driver, all.data());
+  if (one_more()) all.insert(all.begin(), all.front());
+  for (std::uint32_t family = 0; family < all.size(); ++family) {
+    if (!draws(family)) all[family].queueFlags &= ~VkQueueFlags{VK_QUEUE_GRAPHICS_BIT};
+    const bool no_clock = asked("timestampValidBits") || (one_more() && family == 0);
+    if (no_clock) all[family].timestampValidBits = asked_number();
+  }
+  if (properties == nullptr) {
+    *count = static_cast<std::uint32_t>(all.size());
+    return;
+  }
+  *count = std::min(*count, static_cast<std::uint32_t>(all.size()));
+  std::copy_n(all.begin(), *count, properties);
+}
+
+VKAPI_ATTR void VKAPI_CALL get_queue(VkDevice device, std::uint32_t family, std::uint32_t index,
+                                     VkQueue* queue) {
+  next<PFN_vkGetDeviceQueue>(device, "vkGetDeviceQueue")(device, driver_family(family), index,
+                                                         queue);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_pool(VkDevice device, const VkCommandPoolCreateInfo* info,
+                                           const VkAllocationCallbacks* allocator,
+                                           VkCommandPool* pool) {
+  VkCommandPoolCreateInfo below = *info;
+  below.queueFamilyIndex = driver_family(info->queueFamilyIndex);
+  pool_draws = draws(info->queueFamilyIndex);
+  return next<PFN_vkCreateCommandPool>(device, "vkCreateCommandPool")(device, &below, allocator,
+                                                                      pool);
+}
+
+VKAPI_ATTR void VKAPI_CALL begin_pass(VkCommandBuffer commands, const VkRenderPassBeginInfo* info,
+                                      VkSubpassContents contents) {
+  if (!pool_draws) refuse("vkCmdBeginRenderPass on a queue that does not draw");
+  next<PFN_vkCmdBeginRenderPass>(commands, "vkCmdBeginRenderPass")(commands, info, contents);
+}
+
+VKAPI_ATTR void VKAPI_CALL write_timestamp(VkCommandBuffer commands, VkPipelineStageFlagBits stage,
+                                           VkQueryPool pool, std::uint32_t query) {
+  if (asked("timestampValidBits")) refuse("vkCmdWriteTimestamp: timestampValidBits = 0");
+  next<PFN_vkCmdWriteTimestamp>(commands, "vkCmdWriteTimestamp")(commands, stage, pool, query);
+}
+
+}  // namespace
+
+std::vector<VkDeviceQueueCreateInfo> queues_of_driver(const VkDeviceCreateInfo& info) {
+  std::vector<VkDeviceQueueCreateInfo> queues(info.pQueueCreateInfos,
+                                              info.pQueueCreateInfos + info.queueCreateInfoCount);
+  for (VkDeviceQueueCreateInfo& each : queues) {
+    each.queueFamilyIndex = driver_family(each.queueFamilyIndex);
+  }
+  return queues;
+}
+
+std::span<const Hook> queue_hooks() {
+  static const std::array hooks{hook("", "vkGetPhysicalDeviceQueueFamilyProperties", &families),
+                                hook("", "vkGetDeviceQueue", &get_queue),
+                                hook("", "vkCreateCommandPool", &create_pool),
+                                hook("", "vkCmdBeginRenderPass", &begin_pass),
+                                hook("", "vkCmdWriteTimestamp", &write_timestamp)};
+  return hooks;
+}
+
+}  // namespace triptych::layer

@@ -1,0 +1,21 @@
+#pragma once
+// What a shader asks of the device, read from its SPIR-V.
+
+#include <array>
+#include <cstdint>
+#include <set>
+#include <span>
+
+namespace triptych::layer {
+
+struct ShaderNeeds {
+  std::set<std::uint32_t> capabilities;
+  std::uint32_t model = 0;                      // of its entry point
+  std::array<std::uint32_t, 3> group{1, 1, 1};  // the size of a work group, unless specialized
+  std::uint64_t shared_bytes = 0;               // of a work group
+  bool writes_buffers = false;                  // by stores or atomics
+};
+
+[[nodiscard]] ShaderNeeds shader_needs(std::span<const std::uint32_t> code);
+
+}  // namespace triptych::layer
