@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -147,7 +148,9 @@ class Grouping {
       const auto techniques = known.find("technique");
       const bool all_say_it =
           techniques == known.end() || techniques->second.size() == by_technique.size();
-      if (all_say_it) by_technique = {{"", members}};
+      // So many do not fail alike by chance.
+      constexpr std::size_t several = 3;
+      if (all_say_it || by_technique.size() >= several) by_technique = {{"", members}};
       for (const auto& [technique, same] : by_technique) all.push_back(group_of(same));
     }
     std::ranges::stable_sort(all, {}, [](const FindingGroup& group) {
@@ -184,7 +187,7 @@ class Grouping {
     return group;
   }
 
-  // Of at most two levels a factor; more tell nothing.
+  // Of each factor at most two levels that are hit, or one that is not; more tell nothing.
   [[nodiscard]] std::string signature_of(const Members& members) const {
     Levels here;
     for (const Finding* each : members) {
@@ -195,8 +198,14 @@ class Grouping {
     for (const auto& [factor, levels] : here) {
       const auto found = known.find(factor);
       const bool tells = found != known.end() && levels.size() < found->second.size();
-      if (!tells || levels.size() > 2) continue;
-      text += fmt::format("{}{}={}", text.empty() ? "" : ", ", factor, fmt::join(levels, "|"));
+      if (!tells) continue;
+      const std::string_view separator = text.empty() ? "" : ", ";
+      if (levels.size() <= 2) {
+        text += fmt::format("{}{}={}", separator, factor, fmt::join(levels, "|"));
+      } else if (levels.size() + 1 == found->second.size()) {
+        const auto [other, hit] = std::ranges::mismatch(found->second, levels);
+        text += fmt::format("{}{}≠{}", separator, factor, *other);
+      }
     }
     return text;
   }
@@ -246,8 +255,15 @@ bool have_one_cause(const FindingGroup& a, const FindingGroup& b) {
     return std::tuple(finding.verdict, std::string_view(finding.device), shape_of(finding));
   };
   if (key(*a.first) != key(*b.first)) return false;
-  return ended_a_program(*a.first) ||
-         (a.first->check == b.first->check && technique_of(*a.first) == technique_of(*b.first));
+  if (ended_a_program(*a.first)) return true;
+  const auto techniques = [](const FindingGroup& group) {
+    std::set<std::string> all;
+    for (const Finding* each : group.members) all.insert(technique_of(*each));
+    return all;
+  };
+  std::vector<std::string> shared;
+  std::ranges::set_intersection(techniques(a), techniques(b), std::back_inserter(shared));
+  return a.first->check == b.first->check && !shared.empty();
 }
 
 bool take_in(FindingGroup& group, const FindingGroup& other) {

@@ -15,7 +15,7 @@ struct FindingGroup {
   const judge::Finding* first;  // the smallest case: the fewest pixels and data
   std::size_t configurations = 1;
   // The levels that tell its configurations from the others that were checked on that device,
-  // "technique=raycast, step=0.5"; empty where nothing does.
+  // "technique=raycast, step=0.5" or "technique≠tiles"; empty where nothing does.
   std::string signature = {};
   // Devices whose answer to the smallest case is a pass.
   std::vector<std::string> right_on = {};
@@ -28,13 +28,13 @@ struct FindingGroup {
 };
 
 // Of the same check, verdict and device, the same message but for its numbers, and the same
-// technique unless all techniques say it. Worst first: regressions, what could not be judged, the
-// rest; in these what ended a program before what it drew, in the order of the checks, the most
-// configurations first. Left out is a regression of correlation that one of cost explains, and one
-// of counters or statistics where the picture is wrong: that is counted in changed_with_it.
+// technique unless all or three techniques say it. Worst first: regressions, what could not be
+// judged, the rest; in these what ended a program before what it drew, in the order of the checks,
+// the most configurations first. Left out is a regression of correlation that one of cost explains,
+// and one of counters or statistics where the picture is wrong: that is counted in changed_with_it.
 [[nodiscard]] std::vector<FindingGroup> grouped(std::span<const judge::Finding> findings);
 
-// Whether groups of two plans have one cause: of one device and verdict, they say the same of one
+// Whether groups of two plans have one cause: of one device and verdict, they say the same of a
 // technique by one check. What ends a program has one cause wherever it says the same.
 [[nodiscard]] bool have_one_cause(const FindingGroup& a, const FindingGroup& b);
 

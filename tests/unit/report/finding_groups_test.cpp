@@ -65,6 +65,22 @@ TEST(FindingGroups, TechniquesAreCausesOfTheirOwnUnlessAllSayIt) {
   EXPECT_EQ(grouped(findings)[1].signature, "technique=b");
 }
 
+TEST(FindingGroups, ThreeTechniquesThatSayTheSameHaveOneCause) {
+  const std::vector<Finding> findings{
+      finding(regression, "gl:x", "technique=a"), finding(regression, "gl:x", "technique=b"),
+      finding(regression, "gl:x", "technique=c"), finding(pass, "gl:x", "technique=d", "within")};
+  const std::vector<FindingGroup> groups = grouped(findings);
+  ASSERT_EQ(groups.size(), 2U);
+  EXPECT_EQ(groups[0].configurations, 3U);
+  EXPECT_EQ(groups[0].signature, "technique≠d");
+  const std::vector<Finding> elsewhere{finding(regression, "gl:x", "technique=c,step=1"),
+                                       finding(pass, "gl:x", "technique=a,step=1", "within")};
+  EXPECT_TRUE(have_one_cause(groups[0], grouped(elsewhere)[0]));
+  const std::vector<Finding> other{finding(regression, "gl:x", "technique=e"),
+                                   finding(pass, "gl:x", "technique=a", "within")};
+  EXPECT_FALSE(have_one_cause(groups[0], grouped(other)[0]));
+}
+
 TEST(FindingGroups, DevicesChecksVerdictsAndMessagesAreCausesOfTheirOwn) {
   const std::vector<Finding> findings{
       finding(regression, "gl:x", "step=1"), finding(regression, "gl:y", "step=1"),
