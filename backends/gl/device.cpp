@@ -45,7 +45,8 @@ class GlDevice final : public measure::Device {
         context_(std::move(context)),
         stamps_(is_software(info_) ? Stamps::finished : Stamps::in_stream) {
     const Current current(*context_);
-    rasterizer_ = {context_->gl().sub_pixel_bits(), point_margin(context_->gl())};
+    rasterizer_ = {context_->gl().sub_pixel_bits(), point_margin(context_->gl()),
+                   largest_point(context_->gl())};
     if (ComputePass::unsupported(context_->gl(), 1, 1)) return;
     for (std::size_t i = 0; i < filter_error_.size(); ++i) {
       filter_error_[i] = probe_filter(context_->gl(), static_cast<scene::VoxelFormat>(i));

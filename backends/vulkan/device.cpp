@@ -94,7 +94,8 @@ double Device::filter_weight_error(const measure::VolumePath& path) const {
 std::optional<measure::Rasterizer> Device::rasterizer() const {
   return measure::Rasterizer{
       .sub_pixel_bits = static_cast<int>(gpu_.properties.limits.subPixelPrecisionBits),
-      .point_margin = static_cast<double>(point_margin(gpu_))};
+      .point_margin = static_cast<double>(point_margin(gpu_)),
+      .largest_point = static_cast<double>(largest_point(gpu_))};
 }
 
 std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {

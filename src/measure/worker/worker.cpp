@@ -56,7 +56,10 @@ void describe_work(const Work& work, const Device& device, record::Record& recor
     record.data_hash = particles->scene.particles->hash;
     if (const auto rasterizer = device.rasterizer()) {
       record.precision["sub_pixel_bits"] = rasterizer->sub_pixel_bits;
-      if (work.technique == "point") record.precision["point_margin"] = rasterizer->point_margin;
+      if (work.technique == "point") {
+        record.precision["point_margin"] = rasterizer->point_margin;
+        record.precision["largest_point"] = rasterizer->largest_point;
+      }
     }
   }
 }
