@@ -141,4 +141,9 @@ std::optional<double> probe_filter(const Gpu& gpu, scene::VoxelFormat format) {
   return worst;
 }
 
+double allowed_filter_error(const Gpu& gpu) {
+  const auto bits = static_cast<int>(gpu.properties.limits.subTexelPrecisionBits);
+  return 3 * (std::ldexp(1.0, -bits) + std::ldexp(1.0, -8));
+}
+
 }  // namespace triptych::vulkan_backend

@@ -15,4 +15,8 @@ namespace triptych::vulkan_backend {
 // where the format cannot be filtered.
 [[nodiscard]] std::optional<double> probe_filter(const Gpu& gpu, scene::VoxelFormat format);
 
+// The most that the API leaves open: a step of the weights along each axis, and 8 bits of each of
+// the three interpolations.
+[[nodiscard]] double allowed_filter_error(const Gpu& gpu);
+
 }  // namespace triptych::vulkan_backend
