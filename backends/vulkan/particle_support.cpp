@@ -4,6 +4,7 @@
 
 #include "backends/vulkan/cell_culling.hpp"
 #include "backends/vulkan/particle_data.hpp"
+#include "backends/vulkan/particle_target.hpp"
 #include "backends/vulkan/support.hpp"
 #include "technique/particles/option_reason.hpp"
 
@@ -101,6 +102,9 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
   }
   if (needs != Needs::nothing && gpu.features.vertexPipelineStoresAndAtomics == VK_FALSE) {
     return "the device lacks vertexPipelineStoresAndAtomics, which counting needs";
+  }
+  if (before_pixels) {
+    if (auto reason = ParticleTarget::format_reason(gpu)) return reason;
   }
   if (work.options.culling != technique::Culling::none) {
     if (auto reason = cannot_cull(gpu, technique == "quad_instanced")) return reason;

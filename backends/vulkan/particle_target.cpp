@@ -114,6 +114,14 @@ std::vector<vk::Format> ParticleTarget::formats() {
   return {colour_format, id_format, depth_format};
 }
 
+std::optional<std::string> ParticleTarget::format_reason(const Gpu& gpu) {
+  using enum vk::FormatFeatureFlagBits;
+  constexpr vk::FormatFeatureFlags needed = eDepthStencilAttachment | eSampledImage;
+  const auto offered = gpu.physical.getFormatProperties(depth_format).optimalTilingFeatures;
+  if ((offered & needed) == needed) return std::nullopt;
+  return "the device has no depth of format " + vk::to_string(depth_format);
+}
+
 void ParticleTarget::begin(const vk::raii::CommandBuffer& commands, bool continued) const {
   const vk::Rect2D everything{.extent = {extent().width, extent().height}};
   commands.beginRenderPass({.renderPass = continued ? *continuing_ : *clearing_,

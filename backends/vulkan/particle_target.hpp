@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "backends/vulkan/memory.hpp"
@@ -36,6 +38,8 @@ class ParticleTarget {
   static constexpr std::uint32_t colour_targets = 2;
   // Of the passes' attachments.
   [[nodiscard]] static std::vector<vk::Format> formats();
+  // Why the device cannot draw to it; of its formats only depth is optional.
+  [[nodiscard]] static std::optional<std::string> format_reason(const Gpu& gpu);
 
  private:
   double near_;
