@@ -14,10 +14,18 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-constexpr std::array<std::string_view, 8> code_variables{
-    "LP_NUM_THREADS",  "LP_NATIVE_VECTOR_WIDTH",    "GALLIVM_PERF",
-    "GALLIVM_DEBUG",   "GALLIUM_OVERRIDE_CPU_CAPS", "VK_ICD_FILENAMES",
-    "VK_DRIVER_FILES", "TRIPTYCH_VULKAN_VALIDATION"};
+// Layers may change what is drawn; TRIPTYCH_LAYER is ours of tests/layer.
+constexpr std::array<std::string_view, 11> code_variables{"LP_NUM_THREADS",
+                                                          "LP_NATIVE_VECTOR_WIDTH",
+                                                          "GALLIVM_PERF",
+                                                          "GALLIVM_DEBUG",
+                                                          "GALLIUM_OVERRIDE_CPU_CAPS",
+                                                          "VK_ICD_FILENAMES",
+                                                          "VK_DRIVER_FILES",
+                                                          "TRIPTYCH_VULKAN_VALIDATION",
+                                                          "VK_INSTANCE_LAYERS",
+                                                          "VK_LAYER_PATH",
+                                                          "TRIPTYCH_LAYER"};
 
 std::string version_text(std::uint32_t version) {
   return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
