@@ -1,5 +1,8 @@
 #include "backends/vulkan/colour_target.hpp"
 
+#include <array>
+#include <limits>
+
 namespace triptych::vulkan_backend {
 
 vk::QueryPipelineStatisticFlags draw_statistics() {
@@ -36,6 +39,22 @@ vk::raii::Framebuffer colour_framebuffer(const Gpu& gpu, const vk::raii::RenderP
                                                 .width = target.extent().width,
                                                 .height = target.extent().height,
                                                 .layers = 1}};
+}
+
+void mark_unwritten(const Gpu& gpu, vk::Format format, const vk::raii::Framebuffer& framebuffer,
+                    vk::Extent3D extent) {
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  const vk::ClearValue clear(vk::ClearColorValue(std::array{none, none, none, none}));
+  const vk::raii::RenderPass pass = colour_pass(gpu, format, vk::AttachmentLoadOp::eClear);
+  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
+    commands.beginRenderPass({.renderPass = *pass,
+                              .framebuffer = *framebuffer,
+                              .renderArea = {.extent = {extent.width, extent.height}},
+                              .clearValueCount = 1,
+                              .pClearValues = &clear},
+                             vk::SubpassContents::eInline);
+    commands.endRenderPass();
+  });
 }
 
 }  // namespace triptych::vulkan_backend

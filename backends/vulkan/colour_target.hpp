@@ -17,4 +17,9 @@ namespace triptych::vulkan_backend {
                                                        const vk::raii::RenderPass& pass,
                                                        const Image& target);
 
+// Fills the framebuffer's one target, which is of such a format, with NaN. Fresh memory may hold
+// what was right before.
+void mark_unwritten(const Gpu& gpu, vk::Format format, const vk::raii::Framebuffer& framebuffer,
+                    vk::Extent3D extent);
+
 }  // namespace triptych::vulkan_backend

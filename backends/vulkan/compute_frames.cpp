@@ -34,12 +34,14 @@ ComputeFrames::ComputeFrames(const Gpu& gpu, const Instance& instance,
       height_(work.scene.height),
       drawn_columns_(technique::drawn_columns(width_, work.options.extra_work_stride)),
       output_(gpu, output_bytes(work),
-              vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc,
+              vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc |
+                  vk::BufferUsageFlagBits::eTransferDst,
               Place::device),
       resources_(gpu, work, &output_),
       pipeline_(compute_pipeline(gpu, resources_.layout(), timed_code_, constants)),
       frames_(gpu, vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations,
               [this](const vk::raii::CommandBuffer& commands) { record_timed(commands); }) {
+  mark_unwritten(gpu, output_);
   instance_.check_validation();
 }
 

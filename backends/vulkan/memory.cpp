@@ -35,6 +35,15 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& ne
                           .memoryTypeIndex = memory_type(gpu, needed.memoryTypeBits, place)}};
 }
 
+constexpr std::uint32_t unwritten = 0xFFFFFFFF;
+
+// For `size` bytes from the device.
+Buffer read_back_buffer(const Gpu& gpu, std::size_t size) {
+  Buffer buffer(gpu, size, vk::BufferUsageFlagBits::eTransferDst, Place::read_back);
+  std::memset(buffer.mapped().data(), static_cast<int>(unwritten & 0xFFU), size);
+  return buffer;
+}
+
 // Makes transfer writes visible to the host once the submission's fence is signalled.
 void release_to_host(const vk::raii::CommandBuffer& commands) {
   const vk::MemoryBarrier barrier{.srcAccessMask = vk::AccessFlagBits::eTransferWrite,
@@ -152,8 +161,14 @@ void upload(const Gpu& gpu, const Buffer& to, std::span<const std::byte> bytes) 
   });
 }
 
+void mark_unwritten(const Gpu& gpu, const Buffer& buffer) {
+  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
+    commands.fillBuffer(buffer.get(), 0, VK_WHOLE_SIZE, unwritten);
+  });
+}
+
 void download(const Gpu& gpu, const Buffer& from, std::span<std::byte> to) {
-  const Buffer staging(gpu, to.size(), vk::BufferUsageFlagBits::eTransferDst, Place::read_back);
+  const Buffer staging = read_back_buffer(gpu, to.size());
   run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
     commands.copyBuffer(from.get(), staging.get(), vk::BufferCopy{.size = to.size()});
     release_to_host(commands);
@@ -162,7 +177,7 @@ void download(const Gpu& gpu, const Buffer& from, std::span<std::byte> to) {
 }
 
 void download(const Gpu& gpu, const Image& from, std::span<std::byte> to) {
-  const Buffer staging(gpu, to.size(), vk::BufferUsageFlagBits::eTransferDst, Place::read_back);
+  const Buffer staging = read_back_buffer(gpu, to.size());
   run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
     commands.copyImageToBuffer(
         from.get(), vk::ImageLayout::eTransferSrcOptimal, staging.get(),

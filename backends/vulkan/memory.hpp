@@ -84,7 +84,11 @@ void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texel
 // Writes the first bytes of a buffer that make_buffer made.
 void upload(const Gpu& gpu, const Buffer& to, std::span<const std::byte> bytes);
 
-// Copies the buffer's first bytes to the host.
+// Fills a buffer of usage eTransferDst with what no picture and no count holds: NaN as a float,
+// 2³²−1 as an integer. Fresh memory may hold what was right before.
+void mark_unwritten(const Gpu& gpu, const Buffer& buffer);
+
+// Copies the buffer's first bytes to the host. What the device does not copy reads as unwritten.
 void download(const Gpu& gpu, const Buffer& from, std::span<std::byte> to);
 
 // Copies an image in eTransferSrcOptimal to the host, x fastest.

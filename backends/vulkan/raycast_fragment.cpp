@@ -81,6 +81,7 @@ FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
       frames_(gpu, draw_statistics(), [this](const vk::raii::CommandBuffer& commands) {
         draw(commands, pipeline_, Pass::timed);
       }) {
+  mark_unwritten(gpu, target_format, framebuffer_, target_.extent());
   instance_.check_validation();
 }
 

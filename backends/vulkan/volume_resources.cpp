@@ -127,8 +127,11 @@ vk::DescriptorSet VolumeResources::set(Pass pass) const {
 // A set that recorded commands use must not be written again: hence one of its own for counting.
 void VolumeResources::bind_counters() {
   counters_.emplace(gpu_, pixels_ * technique::raycast_counter_stride * sizeof(std::uint32_t),
-                    vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc,
+                    vk::BufferUsageFlagBits::eStorageBuffer |
+                        vk::BufferUsageFlagBits::eTransferSrc |
+                        vk::BufferUsageFlagBits::eTransferDst,
                     Place::device);
+  mark_unwritten(gpu_, *counters_);
   bind_buffer(gpu_, set(Pass::counting), counters_binding, vk::DescriptorType::eStorageBuffer,
               *counters_);
 }
