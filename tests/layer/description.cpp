@@ -46,13 +46,14 @@ constexpr std::array<Named<VkBool32 Features::*>, 9> features_named{{
 }};
 
 // Lowered by a rule of their own, here or in memory.cpp and queues.cpp.
-constexpr std::array<std::string_view, 12> others{
+constexpr std::array<std::string_view, 13> others{
     "maxComputeWorkGroupSize", "maxComputeWorkGroupCount",
     "maxFramebufferWidth",     "pointSizeRange",
     "pointSizeGranularity",    "timestampComputeAndGraphics",
     "timestampValidBits",      "graphicsQueue",
     "computeFamilyFirst",      "linearFilter",
-    "hostVisibleDeviceLocal",  "memoryHeapSize"};
+    "hostVisibleDeviceLocal",  "floatDepth",
+    "memoryHeapSize"};
 
 template <class Table>
 auto find(const Table& table) {
@@ -66,11 +67,23 @@ VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice physical,
   lower(properties->limits);
 }
 
+// A device of which nothing is stored.
+void rename(VkPhysicalDeviceDriverProperties& driver) {
+  driver.driverID = {};
+  constexpr std::string_view name = "layer";
+  driver.driverName[name.copy(driver.driverName, name.size())] = '\0';
+}
+
 VKAPI_ATTR void VKAPI_CALL properties2(VkPhysicalDevice physical,
                                        VkPhysicalDeviceProperties2* properties) {
   next<PFN_vkGetPhysicalDeviceProperties2>(physical, "vkGetPhysicalDeviceProperties2")(physical,
                                                                                        properties);
   lower(properties->properties.limits);
+  for (auto* each = static_cast<VkBaseOutStructure*>(properties->pNext); each != nullptr;
+       each = each->pNext) {
+    if (each->sType != VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES) continue;
+    rename(*reinterpret_cast<VkPhysicalDeviceDriverProperties*>(each));
+  }
 }
 
 VKAPI_ATTR void VKAPI_CALL features(VkPhysicalDevice physical, VkPhysicalDeviceFeatures* features) {
@@ -86,7 +99,8 @@ VKAPI_ATTR void VKAPI_CALL features2(VkPhysicalDevice physical,
   lower(features->features);
 }
 
-// `linearFilter`: none for single channels, which is what volumes have.
+// `linearFilter`: none for single channels, which is what volumes have. `floatDepth`: no
+// D32_SFLOAT, as a device with X8_D24_UNORM_PACK32 may lack it.
 VKAPI_ATTR void VKAPI_CALL format_properties(VkPhysicalDevice physical, VkFormat format,
                                              VkFormatProperties* properties) {
   next<PFN_vkGetPhysicalDeviceFormatProperties>(physical, "vkGetPhysicalDeviceFormatProperties")(
@@ -97,6 +111,7 @@ VKAPI_ATTR void VKAPI_CALL format_properties(VkPhysicalDevice physical, VkFormat
     properties->optimalTilingFeatures &=
         ~VkFormatFeatureFlags{VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT};
   }
+  if (asked("floatDepth") && format == VK_FORMAT_D32_SFLOAT) properties->optimalTilingFeatures = 0;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL image_properties(VkPhysicalDevice physical, VkFormat format,

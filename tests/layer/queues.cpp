@@ -71,7 +71,9 @@ VKAPI_ATTR void VKAPI_CALL begin_pass(VkCommandBuffer commands, const VkRenderPa
 
 VKAPI_ATTR void VKAPI_CALL write_timestamp(VkCommandBuffer commands, VkPipelineStageFlagBits stage,
                                            VkQueryPool pool, std::uint32_t query) {
-  if (asked("timestampValidBits")) refuse("vkCmdWriteTimestamp: timestampValidBits = 0");
+  if (asked("timestampValidBits") && asked_number() == 0) {
+    refuse("vkCmdWriteTimestamp: timestampValidBits = 0");
+  }
   next<PFN_vkCmdWriteTimestamp>(commands, "vkCmdWriteTimestamp")(commands, stage, pool, query);
 }
 

@@ -40,6 +40,9 @@ VKAPI_ATTR VkResult VKAPI_CALL create_image(VkDevice device, const VkImageCreate
   if (exceeds(names.at(static_cast<std::size_t>(info->imageType)), longest, "vkCreateImage")) {
     return VK_ERROR_UNKNOWN;
   }
+  if (lacks("floatDepth", info->format == VK_FORMAT_D32_SFLOAT, "vkCreateImage")) {
+    return VK_ERROR_UNKNOWN;
+  }
   return next<PFN_vkCreateImage>(device, "vkCreateImage")(device, info, allocator, image);
 }
 

@@ -1,0 +1,109 @@
+// Drivers that are wrong: each fault is found, told as few causes, and leaves the rest right.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <regex>
+#include <vector>
+
+#include "tests/layer/layered.hpp"
+
+namespace triptych::layer {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* volume = "volume";
+constexpr const char* particles = "particles";
+
+struct Fault {
+  const char* name;
+  const char* plan;
+  const char* told;  // the first cause
+  int causes = 1;
+};
+
+const std::vector<Fault>& faults() {
+  static const std::vector<Fault> all{
+      {"half_pixel", particles, "image: vulkan:lavapipe, technique≠tiles"},
+      {"inverted_depth", particles, "image: vulkan:lavapipe, technique≠tiles"},
+      {"no_depth_write", particles, "image: vulkan:lavapipe, technique≠tiles"},
+      {"culled_front", particles, "image: vulkan:lavapipe, culling=occlusion (4 configurations)"},
+      {"culled_back", volume, "image: vulkan:lavapipe, technique=raycast_fragment"},
+      {"lost_alpha", particles, "image: vulkan:lavapipe, technique≠tiles"},
+      {"lost_alpha", volume, "image: vulkan:lavapipe, technique=raycast_fragment"},
+      {"unspecialized", volume, "counters: vulkan:lavapipe", 2},
+      {"nearest_filter", volume, "image: vulkan:lavapipe, sampler=hardware"},
+      {"repeated_edge", volume,
+       "image: vulkan:lavapipe, data=generate:marschner_lobb:16, sampler=hardware", 2},
+      {"short_draw", particles, "counters: vulkan:lavapipe, culling=none"},
+      {"short_draw", volume, "image: vulkan:lavapipe, technique=raycast_fragment"},
+      {"short_indirect", particles, "image: vulkan:lavapipe, culling=occlusion"},
+      {"short_dispatch", volume, "image: vulkan:lavapipe, technique=raycast"},
+      {"short_scissor", volume, "image: vulkan:lavapipe, technique=raycast_fragment"},
+      {"short_scissor", particles, "image: vulkan:lavapipe, technique≠tiles"},
+      {"push_off_by_one", particles, "image: vulkan:lavapipe, culling=occlusion, technique=tiles"},
+      {"clear_colour", particles, "image: vulkan:lavapipe, technique≠tiles"},
+      {"clear_depth", particles, "image: vulkan:lavapipe, technique≠tiles"},
+      {"short_copy", volume, "image: vulkan:lavapipe", 2},
+      {"image_row", particles, "image: vulkan:lavapipe, technique≠tiles"},
+      {"volume_slice", volume, "image: vulkan:lavapipe"},
+  };
+  return all;
+}
+
+// Causes on the last screen, and those that it leaves to the page.
+int causes_in(const std::string& screen) {
+  const std::regex cause("\n  ✗ ");
+  int causes = static_cast<int>(std::distance(
+      std::sregex_iterator(screen.begin(), screen.end(), cause), std::sregex_iterator()));
+  std::smatch more;
+  if (std::regex_search(screen, more, std::regex("\n  ([0-9]+) more causes"))) {
+    causes += std::stoi(more[1]);
+  }
+  return causes;
+}
+
+class DriverFaults : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!Layered::has_lavapipe()) GTEST_SKIP() << "needs lavapipe";
+  }
+  // Every fault that one plan finds.
+  void check(std::string_view plan) const {
+    const test::Result accepted = layered.accept(plan);
+    ASSERT_EQ(accepted.code, 0) << accepted.output;
+    EXPECT_EQ(layered.judge(plan).code, 0);
+    for (const Fault& each : faults()) {
+      if (each.plan != plan) continue;
+      SCOPED_TRACE(each.name);
+      EXPECT_THAT(layered.draw(each.name, plan).output, HasSubstr(" 0 failed"));
+      const test::Result judged = layered.judge(plan);
+      EXPECT_EQ(judged.code, 1);
+      EXPECT_THAT(judged.output, HasSubstr(fmt::format("\n  ✗ {}", each.told)));
+      EXPECT_LE(causes_in(judged.output), each.causes) << judged.output;
+      EXPECT_THAT(judged.output, HasSubstr(fmt::format("TRIPTYCH_LAYER={} ", each.name)));
+    }
+  }
+  Layered layered;
+};
+
+TEST_F(DriverFaults, InVolumes) {
+  check(volume);
+}
+
+TEST_F(DriverFaults, InParticles) {
+  check(particles);
+}
+
+TEST_F(DriverFaults, InQueriesAreToldOfTheDevice) {
+  const auto of_vulkan = [&](std::string_view fault) {
+    const std::string all = layered.run(fault, "devices").output;
+    return all.substr(std::min(all.find("\nvulkan:lavapipe"), all.size()));
+  };
+  EXPECT_THAT(of_vulkan("stuck_clock"), HasSubstr("clock for compute: not trusted"));
+  EXPECT_THAT(of_vulkan("double_statistics"),
+              HasSubstr("statistic vertex_invocations: proportional: 2 times"));
+}
+
+}  // namespace
+}  // namespace triptych::layer

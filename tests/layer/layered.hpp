@@ -1,0 +1,75 @@
+#pragma once
+// The program on lavapipe behind the layer.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "backends/vulkan/backend.hpp"
+#include "measure/contract/backend.hpp"
+#include "support/command.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace triptych::layer {
+
+class Layered {
+ public:
+  // `change` as TRIPTYCH_LAYER has it; empty: the driver as it is.
+  [[nodiscard]] test::Result run(std::string_view change, const std::string& arguments) const {
+    const std::string layer =
+        change.empty() ? std::string()
+                       : fmt::format(
+                             "VK_LAYER_PATH='{}' VK_INSTANCE_LAYERS=VK_LAYER_TRIPTYCH_test "
+                             "TRIPTYCH_LAYER='{}' ",
+                             TRIPTYCH_LAYER_FOLDER, change);
+    return test::run_command(fmt::format("cd '{}' && TRIPTYCH_DATA= {}'{}' {}",
+                                         folder_.path().string(), layer, TRIPTYCH_PROGRAM,
+                                         arguments));
+  }
+
+  // Of tests/layer/PLAN.yaml: one picture and one frame of counters each, into PLAN.sqlite.
+  [[nodiscard]] test::Result draw(std::string_view change, std::string_view plan) const {
+    std::filesystem::remove(folder_.path() / fmt::format("{}.sqlite", plan));
+    return run(change, fmt::format("run {} --device 'vulkan:*' --untimed --store {}.sqlite",
+                                   file_of(plan), plan));
+  }
+
+  [[nodiscard]] test::Result judge(std::string_view plan) const {
+    return run("", fmt::format("gate {0} --store {1}.sqlite --baselines baselines --check "
+                               "image --check counters",
+                               file_of(plan), plan));
+  }
+
+  // Takes what lavapipe draws now for right.
+  [[nodiscard]] test::Result accept(std::string_view plan) const {
+    test::Result drawn = draw("", plan);
+    if (drawn.code != 0) return drawn;
+    return run("", fmt::format("accept {} --store {}.sqlite --baselines baselines --reason test",
+                               file_of(plan), plan));
+  }
+
+  // Times and statistics, too, of the part that `choice` leaves.
+  [[nodiscard]] test::Result time(std::string_view change, std::string_view plan,
+                                  std::string_view choice) const {
+    return run(change, fmt::format("run {} --device 'vulkan:*' --store timed.sqlite {}",
+                                   file_of(plan), choice));
+  }
+
+  [[nodiscard]] static bool has_lavapipe() {
+    return std::ranges::any_of(
+        vulkan_backend::make_backend()->list().devices,
+        [](const record::Device& each) { return each.id == "vulkan:lavapipe"; });
+  }
+
+ private:
+  static std::string file_of(std::string_view plan) {
+    return fmt::format("'{}/{}.yaml'", TRIPTYCH_LAYER_PLANS, plan);
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+}  // namespace triptych::layer

@@ -1,0 +1,131 @@
+// Devices with less than lavapipe has: right pictures and counters, or a skip with its reason.
+#include <gmock/gmock.h>
+
+#include <vector>
+
+#include "tests/layer/layered.hpp"
+
+namespace triptych::layer {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* volume = "volume";
+constexpr const char* particles = "particles";
+
+struct Lowered {
+  const char* change;
+  const char* plan;
+  int skipped = 0;          // configurations of the plan
+  const char* reason = "";  // of each that is skipped
+};
+
+// The least that the specification allows, and less where that is what a small picture meets.
+const std::vector<Lowered>& lowered() {
+  static const std::vector<Lowered> all{
+      {"maxImageDimension1D=4096", volume},
+      {"maxImageDimension2D=32", particles, 10, "exceeds the largest frame buffer of 32"},
+      {"maxImageDimension3D=16", volume, 2, "exceeds maxImageDimension3D = 16"},
+      {"maxFramebufferWidth=32", particles, 10, "exceeds the largest frame buffer of 32"},
+      {"maxStorageBufferRange=134217728", particles},
+      {"maxUniformBufferRange=16384", particles},
+      {"maxComputeSharedMemorySize=16384", particles},
+      {"maxComputeWorkGroupInvocations=128", volume},
+      {"maxComputeWorkGroupInvocations=128", particles},
+      {"maxComputeWorkGroupSize=64", particles},
+      {"maxComputeWorkGroupCount=65535", particles},
+      {"maxPerStageDescriptorStorageBuffers=4", volume},
+      {"maxPerStageResources=128", particles},
+      {"maxDescriptorSetStorageBuffers=24", particles},
+      {"maxTessellationGenerationLevel=1", particles, 1, "maxTessellationGenerationLevel"},
+      {"maxDrawIndirectCount=1", particles},
+      {"multiDrawIndirect", particles},
+      {"drawIndirectFirstInstance", particles, 1, "lacks drawIndirectFirstInstance"},
+      {"geometryShader", particles, 3, "lacks geometryShader"},
+      {"tessellationShader", particles, 3, "lacks tessellationShader"},
+      {"fragmentStoresAndAtomics", particles, 10, "lacks fragmentStoresAndAtomics"},
+      {"fragmentStoresAndAtomics", volume, 3, "lacks fragmentStoresAndAtomics"},
+      {"vertexPipelineStoresAndAtomics", particles, 10, "lacks vertexPipelineStoresAndAtomics"},
+      {"vertexPipelineStoresAndAtomics", volume},
+      {"pipelineStatisticsQuery", particles},
+      {"shaderFloat64", volume, 1, "needs shaderFloat64"},
+      {"largePoints", particles},
+      {"pointSizeRange=8", particles},
+      {"pointSizeGranularity=0.0625", particles},
+      {"pointSizeGranularity=1", particles},
+      {"subPixelPrecisionBits=4", particles},
+      {"subTexelPrecisionBits=4", volume},
+      {"floatDepth", particles, 10, "no depth of format D32Sfloat"},
+      {"linearFilter", volume, 4, "cannot filter images of format"},
+      {"timestampValidBits=0", volume},
+      {"timestampComputeAndGraphics", volume},
+      {"graphicsQueue", particles, 10, "no queue that draws"},
+      {"computeFamilyFirst", particles},
+      {"hostVisibleDeviceLocal", volume},
+      {"hostVisibleDeviceLocal", particles},
+      {"memoryHeapSize=150000", volume, 2, "the largest heap has 150000"},
+  };
+  return all;
+}
+
+int count(const std::string& text, const std::string& part) {
+  int times = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++times;
+  }
+  return times;
+}
+
+class LoweredLimits : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!Layered::has_lavapipe()) GTEST_SKIP() << "needs lavapipe";
+  }
+  // Every row of one plan.
+  void check(std::string_view plan) const {
+    const test::Result accepted = layered.accept(plan);
+    ASSERT_EQ(accepted.code, 0) << accepted.output;
+    for (const Lowered& each : lowered()) {
+      if (each.plan != plan) continue;
+      SCOPED_TRACE(each.change);
+      const test::Result drawn = layered.draw(each.change, plan);
+      EXPECT_THAT(drawn.output, Not(HasSubstr("layer: refused")));
+      EXPECT_THAT(drawn.output, HasSubstr(fmt::format(" {} skipped, 0 failed", each.skipped)));
+      EXPECT_EQ(count(drawn.output, "skipped: "), each.skipped);
+      EXPECT_THAT(drawn.output, HasSubstr(each.reason));
+      const test::Result judged = layered.judge(plan);
+      EXPECT_EQ(judged.code, 0) << judged.output;
+    }
+  }
+  Layered layered;
+};
+
+TEST_F(LoweredLimits, OfVolumes) {
+  check(volume);
+}
+
+TEST_F(LoweredLimits, OfParticles) {
+  check(particles);
+}
+
+TEST_F(LoweredLimits, WithoutClockOrStatisticsTheRestIsMeasured) {
+  for (const char* change : {"timestampValidBits=0", "pipelineStatisticsQuery"}) {
+    const test::Result timed = layered.time(change, volume, "--set technique=raycast_fragment");
+    EXPECT_EQ(timed.code, 0) << timed.output;
+    EXPECT_THAT(timed.output, Not(HasSubstr("layer: refused")));
+    EXPECT_THAT(timed.output, HasSubstr(change[0] == 't' ? " ms (wall)" : " ms (device)"));
+  }
+}
+
+// The layer itself: what it is not told, and use beyond a limit that nothing asks.
+TEST_F(LoweredLimits, UseBeyondALimitIsRefused) {
+  EXPECT_THAT(layered.draw("noSuchLimit", volume).output, HasSubstr("no device matches vulkan:*"));
+  const std::string unasked = layered.draw("maxImageDimension1D=128", volume).output;
+  EXPECT_THAT(unasked, HasSubstr("vkCreateImage returned ErrorUnknown"));
+  EXPECT_THAT(layered.draw("maxPerStageResources=12", particles).output,
+              HasSubstr("technique=tiles,viewport=64: failed: vk::Queue::submit returned"));
+}
+
+}  // namespace
+}  // namespace triptych::layer
