@@ -1,9 +1,11 @@
 #include "judge/gate/open_fragments.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "judge/baselines/frame_change.hpp"
 
@@ -31,16 +33,23 @@ bool is_open(const std::string& counter, const record::Record& record) {
 }
 
 // A sprite larger than the device's points is a quad: four vertices for one, and without the
-// fragments by which the square around a sprite is larger than its rectangle. Which sprites those
-// are is the device's own; who is seen of them is not.
+// fragments by which the square around a sprite is larger than its rectangle. Quads are drawn first
+// and whole, so that behind them occlusion culls more. Which sprites those are is the device's own;
+// who is seen of them is not.
 std::optional<double> open_by_points(const std::string& counter, const record::Record& record) {
   const double sprites = count_of(record.counters, "sprites").value_or(0);
   const double vertices = count_of(record.counters, "vertices").value_or(0);
   const bool some = vertices > sprites;
   if (!some || told(record, "largest_point").value_or(usual_point) >= usual_point) return {};
   if (counter == "vertices") return 3 * sprites;
-  const bool in_corners = counter == "fragments" || counter == "fragments_discarded";
-  return in_corners ? std::optional(std::numeric_limits<double>::infinity()) : std::nullopt;
+  const auto culling = record.factors.find("culling");
+  const bool occludes = culling != record.factors.end() && culling->second == "occlusion";
+  constexpr std::array<std::string_view, 2> in_corners{"fragments", "fragments_discarded"};
+  constexpr std::array<std::string_view, 5> behind{
+      "cells_culled", "particles_culled", "particles_submitted", "sprites", "fragments_kept"};
+  const bool any = std::ranges::find(in_corners, counter) != in_corners.end() ||
+                   (occludes && std::ranges::find(behind, counter) != behind.end());
+  return any ? std::optional(std::numeric_limits<double>::infinity()) : std::nullopt;
 }
 
 }  // namespace

@@ -60,6 +60,10 @@ TEST(OpenFragments, SpritesLargerThanTheDevicesPointsAreQuads) {
   for (const char* other : {"sprites", "fragments_kept", "visible_ids"}) {
     EXPECT_EQ(open_fragments(other, record), 0) << other;
   }
+  record.factors["culling"] = "occlusion";
+  EXPECT_GT(open_fragments("cells_culled", record), 1) << "quads hide more";
+  EXPECT_EQ(open_fragments("visible_ids", record), 0);
+  EXPECT_EQ(open_fragments("cells", record), 0);
   record.precision["largest_point"] = 255;
   EXPECT_EQ(open_fragments("vertices", record), 0);
   record.precision.erase("largest_point");
