@@ -103,9 +103,7 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
   if (needs != Needs::nothing && gpu.features.vertexPipelineStoresAndAtomics == VK_FALSE) {
     return "the device lacks vertexPipelineStoresAndAtomics, which counting needs";
   }
-  if (before_pixels) {
-    if (auto reason = ParticleTarget::format_reason(gpu)) return reason;
-  }
+  if (auto reason = ParticleTarget::format_reason(gpu)) return reason;
   if (work.options.culling != technique::Culling::none) {
     if (auto reason = cannot_cull(gpu, technique == "quad_instanced")) return reason;
   }

@@ -26,9 +26,9 @@ struct Lowered {
 const std::vector<Lowered>& lowered() {
   static const std::vector<Lowered> all{
       {"maxImageDimension1D=4096", volume},
-      {"maxImageDimension2D=32", particles, 10, "exceeds the largest frame buffer of 32"},
+      {"maxImageDimension2D=48", particles, 8, "exceeds the largest frame buffer of 48"},
       {"maxImageDimension3D=16", volume, 2, "exceeds maxImageDimension3D = 16"},
-      {"maxFramebufferWidth=32", particles, 10, "exceeds the largest frame buffer of 32"},
+      {"maxFramebufferWidth=48", particles, 8, "exceeds the largest frame buffer of 48"},
       {"maxStorageBufferRange=134217728", particles},
       {"maxUniformBufferRange=16384", particles},
       {"maxComputeSharedMemorySize=16384", particles},
@@ -37,6 +37,7 @@ const std::vector<Lowered>& lowered() {
       {"maxComputeWorkGroupSize=64", particles},
       {"maxComputeWorkGroupCount=65535", particles},
       {"maxPerStageDescriptorStorageBuffers=4", volume},
+      {"maxPerStageDescriptorStorageBuffers=12", particles},
       {"maxPerStageResources=128", particles},
       {"maxDescriptorSetStorageBuffers=24", particles},
       {"maxTessellationGenerationLevel=1", particles, 1, "maxTessellationGenerationLevel"},
@@ -45,9 +46,9 @@ const std::vector<Lowered>& lowered() {
       {"drawIndirectFirstInstance", particles, 1, "lacks drawIndirectFirstInstance"},
       {"geometryShader", particles, 3, "lacks geometryShader"},
       {"tessellationShader", particles, 3, "lacks tessellationShader"},
-      {"fragmentStoresAndAtomics", particles, 10, "lacks fragmentStoresAndAtomics"},
+      {"fragmentStoresAndAtomics", particles, 11, "lacks fragmentStoresAndAtomics"},
       {"fragmentStoresAndAtomics", volume, 3, "lacks fragmentStoresAndAtomics"},
-      {"vertexPipelineStoresAndAtomics", particles, 10, "lacks vertexPipelineStoresAndAtomics"},
+      {"vertexPipelineStoresAndAtomics", particles, 11, "lacks vertexPipelineStoresAndAtomics"},
       {"vertexPipelineStoresAndAtomics", volume},
       {"pipelineStatisticsQuery", particles},
       {"shaderFloat64", volume, 1, "needs shaderFloat64"},
@@ -57,11 +58,11 @@ const std::vector<Lowered>& lowered() {
       {"pointSizeGranularity=1", particles},
       {"subPixelPrecisionBits=4", particles},
       {"subTexelPrecisionBits=4", volume},
-      {"floatDepth", particles, 10, "no depth of format D32Sfloat"},
+      {"floatDepth", particles, 11, "no depth of format D32Sfloat"},
       {"linearFilter", volume, 4, "cannot filter images of format"},
       {"timestampValidBits=0", volume},
       {"timestampComputeAndGraphics", volume},
-      {"graphicsQueue", particles, 10, "no queue that draws"},
+      {"graphicsQueue", volume, 3, "no queue that draws"},
       {"computeFamilyFirst", particles},
       {"hostVisibleDeviceLocal", volume},
       {"hostVisibleDeviceLocal", particles},
@@ -96,7 +97,8 @@ class LoweredLimits : public testing::Test {
       EXPECT_EQ(count(drawn.output, "skipped: "), each.skipped);
       EXPECT_THAT(drawn.output, HasSubstr(each.reason));
       const test::Result judged = layered.judge(plan);
-      EXPECT_EQ(judged.code, 0) << judged.output;
+      const bool any = drawn.output.find(" 0 measured") == std::string::npos;
+      EXPECT_EQ(judged.code, any ? 0 : 2) << judged.output;
     }
   }
   Layered layered;
@@ -130,7 +132,7 @@ TEST_F(LoweredLimits, UseBeyondALimitIsRefused) {
   const std::string unasked = layered.draw("maxImageDimension1D=128", volume).output;
   EXPECT_THAT(unasked, HasSubstr("vkCreateImage returned ErrorUnknown"));
   EXPECT_THAT(layered.draw("maxPerStageResources=12", particles).output,
-              HasSubstr("technique=tiles,viewport=64: failed: vk::Queue::submit returned"));
+              HasSubstr("technique=tiles,viewport=64: failed: "));
 }
 
 }  // namespace
