@@ -34,6 +34,7 @@ std::string version_lines(const Api& gl, GLenum type) {
       "#version 330 core\n"
       "#extension GL_ARB_shading_language_420pack : enable\n"
       "#extension GL_ARB_shader_storage_buffer_object : enable\n"
+      "#extension GL_ARB_shader_image_load_store : enable\n"
       "#extension GL_ARB_gpu_shader5 : enable\n";
   lines += stage_extension(type);
   // Without GLSL 4.00 or the extension there is no such qualifier.
