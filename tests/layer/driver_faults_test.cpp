@@ -52,9 +52,9 @@ const std::vector<Fault>& faults() {
   return all;
 }
 
-// Causes on the last screen, and those that it leaves to the page.
+// Causes on the last screen, each behind an empty line, and those that it leaves to the page.
 int causes_in(const std::string& screen) {
-  const std::regex cause("\n  ✗ ");
+  const std::regex cause("\n\n  ✗ ");
   int causes = static_cast<int>(std::distance(
       std::sregex_iterator(screen.begin(), screen.end(), cause), std::sregex_iterator()));
   std::smatch more;
