@@ -112,6 +112,7 @@ class Stops {
     largest_ = std::min(largest_ * (1.0 - opacity.lo) + rounding, 1.0);
     smallest_ = std::max(smallest_ * (1.0 - opacity.hi) - rounding, 0.0);
   }
+  // Once true, they stay so.
   [[nodiscard]] bool may_end() const { return smallest_ < model_.ert; }
   [[nodiscard]] bool must_end() const { return largest_ < model_.ert; }
 
@@ -147,8 +148,12 @@ class Counter {
   [[nodiscard]] Tally operator()(int x, int y) {
     const std::optional<Ray> ray = rays_(x, y);
     if (!ray) return {};
-    Tally tally = scene_.quadrature == scene::Quadrature::cells ? in_cells(*ray) : on_lattice(*ray);
-    tally.skipped += Crossings(planes_, *ray).ties(model_.position_error_voxels);
+    const Crossings crossings(planes_, *ray);
+    const double ties = crossings.ties(model_.position_error_voxels);
+    const bool cells = scene_.quadrature == scene::Quadrature::cells;
+    Tally tally = cells ? in_cells(*ray, crossings) : on_lattice(*ray, crossings);
+    tally.skipped += ties;
+    if (cells) tally.visited += ties;  // where the ray gets into a brick it looks at it
     if (ray->shortest <= 0 && ray->longest > 0) tally.hits += 1;
     return tally;
   }
@@ -159,18 +164,17 @@ class Counter {
     return chord / (smallest_spacing_ * scene_.step_voxels);
   }
 
-  [[nodiscard]] Tally on_lattice(const Ray& ray) {
+  [[nodiscard]] Tally on_lattice(const Ray& ray, const Crossings& crossings) const {
     constexpr double division = 8 * 0x1.0p-24;
     const glm::dvec3 stride = ray.voxels_per_unit * scene_.step_world();
     const double fewest = std::ceil(steps(ray.shortest) * (1 - division));
     const double most = std::ceil(steps(ray.longest) * (1 + division));
-    const Crossings crossings(planes_, ray);
     Tally tally;
     tally.total = most - fewest;
     Stops stops(model_);
-    bool ended = false;  // by some device
     for (double i = 0; i < most; i += 1) {
       const glm::dvec3 p = ray.entry + (i + 0.5) * stride;
+      const bool ended = stops.may_end();  // by some device
       const bool open = ended || i >= fewest;
       const Sight sight = look(ray, i, stride);
       const bool near = crossings.is_near(p);
@@ -180,16 +184,14 @@ class Counter {
       tally.visited += passed + (near ? 1 : 0);
       tally.skipped += passed + (near ? 1 : 0);
       if (sight.possible) stops.add(sight.opacity);
-      const bool may_end = !ended && stops.may_end();
+      if (stops.must_end()) break;
       // Bricks are visited to the end of a run, which a device may begin that ends in it.
-      if (may_end && !stops.must_end()) {
+      if (!ended && stops.may_end()) {
         const double rest = crossings.between(p, ray.entry + most * stride);
         tally.visited += rest;
         tally.skipped += rest;
         tally.terminated += 1;
       }
-      ended = ended || may_end;
-      if (stops.must_end()) break;
     }
     return tally;
   }
@@ -222,13 +224,12 @@ class Counter {
     return {true, opacity.lo > 0x1.0p-24, opacity};
   }
 
-  [[nodiscard]] Tally in_cells(const Ray& ray) {
-    const Crossings crossings(planes_, ray);
+  [[nodiscard]] Tally in_cells(const Ray& ray, const Crossings& crossings) {
     Tally tally;
     Stops stops(model_);
-    bool ended = false;
     const bool all = ray.shortest <= 0;
     cells_.walk_open(ray, [&](const OpenPoints& points, const StepOpacity& opacity) {
+      const bool ended = stops.may_end();
       const bool open = all || ended;
       tally.samples += open ? points.most : points.open;
       tally.nonzero += open ? points.most : points.open + points.may_show;
@@ -239,12 +240,9 @@ class Counter {
       tally.skipped += passed;
       stops.add(opacity);
       if (!ended && stops.may_end() && !stops.must_end()) tally.terminated += 1;
-      ended = ended || stops.may_end();
       return !stops.must_end();
     });
-    // A brick is looked at where the ray gets into it: another one at each plane that is passed
-    // with another, and one that a device may leave before it has begun.
-    tally.visited += crossings.ties(model_.position_error_voxels) + (all ? 1 : 0);
+    if (all) tally.visited += 1;  // a device may leave it before it has begun
     return tally;
   }
 
