@@ -1,5 +1,6 @@
 #include "judge/gate/open_counts.hpp"
 
+#include "core/error.hpp"
 #include "judge/gate/open_fragments.hpp"
 
 namespace triptych::judge {
@@ -7,7 +8,13 @@ namespace triptych::judge {
 double OpenCounts::of(const std::string& counter) {
   const double fragments = open_fragments(counter, record_);
   if (fragments > 0 || !find_) return fragments;
-  if (!known_) known_ = find_(record_);
+  if (!known_) {
+    try {
+      known_ = find_(record_);
+    } catch (const core::Error&) {
+      known_.emplace();  // whoever wants the truth is told why there is none
+    }
+  }
   const auto found = known_->find(counter);
   return found == known_->end() ? 0 : found->second;
 }

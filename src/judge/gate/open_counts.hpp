@@ -9,7 +9,7 @@
 namespace triptych::judge {
 
 // By how much a record's counters may differ between two right devices, by the counters' names
-// (SuiteWithTruth::open_counts).
+// (SuiteWithTruth::open_counts); throws core::Error where its scene is not here, and none are open.
 using FindOpenCounts = std::function<std::map<std::string, double>(const record::Record&)>;
 
 // What rounding and rasterization leave open of one record's counters; found once it matters.

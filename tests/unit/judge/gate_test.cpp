@@ -153,6 +153,10 @@ TEST_F(GateTest, OfAnotherDriverAsManyCountsAreOpenAsTheSuiteSays) {
   add_run("more", [](record::Record& record, core::Image&) { record.counters["samples"] = 974; });
   EXPECT_EQ(gate("more").exit_code(), ExitCode::regression);
   EXPECT_THAT(text(gate("more")), HasSubstr("25 are open"));
+  request_.open_counts = [](const record::Record&) -> std::map<std::string, double> {
+    throw core::InputError("the data are not here");
+  };
+  EXPECT_THAT(text(gate("open")), HasSubstr("0 are open"));
 }
 
 TEST_F(GateTest, WhatHasNoStoredCountersIsOneLineADevice) {
