@@ -64,11 +64,8 @@ int causes_in(const std::string& screen) {
   return causes;
 }
 
-class DriverFaults : public testing::Test {
+class DriverFaults : public LayerTest {
  protected:
-  void SetUp() override {
-    if (!Layered::has_lavapipe()) GTEST_SKIP() << "needs lavapipe";
-  }
   // Every fault that one plan finds.
   void check(std::string_view plan) const {
     const test::Result accepted = layered.accept(plan);
@@ -85,7 +82,6 @@ class DriverFaults : public testing::Test {
       EXPECT_THAT(judged.output, HasSubstr(fmt::format("TRIPTYCH_LAYER={} ", each.name)));
     }
   }
-  Layered layered;
 };
 
 TEST_F(DriverFaults, InVolumes) {

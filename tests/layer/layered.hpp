@@ -2,6 +2,7 @@
 // The program on lavapipe behind the layer.
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -70,6 +71,14 @@ class Layered {
   }
 
   test::TemporaryFolder folder_;
+};
+
+class LayerTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!Layered::has_lavapipe()) GTEST_SKIP() << "needs lavapipe";
+  }
+  Layered layered;
 };
 
 }  // namespace triptych::layer

@@ -79,11 +79,8 @@ int count(const std::string& text, const std::string& part) {
   return times;
 }
 
-class LoweredLimits : public testing::Test {
+class LoweredLimits : public LayerTest {
  protected:
-  void SetUp() override {
-    if (!Layered::has_lavapipe()) GTEST_SKIP() << "needs lavapipe";
-  }
   // Every row of one plan.
   void check(std::string_view plan) const {
     const test::Result accepted = layered.accept(plan);
@@ -101,7 +98,6 @@ class LoweredLimits : public testing::Test {
       EXPECT_EQ(judged.code, any ? 0 : 2) << judged.output;
     }
   }
-  Layered layered;
 };
 
 TEST_F(LoweredLimits, OfVolumes) {
