@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "scene/denormals.hpp"
+#include "scene/exact_math.hpp"
 #include "scene/scalar_dispatch.hpp"
 
 namespace triptych::scene {
@@ -25,18 +26,32 @@ std::size_t count_of(const std::array<int, 3>& size) {
 // so that equal fields have equal bits.
 class Normaliser {
  public:
-  Normaliser(double lo, double hi)
-      // Halved where hi − lo would overflow; by 1 nothing is rounded.
-      : unit_(std::isfinite(hi - lo) ? 1.0 : 0.5), lo_(lo * unit_), extent_(hi * unit_ - lo_) {}
+  explicit Normaliser(const Volume& volume)
+      : mapping_(volume.mapping),
+        least_(volume.range_lo),
+        most_(volume.range_hi),
+        // Halved where hi − lo would overflow; by 1 nothing is rounded.
+        unit_(std::isfinite(most_ - least_) ? 1.0 : 0.5),
+        lo_(transformed(least_)),
+        extent_(transformed(most_) - lo_) {}
 
   [[nodiscard]] double operator()(double value) const {
-    if (!(extent_ > 0)) return 0;
-    const double x = (value * unit_ - lo_) / extent_;
+    if (!(extent_ > 0) || !(value > least_)) return 0;
+    if (value >= most_) return 1;
+    const double x = (transformed(value) - lo_) / extent_;
     if (!(x > 0)) return 0;
     return x < 1 ? x : 1;
   }
 
  private:
+  // Of a logarithmic mapping the range, and so all between its ends, is positive.
+  [[nodiscard]] double transformed(double value) const {
+    return mapping_ == Mapping::logarithmic ? logarithm(value) : value * unit_;
+  }
+
+  Mapping mapping_;
+  double least_;
+  double most_;
   double unit_;
   double lo_;
   double extent_;
@@ -77,7 +92,7 @@ void encode_exactly(Volume& volume, VoxelGrid& grid) {
 template <typename From, typename To>
 void encode_rounded(Volume& volume, VoxelGrid& grid) {
   constexpr double steps = std::numeric_limits<To>::max();
-  const Normaliser normalise(volume.range_lo, volume.range_hi);
+  const Normaliser normalise(volume);
   grid.scale = 1 / steps;
   grid.offset = 0;
   grid.data = convert<From, To>(std::move(volume.voxels), [&](From value) {
@@ -87,7 +102,7 @@ void encode_rounded(Volume& volume, VoxelGrid& grid) {
 
 template <typename From>
 void encode_float(Volume& volume, VoxelGrid& grid) {
-  const Normaliser normalise(volume.range_lo, volume.range_hi);
+  const Normaliser normalise(volume);
   grid.scale = 1;
   grid.offset = 0;
   grid.data = convert<From, float>(std::move(volume.voxels), [&](From value) {
@@ -95,17 +110,26 @@ void encode_float(Volume& volume, VoxelGrid& grid) {
   });
 }
 
+// Whether stored·scale + offset can be the normalised value of every voxel.
+bool is_linear(const Volume& volume) {
+  return volume.mapping == Mapping::linear && !volume.clipped;
+}
+
+template <typename From, typename To>
+void encode_integers(Volume& volume, VoxelGrid& grid) {
+  if constexpr (std::is_integral_v<From> && sizeof(From) <= sizeof(To)) {
+    if (is_linear(volume)) return encode_exactly<From, To>(volume, grid);
+  }
+  encode_rounded<From, To>(volume, grid);
+}
+
 template <typename From>
 void encode_from(Volume& volume, VoxelGrid& grid) {
-  constexpr bool fits_u8 = std::is_integral_v<From> && sizeof(From) == 1;
   switch (grid.format) {
     case VoxelFormat::u8:
-      if constexpr (fits_u8) return encode_exactly<From, std::uint8_t>(volume, grid);
-      return encode_rounded<From, std::uint8_t>(volume, grid);
+      return encode_integers<From, std::uint8_t>(volume, grid);
     case VoxelFormat::u16:
-      if constexpr (std::is_integral_v<From>)
-        return encode_exactly<From, std::uint16_t>(volume, grid);
-      return encode_rounded<From, std::uint16_t>(volume, grid);
+      return encode_integers<From, std::uint16_t>(volume, grid);
     case VoxelFormat::f32:
       return encode_float<From>(volume, grid);
   }
@@ -141,6 +165,10 @@ std::string_view name_of(ScalarType type) {
       return "f64";
   }
   return {};
+}
+
+std::string_view name_of(Mapping mapping) {
+  return mapping == Mapping::linear ? "linear" : "log";
 }
 
 std::size_t Volume::voxel_count() const noexcept {
@@ -227,6 +255,10 @@ VoxelFormat lossless_format(ScalarType type) {
   return VoxelFormat::f32;
 }
 
+VoxelFormat lossless_format(const Volume& volume) {
+  return is_linear(volume) ? lossless_format(volume.type) : VoxelFormat::f32;
+}
+
 VoxelGrid encode(Volume&& volume, VoxelFormat format) {
   if (volume.voxels.size() != volume.voxel_count() * bytes_of(volume.type)) {
     throw core::InputError(fmt::format("volume {} has {} bytes of voxels; expected {}x{}x{} of {}",
@@ -239,6 +271,7 @@ VoxelGrid encode(Volume&& volume, VoxelFormat format) {
   grid.spacing = volume.spacing;
   grid.range_lo = volume.range_lo;
   grid.range_hi = volume.range_hi;
+  grid.mapping = volume.mapping;
   grid.name = volume.name;
   with_scalar_type(volume.type, [&](auto zero) { encode_from<decltype(zero)>(volume, grid); });
   volume.voxels = {};

@@ -15,6 +15,11 @@ enum class ScalarType : std::uint8_t { u8, i8, u16, i16, f32, f64 };
 [[nodiscard]] std::size_t bytes_of(ScalarType type);
 [[nodiscard]] std::string_view name_of(ScalarType type);
 
+// How values are mapped to 0..1 between the ends of a range: x = (t(v) − t(lo))/(t(hi) − t(lo)),
+// with t(v) = v or ln v.
+enum class Mapping : std::uint8_t { linear, logarithmic };
+[[nodiscard]] std::string_view name_of(Mapping mapping);
+
 // A scalar field on a regular grid, values as stored in the file, native byte order, x fastest:
 // voxel (i, j, k) is element i + nx·(j + ny·k). Voxel centres lie at (i+½)·spacing, the volume
 // fills [0, size·spacing] in world units, values are clamped to the edge outside the outermost
@@ -29,6 +34,8 @@ struct Volume {
   // voxels of a file; a generator states its own. lo == hi is allowed: every voxel then maps to 0.
   double range_lo = 0;
   double range_hi = 1;
+  Mapping mapping = Mapping::linear;
+  bool clipped = false;  // some values lie beyond the range (set_window)
 
   [[nodiscard]] std::size_t voxel_count() const noexcept;
   [[nodiscard]] double value(std::size_t index) const;  // as stored; may be NaN or infinite
@@ -55,6 +62,7 @@ struct VoxelGrid {
   double offset = 0;
   double range_lo = 0;
   double range_hi = 1;
+  Mapping mapping = Mapping::linear;  // of the values; that of `stored` is linear
   std::string name;
   std::string hash;  // content_hash of the voxels and the mapping
 
@@ -64,8 +72,11 @@ struct VoxelGrid {
 
 // The smallest format that holds every value of this type exactly; f64 becomes f32.
 [[nodiscard]] VoxelFormat lossless_format(ScalarType type);
+// As the volume's values are mapped: integers that are clamped or of which a logarithm is taken are
+// f32.
+[[nodiscard]] VoxelFormat lossless_format(const Volume& volume);
 
-// Converts; where the format is too small for the type, values are rounded to its steps over the
+// Converts; where the format is too small for the volume, values are rounded to its steps over the
 // range. Consumes the volume's voxels where the representation is the same, to keep one copy in
 // memory.
 [[nodiscard]] VoxelGrid encode(Volume&& volume, VoxelFormat format);

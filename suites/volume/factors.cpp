@@ -3,6 +3,7 @@
 #include "measure/contract/factor.hpp"
 #include "scene/camera.hpp"
 #include "scene/transfer_function.hpp"
+#include "scene/value_window.hpp"
 #include "scene/volume.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/stress_cases.hpp"
@@ -17,6 +18,12 @@ using measure::Factor;
 using measure::number;
 using measure::text;
 
+// What came after the first scenes were stored.
+Factor silent(Factor factor) {
+  factor.silent_default = true;
+  return factor;
+}
+
 }  // namespace
 
 const std::vector<Factor>& volume_factors() {
@@ -30,6 +37,13 @@ const std::vector<Factor>& volume_factors() {
              "how voxels are stored on the device; auto: the device's fastest exact path"),
       choice("sampler", {"auto", "hardware", "manual"}, "auto", Decides::how_it_is_made,
              "who interpolates between voxels; auto: as for voxel"),
+      silent(
+          text("window", "full",
+               "values that the transfer function spans: full, or LOW..HIGH in the data's units or "
+               "percentiles (p1..p99, 0..p99.5); voxels beyond are clamped to its ends")),
+      silent(choice("mapping", {"linear", "log"}, "linear", Decides::the_picture,
+                    "of a voxel's value to the window; log: of its logarithm, below the smallest "
+                    "positive value 0")),
       text("transfer_function", "haze",
            "haze, surfaces, a file of 256 RGBA entries, or own: an analytic problem's or stress "
            "case's own, surfaces for all other data"),
@@ -64,7 +78,7 @@ const std::vector<Factor>& volume_factors() {
 
 void check_value(const Factor& factor, std::string_view value,
                  const std::vector<std::filesystem::path>& folders) {
-  if (value == own_level && factor.name != "data") return;  // no other factor would take it
+  if (value == own_level && factor.name != "data" && factor.name != "window") return;
   if (factor.name == "viewport") {
     static_cast<void>(measure::parse_viewport(value));
   } else if (factor.name == "camera") {
@@ -73,6 +87,8 @@ void check_value(const Factor& factor, std::string_view value,
     scene::check_generated_volume(value);
     static_cast<void>(analytic_data(value));
     static_cast<void>(stress_data(value));
+  } else if (factor.name == "window") {
+    static_cast<void>(scene::parse_window(value));
   } else if (factor.name == "transfer_function") {
     static_cast<void>(scene::load_transfer_function(value, folders));
   }

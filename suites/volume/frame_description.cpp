@@ -31,6 +31,9 @@ Json describe_frame(const scene::VolumeScene& scene, double ert, double adapt) {
                {"background", scene.background},
                {"ert", ert},
                {"shading", shading_json(scene.shading)}}}};
+  if (grid.mapping != scene::Mapping::linear) {
+    frame["volume"]["mapping"] = scene::name_of(grid.mapping);
+  }
   if (adapt > 0) frame["volume"]["adapt"] = adapt;
   return frame;
 }

@@ -15,6 +15,7 @@
 #include "scene/denormals.hpp"
 #include "scene/file_table.hpp"
 #include "scene/generators.hpp"
+#include "scene/value_window.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/factors.hpp"
 #include "suites/volume/frame_description.hpp"
@@ -69,6 +70,8 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   // The last data set loaded: neighbours in a plan share it.
   struct Loaded {
     std::string data;
+    std::string window;
+    std::string mapping;
     std::optional<StressScene> stress;  // without its voxels
     scene::VoxelFormat native = scene::VoxelFormat::f32;
     std::shared_ptr<const scene::VoxelGrid> grid;
@@ -81,7 +84,8 @@ class VolumeSuite final : public measure::SuiteWithTruth {
     reference::ErrorModel model;
   };
 
-  const Loaded& load(const std::string& data, const ChooseFormat& choose);
+  scene::Volume read(const std::string& data, std::optional<StressScene>& stress) const;
+  const Loaded& load(const Configuration& configuration, const ChooseFormat& choose);
   const Loaded& load_as_it_is(const Configuration& configuration);
   scene::VolumeScene scene(const Configuration& configuration, const Loaded& loaded) const;
   Judged judged(const Configuration& configuration, const std::map<std::string, double>& precision);
@@ -108,22 +112,32 @@ std::string VolumeSuite::missing_data(const Configuration& configuration) const 
       "data file '{}' is not here; set TRIPTYCH_DATA to the folder that holds volumes/", data);
 }
 
-const VolumeSuite::Loaded& VolumeSuite::load(const std::string& data, const ChooseFormat& choose) {
-  if (loaded_.grid && loaded_.data == data && choose(loaded_.native) == loaded_.grid->format) {
+scene::Volume VolumeSuite::read(const std::string& data, std::optional<StressScene>& stress) const {
+  if (const auto known = stress_data(data)) {
+    stress = stress_scene(*known);
+    return std::move(stress->volume);
+  }
+  const auto analytic = analytic_data(data);
+  return analytic ? analytic_volume(*analytic) : scene::load_volume(data, folders_);
+}
+
+const VolumeSuite::Loaded& VolumeSuite::load(const Configuration& configuration,
+                                             const ChooseFormat& choose) {
+  const std::string& data = configuration.at("data");
+  const std::string& window = configuration.at("window");
+  const std::string& mapping = configuration.at("mapping");
+  if (loaded_.grid && loaded_.data == data && loaded_.window == window &&
+      loaded_.mapping == mapping && choose(loaded_.native) == loaded_.grid->format) {
     return loaded_;
   }
   loaded_ = {};  // frees the old one before the new one is loaded
   std::optional<StressScene> stress;
-  scene::Volume volume;
-  if (const auto known = stress_data(data)) {
-    stress = stress_scene(*known);
-    volume = std::move(stress->volume);
-  } else {
-    const auto analytic = analytic_data(data);
-    volume = analytic ? analytic_volume(*analytic) : scene::load_volume(data, folders_);
-  }
-  const scene::VoxelFormat native = scene::lossless_format(volume.type);
+  scene::Volume volume = read(data, stress);
+  scene::set_window(volume, scene::parse_window(window), scene::mapping(mapping));
+  const scene::VoxelFormat native = scene::lossless_format(volume);
   loaded_ = {.data = data,
+             .window = window,
+             .mapping = mapping,
              .stress = std::move(stress),
              .native = native,
              .grid = std::make_shared<const scene::VoxelGrid>(
@@ -132,7 +146,7 @@ const VolumeSuite::Loaded& VolumeSuite::load(const std::string& data, const Choo
 }
 
 const VolumeSuite::Loaded& VolumeSuite::load_as_it_is(const Configuration& configuration) {
-  return load(configuration.at("data"), [](scene::VoxelFormat native) { return native; });
+  return load(configuration, [](scene::VoxelFormat native) { return native; });
 }
 
 // What may be `own` in a configuration of the data loaded.
@@ -177,7 +191,7 @@ measure::Work VolumeSuite::work(Configuration& configuration, const measure::Dev
       path.voxel = scene::voxel_format(configuration.at("voxel"));
     return path.voxel;
   };
-  const Loaded& loaded = load(configuration.at("data"), choose);
+  const Loaded& loaded = load(configuration, choose);
   choose(loaded.native);
   if (configuration.at("sampler") != "auto") {
     path.sampler = technique::sampler(configuration.at("sampler"));
@@ -297,7 +311,7 @@ std::string VolumeSuite::data_hash(const Configuration& configuration) {
     const std::string& voxel = configuration.at("voxel");
     return voxel == "auto" ? native : scene::voxel_format(voxel);
   };
-  return load(configuration.at("data"), choose).grid->hash;
+  return load(configuration, choose).grid->hash;
 }
 
 nlohmann::json VolumeSuite::describe(const Configuration& configuration) {
@@ -348,7 +362,9 @@ measure::Limit VolumeSuite::limit(const Configuration& configuration) {
 std::optional<core::Image> VolumeSuite::closed_form(const Configuration& configuration) {
   const auto analytic = analytic_data(configuration.at("data"));
   const bool own = configuration.at("transfer_function") == own_transfer_function;
-  if (!analytic || !own) return std::nullopt;
+  const bool mapped =
+      configuration.at("window") != "full" || configuration.at("mapping") != "linear";
+  if (!analytic || !own || mapped) return std::nullopt;
   const scene::VolumeScene pictured = scene(configuration, load_as_it_is(configuration));
   if (pictured.shading.enabled != reference::is_shaded(analytic->problem)) return std::nullopt;
   return analytic_picture(*analytic, pictured);

@@ -34,7 +34,9 @@ struct Factor {
   double maximum = 0;
   std::string standard;  // its value when a plan leaves it out; "auto": the device's default path
   bool of_scene = true;  // decides the picture, or only how it is computed
-  std::string summary;   // one line with unit and source, for --help and docs
+  // At its default it is no part of a scene's key: keys are older than the factor.
+  bool silent_default = false;
+  std::string summary;  // one line with unit and source, for --help and docs
 };
 
 // Factor → value as canonical text ("0.5", "orbit_y:1/8"); every factor of the suite is present.
@@ -153,6 +155,7 @@ class SuiteWithTruth : public Suite {
 };
 
 // Canonical text of the factors of a configuration that decide the picture: "camera=…,data=…".
+// Without those with a silent default that have it.
 [[nodiscard]] std::string scene_key(const Suite& suite, const Configuration& configuration);
 
 }  // namespace triptych::measure

@@ -37,5 +37,35 @@ TEST(Keys, SayNothingOfTablesThatCannotChange) {
   }
 }
 
+// What was stored before there were windows is found as it was.
+TEST(Keys, NameAWindowAndAMappingOnlyWhereThereIsOne) {
+  const auto suite = make_suite({});
+  measure::Configuration configuration = configuration_of(*suite, "haze");
+  configuration["data"] = "generate:gaussian_blob:8";
+  const measure::Configuration plain = configuration;
+  EXPECT_EQ(measure::scene_key(*suite, plain),
+            "camera=orbit_y:1/8,data=generate:gaussian_blob:8,quadrature=midpoint,shading=none,"
+            "step=1,transfer_function=haze,viewport=8");
+  for (const auto& [factor, level] : {std::pair{"window", "0..p90"}, {"mapping", "log"}}) {
+    configuration = plain;
+    configuration[factor] = level;
+    const std::string named = std::string(factor) + "=" + level;
+    EXPECT_NE(measure::scene_key(*suite, configuration).find(named), std::string::npos);
+    EXPECT_NE(measure::configuration_key(*suite, configuration).find(named), std::string::npos);
+    EXPECT_NE(suite->data_hash(configuration), suite->data_hash(plain)) << factor;
+    EXPECT_NE(suite->truth_key(configuration, {}), suite->truth_key(plain, {})) << factor;
+    EXPECT_NE(suite->limit_key(configuration), suite->limit_key(plain)) << factor;
+  }
+}
+
+TEST(Keys, OfAnAnalyticProblemWithAWindowHaveNoClosedForm) {
+  const auto suite = make_suite({});
+  measure::Configuration configuration = configuration_of(*suite, "own");
+  configuration["data"] = "analytic:v2_ramp:8";
+  EXPECT_TRUE(suite->closed_form(configuration));
+  configuration["window"] = "0..0.5";
+  EXPECT_FALSE(suite->closed_form(configuration));
+}
+
 }  // namespace
 }  // namespace triptych::volume_suite

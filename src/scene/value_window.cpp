@@ -1,0 +1,149 @@
+#include "scene/value_window.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "scene/scalar_dispatch.hpp"
+#include "scene/text_lines.hpp"
+
+namespace triptych::scene {
+namespace {
+
+[[noreturn]] void refuse(std::string_view text) {
+  throw core::InputError(
+      fmt::format("window '{}': expected full or LOW..HIGH, each a number or a percentile p0 to "
+                  "p100, such as 0.5..3, p1..p99 or 0..p99.5",
+                  quotable(text)));
+}
+
+std::optional<WindowEnd> parse_end(std::string_view text) {
+  const bool percentile = text.starts_with('p');
+  const auto number = parse_number<double>(percentile ? text.substr(1) : text);
+  if (!number || !std::isfinite(*number)) return std::nullopt;
+  if (percentile && (*number < 0 || *number > 100)) return std::nullopt;
+  return WindowEnd{*number, percentile};
+}
+
+struct Range {
+  double lo = 0;
+  double hi = 0;
+};
+
+std::string text_of(const Range& range) {
+  return fmt::format("{}..{}", range.lo, range.hi);
+}
+
+// Of a volume, what counts: finite values, and of a logarithm positive ones.
+template <typename Scalar>
+class Counted {
+ public:
+  Counted(const Volume& volume, Mapping mapping) : volume_(volume), mapping_(mapping) {
+    for_each([this](Scalar value) {
+      range_.lo = std::min(range_.lo, static_cast<double>(value));
+      range_.hi = std::max(range_.hi, static_cast<double>(value));
+    });
+  }
+
+  [[nodiscard]] bool empty() const { return range_.lo > range_.hi; }
+  [[nodiscard]] const Range& range() const { return range_; }
+
+  // The nearest rank. Keeps a copy of the values from the first one asked for.
+  [[nodiscard]] double percentile(double percent) {
+    if (values_.empty()) for_each([this](Scalar value) { values_.push_back(value); });
+    const auto count = static_cast<double>(values_.size());
+    const double rank = std::clamp(std::ceil(percent * count / 100), 1.0, count);
+    const auto at = values_.begin() + (static_cast<std::ptrdiff_t>(rank) - 1);
+    std::nth_element(values_.begin(), at, values_.end());
+    return static_cast<double>(*at);
+  }
+
+ private:
+  template <typename Use>
+  void for_each(Use&& use) const {
+    const std::size_t count = volume_.voxel_count();
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto value = load_scalar<Scalar>(volume_.voxels.data(), i);
+      const auto number = static_cast<double>(value);
+      if (std::isfinite(number) && (mapping_ == Mapping::linear || number > 0)) use(value);
+    }
+  }
+
+  const Volume& volume_;
+  Mapping mapping_;
+  Range range_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::vector<Scalar> values_;
+};
+
+[[noreturn]] void refuse_values(const Volume& volume, Mapping mapping) {
+  throw core::InputError(
+      mapping == Mapping::logarithmic
+          ? fmt::format("{}: mapping log needs values above 0, and no voxel has one", volume.name)
+          : fmt::format("{}: no voxel has a finite value to take a window of", volume.name));
+}
+
+template <typename Scalar>
+Range range_of(const Window& window, Counted<Scalar>& counted, const std::string& name) {
+  const auto end = [&](const WindowEnd& each) {
+    return each.percentile ? counted.percentile(each.number) : each.number;
+  };
+  const Range range{end(window.lo), end(window.hi)};
+  if (range.lo < range.hi) return range;
+  throw core::InputError(
+      fmt::format("{}: the window {} of values {} is empty; take percentiles farther apart, or "
+                  "numbers",
+                  name, text_of(range), text_of(counted.range())));
+}
+
+template <typename Scalar>
+void set_window_of(Volume& volume, const std::optional<Window>& window, Mapping mapping) {
+  Counted<Scalar> counted(volume, mapping);
+  if (counted.empty()) refuse_values(volume, mapping);
+  const Range there = counted.range();
+  const Range range = window ? range_of(*window, counted, volume.name)
+                             : Range{std::max(volume.range_lo, there.lo), volume.range_hi};
+  if (mapping == Mapping::logarithmic && !(range.lo > 0)) {
+    throw core::InputError(
+        fmt::format("{}: mapping log cannot begin a window at {}; begin it above 0, where the "
+                    "values are {}",
+                    volume.name, range.lo, text_of(there)));
+  }
+  volume.range_lo = range.lo;
+  volume.range_hi = range.hi;
+  volume.mapping = mapping;
+  volume.clipped = there.lo < range.lo || there.hi > range.hi;
+}
+
+}  // namespace
+
+std::optional<Window> parse_window(std::string_view text) {
+  if (text == "full") return std::nullopt;
+  const std::size_t dots = text.find("..");
+  if (dots == std::string_view::npos) refuse(text);
+  const auto lo = parse_end(text.substr(0, dots));
+  const auto hi = parse_end(text.substr(dots + 2));
+  if (!lo || !hi) refuse(text);
+  if (lo->percentile == hi->percentile && !(lo->number < hi->number)) {
+    throw core::InputError(
+        fmt::format("window '{}' is empty: its lower end is not below its upper one", text));
+  }
+  return Window{*lo, *hi};
+}
+
+Mapping mapping(std::string_view name) {
+  for (const Mapping each : {Mapping::linear, Mapping::logarithmic}) {
+    if (name == name_of(each)) return each;
+  }
+  throw core::InputError(fmt::format("mapping '{}': expected linear or log", name));
+}
+
+void set_window(Volume& volume, const std::optional<Window>& window, Mapping mapping) {
+  if (!window && mapping == Mapping::linear) return;
+  with_scalar_type(volume.type,
+                   [&](auto zero) { set_window_of<decltype(zero)>(volume, window, mapping); });
+}
+
+}  // namespace triptych::scene
