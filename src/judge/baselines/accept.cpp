@@ -127,7 +127,7 @@ void update_cost(const Accepted& accepted, const record::Device& device, NextFol
   update.write(3);
 }
 
-// Of untimed records nothing is known: what is stored of them stays.
+// Of untimed records whose statistics were not read nothing is known: what is stored of them stays.
 void update_statistics(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::statistics(device));
   update.object()["device"] = device.statistics_key();
@@ -138,7 +138,8 @@ void update_statistics(const Accepted& accepted, const record::Device& device, N
   Json& table = table_of(update.object()["configurations"], accepted);
   bool tells = !table.empty();
   for (const record::Record& record : accepted.measured) {
-    if (record.device != device.id || record.untimed()) continue;
+    if (record.device != device.id) continue;
+    if (record.untimed() && record.statistics.empty()) continue;
     table[record.configuration] = record.statistics;
     tells = tells || !record.statistics.empty();
   }

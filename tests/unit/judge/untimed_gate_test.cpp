@@ -55,6 +55,20 @@ TEST_F(UntimedGateTest, WhatIsStoredOfTimesAndStatisticsStays) {
   EXPECT_EQ(contents(device_file("statistics", "vulkan")), statistics);
 }
 
+// A plan that is judged by statistics and by no times.
+TEST_F(UntimedGateTest, StatisticsThatWereReadAreAccepted) {
+  const auto without_times = [](record::Record& record, core::Image&) {
+    record.warm_up_frames = 0;
+    record.wall_ns.clear();
+  };
+  add_run("a", without_times);
+  (void)accept_run("a");
+  EXPECT_FALSE(std::filesystem::exists(baseline("timings")));
+  add_run("b", without_times);
+  const GateResult result = gate("b");  // one of three devices tells none
+  EXPECT_EQ(with(result, Verdict::pass, Check::statistics).size(), 8U) << text(result);
+}
+
 // Accepted without times first: nothing that reads like a time is stored.
 TEST_F(UntimedGateTest, AcceptsNoMissingTimeAsATime) {
   add_run("a", untimed);
