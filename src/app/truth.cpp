@@ -6,6 +6,7 @@
 
 #include "app/paths.hpp"
 #include "core/image_io.hpp"
+#include "record/data_factors.hpp"
 
 namespace triptych::app {
 namespace {
@@ -44,9 +45,8 @@ const std::map<std::string, double>& Truths::open_counts_of(const record::Record
 
 std::string Truths::data_hash_of(const record::Record& record) {
   std::string key = record.suite;
-  for (const char* factor : {"data", "voxel", "colour"}) {
-    const auto found = record.factors.find(factor);
-    if (found != record.factors.end()) key += " " + found->second;
+  for (const auto& [factor, level] : record.factors) {
+    if (record::decides_data(factor)) key += " " + factor + "=" + level;
   }
   if (const auto found = data_hashes_.find(key); found != data_hashes_.end()) return found->second;
   std::string hash;

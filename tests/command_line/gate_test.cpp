@@ -54,6 +54,20 @@ TEST(Gate, CannotJudgeWithoutBaselines) {
   EXPECT_NE(judged.output.find("triptych accept volume/quick"), std::string::npos) << judged.output;
 }
 
+// One name of data, other voxels.
+TEST(Gate, WindowsAndMappingsOfOneVolumeAreNoChangedData) {
+  const Program program;
+  program.write("plan", std::string(tiny_plan) +
+                            "window: [full, 0.1..0.5, p10..p90]\nmapping: [linear, log]\n"
+                            "voxel: [f32, u8]\nchecks: [counters]\n");
+  ASSERT_EQ(program.run("run plan --device null:scripted --store s.sqlite").code, 0);
+  const Result judged = program.run("gate plan --store s.sqlite --baselines none");
+  EXPECT_EQ(judged.output.find("its data has changed"), std::string::npos) << judged.output;
+  EXPECT_EQ(program.run("accept plan --reason x --store s.sqlite --baselines baselines").code, 0);
+  const Result pass = program.run("gate plan --store s.sqlite --baselines baselines");
+  EXPECT_EQ(pass.code, 0) << pass.output;
+}
+
 // The truth that the store keeps is that of what the file held then.
 TEST(Gate, AnEditedTransferFunctionIsNotJudgedByWhatItWas) {
   const Program program;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "record/data_factors.hpp"
 #include "record/store_file.hpp"
 
 namespace triptych::record {
@@ -64,7 +65,7 @@ std::string add_factors(RowBatch& rows, Query& factors, std::int64_t record) {
     rows.add(record);
     rows.add(factors, 0, 2);
     const std::string_view name = factors.text(0);
-    if (name != "data" && name != "voxel" && name != "colour") continue;
+    if (!decides_data(name)) continue;
     data.append(" ").append(name).append("=").append(factors.text(1));
   }
   return data;

@@ -1,0 +1,16 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace triptych::record {
+
+// What a record's data_hash depends on, of the factors as a device resolved them.
+inline constexpr std::array<std::string_view, 5> data_factors{"data", "voxel", "colour", "window",
+                                                              "mapping"};
+
+[[nodiscard]] inline bool decides_data(std::string_view factor) {
+  return std::ranges::find(data_factors, factor) != data_factors.end();
+}
+
+}  // namespace triptych::record
