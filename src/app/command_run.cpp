@@ -19,6 +19,7 @@
 #include "app/truth.hpp"
 #include "measure/protocol/plant.hpp"
 #include "measure/request/error_request.hpp"
+#include "measure/request/fastest.hpp"
 #include "measure/system/process.hpp"
 #include "measure/worker/worker.hpp"
 
@@ -42,6 +43,7 @@ struct RunArguments {
   bool timed = false;
   std::vector<std::string> plants;
   std::optional<std::string> error;  // as it was typed
+  bool chooses = false;              // tells the fastest of what a plan says "auto" of
   std::FILE* told_to = stdout;
 };
 
@@ -109,7 +111,14 @@ std::vector<measure::Plan> load_plans(const RunArguments& arguments, const Regis
       throw core::InputError(
           fmt::format("two plans are called {}: a plan's runs are known by its name", plan.name));
     }
-    if (arguments.timed && !plan.counted()) plan.checks.insert(record::Check::timing);
+    const bool chooses = arguments.chooses && !plan.automatic.empty();
+    if (chooses && arguments.untimed && !plan.counted()) {
+      throw core::InputError(
+          fmt::format("{}: auto is chosen by time, of which --untimed tells none", plan.name));
+    }
+    if ((arguments.timed || chooses) && !plan.counted()) {
+      plan.checks.insert(record::Check::timing);
+    }
     plans.push_back(std::move(plan));
   }
   return plans;
@@ -214,6 +223,15 @@ Told measure_within_error(const Bench& bench, const measure::Plan& plan) {
   return told;
 }
 
+void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::string& run) {
+  if (plan.automatic.empty()) return;
+  const std::vector<record::Record> records = bench.store.records(run);
+  for (const measure::FastestAnswer& answer :
+       measure::answer_fastest(records, bench.registry.suite(plan.suite), plan.automatic)) {
+    fmt::print("{}\n", describe(answer, plan.automatic));
+  }
+}
+
 // Measures as the arguments say and says in a few lines how it went.
 Told run_and_tell(const RunArguments& arguments) {
   const Registry registry = make_registry();
@@ -225,6 +243,9 @@ Told run_and_tell(const RunArguments& arguments) {
   const Bench bench{arguments, registry, devices, store};
   if (arguments.error) return measure_within_error(bench, plans.front());
   Told told{.results = measure_and_tell(bench, plans)};
+  for (std::size_t i = 0; arguments.chooses && i < plans.size(); ++i) {
+    tell_the_fastest(bench, plans[i], told.results[i].run);
+  }
   told.scored = std::ranges::any_of(
       plans, [](const measure::Plan& plan) { return plan.checks.contains(record::Check::stress); });
   return told;
@@ -351,6 +372,7 @@ void measure_plans(const Measuring& measuring) {
 
 void add_run_commands(Commands& commands) {
   auto arguments = std::make_shared<RunArguments>();
+  arguments->chooses = true;
   CLI::App* command = commands.add("run", "Measure a plan on the devices of this machine",
                                    [arguments] { return run(*arguments); });
   add_run_options(*command, *arguments);

@@ -20,7 +20,11 @@ void FrameArguments::add_to(CLI::App& command) {
 OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments) {
   measure::SuiteWithTruth& suite = registry.suite(arguments.suite);
   measure::Plan plan = measure::default_plan(suite, parse_overrides(arguments.set));
-  if (plan.configurations.size() != 1) {
+  std::vector<std::string> several = plan.varied;
+  if (arguments.chooses) {
+    std::erase_if(several, [&](const auto& factor) { return plan.automatic.contains(factor); });
+  }
+  if (!several.empty()) {
     throw core::InputError("one configuration is drawn: give each factor one value");
   }
   require_writable(arguments.out);

@@ -17,12 +17,14 @@ struct FrameArguments {
   std::string out;
   std::vector<std::string> plants;
 
+  bool chooses = false;  // "auto" may stand for several techniques
+
   void add_to(CLI::App& command);  // all but --out
 };
 
 struct OneFrame {
   measure::SuiteWithTruth& suite;
-  measure::Plan plan;  // of that configuration
+  measure::Plan plan;  // of that configuration, or of those that "auto" stands for
   std::string device;  // its id
 };
 

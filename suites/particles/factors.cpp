@@ -21,8 +21,7 @@ constexpr double any_field_of_view = 60;  // for checking a camera's spelling
 
 const std::vector<Factor>& particle_factors() {
   static const std::vector<Factor> factors{
-      choice("technique", measure::technique_ids("particles"), "quad_instanced",
-             Decides::how_it_is_made, "how the spheres are drawn"),
+      measure::technique_factor("particles", "quad_instanced", "how the spheres are drawn"),
       text(
           "data", "generate:uniform:10000",
           "a particle file (.pdb, .cif, .gro, .xyz, .lammpstrj, .dump, .data, .lmp, .mmpld, plain "

@@ -28,8 +28,7 @@ Factor silent(Factor factor) {
 
 const std::vector<Factor>& volume_factors() {
   static const std::vector<Factor> factors{
-      choice("technique", measure::technique_ids("volume"), "raycast", Decides::how_it_is_made,
-             "how the picture is made"),
+      measure::technique_factor("volume", "raycast", "how the picture is made"),
       text("data", "generate:mandelbulb:96",
            "a volume file (.nrrd, .nhdr, .dat), generate:NAME:SIZE, generate:NAME:NXxNYxNZ, "
            "analytic:PROBLEM:SIZE, known by a formula, or stress:CASE:VARIANT"),

@@ -41,12 +41,17 @@ Factor text(std::string name, std::string standard, std::string summary) {
           .summary = std::move(summary)};
 }
 
-std::vector<std::string> technique_ids(std::string_view suite) {
-  std::vector<std::string> ids;
+Factor technique_factor(std::string_view suite, std::string standard, std::string summary) {
+  Factor factor = choice("technique", {}, std::move(standard), Decides::how_it_is_made,
+                         std::move(summary) +
+                             "; auto: all that draw it, of which the fastest is "
+                             "told");
   for (const technique::Technique& each : technique::catalogue()) {
-    if (each.suite == suite) ids.push_back(each.id);
+    if (each.suite != suite) continue;
+    factor.levels.push_back(each.id);
+    if (each.picture) factor.automatic.push_back(each.id);
   }
-  return ids;
+  return factor;
 }
 
 std::array<int, 2> parse_viewport(std::string_view value) {

@@ -21,8 +21,10 @@ enum class Decides : std::uint8_t { the_picture, how_it_is_made };
 // Its values are checked by Suite::check. It decides the picture.
 [[nodiscard]] Factor text(std::string name, std::string standard, std::string summary);
 
-// The ids of the catalogue's techniques of a suite, in its order.
-[[nodiscard]] std::vector<std::string> technique_ids(std::string_view suite);
+// The factor `technique` of a suite: the catalogue's, in its order. "auto" are those that draw a
+// picture.
+[[nodiscard]] Factor technique_factor(std::string_view suite, std::string standard,
+                                      std::string summary);
 
 // "N" or "WxH" → {width, height}; throws InputError.
 [[nodiscard]] std::array<int, 2> parse_viewport(std::string_view value);

@@ -36,6 +36,9 @@ struct Factor {
   bool of_scene = true;  // decides the picture, or only how it is computed
   // At its default it is no part of a scene's key: keys are older than the factor.
   bool silent_default = false;
+  // What "auto" stands for in a plan, where it is no default: all of them are measured, and the
+  // fastest is told (measure/request/fastest.hpp).
+  std::vector<std::string> automatic = {};
   std::string summary;  // one line with unit and source, for --help and docs
 };
 

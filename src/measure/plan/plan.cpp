@@ -30,15 +30,26 @@ const Factor& factor_of(const Suite& suite, const PlacedText& name) {
       name.place, fmt::format("unknown factor '{}'{}", name.text, suggestion(name.text, known)));
 }
 
+// What a block of a plan says.
+struct BlockText {
+  ValuesByFactor values;
+  std::set<std::string> automatic;  // factors with "auto" among their values
+
+  void set(const Suite& suite, const Factor& factor, const std::vector<PlacedText>& given) {
+    values[factor.name] = canonical_values(suite, factor, given);
+    automatic.erase(factor.name);
+    if (is_automatic(factor, given)) automatic.insert(factor.name);
+  }
+};
+
 // Sets, or sets anew, what the entries name.
-void set_values(const Suite& suite, const std::vector<PlanEntry>& entries, ValuesByFactor& values) {
+void set_values(const Suite& suite, const std::vector<PlanEntry>& entries, BlockText& block) {
   for (const PlanEntry& entry : entries) {
-    const Factor& factor = factor_of(suite, entry.factor);
-    values[factor.name] = canonical_values(suite, factor, entry.values);
+    block.set(suite, factor_of(suite, entry.factor), entry.values);
   }
 }
 
-void apply(const Overrides& overrides, const Suite& suite, ValuesByFactor& values) {
+void apply(const Overrides& overrides, const Suite& suite, BlockText& block) {
   std::vector<std::string> seen;
   for (const auto& [name, texts] : overrides) {
     const core::FilePlace place{.file = "--set " + name};
@@ -52,7 +63,7 @@ void apply(const Overrides& overrides, const Suite& suite, ValuesByFactor& value
     if (texts.empty()) throw core::InputError(place, "expected factor=value or factor=a,b");
     std::vector<PlacedText> placed;
     for (const std::string& each : texts) placed.push_back({.text = each, .place = place});
-    values[name] = canonical_values(suite, factor, placed);
+    block.set(suite, factor, placed);
   }
 }
 
@@ -161,13 +172,15 @@ OpenPlan open_plan(std::string_view name_or_file, const Overrides& overrides,
   const PlanSource source = find_plan(name_or_file, find_suite);
   const PlanText text = parse_plan(source.yaml, source.file);
   const Suite& suite = suite_of(source, text, find_suite);
-  std::vector<ValuesByFactor> blocks(1 + text.also.size());
+  std::vector<BlockText> texts(1 + text.also.size());
+  std::vector<ValuesByFactor> blocks;
   std::vector<core::FilePlace> places;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
+  for (std::size_t i = 0; i < texts.size(); ++i) {
     std::vector<const std::vector<PlanEntry>*> entries{&text.entries};
     if (i > 0) entries.push_back(&text.also[i - 1]);
-    for (const auto* each : entries) set_values(suite, *each, blocks[i]);
-    apply(overrides, suite, blocks[i]);
+    for (const auto* each : entries) set_values(suite, *each, texts[i]);
+    apply(overrides, suite, texts[i]);
+    blocks.push_back(texts[i].values);
     places.push_back(longest_place(source, blocks[i], entries, overrides));
   }
   Combinations combinations(suite, blocks);
@@ -178,6 +191,9 @@ OpenPlan open_plan(std::string_view name_or_file, const Overrides& overrides,
   plan.argument = name_or_file;
   for (const ValuesByFactor& block : blocks) {
     for (const auto& [factor, values] : block) plan.named.insert(factor);
+  }
+  for (const BlockText& block : texts) {
+    plan.automatic.insert(block.automatic.begin(), block.automatic.end());
   }
   return {std::move(plan), suite, std::move(combinations), std::move(places)};
 }
@@ -230,11 +246,12 @@ Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
 }
 
 Plan default_plan(const Suite& suite, const Overrides& overrides) {
-  ValuesByFactor values;
-  apply(overrides, suite, values);
-  const Combinations combinations(suite, {values});
+  BlockText block;
+  apply(overrides, suite, block);
+  const Combinations combinations(suite, {block.values});
   require_few(combinations, {{.file = "--set"}}, {});
   Plan plan = plan_of(std::string(suite.name()) + "/defaults", suite, combinations);
+  plan.automatic = block.automatic;
   hold(combinations, {}, plan);
   return plan;
 }

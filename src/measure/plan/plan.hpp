@@ -28,6 +28,8 @@ struct Plan {
   std::string hash;
   std::string argument = {};         // as it was typed
   std::set<std::string> named = {};  // factors that its text or an override names
+  // Those of which it says "auto": the fastest of their levels is asked for.
+  std::set<std::string> automatic = {};
 
   [[nodiscard]] static record::Checks standard_checks();
   [[nodiscard]] bool timed() const { return checks.contains(record::Check::timing); }

@@ -98,12 +98,21 @@ std::string canonical(const Suite& suite, const Factor& factor, const PlacedText
   return text;
 }
 
-// "PATH:*/n" of a factor of texts as PATH:0/n … PATH:(n−1)/n, at the same place.
+bool stands_for_several(const Factor& factor, const PlacedText& value) {
+  return value.text == "auto" && !factor.automatic.empty();
+}
+
+// "PATH:*/n" of a factor of texts as PATH:0/n … PATH:(n−1)/n, "auto" as the factor's automatic
+// levels, at the same place.
 std::vector<PlacedText> with_ranges(const Factor& factor, const std::vector<PlacedText>& values) {
   constexpr std::string_view all = ":*/";
   constexpr int most = 10'000;
   std::vector<PlacedText> result;
   for (const PlacedText& value : values) {
+    if (stands_for_several(factor, value)) {
+      for (const std::string& level : factor.automatic) result.push_back({level, value.place});
+      continue;
+    }
     const std::size_t at = value.text.find(all);
     if (factor.kind != FactorKind::text || at == std::string::npos) {
       result.push_back(value);
@@ -139,6 +148,11 @@ std::string standard_of(const Factor& factor) {
     if (const auto number = parse_number(factor.standard)) return fmt::format("{}", *number);
   }
   return factor.standard;
+}
+
+bool is_automatic(const Factor& factor, const std::vector<PlacedText>& given) {
+  return std::ranges::any_of(
+      given, [&](const PlacedText& value) { return stands_for_several(factor, value); });
 }
 
 std::vector<std::string> canonical_values(const Suite& suite, const Factor& factor,

@@ -16,9 +16,12 @@ namespace triptych::measure {
 // The default in the same spelling as values from a plan.
 [[nodiscard]] std::string standard_of(const Factor& factor);
 
+// Whether "auto" is among the values, and stands for several of the factor's levels.
+[[nodiscard]] bool is_automatic(const Factor& factor, const std::vector<PlacedText>& given);
+
 // Each value in its one spelling; of a factor of texts "PATH:*/n" stands for n of them, PATH:0/n to
-// PATH:(n−1)/n. Throws InputError with the place of a value that is no number,
-// out of range, no level, refused by the suite, or there twice.
+// PATH:(n−1)/n, and "auto" of a factor for its automatic levels. Throws InputError with the place
+// of a value that is no number, out of range, no level, refused by the suite, or there twice.
 [[nodiscard]] std::vector<std::string> canonical_values(const Suite& suite, const Factor& factor,
                                                         const std::vector<PlacedText>& given);
 

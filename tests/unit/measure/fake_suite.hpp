@@ -116,6 +116,7 @@ class FakeSuite final : public Suite {
        .levels = {"raycast", "raycast_fragment"},
        .standard = "raycast",
        .of_scene = false,
+       .automatic = {"raycast", "raycast_fragment"},
        .summary = "how it is drawn"},
       {.name = "data", .standard = "cube", .summary = "what is drawn"},
       {.name = "sampler",

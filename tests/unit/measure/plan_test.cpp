@@ -53,6 +53,22 @@ TEST_F(PlanTest, AllViewsOfAPath) {
               ElementsAre("orbit_y:0/3", "orbit_y:1/3", "orbit_y:2/3", "random:7"));
 }
 
+TEST_F(PlanTest, AutoIsEveryTechniqueThatDraws) {
+  const Plan plan = load("suite: fake\ntechnique: auto\n");
+  EXPECT_THAT(values(plan, "technique"), ElementsAre("raycast", "raycast_fragment"));
+  EXPECT_THAT(plan.automatic, ElementsAre("technique"));
+  const Plan set = load_plan("fake/quick", {{"technique", {"auto"}}}, find_);
+  EXPECT_THAT(set.configurations, SizeIs(16));
+  EXPECT_THAT(set.automatic, ElementsAre("technique"));
+  EXPECT_THAT(default_plan(suite_, {{"technique", {"auto"}}}).automatic, ElementsAre("technique"));
+}
+
+TEST_F(PlanTest, AutoIsForgottenWhereALevelIsNamed) {
+  const std::string yaml = "suite: fake\ntechnique: auto\n";
+  EXPECT_THAT(load(yaml, {{"technique", {"raycast"}}}).automatic, IsEmpty());
+  EXPECT_THAT(load("suite: fake\nsampler: auto\n").automatic, IsEmpty());  // the default path
+}
+
 TEST_F(PlanTest, DataVariesSlowestCameraFastest) {
   const Plan plan = load(
       "suite: fake\n"

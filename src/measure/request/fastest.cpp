@@ -1,0 +1,137 @@
+#include "measure/request/fastest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "measure/plan/plan.hpp"
+#include "record/factor_list.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using record::Record;
+
+std::string scene_of(const Suite& suite, Configuration configuration,
+                     const std::set<std::string>& chosen) {
+  std::string key;
+  for (const auto& [factor, level] :
+       record::parse_factor_list(configuration_key(suite, std::move(configuration)))) {
+    if (!chosen.contains(factor)) key += (key.empty() ? "" : ",") + factor + "=" + level;
+  }
+  return key;
+}
+
+std::string chosen_levels(const Record& record, const std::set<std::string>& chosen) {
+  std::string text;
+  for (const std::string& factor : chosen) {
+    text += (text.empty() ? "" : ",") + record.factors.at(factor);
+  }
+  return text;
+}
+
+std::optional<Contestant> counted(const Record& record) {
+  const auto code = record.cost.find("device_code");
+  const auto driver = record.cost.find("driver");
+  if (code == record.cost.end() || driver == record.cost.end()) return std::nullopt;
+  const auto sum = static_cast<double>(code->second + driver->second);
+  return Contestant{&record, sum, sum};
+}
+
+std::optional<Contestant> timed(const Record& record, std::string_view clock) {
+  const auto summary = record::summarise(record.time_ns_by(clock));
+  if (!summary) return std::nullopt;
+  return Contestant{&record, summary->minimum, summary->median};
+}
+
+Ruler ruler_of(const std::vector<const Record*>& measured) {
+  if (std::ranges::any_of(measured, [](const Record* each) { return !each->cost.empty(); })) {
+    return Ruler::instructions;
+  }
+  const auto by_device = [](const Record* each) { return each->clock() == "device"; };
+  return std::ranges::all_of(measured, by_device) ? Ruler::device_clock : Ruler::wall_clock;
+}
+
+// Of those with the same levels the fastest is kept.
+void keep_fastest(std::vector<Contestant>& contestants, const std::set<std::string>& chosen) {
+  std::ranges::stable_sort(contestants, {}, &Contestant::amount);
+  std::set<std::string> seen;
+  std::erase_if(contestants, [&](const Contestant& each) {
+    return !seen.insert(chosen_levels(*each.record, chosen)).second;
+  });
+}
+
+FastestAnswer answer_of(const std::vector<const Record*>& records,
+                        const std::set<std::string>& chosen) {
+  FastestAnswer answer;
+  std::vector<const Record*> measured;
+  for (const Record* each : records) {
+    (each->outcome == record::Outcome::measured ? measured : answer.not_drawn).push_back(each);
+  }
+  answer.ruler = ruler_of(measured);
+  for (const Record* each : measured) {
+    const auto contestant =
+        answer.ruler == Ruler::instructions
+            ? counted(*each)
+            : timed(*each, answer.ruler == Ruler::device_clock ? "device" : "wall");
+    if (contestant) answer.contestants.push_back(*contestant);
+  }
+  keep_fastest(answer.contestants, chosen);
+  return answer;
+}
+
+std::string praise(const Contestant& contestant, Ruler ruler) {
+  if (ruler == Ruler::instructions) {
+    return fmt::format("takes the fewest instructions, {:.1f} million", contestant.amount / 1e6);
+  }
+  return fmt::format("is the fastest, {:.3f} ms (median {:.3f}, {} clock)", contestant.amount / 1e6,
+                     contestant.usually / 1e6, ruler == Ruler::device_clock ? "device" : "wall");
+}
+
+}  // namespace
+
+std::vector<FastestAnswer> answer_fastest(const std::vector<Record>& records, const Suite& suite,
+                                          const std::set<std::string>& chosen) {
+  std::map<std::pair<std::string, std::string>, std::vector<const Record*>> groups;
+  for (const Record& each : records) {
+    groups[{each.device, scene_of(suite, each.factors, chosen)}].push_back(&each);
+  }
+  std::vector<FastestAnswer> answers;
+  for (const auto& [key, group] : groups) {
+    const auto levels = [&](const Record* each) { return chosen_levels(*each, chosen); };
+    const std::string first = levels(group.front());
+    if (std::ranges::all_of(group, [&](const auto* each) { return levels(each) == first; })) {
+      continue;
+    }
+    answers.push_back(answer_of(group, chosen));
+    answers.back().device = key.first;
+    answers.back().scene = key.second;
+  }
+  return answers;
+}
+
+std::string describe(const FastestAnswer& answer, const std::set<std::string>& chosen) {
+  std::string text = fmt::format("{} {}: ", answer.device, answer.scene);
+  if (answer.contestants.empty()) {
+    text += "nothing was measured to choose by";
+  } else {
+    const Contestant& best = answer.contestants.front();
+    text += fmt::format("{} {}", chosen_levels(*best.record, chosen), praise(best, answer.ruler));
+    for (std::size_t i = 1; i < answer.contestants.size(); ++i) {
+      const Contestant& each = answer.contestants[i];
+      text += fmt::format("{}{} {:.2f} times{}", i == 1 ? "; " : ", ",
+                          chosen_levels(*each.record, chosen), each.amount / best.amount,
+                          each.amount <= best.usually ? " (as fast)" : "");
+    }
+  }
+  for (std::size_t i = 0; i < answer.not_drawn.size(); ++i) {
+    text += fmt::format("{}{}", i == 0 ? "; not drawn: " : ", ",
+                        chosen_levels(*answer.not_drawn[i], chosen));
+  }
+  return text;
+}
+
+}  // namespace triptych::measure

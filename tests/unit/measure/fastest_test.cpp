@@ -1,0 +1,107 @@
+// The choice of `auto`, from records alone.
+
+#include "measure/request/fastest.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fake_suite.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using testing::HasSubstr;
+
+const std::set<std::string> of_techniques{"technique"};
+
+class FastestTest : public testing::Test {
+ protected:
+  record::Record& add(const std::string& technique, const std::vector<double>& wall_ns,
+                      const std::string& device = "null:a", const std::string& data = "cube") {
+    record::Record record;
+    record.device = device;
+    record.outcome = record::Outcome::measured;
+    for (const Factor& factor : suite_.factors()) record.factors[factor.name] = factor.standard;
+    record.factors["technique"] = technique;
+    record.factors["data"] = data;
+    record.wall_ns = wall_ns;
+    return records_.emplace_back(std::move(record));
+  }
+  [[nodiscard]] std::vector<FastestAnswer> answers() const {
+    return answer_fastest(records_, suite_, of_techniques);
+  }
+  [[nodiscard]] std::string text() const { return describe(answers().at(0), of_techniques); }
+
+  FakeSuite suite_;
+  std::vector<record::Record> records_;
+};
+
+TEST_F(FastestTest, IsThatOfTheFastestFrame) {
+  add("raycast", {4e6, 4.1e6, 90e6});
+  add("raycast_fragment", {80e6, 2e6, 2.1e6});
+  ASSERT_EQ(answers().size(), 1U);
+  EXPECT_EQ(text(),
+            "null:a camera=orbit_y:0/8,data=cube: raycast_fragment is the fastest, 2.000 ms "
+            "(median 2.100, wall clock); raycast 2.00 times");
+}
+
+TEST_F(FastestTest, TellsWhatIsAsFast) {
+  add("raycast", {1.0e6, 1.1e6, 1.2e6});
+  add("raycast_fragment", {1.05e6, 1.15e6, 1.3e6});
+  EXPECT_THAT(text(), HasSubstr("raycast_fragment 1.05 times (as fast)"));
+}
+
+TEST_F(FastestTest, OfATechniqueMeasuredTwiceTheFasterTimeCounts) {
+  add("raycast", {3e6});
+  EXPECT_TRUE(answers().empty());
+  add("raycast_fragment", {2e6});
+  add("raycast", {1e6});
+  add("raycast_fragment", {4e6});
+  EXPECT_THAT(text(), HasSubstr(": raycast is the fastest, 1.000 ms"));
+  EXPECT_THAT(text(), HasSubstr("; raycast_fragment 2.00 times"));
+  EXPECT_EQ(answers().at(0).contestants.size(), 2U);
+}
+
+TEST_F(FastestTest, IsChosenOfEachSceneAndDeviceByItself) {
+  for (const char* device : {"null:a", "null:b"}) {
+    for (const char* data : {"cube", "ball"}) {
+      add("raycast", {1e6}, device, data);
+      add("raycast_fragment", {2e6}, device, data);
+    }
+  }
+  add("raycast", {1e6}, "null:c");  // nothing to choose from
+  EXPECT_EQ(answers().size(), 4U);
+}
+
+// A clock for compute and another for drawing say nothing about each other.
+TEST_F(FastestTest, IsToldByOneClock) {
+  record::Record& trusted = add("raycast", {9e6});
+  trusted.device_ns = {1e6};
+  trusted.device_clock_trusted = true;
+  record::Record& other = add("raycast_fragment", {5e6});
+  other.device_ns = {4e6};
+  EXPECT_THAT(text(), HasSubstr("raycast_fragment is the fastest, 5.000 ms"));
+  records_.back().device_clock_trusted = true;
+  EXPECT_THAT(text(), HasSubstr("raycast is the fastest, 1.000 ms (median 1.000, device clock)"));
+}
+
+// Of what repeats the choice repeats.
+TEST_F(FastestTest, IsThatOfTheFewestInstructionsWhereTheyWereCounted) {
+  add("raycast", {}).cost = {{"device_code", 5'000'000}, {"driver", 1'000'000}, {"libc", 9}};
+  add("raycast_fragment", {}).cost = {{"device_code", 2'000'000}, {"driver", 2'000'000}};
+  EXPECT_THAT(text(), HasSubstr("raycast_fragment takes the fewest instructions, 4.0 million; "
+                                "raycast 1.50 times"));
+}
+
+TEST_F(FastestTest, NamesWhatTheDeviceCannotDraw) {
+  add("raycast", {1e6});
+  record::Record& skipped = add("raycast_fragment", {});
+  skipped.outcome = record::Outcome::skipped;
+  EXPECT_THAT(text(), HasSubstr("; not drawn: raycast_fragment"));
+  records_.front().outcome = record::Outcome::failed;
+  EXPECT_THAT(text(), HasSubstr("nothing was measured to choose by; not drawn: raycast, "
+                                "raycast_fragment"));
+}
+
+}  // namespace
+}  // namespace triptych::measure
