@@ -151,7 +151,7 @@ def _aside(records, notes, more, emulated):
     """Without what is no observation, which is told."""
     outcome = records["outcome"].astype(str)
     reasons = [(outcome != "measured", outcome + " on " + records["device"].astype(str)),
-               (records["planted"].notna(), "with a planted fault"),
+               (records["injected"].notna(), "with an injected fault"),
                (records["technique"] == "speed_of_light", "of a technique that makes no picture"),
                (emulated, "counted, hence timed under an emulator, if at all")]
     reasons += [(wrong, text + " on " + records["device"].astype(str)) for wrong, text in more]

@@ -12,9 +12,9 @@ class InputError(Exception):
 
 
 # What the analysis takes of the tables, beside the columns of factors and of cost.
-RECORD_COLUMNS = ["record", "run", "suite", "plan", "configuration", "technique", "device", "outcome", "planted",
+RECORD_COLUMNS = ["record", "run", "suite", "plan", "configuration", "technique", "device", "outcome", "injected",
                   "median_wall_ns", "median_device_ns", "device_clock_trusted", "counted_by"]
-TEXT = {"run", "suite", "plan", "configuration", "technique", "device", "outcome", "planted", "counted_by", "started_at",
+TEXT = {"run", "suite", "plan", "configuration", "technique", "device", "outcome", "injected", "counted_by", "started_at",
         "device_key", "processor", "store"}
 FACTOR, COST = "factor_", "cost_"
 

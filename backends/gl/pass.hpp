@@ -28,7 +28,7 @@ class Pass {
   [[nodiscard]] virtual std::span<const Statistic> statistics() const = 0;
   // Makes its target the current one; before the clock starts.
   virtual void bind(const Api& gl) = 0;
-  // The calls that are timed: the picture and, but for counters, the planted extra work beside it.
+  // The calls that are timed: the picture and, but for counters, the injected extra work beside it.
   virtual void submit(const Api& gl, measure::Purpose purpose) = 0;
   // The picture; the device has finished it.
   [[nodiscard]] virtual core::Image read(const Api& gl) const = 0;

@@ -36,7 +36,7 @@ class ParticleFrames final : public measure::Prepared {
   ParticleConstants constants_;
   ParticleStages stages_;
   Pass picture_;
-  std::optional<Pass> extra_;  // the planted slowdown
+  std::optional<Pass> extra_;  // the injected slowdown
   std::vector<Launch> timed_;
   std::vector<Launch> counting_;
   std::vector<cl::Event> events_;

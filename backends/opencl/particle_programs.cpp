@@ -19,14 +19,14 @@ struct Part {
 };
 
 // Never -cl-fast-relaxed-math or -cl-mad-enable: the same bits on every run and device. `faults`:
-// those that this program has something to break for; others are planted elsewhere.
+// those that this program has something to break for; others are injected elsewhere.
 std::string common_options(const ParticleConstants& constants,
                            std::initializer_list<ParticleFault> faults) {
-  const bool planted = std::ranges::find(faults, constants.fault) != faults.end();
+  const bool injected = std::ranges::find(faults, constants.fault) != faults.end();
   return fmt::format(
       "-cl-std=CL1.2 -DTRI_TILE={} -DTRI_TILE_SHIFT={} -DTRI_COUNT={:d} -DTRI_FAULT={}", tile_edge,
       std::countr_zero(static_cast<unsigned>(tile_edge)), constants.count,
-      planted ? static_cast<int>(constants.fault) : 0);
+      injected ? static_cast<int>(constants.fault) : 0);
 }
 
 Part cells_part(const ParticleConstants& constants) {

@@ -20,7 +20,7 @@ enum class Sprite : std::uint8_t {
 };
 
 // The compile-time constants of particles.cl and what follows it. A build that does not count or
-// plant a fault holds no trace of it.
+// inject a fault holds no trace of it.
 struct ParticleConstants {
   Sprite sprite = Sprite::rectangle;
   scene::ColourKind colour = scene::ColourKind::rgba8;

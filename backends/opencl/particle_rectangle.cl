@@ -26,7 +26,7 @@ TRI_FN int last_pixel(float high, float half_extent, float pixel, int n) {
   return (int)tri_floor(at);
 }
 
-// The interval that a sphere covers along one axis, with a margin of 1/64 pixel; the planted fault
+// The interval that a sphere covers along one axis, with a margin of 1/64 pixel; the injected fault
 // takes 1 % off.
 TRI_FN float2 covered(float a, float z, float r, float pixel, float scale) {
   float2 bounds = tri_sphere_interval(a, z, r);

@@ -13,7 +13,7 @@
 namespace triptych::opencl_backend {
 
 // The compile-time constants of volume.cl and raycast.cl. A build that does not count, shade or
-// plant a fault holds no trace of it.
+// inject a fault holds no trace of it.
 struct Constants {
   technique::Sampler sampler = technique::Sampler::manual;
   scene::VoxelFormat voxel = scene::VoxelFormat::f32;

@@ -174,7 +174,7 @@ TRI_FN int take_steps(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 #endif
 
 // Image: premultiplied RGBA, top row first. Column x of the grid is
-// image column tri_drawn_column(x): x itself for the picture, others beside it for planted extra work.
+// image column tri_drawn_column(x): x itself for the picture, others beside it for injected extra work.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const int* brick_map, __global float4* image,
                       __global uint* counters, __global const float4* pairs) {

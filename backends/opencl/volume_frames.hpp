@@ -41,7 +41,7 @@ class VolumeFrames final : public measure::Prepared {
   cl::Buffer quadrature_;
   cl::Buffer image_;
   cl::Buffer counters_;
-  std::vector<Launch> timed_;      // one, with the planted extra work if there is any
+  std::vector<Launch> timed_;      // one, with the injected extra work if there is any
   std::vector<Launch> counting_;   // one, of the picture alone
   std::vector<cl::Event> events_;  // of the last frame, one per launch
   std::vector<std::uint32_t> counts_;

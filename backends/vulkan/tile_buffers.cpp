@@ -36,7 +36,7 @@ vk::Extent3D pairs(const scene::ParticleScene& scene, const technique::TileRound
           parts(static_cast<std::uint32_t>(scene.height), 2), 1};
 }
 
-// With work planted, a particle may be kept twice, and a sphere have each of its entries twice.
+// With work injected, a particle may be kept twice, and a sphere have each of its entries twice.
 std::uint64_t times(const measure::ParticleWork& work) {
   return work.options.extra_work_stride > 0 ? 2 : 1;
 }

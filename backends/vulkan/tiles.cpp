@@ -144,7 +144,7 @@ void TilesFrames::push(const vk::raii::CommandBuffer& commands, std::uint32_t fi
                                   RoundOf{first_cell, cells});
 }
 
-// Cells of the round `again` are binned twice: planted work that changes nothing.
+// Cells of the round `again` are binned twice: injected work that changes nothing.
 void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                       const technique::TileRound& round, std::uint32_t again) const {
   push(commands, round.first, round.cells);

@@ -28,7 +28,7 @@ enum Binding : std::uint32_t {
 
 // A pass over the picture.
 enum class Pass : std::uint8_t {
-  timed,    // with the planted extra work, if there is any
+  timed,    // with the injected extra work, if there is any
   counting  // the picture alone, with the counters bound
 };
 

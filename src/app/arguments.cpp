@@ -65,6 +65,12 @@ void add_baselines_option(CLI::App& command, std::string& folder) {
       });
 }
 
+void add_inject_option(CLI::App& command, std::vector<std::string>& faults,
+                       const std::string& help) {
+  command.add_option("--inject", faults, help);
+  command.add_option("--plant", faults)->group("");
+}
+
 void add_limit_option(CLI::App& command, int& seconds, const std::string& what) {
   command
       .add_option("--limit", seconds, fmt::format("Seconds after which {} counts as hung", what))
@@ -90,9 +96,9 @@ measure::Overrides parse_overrides(const std::vector<std::string>& set) {
   return overrides;
 }
 
-std::vector<measure::Plant> parse_plants(const std::vector<std::string>& plants) {
-  std::vector<measure::Plant> parsed;
-  for (const std::string& each : plants) {
+std::vector<measure::InjectedFault> parse_faults(const std::vector<std::string>& faults) {
+  std::vector<measure::InjectedFault> parsed;
+  for (const std::string& each : faults) {
     const auto at = each.find('@');
     parsed.push_back({.fault = each.substr(0, at),
                       .only = at == std::string::npos ? std::string{} : each.substr(at + 1)});

@@ -49,6 +49,10 @@ struct PlanArguments {
 // The folder of the baselines; one without a name would be the folder the program is started in.
 void add_baselines_option(CLI::App& command, std::string& folder);
 
+// --inject FAULT[@GLOB], repeatable, and its former name --plant, which help does not list.
+void add_inject_option(CLI::App& command, std::vector<std::string>& faults,
+                       const std::string& help);
+
 // Seconds until `what` counts as hung.
 inline constexpr int standard_limit_s = record::standard_limit.count();
 void add_limit_option(CLI::App& command, int& seconds, const std::string& what);
@@ -58,7 +62,8 @@ void add_limit_option(CLI::App& command, int& seconds, const std::string& what);
 [[nodiscard]] measure::Overrides parse_overrides(const std::vector<std::string>& set);
 
 // "FAULT" or "FAULT@GLOB".
-[[nodiscard]] std::vector<measure::Plant> parse_plants(const std::vector<std::string>& plants);
+[[nodiscard]] std::vector<measure::InjectedFault> parse_faults(
+    const std::vector<std::string>& faults);
 
 void add_devices_command(Commands& commands);
 void add_list_command(Commands& commands);

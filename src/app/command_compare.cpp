@@ -158,8 +158,8 @@ void add_compare_commands(Commands& commands) {
                       "SQLite file that keeps both runs (default: nothing is kept)");
   command->add_option("--seed", comparing.seed, "Of the order in which times are taken")
       ->capture_default_str();
-  command->add_option("--plant", comparing.plants,
-                      "Inject a fault into side b, to prove that it is found; as for run");
+  add_inject_option(*command, comparing.faults,
+                    "Inject a fault into side b, to prove that it is found; as for run");
   command->add_flag("--json", arguments->json, "Print everything as JSON");
 }
 

@@ -20,7 +20,7 @@ void print_text(const std::vector<Greeting>& greeted, const std::vector<measure:
     for (const record::ClockTrust& clock : each.clocks) {
       fmt::print("  clock for {}: {}\n", clock.work, clock.verdict);
     }
-    for (const auto& [statistic, verdict] : each.device.statistics_dialect) {
+    for (const auto& [statistic, verdict] : each.device.statistics_calibration) {
       fmt::print("  statistic {}: {}\n", statistic, verdict);
     }
     std::string limits;

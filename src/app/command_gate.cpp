@@ -30,7 +30,7 @@ struct GateArguments {
   std::vector<std::string> without;
   std::vector<std::string> devices;
   std::vector<std::string> required;
-  std::vector<std::string> plants;
+  std::vector<std::string> faults;
   std::string base;
   std::string out;
   std::string junit;
@@ -94,7 +94,7 @@ core::ExitCode judge_by_base(const GateArguments& arguments) {
   for (Comparing& each : comparisons) {
     each.plans = arguments.plans;
     each.choice = arguments.choice;
-    each.plants = arguments.plants;
+    each.faults = arguments.faults;
     each.times = arguments.times;
   }
   return compare_and_tell(comparisons, arguments.json);
@@ -111,7 +111,7 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
                    .choice = arguments.choice,
                    .devices = arguments.devices,
                    .store = arguments.store,
-                   .plants = arguments.plants,
+                   .faults = arguments.faults,
                    .brief = !arguments.times});
   }
   record::Store store = open_to_judge(arguments.store);
@@ -130,8 +130,8 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
 }
 
 void refuse_bad_files(const GateArguments& arguments) {
-  if (!arguments.plants.empty() && !arguments.measure && arguments.base.empty()) {
-    throw core::InputError("--plant needs --measure or --base: it goes into what is measured");
+  if (!arguments.faults.empty() && !arguments.measure && arguments.base.empty()) {
+    throw core::InputError("--inject needs --measure or --base: it goes into what is measured");
   }
   std::vector<NamedFile> read{{"--store", arguments.store}};
   for (const std::string& plan : arguments.plans) read.push_back({"PLAN", plan});
@@ -243,7 +243,7 @@ void add_gate_commands(Commands& commands) {
                             "--require", "--out", "--junit", "--markdown"}) {
     base->excludes(other);
   }
-  command->add_option("--plant", arguments->plants, "As of run, with --measure or --base");
+  add_inject_option(*command, arguments->faults, "As of run, with --measure or --base");
   add_accept_command(commands);
 }
 

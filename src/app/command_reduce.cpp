@@ -35,7 +35,7 @@ struct ReduceArguments {
 measure::RunOptions options_of(const ReduceArguments& arguments) {
   return {.protocol = {},
           .limit = std::chrono::seconds(arguments.limit_s),
-          .plants = parse_plants(arguments.frame.plants),
+          .faults = parse_faults(arguments.frame.faults),
           .worker_command = {own_program(), "worker", "--device"}};
 }
 
@@ -50,7 +50,7 @@ class Trial {
         frames_(frame.suite, frame.device, store, options, interrupts_) {
     if (other.empty()) return;
     measure::RunOptions healthy = options;
-    healthy.plants.clear();
+    healthy.faults.clear();
     other_.emplace(frame.suite, other, store, healthy, interrupts_);
   }
 
@@ -95,7 +95,7 @@ std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
                           .object = std::string(frame.suite.name()),
                           .device = frame.device,
                           .factors = record::parse_factor_list(record.configuration),
-                          .injected = arguments.frame.plants,
+                          .injected = arguments.frame.faults,
                           .limit = record::limit_in(failure.message),
                           .more = {"--truth", "--out", "again"},
                           .environment = device.environment};

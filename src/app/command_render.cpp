@@ -60,7 +60,7 @@ std::string measure_in(const Drawing& drawing, const measure::Plan& plan,
       measure::run_plan(plan, drawing.devices, drawing.suite, drawing.store,
                         {.protocol = protocol,
                          .limit = std::chrono::seconds(drawing.arguments.limit_s),
-                         .plants = parse_plants(drawing.arguments.frame.plants),
+                         .faults = parse_faults(drawing.arguments.frame.faults),
                          .worker_command = {own_program(), "worker", "--device"}},
                         [](const measure::Progress& progress) {
                           if (progress.loading) show_loading(*progress.loading);

@@ -17,7 +17,7 @@
 #include "app/registry.hpp"
 #include "app/saying.hpp"
 #include "app/truth.hpp"
-#include "measure/protocol/plant.hpp"
+#include "measure/protocol/injected_fault.hpp"
 #include "measure/request/error_request.hpp"
 #include "measure/request/fastest.hpp"
 #include "measure/system/process.hpp"
@@ -41,7 +41,7 @@ struct RunArguments {
   bool untimed = false;
   bool statistics = false;  // of an untimed run, too
   bool timed = false;
-  std::vector<std::string> plants;
+  std::vector<std::string> faults;
   std::optional<std::string> error;  // as it was typed
   bool chooses = false;              // tells the fastest of what a plan says "auto" of
   std::FILE* told_to = stdout;
@@ -143,7 +143,7 @@ measure::RunOptions options_of(const RunArguments& arguments) {
       .limit = std::chrono::seconds(arguments.limit_s),
       .resume = arguments.resume,
       .again = arguments.again,
-      .plants = parse_plants(arguments.plants),
+      .faults = parse_faults(arguments.faults),
       .jobs = arguments.jobs,
       .worker_command = worker_command(arguments),
   };
@@ -163,7 +163,7 @@ struct Bench {
   record::Store& store;
 };
 
-bool hits(const measure::Plant& fault, const Bench& bench, const measure::Plan& plan) {
+bool hits(const measure::InjectedFault& fault, const Bench& bench, const measure::Plan& plan) {
   const measure::Suite& suite = bench.registry.suite(plan.suite);
   return std::ranges::any_of(plan.configurations, [&](const measure::Configuration& each) {
     const std::string key = measure::configuration_key(suite, each);
@@ -175,11 +175,11 @@ bool hits(const measure::Plant& fault, const Bench& bench, const measure::Plan& 
 
 // Who injects a fault and sees a pass would think that it was not caught.
 void tell_faults_that_hit_nothing(const Bench& bench, const std::vector<measure::Plan>& plans,
-                                  const std::vector<measure::Plant>& faults) {
-  for (const measure::Plant& fault : faults) {
+                                  const std::vector<measure::InjectedFault>& faults) {
+  for (const measure::InjectedFault& fault : faults) {
     const auto hit = [&](const measure::Plan& plan) { return hits(fault, bench, plan); };
     if (std::ranges::any_of(plans, hit)) continue;
-    say("triptych: --plant {}@{} hits nothing: no configuration or device is called so; `triptych "
+    say("triptych: --inject {}@{} hits nothing: no configuration or device is called so; `triptych "
         "list PLAN` tells their names, which leave defaults out\n",
         fault.fault, fault.only);
   }
@@ -195,7 +195,7 @@ std::vector<measure::RunResult> measure_and_tell(const Bench& bench,
   }
   std::vector<measure::RunResult> results =
       measure::run_plans(runs, bench.devices, bench.store, show);
-  tell_faults_that_hit_nothing(bench, plans, options.plants);
+  tell_faults_that_hit_nothing(bench, plans, options.faults);
   for (std::size_t i = 0; i < plans.size(); ++i) tell(bench.arguments, plans[i], results[i]);
   return results;
 }
@@ -346,9 +346,9 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       ->excludes("--untimed");
   command.add_flag("--measure-every", arguments.measure_every,
                    "Measure configurations too that their scene cannot tell from one before");
-  command.add_option("--plant", arguments.plants,
-                     "Inject a fault to prove that the gate catches it: " + measure::plant_names() +
-                         "; FAULT@GLOB limits it to configurations or devices");
+  add_inject_option(command, arguments.faults,
+                    "Inject a fault to prove that the gate catches it: " + measure::fault_names() +
+                        "; FAULT@GLOB limits it to configurations or devices");
 }
 
 }  // namespace
@@ -362,7 +362,7 @@ void measure_plans(const Measuring& measuring) {
   arguments.resume = measuring.resume;
   arguments.again = measuring.again;
   arguments.jobs = measuring.jobs;
-  arguments.plants = measuring.plants;
+  arguments.faults = measuring.faults;
   arguments.brief = measuring.brief;
   arguments.untimed = measuring.untimed;
   arguments.statistics = true;

@@ -21,7 +21,7 @@
 #include "core/json_text.hpp"
 #include "core/quoting.hpp"
 #include "core/temporary_folder.hpp"
-#include "measure/protocol/plant.hpp"
+#include "measure/protocol/injected_fault.hpp"
 
 namespace triptych::app {
 namespace {
@@ -51,8 +51,8 @@ comparison::ComparisonCommand command_of(const Comparing& comparing, const std::
                                          const measure::Plan& plan) {
   comparison::ComparisonCommand command{
       .plan = typed, .sides = comparing.sides, .varied = plan.varied};
-  for (const std::string& plant : comparing.plants)
-    command.sides += " --plant " + core::shell_quoted(plant);
+  for (const std::string& each : comparing.faults)
+    command.sides += " --inject " + core::shell_quoted(each);
   // What the command line set to one value is no longer varied, but must be said again.
   for (const auto& [factor, values] : parse_overrides(comparing.choice.set)) {
     if (std::ranges::find(command.varied, factor) == command.varied.end()) {
@@ -82,12 +82,12 @@ class Comparer {
         .plan = comparing.choice.load(typed, registry_.find_suite()),
         .a = comparing.a,
         .b = comparing.b,
-        .plants = parse_plants(comparing.plants),
+        .faults = parse_faults(comparing.faults),
         .limit = std::chrono::seconds(comparing.limit_s),
         .seed = comparing.seed,
         .times = comparing.times,
     };
-    for (const measure::Plant& plant : options.plants) measure::check_plant(plant.fault);
+    for (const measure::InjectedFault& each : options.faults) measure::check_fault(each.fault);
     if (comparing.budget_s > 0) options.budget = std::chrono::seconds(comparing.budget_s);
     comparison::ComparisonResult result = comparison::compare(
         options, registry_.suite(options.plan.suite), store_, known_truth(truths_), show);

@@ -20,7 +20,7 @@ struct Comparing {
   measure::SideOptions a;
   measure::SideOptions b;
   std::string sides;                     // what names them on a command line, "--a … --b …"
-  std::vector<std::string> plants = {};  // into b
+  std::vector<std::string> faults = {};  // into b
   std::string store = {};                // keeps both runs of each plan; empty: nothing does
   int budget_s = 0;                      // none
   int limit_s = standard_limit_s;

@@ -18,7 +18,7 @@ struct Measuring {
   bool resume = false;  // into the plans' latest runs, else into new ones
   std::set<std::pair<std::string, std::string>> again = {};  // as of measure::RunOptions
   int jobs = 0;                                              // likewise
-  std::vector<std::string> plants = {};
+  std::vector<std::string> faults = {};
   bool brief = false;    // times are shown, and decide nothing
   bool untimed = false;  // a frame each for the picture, the counters and the statistics
 };

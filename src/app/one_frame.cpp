@@ -14,7 +14,7 @@ void FrameArguments::add_to(CLI::App& command) {
   command.add_option("SUITE", suite, "volume or particles")->required();
   command.add_option("--device", device, "Device id or a glob for one")->required();
   command.add_option("--set", set, "factor=value (repeatable); a comma in it is spelled %2C");
-  command.add_option("--plant", plants, "Inject a fault, as for run (repeatable)");
+  add_inject_option(command, faults, "Inject a fault, as for run (repeatable)");
 }
 
 OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments) {

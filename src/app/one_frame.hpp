@@ -15,7 +15,7 @@ struct FrameArguments {
   std::string device;
   std::vector<std::string> set;
   std::string out;
-  std::vector<std::string> plants;
+  std::vector<std::string> faults;
 
   bool chooses = false;  // "auto" may stand for several techniques
 

@@ -16,7 +16,7 @@ measure::RunOptions options_for(const measure::SideOptions& side,
                                 const ComparisonOptions& options) {
   return {.protocol = measure::brief_protocol,
           .limit = options.limit,
-          .plants = {},
+          .faults = {},
           .worker_command = side.command,
           .worker_environment = side.environment};
 }
@@ -74,7 +74,7 @@ ComparisonResult compare(const ComparisonOptions& options, const measure::Suite&
                           suite,
                           {options.a.device, options.b.device},
                           {options_for(options.a, options), options_for(options.b, options)}};
-  sides.options[1].plants = options.plants;
+  sides.options[1].faults = options.faults;
   const auto runs = measure::run_sides(sides, store, [&](const measure::Progress& progress) {
     require_opened(store, progress.record);
     if (tell) tell(as_ours(progress));

@@ -20,7 +20,7 @@ struct ComparisonOptions {
   measure::Plan plan;
   measure::SideOptions a;
   measure::SideOptions b;
-  std::vector<measure::Plant> plants;  // into side b
+  std::vector<measure::InjectedFault> faults;  // into side b
   // From the start on; past it no configuration is continued. First looks and the confirmation of
   // suspects are always made: without them there is nothing to say.
   std::optional<std::chrono::seconds> budget;

@@ -251,8 +251,8 @@ class Finder {
       return;
     }
     const auto ratio = ratio_of(*a, *b);
-    const std::string on_a = judge::statistic_reservation(a_.device.statistics_dialect, name);
-    const std::string on_b = judge::statistic_reservation(b_.device.statistics_dialect, name);
+    const std::string on_a = judge::statistic_reservation(a_.device.statistics_calibration, name);
+    const std::string on_b = judge::statistic_reservation(b_.device.statistics_calibration, name);
     const bool unsteady = on_a.starts_with("unsteady") || on_b.starts_with("unsteady");
     if (same_driver_ && !unsteady) {
       add(Kind::regression, about, change(*a, *b) + ", on the same driver", ratio);
@@ -316,7 +316,7 @@ std::vector<Difference> find_differences(const record::Device& a, const record::
     }
   };
   look(Kind::changed, "limit", a.limits, b.limits);
-  look(Kind::calibration, "statistic", a.statistics_dialect, b.statistics_dialect);
+  look(Kind::calibration, "statistic", a.statistics_calibration, b.statistics_calibration);
   return differences;
 }
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "measure/protocol/plant.hpp"
+#include "measure/protocol/injected_fault.hpp"
 #include "measure/system/stopwatch.hpp"
 
 namespace triptych::comparison {
@@ -20,7 +20,7 @@ using measure::SideClock;
 // A configuration with what it takes to go on measuring it.
 struct Entry {
   Compared& compared;
-  std::array<std::vector<std::string>, 2> plants;
+  std::array<std::vector<std::string>, 2> faults;
   std::vector<measure::Block> blocks;
 };
 
@@ -38,7 +38,7 @@ class Timer {
       if (!each.reason.empty()) continue;  // no time of it means anything
       entries_.push_back({each,
                           {std::vector<std::string>{},
-                           measure::faults_for(options_.plants, each.key, options_.b.device)},
+                           measure::faults_for(options_.faults, each.key, options_.b.device)},
                           {}});
     }
   }
@@ -95,7 +95,7 @@ class Timer {
   void hold(Entry& entry) {
     if (held_ == &entry) return;
     held_ = nullptr;
-    interleaved_.hold(entry.compared.configuration, entry.plants, entry.compared.clock,
+    interleaved_.hold(entry.compared.configuration, entry.faults, entry.compared.clock,
                       loading_of(entry));
     entry.compared.frames_per_batch = interleaved_.frames_per_batch();
     held_ = &entry;

@@ -19,9 +19,10 @@ inline constexpr std::array<std::string_view, 5> portable_statistics{
     "input_assembly_vertices", "input_assembly_primitives", "geometry_primitives",
     "tessellation_control_patches", "compute_invocations"};
 
-// Why a number cannot be held against other drivers' (`dialect`: Device::statistics_dialect); empty
-// where it can. A dialect that nobody looked at says nothing: its numbers are taken as they are.
-[[nodiscard]] std::string statistic_reservation(const std::map<std::string, std::string>& dialect,
-                                                const std::string& statistic);
+// Why a number cannot be held against other drivers' (`calibration`:
+// Device::statistics_calibration); empty where it can. A calibration that nobody looked at says
+// nothing: its numbers are taken as they are.
+[[nodiscard]] std::string statistic_reservation(
+    const std::map<std::string, std::string>& calibration, const std::string& statistic);
 
 }  // namespace triptych::judge

@@ -40,9 +40,10 @@ struct Device {
       environment;                            // variables that are set and change code generation
   std::map<std::string, std::string> limits;  // in the API's own names
   // What each pipeline statistic is worth, as scenes of known answer showed
-  // (measure/protocol/dialect.hpp): statistic → "exact", else "differs: …" or another word and what
-  // was seen. Empty where nobody looked. It follows from the driver and is no part of any key.
-  std::map<std::string, std::string> statistics_dialect = {};
+  // (measure/protocol/statistics_calibration.hpp): statistic → "exact", else "differs: …" or
+  // another word and what was seen. Empty where nobody looked. It follows from the driver and is no
+  // part of any key.
+  std::map<std::string, std::string> statistics_calibration = {};
 
   // id, driver version, API version, CPU features or else the name of the hardware, environment:
   // what timings and bits depend on.
@@ -91,7 +92,7 @@ struct Record {
   // The configuration of the same run and device whose frames these are: the scene cannot tell the
   // two apart, and one of them was measured. Empty: this one was.
   std::string same_as;
-  std::string planted;  // name of a planted fault; such a record is never accepted as a baseline
+  std::string injected;  // name of an injected fault; such a record is never accepted as a baseline
 
   // Times in nanoseconds, one value per timed frame. The clock that counts is device time where it
   // is trusted for this kind of work, else the wall clock.

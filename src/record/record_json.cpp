@@ -131,7 +131,7 @@ void visit_fields(auto& device, Visit&& visit) requires
   visit("cpu_features", device.cpu_features);
   visit("environment", device.environment);
   visit("limits", device.limits);
-  visit("statistics_dialect", device.statistics_dialect);
+  visit("statistics_calibration", device.statistics_calibration);
 }
 
 template <typename Visit>
@@ -160,7 +160,7 @@ void visit_fields(auto& record, Visit&& visit) requires
   visit("factors", record.factors);
   visit("reason", record.reason);
   visit("same_as", record.same_as);
-  visit("planted", record.planted);
+  visit("injected", record.injected);
   visit("wall_ns", record.wall_ns);
   visit("device_ns", record.device_ns);
   visit("device_clock_trusted", record.device_clock_trusted);

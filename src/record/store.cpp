@@ -66,18 +66,18 @@ std::vector<ClockTrust> read_clocks(const SQLite::Database& database, std::uint6
   return clocks;
 }
 
-std::map<std::string, std::string> read_dialect(const SQLite::Database& database,
-                                                std::uint64_t device) {
-  std::map<std::string, std::string> dialect;
-  SQLite::Statement rows =
-      prepared(database, "SELECT statistic, verdict FROM dialect WHERE device = ?", device);
+std::map<std::string, std::string> read_calibration(const SQLite::Database& database,
+                                                    std::uint64_t device) {
+  std::map<std::string, std::string> calibration;
+  SQLite::Statement rows = prepared(
+      database, "SELECT statistic, verdict FROM statistics_calibration WHERE device = ?", device);
   while (rows.executeStep()) {
     std::string statistic;
     Reader reader(rows);
     reader >> statistic;
-    reader >> dialect[statistic];
+    reader >> calibration[statistic];
   }
-  return dialect;
+  return calibration;
 }
 
 std::optional<Run> latest_run_in(const SQLite::Database& database, std::string_view plan) {
@@ -197,7 +197,7 @@ void Store::add_device(const std::string& run, const Device& d,
               "verdict) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
               device, c.work, c.offered, c.trusted, c.ratio, c.ratio_low, c.ratio_high, c.verdict);
     }
-    insert_map(database, "dialect", device, d.statistics_dialect);
+    insert_map(database, "statistics_calibration", device, d.statistics_calibration);
   });
 }
 
@@ -286,7 +286,7 @@ std::vector<Store::DeviceEntry> Store::devices(std::string_view run) const {
           d.api_version >> d.cpu_features >> environment >> limits >> seal;
       d.environment = map_of(environment);
       d.limits = map_of(limits);
-      d.statistics_dialect = read_dialect(state_->database, seq);
+      d.statistics_calibration = read_calibration(state_->database, seq);
       std::vector<ClockTrust> clocks = read_clocks(state_->database, seq);
       require_seal(seal, seal_of(d, clocks), fmt::format("device '{}'", d.id));
       entries.push_back({std::move(d), std::move(clocks)});

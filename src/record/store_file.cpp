@@ -78,7 +78,7 @@ CREATE TABLE record (
   device TEXT NOT NULL,
   outcome TEXT NOT NULL,
   reason TEXT NOT NULL,
-  planted TEXT NOT NULL,
+  injected TEXT NOT NULL,
   clock TEXT NOT NULL,
   frames INTEGER NOT NULL,
   median_ns REAL,
@@ -165,7 +165,7 @@ CREATE TABLE truth (
   PRIMARY KEY (scene, version)
 ) STRICT;
 
-CREATE TABLE dialect (
+CREATE TABLE statistics_calibration (
   device INTEGER NOT NULL REFERENCES device (seq) ON DELETE CASCADE,
   statistic TEXT NOT NULL,
   verdict TEXT NOT NULL,

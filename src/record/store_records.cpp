@@ -19,7 +19,7 @@ namespace {
 // The same columns in the same order for writing and reading. What a record can derive (clock,
 // frames, medians) is written beside them for people's queries and never read back.
 constexpr std::string_view record_columns =
-    "run, suite, plan, configuration, scene, technique, device, outcome, reason, planted, "
+    "run, suite, plan, configuration, scene, technique, device, outcome, reason, injected, "
     "device_clock_trusted, warm_up_frames, frames_per_100ms, loop_wall_ns, loop_frames, "
     "prepare_ns, overhead_ns, peak_memory_bytes, image, data_hash, kernel_hash, counted_by, "
     "benchmark_json, seal";
@@ -42,7 +42,7 @@ std::int64_t insert_row(const SQLite::Database& database, const Record& r) {
       fmt::format("INSERT INTO record ({}, {}) VALUES ({})", record_columns, derived_columns,
                   places),
       r.run, r.suite, r.plan, r.configuration, r.scene, r.technique, r.device, name_of(r.outcome),
-      r.reason, r.planted, r.device_clock_trusted, r.warm_up_frames, r.frames_per_100ms,
+      r.reason, r.injected, r.device_clock_trusted, r.warm_up_frames, r.frames_per_100ms,
       r.loop_wall_ns, r.loop_frames, r.prepare_ns, r.overhead_ns, r.peak_memory_bytes, r.image,
       r.data_hash, r.kernel_hash, r.counted_by, r.benchmark_json, seal_of(r),  //
       r.clock(), r.time_ns().size(), median(r.time_ns()), median(r.wall_ns), median(r.device_ns));
@@ -60,7 +60,7 @@ void read_row(SQLite::Statement& row, Row& of, Record& r) {
   std::string outcome_name;
   Reader reader(row);
   reader >> number >> r.run >> r.suite >> r.plan >> r.configuration >> r.scene >> r.technique >>
-      r.device >> outcome_name >> r.reason >> r.planted >> r.device_clock_trusted >>
+      r.device >> outcome_name >> r.reason >> r.injected >> r.device_clock_trusted >>
       r.warm_up_frames >> r.frames_per_100ms >> r.loop_wall_ns >> r.loop_frames >> r.prepare_ns >>
       r.overhead_ns >> r.peak_memory_bytes >> r.image >> r.data_hash >> r.kernel_hash >>
       r.counted_by >> r.benchmark_json >> of.seal;

@@ -14,7 +14,7 @@ std::string text_of(const Command& command) {
   for (const auto& [factor, level] : command.factors) {
     words.insert(words.end(), {"--set", record::factor_list({{factor, level}})});
   }
-  for (const std::string& fault : command.injected) words.insert(words.end(), {"--plant", fault});
+  for (const std::string& fault : command.injected) words.insert(words.end(), {"--inject", fault});
   if (command.limit && *command.limit != record::standard_limit) {
     words.insert(words.end(), {"--limit", fmt::format("{}", command.limit->count())});
   }

@@ -62,7 +62,7 @@ Columns<RecordSource> what_it_was() {
       {{"reason", "text", "", "of what was not measured"}, of(&Record::reason)},
       {{"same_as", "text", "", "the equivalent configuration whose frames these are"},
        of(&Record::same_as)},
-      {{"planted", "text", "", "the injected fault"}, of(&Record::planted)},
+      {{"injected", "text", "", "the injected fault"}, of(&Record::injected)},
       {{"image", "text", "", "hash of the picture in the store"}, of(&Record::image)},
       {{"data_hash", "text", "", "hash of the data"}, of(&Record::data_hash)},
       {{"kernel_hash", "text", "", "hash of the device code"}, of(&Record::kernel_hash)},
@@ -177,7 +177,7 @@ Columns<DeviceSource> device_columns() {
       {{"limits", "text", "", "JSON: limits in the API's own names"},
        [](const DeviceSource& s) { return as_json(s.device.limits); }},
       {{"statistics_calibration", "text", "", "JSON: what each pipeline statistic is worth"},
-       [](const DeviceSource& s) { return as_json(s.device.statistics_dialect); }},
+       [](const DeviceSource& s) { return as_json(s.device.statistics_calibration); }},
   };
 }
 

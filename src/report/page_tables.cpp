@@ -17,17 +17,17 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 
 // The exact ones by number only: what deserves a word is the others.
-std::string dialect_text(const record::Device& device) {
+std::string calibration_text(const record::Device& device) {
   std::string text;
   int exact = 0;
-  for (const auto& [statistic, verdict] : device.statistics_dialect) {
+  for (const auto& [statistic, verdict] : device.statistics_calibration) {
     if (verdict == "exact") {
       ++exact;
     } else {
       text += fmt::format("<div>{}: {}</div>", escape(statistic), escape(verdict));
     }
   }
-  if (device.statistics_dialect.empty()) return "none told";
+  if (device.statistics_calibration.empty()) return "none told";
   return fmt::format("<div>{} counted exactly</div>", exact) + text;
 }
 
@@ -78,7 +78,8 @@ std::string devices_section(const PlanData& plan) {
     }
     rows.push_back({escape(device.id), escape(device.name + " (" + device.vendor + ")"),
                     escape(device.driver_version), escape(device.api_version)});
-    witnesses.push_back({escape(device.id), clock_text(clocks), dialect_text(device), environment});
+    witnesses.push_back(
+        {escape(device.id), clock_text(clocks), calibration_text(device), environment});
   }
   return folded("Devices: drivers, what their clocks and statistics are worth, what they ran on",
                 table(rows) + table(witnesses));

@@ -23,7 +23,7 @@ def records(*changes):
     """Rows as tables.read() gives them, each with what differs from an ordinary one."""
     ordinary = {"run": "r1", "suite": "volume", "plan": "volume/study", "technique": "raycast", "device": "a",
                 "configuration": "camera=orbit_y:0/2,data=ball,technique=raycast", "outcome": "measured",
-                "planted": None, "median_wall_ns": 11e6, "median_device_ns": 9e6, "device_clock_trusted": 1.0,
+                "injected": None, "median_wall_ns": 11e6, "median_device_ns": 9e6, "device_clock_trusted": 1.0,
                 "counted_by": None, "started_at": "2026-01-01", "store": "s.sqlite", "processor": "p",
                 "device_key": "a 1", "factor_camera": "orbit_y:0/2", "factor_data": "ball",
                 "cost_device_code": np.nan, "cost_driver": np.nan, "cost_libc": np.nan}

@@ -49,13 +49,13 @@ class Observations(unittest.TestCase):
         self.assertEqual(len(data.duplicates), 0)
 
     def test_what_is_no_measurement_is_left_aside_and_said(self):
-        data = times({"outcome": "skipped", "median_wall_ns": np.nan}, {"planted": "slowdown:20"},
+        data = times({"outcome": "skipped", "median_wall_ns": np.nan}, {"injected": "slowdown:20"},
                      {"median_wall_ns": np.nan}, {"technique": "speed_of_light"}, {"counted_by": "valgrind"}, {})
         self.assertEqual(len(data), 1)
         self.assertEqual(data.notes, [
             "1 records counted, hence timed under an emulator, if at all are left aside",
             "1 records of a technique that makes no picture are left aside", "1 records skipped on a are left aside",
-            "1 records with a planted fault are left aside", "1 records without a time on a are left aside"])
+            "1 records with an injected fault are left aside", "1 records without a time on a are left aside"])
 
     def test_what_the_device_chose_is_no_factor(self):
         rows = [{"factor_voxel": "u8"}, {"device": "b", "factor_voxel": "f32"}]
@@ -81,7 +81,7 @@ class Tables(unittest.TestCase):
         numbers = {"record", "median_wall_ns", "median_device_ns", "device_clock_trusted"}
         self.columns = [*tables.RECORD_COLUMNS, "factor_data"]
         self.row = {**dict.fromkeys(self.columns, "x"), "record": 1, "median_wall_ns": 5.5, "median_device_ns": "",
-                    "device_clock_trusted": 0, "planted": "", "factor_data": "NA"}
+                    "device_clock_trusted": 0, "injected": "", "factor_data": "NA"}
         self.dictionary = {"schema": 1, "tables": {
             "records": {"rows": 1, "columns": [column(each, "number" if each in numbers else "text")
                                                for each in self.columns]},
@@ -103,7 +103,7 @@ class Tables(unittest.TestCase):
     def test_missing_is_missing_and_text_is_text(self):
         record = tables.read(self.folder.name).iloc[0]
         self.assertTrue(np.isnan(record["median_device_ns"]))
-        self.assertIsNone(record["planted"])
+        self.assertIsNone(record["injected"])
         self.assertIsNone(record["processor"])
         self.assertEqual(record["factor_data"], "NA")  # a level, whatever pandas takes it for
 

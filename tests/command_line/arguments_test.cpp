@@ -21,7 +21,7 @@ class Arguments : public testing::Test {
 };
 
 TEST_F(Arguments, APlanMayFollowAnOption) {
-  for (const std::string option : {"--device 'null:*'", "--set step=0.5", "--plant slowdown:5"}) {
+  for (const std::string option : {"--device 'null:*'", "--set step=0.5", "--inject slowdown:5"}) {
     const Result result =
         program.run("run --store s.sqlite --device 'null:*' " + option + " p.yaml");
     EXPECT_EQ(result.code, 0) << result.output;

@@ -54,9 +54,9 @@ TEST_F(Compare, FivePercentAreFoundEitherWay) {
   expect_verdict(compare(b_as(1 / 1.05)), 0, "PASS: 1 faster");
 }
 
-TEST_F(Compare, APlantedSlowdownIsInSideBAlone) {
-  expect_verdict(compare(b_as(1), "--plant slowdown:5"), 1, "FAIL: 1 slower");
-  expect_verdict(compare(b_as(1), "--plant 'slowdown:5@*step=7*'"), 0, "PASS: 1 same");
+TEST_F(Compare, AnInjectedSlowdownIsInSideBAlone) {
+  expect_verdict(compare(b_as(1), "--inject slowdown:5"), 1, "FAIL: 1 slower");
+  expect_verdict(compare(b_as(1), "--inject 'slowdown:5@*step=7*'"), 0, "PASS: 1 same");
 }
 
 TEST_F(Compare, TooMuchNoiseCannotBeToldAndSaysWhatWouldSettleIt) {
@@ -77,7 +77,7 @@ TEST_F(Compare, AWrongPictureIsARegressionWhateverTheTime) {
 }
 
 TEST_F(Compare, ACrashOfBIsARegressionOfAMerelyADoubt) {
-  expect_verdict(compare(b_as(1), "--plant crash"), 1, "b crashed: killed by SIGSEGV");
+  expect_verdict(compare(b_as(1), "--inject crash"), 1, "b crashed: killed by SIGSEGV");
   const Result of_a = program.run(
       fmt::format("compare volume/quick --a null:scripted --b '{}' {}", b_as(1), tiny_plan),
       script(1, 1, R"(, "failures": [{"kind": "crash", "at": "prepare", "only": "*width=16,*"}])"));
@@ -107,7 +107,7 @@ TEST_F(Compare, TheGateJudgesByABase) {
   };
   expect_verdict(gate("--base TRIPTYCH_NULL_SCRIPT='" + script(1, 2) + "'"), 0, "PASS");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM), 0, "PASS");
-  expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --plant crash"), 1, "b crashed");
+  expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --inject crash"), 1, "b crashed");
   expect_verdict(gate("--base nothing"), 3, "--base nothing: expected NAME=VALUE");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --measure"), 3, "excludes");
 }
@@ -133,7 +133,7 @@ TEST_F(Compare, WrongUsageIsOneLine) {
   EXPECT_EQ(program.run("compare volume/quick --a null:scripted").code, 3);
   expect_verdict(compare("null"), 3, "expected a device such as");
   expect_verdict(compare("null:scripted,FAST"), 3, "after the device: expected NAME=VALUE");
-  expect_verdict(compare(b_as(1), "--plant wings"), 3, "unknown fault 'wings'");
+  expect_verdict(compare(b_as(1), "--inject wings"), 3, "unknown fault 'wings'");
   expect_verdict(compare(b_as(1), "--b-program nothing"), 3, "no program to run");
   expect_verdict(compare("null:scripted,LP_PERF=no_tex"), 3, "LP_PERF=no_tex is set");
   expect_verdict(compare("null:nothing"), 2, "null:nothing cannot be opened");

@@ -138,7 +138,7 @@ TEST_P(Examples, RunInABareSystem) {
   if (::geteuid() != 0) GTEST_SKIP() << "needs root, to make a bare system";
   Job job = GetParam()();
   if (job.steps.size() > 1) job.steps.erase(job.steps.begin());  // ci/fresh has installed it
-  job.steps.back() += " --plant 'slowdown:5@*technique=raycast,*' volume/cost";
+  job.steps.back() += " --inject 'slowdown:5@*technique=raycast,*' volume/cost";
   program.write("job", script_of(job));
   const Result done = test::run_command(
       fmt::format("'{}/ci/fresh' --deb '{}' {} \"$(cat '{}/job')\"", TRIPTYCH_SOURCE_FOLDER,

@@ -13,7 +13,7 @@ const std::string three =
 
 TEST(Faults, ACrashCostsOneConfiguration) {
   const Program program;
-  const Result result = program.run(three + " --plant 'crash@*step=0.5*'");
+  const Result result = program.run(three + " --inject 'crash@*step=0.5*'");
   EXPECT_NE(result.output.find("2 measured, 0 skipped, 1 failed"), std::string::npos)
       << result.output;
   EXPECT_NE(result.output.find("crashed"), std::string::npos) << result.output;
@@ -21,7 +21,7 @@ TEST(Faults, ACrashCostsOneConfiguration) {
 
 TEST(Faults, AHangCostsOneConfiguration) {
   const Program program;
-  const Result result = program.run(three + " --limit 1 --plant 'hang@*step=0.5*'");
+  const Result result = program.run(three + " --limit 1 --inject 'hang@*step=0.5*'");
   EXPECT_NE(result.output.find("2 measured, 0 skipped, 1 failed"), std::string::npos)
       << result.output;
   EXPECT_NE(result.output.find("hung"), std::string::npos) << result.output;
@@ -30,17 +30,17 @@ TEST(Faults, AHangCostsOneConfiguration) {
 // The plan's haze is a default, and stands in no configuration's name.
 TEST(Faults, AFaultThatHitsNothingIsTold) {
   const Program program;
-  const Result missed = program.run(three + " --plant 'crash@*haze*'");
+  const Result missed = program.run(three + " --inject 'crash@*haze*'");
   EXPECT_EQ(missed.code, 0) << missed.output;
-  EXPECT_NE(missed.output.find("--plant crash@*haze* hits nothing"), std::string::npos)
+  EXPECT_NE(missed.output.find("--inject crash@*haze* hits nothing"), std::string::npos)
       << missed.output;
-  const Result hit = program.run(three + " --plant 'extra_sample@null:*'");
+  const Result hit = program.run(three + " --inject 'extra_sample@null:*'");
   EXPECT_EQ(hit.output.find("hits nothing"), std::string::npos) << hit.output;
 }
 
 TEST(Faults, ALostDeviceCostsOneConfiguration) {
   const Program program;
-  const Result result = program.run(three + " --plant 'device_lost@*step=0.5*'");
+  const Result result = program.run(three + " --inject 'device_lost@*step=0.5*'");
   EXPECT_NE(result.output.find("2 measured, 0 skipped, 1 failed"), std::string::npos)
       << result.output;
 }
@@ -49,7 +49,7 @@ TEST(Faults, AKilledRunIsResumed) {
   const Program program;
   // The first configuration is stored, the second hangs until the supervisor is killed.
   const Result killed =
-      program.run(three + " --limit 60 --plant 'hang@*step=0.5*'", "{}", "timeout -s KILL 3");
+      program.run(three + " --limit 60 --inject 'hang@*step=0.5*'", "{}", "timeout -s KILL 3");
   EXPECT_NE(killed.code, 0);
   const Result resumed = program.run(three + " --resume");
   EXPECT_EQ(resumed.code, 0) << resumed.output;
@@ -84,7 +84,7 @@ TEST(Faults, NothingMeasuredIsNoPass) {
 TEST(Faults, ARunThatMeasuredNothingIsNoSuccess) {
   const Program program;
   const std::string run = std::string("run volume/quick --store s.sqlite ") + tiny;
-  const Result crashed = program.run(run + " --plant crash");
+  const Result crashed = program.run(run + " --inject crash");
   EXPECT_EQ(crashed.code, 2) << crashed.output;
   EXPECT_NE(crashed.output.find(" 0 measured, "), std::string::npos) << crashed.output;
 }

@@ -155,7 +155,7 @@ TEST(Gate, AChangedBaselineIsNamed) {
 
 TEST(Gate, AcceptNeedsAReasonAndAnHonestRun) {
   const Program program;
-  ASSERT_EQ(program.run(measure_into("s.sqlite") + " --plant half_voxel_shift").code, 0);
+  ASSERT_EQ(program.run(measure_into("s.sqlite") + " --inject half_voxel_shift").code, 0);
   EXPECT_EQ(program.run("accept volume/quick --store s.sqlite --baselines b --reason ok").code, 3);
   EXPECT_EQ(program.run("accept volume/quick --store s.sqlite --baselines b --reason ' '").code, 3);
   EXPECT_FALSE(std::filesystem::exists(program.folder() / "b"));

@@ -95,20 +95,20 @@ TEST_P(PasteInjected, TheCommandShowsTheFaultAndNothingWithoutIt) {
   ASSERT_EQ(program.run(measure + " --store a.sqlite", right).code, 0);
   ASSERT_EQ(program.run("accept volume/quick --store a.sqlite --baselines b --reason new").code, 0);
   static_cast<void>(
-      program.run(fmt::format("{} --store s.sqlite --plant {}", measure, injected.fault), right));
+      program.run(fmt::format("{} --store s.sqlite --inject {}", measure, injected.fault), right));
   const Result judged =
       program.run(fmt::format("gate volume/quick {} --store s.sqlite --baselines b", tiny));
   EXPECT_EQ(judged.code, 1) << judged.output;
   EXPECT_THAT(first_lines(judged.output),
               AllOf(HasSubstr(injected.says), HasSubstr("null:scripted")));
-  const std::string plant = fmt::format("--plant {}", injected.fault);
+  const std::string fault = fmt::format("--inject {}", injected.fault);
   const Printed command = printed_command(judged.output);
-  ASSERT_THAT(command.arguments, AllOf(HasSubstr(plant), HasSubstr(injected.extra)))
+  ASSERT_THAT(command.arguments, AllOf(HasSubstr(fault), HasSubstr(injected.extra)))
       << judged.output;
   const Result pasted = paste(command, right);
   EXPECT_EQ(pasted.code, injected.code) << command.arguments << pasted.output;
   EXPECT_THAT(pasted.output, HasSubstr(injected.shows));
-  const Result mended = paste(without(command, plant), right);
+  const Result mended = paste(without(command, fault), right);
   EXPECT_EQ(mended.code, 0) << mended.output;
 }
 
@@ -141,7 +141,7 @@ class PasteOnDevice : public Paste {
         program.run("accept 'my plans/small.yaml' --store a.sqlite --baselines b --reason new")
             .code,
         0);
-    EXPECT_EQ(program.run(fmt::format("{} --store s.sqlite --plant {}", measure, fault)).code, 0);
+    EXPECT_EQ(program.run(fmt::format("{} --store s.sqlite --inject {}", measure, fault)).code, 0);
     const Result judged = program.run("gate 'my plans/small.yaml' --store s.sqlite --baselines b");
     EXPECT_EQ(judged.code, 1) << judged.output;
     EXPECT_THAT(first_lines(judged.output), AllOf(HasSubstr(says), HasSubstr(device)));
@@ -159,7 +159,7 @@ TEST_F(PasteOnDevice, TheCommandOfASlowerKernelCountsAndJudgesItAgain) {
   EXPECT_THAT(command.arguments,
               AllOf(HasSubstr("gate 'my plans/small.yaml' "), HasSubstr("--set step=1 ")));
   expect_code(command, 1);
-  expect_code(without(command, "--plant slowdown:5"), 0);
+  expect_code(without(command, "--inject slowdown:5"), 0);
 }
 
 TEST_F(PasteOnDevice, TheCommandOfAShiftedPictureDrawsItAgain) {
@@ -168,7 +168,7 @@ TEST_F(PasteOnDevice, TheCommandOfAShiftedPictureDrawsItAgain) {
   EXPECT_THAT(command.arguments, HasSubstr("render volume "));
   expect_code(command, 1);
   EXPECT_TRUE(std::filesystem::exists(program.folder() / "repro/difference.png"));
-  expect_code(without(command, "--plant half_voxel_shift"), 0);
+  expect_code(without(command, "--inject half_voxel_shift"), 0);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "measure/protocol/plant.hpp"
+#include "measure/protocol/injected_fault.hpp"
 #include "particle_scenes.hpp"
 
 namespace triptych::contract {
@@ -199,7 +199,7 @@ TEST(CountedAsTimed, SpheresHaveOnePictureThoughTheyAreRejectedEarly) {
       with_every_technique(device, work, [&](const measure::Work& whole) {
         expect_one_picture(device, whole);
         measure::Work faulty = whole;
-        measure::apply_plant("wrong_sense", faulty);
+        measure::inject("wrong_sense", faulty);
         if (!device.unsupported(faulty)) expect_one_picture(device, faulty);
       });
     }

@@ -1,20 +1,20 @@
-// Planted faults: each is caught by the picture, on every technique that has it.
+// Injected faults: each is caught by the picture, on every technique that has it.
 
-#include "measure/protocol/plant.hpp"
+#include "measure/protocol/injected_fault.hpp"
 #include "particle_scenes.hpp"
 
 namespace triptych::contract {
 namespace {
 
-struct Planted {
+struct Injected {
   const char* name;
   ParticleWork work;
 };
 
 // A fault beside a scene in which it shows: ties need coincident spheres, a lost border spheres
 // that reach over several tiles.
-std::vector<Planted> faults() {
-  std::vector<Planted> all;
+std::vector<Injected> faults() {
+  std::vector<Injected> all;
   all.push_back({"small_sprite", generated_work("uniform", 200, "orbit_y:1/8", 200)});
   all.push_back({"unresolved_ties", generated_work("coincident", 4000, "orbit_y:1/8", 96)});
   all.push_back({"reversed_depth", generated_work("uniform", 2000, "orbit_y:1/8", 96)});
@@ -26,14 +26,14 @@ std::vector<Planted> faults() {
 
 TEST(ParticleFaults, EveryOneIsCaughtByThePicture) {
   on_every_device([](measure::Device& device) {
-    for (const Planted& planted : faults()) {
-      SCOPED_TRACE(planted.name);
-      const reference::SphereTruth truth = truth_of(planted.work);
+    for (const Injected& injected : faults()) {
+      SCOPED_TRACE(injected.name);
+      const reference::SphereTruth truth = truth_of(injected.work);
       const core::Image expected = truth.image();
       const core::Image bound = truth.bound_image();
-      with_every_technique(device, planted.work, [&](const measure::Work& whole) {
+      with_every_technique(device, injected.work, [&](const measure::Work& whole) {
         measure::Work faulty = whole;
-        measure::apply_plant(planted.name, faulty);
+        measure::inject(injected.name, faulty);
         if (device.unsupported(faulty)) return;  // there is nothing to break in this technique
         EXPECT_FALSE(accuracy::compare(draw(device, faulty), expected, bound).within_bound());
       });
@@ -53,7 +53,7 @@ TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
       const bool ours = std::string_view(technique) == "tiles" || device.info().api == "opencl";
       measure::Work faulty{.technique = technique, .scene = work};
       expect_true(draw(device, faulty), truth);
-      measure::apply_plant("wrong_sense", faulty);
+      measure::inject("wrong_sense", faulty);
       if (!ours || device.unsupported(faulty)) continue;
       EXPECT_FALSE(accuracy::compare(draw(device, faulty), truth.image(), truth.bound_image())
                        .within_bound());
@@ -62,12 +62,12 @@ TEST(ParticleFaults, TheWrongSenseIsCaughtWhereFragmentsAreRejectedEarly) {
 }
 
 // More work, the same picture.
-TEST(ParticleFaults, APlantedSlowdownChangesNoPixel) {
+TEST(ParticleFaults, AnInjectedSlowdownChangesNoPixel) {
   on_every_device([](measure::Device& device) {
     const ParticleWork work = generated_work("uniform", 3000, "orbit_y:1/8", 96);
     with_every_technique(device, work, [&](const measure::Work& whole) {
       measure::Work slowed = whole;
-      measure::apply_plant("slowdown:20", slowed);
+      measure::inject("slowdown:20", slowed);
       EXPECT_EQ(draw(device, slowed), draw(device, whole));
     });
   });

@@ -16,7 +16,7 @@ void read_all(const judge::Baselines& baselines) {
   fuzz::expect_ours([&] { static_cast<void>(baselines.scores(name)); });
   fuzz::expect_ours([&] { static_cast<void>(baselines.cost_of_all_drivers()); });
   fuzz::expect_ours([&] { static_cast<void>(baselines.statistics_of_all_drivers(name)); });
-  fuzz::expect_ours([&] { static_cast<void>(baselines.statistics_dialect("d")); });
+  fuzz::expect_ours([&] { static_cast<void>(baselines.statistics_calibration("d")); });
 }
 
 }  // namespace

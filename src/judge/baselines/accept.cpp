@@ -132,8 +132,8 @@ void update_statistics(const Accepted& accepted, const record::Device& device, N
   Update update(next, Layout::statistics(device));
   update.object()["device"] = device.statistics_key();
   // What a run did not look at leaves what is known of this driver version.
-  for (const auto& [statistic, worth] : device.statistics_dialect) {
-    update.object()["dialect"][statistic] = worth;
+  for (const auto& [statistic, worth] : device.statistics_calibration) {
+    update.object()["calibration"][statistic] = worth;
   }
   Json& table = table_of(update.object()["configurations"], accepted);
   bool tells = !table.empty();
@@ -258,10 +258,10 @@ void refuse_unfit(const std::vector<record::Record>& records, const std::string&
       throw core::InputError(
           fmt::format("run {} is of plan {}, not of {}", run, record.plan, request.plan));
     }
-    if (!record.planted.empty()) {
+    if (!record.injected.empty()) {
       throw core::InputError(
           fmt::format("run {} holds the injected fault '{}' ({} on {}); it is never a baseline",
-                      run, record.planted, record.configuration, record.device));
+                      run, record.injected, record.configuration, record.device));
     }
   }
 }

@@ -185,7 +185,7 @@ struct Baselines::Cache {
   std::optional<ByName<ByName<std::uint64_t>>> scores;
   std::optional<ByName<DriverCost>> cost;
   std::map<fs::path, ByName<record::Counts>> statistics;
-  std::map<fs::path, ByName<std::string>> dialects;
+  std::map<fs::path, ByName<std::string>> calibrations;
   std::map<fs::path, ByName<StoredTiming>> timings;
   std::optional<std::vector<Waiver>> waivers;
 
@@ -202,15 +202,15 @@ struct Baselines::Cache {
   const ByName<StoredImage>& stored_images() {
     return table(images, Layout::images, read_stored_image);
   }
-  // The dialect lies in the same file; one that was accepted without has none.
-  const ByName<std::string>& dialect_of(const fs::path& path) {
-    const auto known = dialects.find(path);
-    if (known != dialects.end()) return known->second;
-    ByName<std::string> dialect;
-    if (const auto file = JsonFile::read(path); file && file->value().contains("dialect")) {
-      dialect = read_members<std::string>(file->root().at("dialect"), read_text);
+  // The calibration lies in the same file; one that was accepted without has none.
+  const ByName<std::string>& calibration_of(const fs::path& path) {
+    const auto known = calibrations.find(path);
+    if (known != calibrations.end()) return known->second;
+    ByName<std::string> calibration;
+    if (const auto file = JsonFile::read(path); file && file->value().contains("calibration")) {
+      calibration = read_members<std::string>(file->root().at("calibration"), read_text);
     }
-    return dialects.emplace(path, std::move(dialect)).first->second;
+    return calibrations.emplace(path, std::move(calibration)).first->second;
   }
   const ByName<record::Counts>& statistics_of(const fs::path& path) {
     const auto known = statistics.find(path);
@@ -335,8 +335,9 @@ std::map<std::string, record::Counts> Baselines::statistics_of_all_drivers(
   return result;
 }
 
-std::map<std::string, std::string> Baselines::statistics_dialect(const std::string& driver) const {
-  return cache_->dialect_of(folder_ / (Layout::statistics_folder + driver + ".json"));
+std::map<std::string, std::string> Baselines::statistics_calibration(
+    const std::string& driver) const {
+  return cache_->calibration_of(folder_ / (Layout::statistics_folder + driver + ".json"));
 }
 
 const std::map<std::string, StoredTiming>& Baselines::timings(const record::Device& device) const {

@@ -7,7 +7,7 @@
 //   memory.json               {configuration: {device id: {kind: bytes}}}
 //   cost/<driver>.json        {device, driver_version, counted_by, configurations: {configuration:
 //                             {frame: {part: instructions}, prepare: likewise}}}
-//   statistics/<driver>.json  {device, dialect: {statistic: verdict} where it is known,
+//   statistics/<driver>.json  {device, calibration: {statistic: verdict} where it is known,
 //                             configurations: {configuration: {statistic: value}}}
 //   timings/<device key>.json {device, configurations: {configuration: {clock, median_ns, spread,
 //                             frames, kernel_hash}}}, of one run; of plans that check times
@@ -118,9 +118,9 @@ class Baselines {
   // The same configuration's statistics on every stored driver, by Device::statistics_key().
   [[nodiscard]] std::map<std::string, record::Counts> statistics_of_all_drivers(
       const std::string& configuration) const;
-  // Device::statistics_dialect of a stored driver, by Device::statistics_key(); empty where nobody
-  // looked.
-  [[nodiscard]] std::map<std::string, std::string> statistics_dialect(
+  // Device::statistics_calibration of a stored driver, by Device::statistics_key(); empty where
+  // nobody looked.
+  [[nodiscard]] std::map<std::string, std::string> statistics_calibration(
       const std::string& driver) const;
   // By configuration; empty: nothing stored of this device key.
   [[nodiscard]] const std::map<std::string, StoredTiming>& timings(
@@ -169,8 +169,8 @@ struct AcceptRequest {
 
 // Writes what a run measured as the new baselines; returns one line per changed file, each followed
 // by its changed values ("  PATH: OLD → NEW", the first 40 of a file). Refuses (InputError) a blank
-// reason, a run with planted faults, one that measured nothing, holds a part of what is stored (see
-// `drop`; with `only` nothing else changes), or was measured on other data than there are now.
+// reason, a run with injected faults, one that measured nothing, holds a part of what is stored
+// (see `drop`; with `only` nothing else changes), or was measured on other data than there are now.
 // What is kept is what the run's plan checks. All or nothing: the new folder is written beside the
 // old one and takes its place at the end. One accept at a time, else IoError.
 [[nodiscard]] std::vector<std::string> accept(const record::Store& store, const std::string& run,

@@ -10,7 +10,7 @@
 namespace triptych::judge {
 namespace {
 
-using Dialect = std::map<std::string, std::string>;  // record::Device::statistics_dialect
+using Calibration = std::map<std::string, std::string>;  // record::Device::statistics_calibration
 
 Finding check_exact(const RunView& view, const record::Record& record,
                     const record::Counts& stored) {
@@ -64,7 +64,7 @@ void compare_elsewhere(const RunView& view, const record::Record& record, const 
                        const std::map<std::string, record::Counts>& stored, Elsewhere& result) {
   const auto own = record.statistics.find(name);
   if (own == record.statistics.end()) return;
-  const std::string here = statistic_reservation(view.device(record).statistics_dialect, name);
+  const std::string here = statistic_reservation(view.device(record).statistics_calibration, name);
   if (!here.empty()) {
     result.not_compared.insert(fmt::format("{} (here {})", name, here));
     return;
@@ -75,7 +75,7 @@ void compare_elsewhere(const RunView& view, const record::Record& record, const 
     const auto other = counts.find(name);
     if (other == counts.end()) continue;
     const std::string there =
-        statistic_reservation(view.baselines.statistics_dialect(driver), name);
+        statistic_reservation(view.baselines.statistics_calibration(driver), name);
     if (!there.empty()) {
       result.not_compared.insert(fmt::format("{} (on {} {})", name, driver, there));
       continue;
@@ -174,10 +174,10 @@ class StatisticsCheck {
 
 }  // namespace
 
-std::string statistic_reservation(const Dialect& dialect, const std::string& statistic) {
-  if (dialect.empty()) return {};
-  const auto verdict = dialect.find(statistic);
-  if (verdict == dialect.end()) return "not calibrated";
+std::string statistic_reservation(const Calibration& calibration, const std::string& statistic) {
+  if (calibration.empty()) return {};
+  const auto verdict = calibration.find(statistic);
+  if (verdict == calibration.end()) return "not calibrated";
   return verdict->second == "exact" ? std::string() : verdict->second;
 }
 

@@ -51,7 +51,7 @@ struct Finding {
   // What of the device and configuration, where that is not all of it: "program", "step=0.5"; of a
   // correlation also by which device.
   std::string subject = {};
-  std::vector<std::string> injected = {};  // faults that `run --plant` put into it
+  std::vector<std::string> injected = {};  // faults that `run --inject` put into it
 };
 
 struct GateResult {

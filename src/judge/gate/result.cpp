@@ -176,10 +176,10 @@ Finding finding_about(const record::Record& record, Check check, Verdict verdict
                   record.device,
                   record.configuration,
                   std::move(message)};
-  for (const auto each : std::views::split(record.planted, '+')) {
+  for (const auto each : std::views::split(record.injected, '+')) {
     if (!each.empty()) finding.injected.emplace_back(each.begin(), each.end());
   }
-  if (!record.planted.empty()) finding.message += fmt::format(" [injected: {}]", record.planted);
+  if (!record.injected.empty()) finding.message += fmt::format(" [injected: {}]", record.injected);
   return finding;
 }
 

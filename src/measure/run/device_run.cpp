@@ -106,7 +106,7 @@ Job DeviceRun::job(const Configuration& configuration, const std::string& key) c
   return {.name = device_ + "/" + key,
           .configuration = configuration,
           .protocol = protocol(),
-          .plants = faults_for(context_.options.plants, key, device_)};
+          .faults = faults_for(context_.options.faults, key, device_)};
 }
 
 // What a record is of.
@@ -118,7 +118,7 @@ void DeviceRun::sign(const Job& job, const std::string& key, record::Record& rec
   record.scene = scene_key(context_.suite, job.configuration);
   record.technique = job.configuration.at("technique");
   record.device = device_;
-  record.planted = fmt::format("{}", fmt::join(job.plants, "+"));
+  record.injected = fmt::format("{}", fmt::join(job.faults, "+"));
   if (record.factors.empty()) record.factors = job.configuration;
 }
 

@@ -175,13 +175,13 @@ const Hello& Interleaved::hello(Side side) const {
 }
 
 void Interleaved::hold(const Configuration& configuration,
-                       const std::array<std::vector<std::string>, 2>& plants, SideClock clock,
+                       const std::array<std::vector<std::string>, 2>& faults, SideClock clock,
                        const OnLoading& on_loading) {
   constexpr int warm_up_frames = 3;
   constexpr int most_frames = 1000;
   constexpr int most_times = 10;
   for (const Side side : both) {
-    const Hold request{configuration, plants.at(side == Side::a ? 0 : 1)};
+    const Hold request{configuration, faults.at(side == Side::a ? 0 : 1)};
     static_cast<void>(slot(side).batch(to_message(request), on_loading));
   }
   double fastest_ns = infinite;

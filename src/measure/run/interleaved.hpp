@@ -91,7 +91,7 @@ class Interleaved {
   // Both sides prepare the configuration, keep it and draw a few frames: warm, and for knowing how
   // many make a batch by `clock`, and how many batches a block. What was held before is released.
   void hold(const Configuration& configuration,
-            const std::array<std::vector<std::string>, 2>& plants, SideClock clock,
+            const std::array<std::vector<std::string>, 2>& faults, SideClock clock,
             const OnLoading& on_loading = {});
   [[nodiscard]] int frames_per_batch() const noexcept { return frames_per_batch_; }
   // How often a block takes its four batches.

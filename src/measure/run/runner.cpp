@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "measure/protocol/plant.hpp"
+#include "measure/protocol/injected_fault.hpp"
 #include "measure/run/new_run.hpp"
 #include "measure/run/plan_run.hpp"
 #include "measure/system/environment.hpp"
@@ -63,7 +63,7 @@ void refuse_bad_options(const RunOptions& options) {
   if (const auto reason = forbids_measuring(options.worker_environment)) {
     throw core::InputError(*reason);
   }
-  for (const Plant& plant : options.plants) check_plant(plant.fault);
+  for (const InjectedFault& each : options.faults) check_fault(each.fault);
 }
 
 // Progress of several parts at once as one: sums, and the longest time left.

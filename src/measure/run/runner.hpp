@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "measure/plan/plan.hpp"
-#include "measure/protocol/plant.hpp"
+#include "measure/protocol/injected_fault.hpp"
 #include "measure/protocol/protocol.hpp"
 #include "measure/system/interrupt.hpp"
 #include "record/hung.hpp"
@@ -31,7 +31,7 @@ struct RunOptions {
   bool resume = false;  // continue the plan's latest run: what has a record is left alone
   // Device and configuration of records that a resumed run holds and yet draws again.
   std::set<std::pair<std::string, std::string>> again = {};
-  std::vector<Plant> plants;
+  std::vector<InjectedFault> faults;
   // Workers at once, of one device too, where nothing is timed; 0: one of each device, as many
   // devices as there are processors.
   int jobs = 0;

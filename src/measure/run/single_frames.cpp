@@ -18,7 +18,7 @@ Plan plan_for(const Suite& suite) {
 
 RunOptions untimed(RunOptions options) {
   if (const auto reason = forbids_measuring()) throw core::InputError(*reason);
-  for (const Plant& plant : options.plants) check_plant(plant.fault);
+  for (const InjectedFault& each : options.faults) check_fault(each.fault);
   options.protocol.timed = false;
   options.protocol.statistics = false;
   return options;

@@ -191,7 +191,7 @@ Message to_message(const Job& job) {
            {"name", job.name},
            {"configuration", job.configuration},
            {"protocol", to_json(job.protocol)},
-           {"plants", job.plants}},
+           {"faults", job.faults}},
           {}};
 }
 
@@ -205,7 +205,7 @@ Message to_message(Answer answer) {
 }
 
 Message to_message(const Hold& hold) {
-  return {{{"type", "hold"}, {"configuration", hold.configuration}, {"plants", hold.plants}}, {}};
+  return {{{"type", "hold"}, {"configuration", hold.configuration}, {"faults", hold.faults}}, {}};
 }
 
 Message to_message(const Frames& frames) {
@@ -255,7 +255,7 @@ std::optional<Job> as_job(const Message& message) {
     return Job{.name = message.json.at("name"),
                .configuration = message.json.at("configuration").get<Configuration>(),
                .protocol = protocol_from(message.json.at("protocol")),
-               .plants = message.json.at("plants")};
+               .faults = message.json.at("faults")};
   });
 }
 
@@ -279,7 +279,7 @@ std::optional<Hold> as_hold(const Message& message) {
   if (!is(message, "hold")) return std::nullopt;
   return reading("hold", [&] {
     return Hold{.configuration = message.json.at("configuration").get<Configuration>(),
-                .plants = message.json.at("plants")};
+                .faults = message.json.at("faults")};
   });
 }
 

@@ -72,7 +72,7 @@ struct Job {
   std::string name;  // of the benchmark
   Configuration configuration;
   Protocol protocol;
-  std::vector<std::string> plants;
+  std::vector<std::string> faults;
 };
 
 struct Answer {
@@ -84,7 +84,7 @@ struct Answer {
 // Replaces what is held already.
 struct Hold {
   Configuration configuration;
-  std::vector<std::string> plants;
+  std::vector<std::string> faults;
 };
 
 struct Frames {

@@ -17,9 +17,9 @@
 #include "core/image_io.hpp"
 #include "measure/contract/equivalents.hpp"
 #include "measure/protocol/clock.hpp"
-#include "measure/protocol/dialect.hpp"
-#include "measure/protocol/plant.hpp"
+#include "measure/protocol/injected_fault.hpp"
 #include "measure/protocol/protocol.hpp"
+#include "measure/protocol/statistics_calibration.hpp"
 #include "measure/system/stopwatch.hpp"
 #include "measure/worker/wire.hpp"
 #include "record/bad_input.hpp"
@@ -96,16 +96,16 @@ class Worker {
         info_(device_->info()),
         clocks_(std::move(clocks)) {}
 
-  // With the dialects of the kinds of work that were calibrated here.
+  // With the calibrations of the kinds of work that were calibrated here.
   [[nodiscard]] const record::Device& info() const { return info_; }
   [[nodiscard]] const std::vector<record::ClockTrust>& clocks() const { return clocks_; }
 
-  // Of a kind with a known clock the supervisor knows the dialect too.
+  // Of a kind with a known clock the supervisor knows the calibration too.
   void calibrate_for(const std::vector<std::string>& kinds) {
     for (const std::string& kind : kinds) {
       if (std::ranges::find(clocks_, kind, &record::ClockTrust::work) != clocks_.end()) continue;
       clocks_.push_back(calibrate_clock(*device_, suite_, kind_named(kind)));
-      info_.statistics_dialect.merge(calibrate_dialect(*device_, kind_named(kind)));
+      info_.statistics_calibration.merge(calibrate_statistics(*device_, kind_named(kind)));
     }
   }
 
@@ -128,7 +128,7 @@ class Worker {
     return batch([&](Batch&) {
       held_.reset();
       Configuration configuration = hold.configuration;
-      held_ = device_->prepare(supported_work(configuration, hold.plants));
+      held_ = device_->prepare(supported_work(configuration, hold.faults));
     });
   }
 
@@ -177,22 +177,22 @@ class Worker {
   }
 
   // What the device can do of it. Resolves the configuration's "auto" levels.
-  Work supported_work(Configuration& configuration, const std::vector<std::string>& plants) {
+  Work supported_work(Configuration& configuration, const std::vector<std::string>& faults) {
     const auto data = configuration.find("data");
     data_ = data == configuration.end() ? "none" : data->second;
     if (std::string reason = suite_.missing_data(configuration); !reason.empty()) {
       throw core::NotSupported(reason);
     }
     Work work = suite_.work(configuration, *device_);
-    for (const std::string& plant : plants) apply_plant(plant, work);
+    for (const std::string& fault : faults) inject(fault, work);
     if (const auto reason = device_->unsupported(work)) throw core::NotSupported(*reason);
     return work;
   }
 
   // Broken input is no fault of the device's: a skip that says where it is broken.
-  Work work_or_skip(Configuration& configuration, const std::vector<std::string>& plants) {
+  Work work_or_skip(Configuration& configuration, const std::vector<std::string>& faults) {
     try {
-      return supported_work(configuration, plants);
+      return supported_work(configuration, faults);
     } catch (const core::InputError& error) {
       throw core::NotSupported(fmt::format("{}{}", record::bad_input, error.what()));
     }
@@ -202,8 +202,8 @@ class Worker {
     measuring_ns_ = 0;
     const Stopwatch whole;
     Configuration configuration = job.configuration;
-    const Work work = work_or_skip(configuration, job.plants);
-    const bool may_share = !job.protocol.measure_every && job.plants.empty();
+    const Work work = work_or_skip(configuration, job.faults);
+    const bool may_share = !job.protocol.measure_every && job.faults.empty();
     std::optional<PlainWork> plain;
     if (may_share) plain = suite_.plain(configuration, work);
     if (const auto equivalent = plain ? equivalents_.find(*plain) : std::nullopt) {
@@ -228,7 +228,7 @@ class Worker {
     answer.record.prepare_ns = prepare_ns;
     answer.record.factors = std::move(configuration);
     describe_work(work, *device_, answer.record);
-    for (const std::string& plant : job.plants) apply_plant(plant, answer.record);
+    for (const std::string& fault : job.faults) inject(fault, answer.record);
     if (plain) {
       equivalents_.add(*plain, configuration_key(suite_, job.configuration), work, measured.image);
     }

@@ -16,8 +16,8 @@ enum class Culling : std::uint8_t { none, frustum, occlusion };
 [[nodiscard]] ComputedAt computed_at(std::string_view name);  // throws InputError
 [[nodiscard]] Culling culling(std::string_view name);         // throws InputError
 
-// Faults that can be planted to prove that the gate catches them; compile-time constants of shaders
-// and kernels where they are not parameters.
+// Faults that can be injected to prove that the gate catches them; compile-time constants of
+// shaders and kernels where they are not parameters.
 enum class ParticleFault : std::uint8_t {
   none = 0,
   small_sprite = 1,     // every sprite reaches 1 % less far than the silhouette
@@ -37,7 +37,7 @@ struct ParticleOptions {
   int corners = 4;  // of polygon_tess: 4…8, 16, 32
   Culling culling = Culling::frustum;
   ParticleFault fault = ParticleFault::none;
-  // Every extra_work_stride-th particle (in evenly spread runs) is drawn a second time: a planted
+  // Every extra_work_stride-th particle (in evenly spread runs) is drawn a second time: an injected
   // slowdown of about 1/stride by real work that changes no pixel; 0: none.
   int extra_work_stride = 0;
 };

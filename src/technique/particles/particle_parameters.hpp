@@ -20,7 +20,7 @@ struct ParticleParameters {
   std::array<float, 4> right_rest;
   std::array<float, 4> up;  // w: 1/(height of the image plane)
   std::array<float, 4> up_rest;
-  std::array<float, 4> forward;  // w: how much of the view culling believes in: 1, or ½ planted
+  std::array<float, 4> forward;  // w: how much of the view culling believes in: 1, or ½ injected
   std::array<float, 4> forward_rest;
   // The image plane z = 1: pixel (x, y), top row first, looks through
   //   sx = (x + ½)·plane.z − plane.x,   sy = plane.y − (y + ½)·plane.w.

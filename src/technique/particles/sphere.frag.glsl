@@ -1,7 +1,7 @@
 // The pixel stage of every sprite technique: the ray through this pixel against the sphere.
 // TRI_DEPTH_PROMISE, where it is defined: what conservative depth may rely on. Depth is reversed and the
 // surface lies behind the sprite, so the layout is that of depths less than the sprite's; the opposite one is a
-// planted fault.
+// injected fault.
 TRI_LINK(0) flat in vec4 sprite_sphere;  // camera space
 TRI_LINK(1) flat in vec4 sprite_colour;
 TRI_LINK(2) flat in uint sprite_id;

@@ -22,7 +22,7 @@ Corner corner_on_image(vec2 low, vec2 high, vec2 side, float distance) {
 Corner nowhere() { return Corner(vec4(2.0, 2.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0)); }
 
 // The part of the image plane that a sphere covers, with a margin of 1/64 pixel, within the viewport.
-// low > high: none. The planted fault takes 1 % off.
+// low > high: none. The injected fault takes 1 % off.
 void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   vec2 x = tri_sphere_interval(sphere.x, sphere.z, sphere.w);
   vec2 y = tri_sphere_interval(sphere.y, sphere.z, sphere.w);

@@ -33,7 +33,7 @@ uint farthest_in(int index) { return tile_state(index).z; }
 #endif
 TRI_BINDING(TRI_LARGE_PIXELS) layout(rgba32ui) uniform uimage2D large_pixels;
 
-// Keys: the nearest depth has the largest, 0 is none; the first particle has the smallest. The planted
+// Keys: the nearest depth has the largest, 0 is none; the first particle has the smallest. The injected
 // faults turn them round: 2 unresolved ties, 3 reversed depth, 4 the sphere's back for its front, 6 lost at
 // a tile's border.
 uint depth_key(float depth) {

@@ -150,7 +150,7 @@ TRI_FN float tri_silhouette_on_plane(float d, float r, float plane) {
 
 // Half-size of a sprite with a margin of 1/64 pixel, which is more than vertices move when they are
 // snapped to the rasterizer's grid (1/256 pixel). `pixel`: a pixel's size on the image plane; `scale` < 1
-// makes the sprite so much smaller than the silhouette: a planted fault.
+// makes the sprite so much smaller than the silhouette: an injected fault.
 TRI_FN float tri_sprite_radius(float d, float r, float plane, float pixel, float scale) {
   return scale < 1.0f ? scale * tri_silhouette_on_plane(d, r, plane) : r + 0.015625f * pixel * d;
 }

@@ -16,7 +16,7 @@ TRI_FN real2 tri_slab(real o, real d, real extent) {
 }
 
 // The image column that column x of a grid draws: x itself before column `again`; from there on, for a
-// planted slowdown, a share of 1/stride of the row of tiles once more. In tiles of 16×8, since rays that
+// injected slowdown, a share of 1/stride of the row of tiles once more. In tiles of 16×8, since rays that
 // lie apart walk apart and cost more than their share; in the row that is drawn anyway, since a device
 // that deals out rows in advance has to give each processor its share; rows are staggered by the golden
 // ratio. May lie beyond the image: nothing is drawn there.

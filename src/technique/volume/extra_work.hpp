@@ -1,5 +1,5 @@
 #pragma once
-// A planted slowdown by real work: a part of the image once more, in the same launch, as a launch
+// An injected slowdown by real work: a part of the image once more, in the same launch, as a launch
 // of its own would cost more than its share of the work.
 
 #include <vector>

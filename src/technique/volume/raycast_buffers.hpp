@@ -13,7 +13,7 @@ namespace triptych::technique {
 
 // Bytes of each buffer.
 struct RaycastBuffers {
-  std::uint64_t picture = 0;   // with what planted work leaves behind (extra_work.hpp)
+  std::uint64_t picture = 0;   // with what injected work leaves behind (extra_work.hpp)
   std::uint64_t counters = 0;  // of the frame that counts
   std::uint64_t bricks = 0;    // a word per brick; held though not read where nothing is skipped
   std::uint64_t table = 0;     // of its quadrature (quadrature_table.hpp)

@@ -28,8 +28,8 @@ enum class Precision : std::uint8_t { fp32, fp64 };
 [[nodiscard]] Skip skip(std::string_view name);            // throws InputError
 [[nodiscard]] Precision precision(std::string_view name);  // throws InputError
 
-// Faults that can be planted to prove that the gate catches them. Kernels take the number as a
-// compile-time constant, so that an unplanted kernel holds no trace of them.
+// Faults that can be injected to prove that the gate catches them. Kernels take the number as a
+// compile-time constant, so that an unchanged kernel holds no trace of them.
 enum class Fault : std::uint8_t {
   none = 0,
   half_voxel_shift = 1,     // the volume is read half a voxel off along x
@@ -47,7 +47,7 @@ struct RaycastOptions {
   double adapt = 0;        // error that merging samples within bricks may make (brick_kinds.hpp)
   Precision precision = Precision::fp32;
   Fault fault = Fault::none;
-  // 1/extra_work_stride of the image is drawn a second time (volume/extra_work.hpp): a planted
+  // 1/extra_work_stride of the image is drawn a second time (volume/extra_work.hpp): an injected
   // slowdown of as much by real work; 0: none.
   int extra_work_stride = 0;
 };

@@ -48,10 +48,10 @@ TEST(ConservativeDepth, IsPromisedWhereItIsOnAndOnlyThere) {
   EXPECT_THAT(on, HasSubstr(declared));
   EXPECT_THAT(on, HasSubstr(less));
   EXPECT_THAT(on, Not(HasSubstr(greater)));
-  const std::string planted =
+  const std::string injected =
       pixel_stage({.conservative_depth = true, .fault = ParticleFault::wrong_sense});
-  EXPECT_THAT(planted, HasSubstr(greater));
-  EXPECT_THAT(planted, Not(HasSubstr(less)));
+  EXPECT_THAT(injected, HasSubstr(greater));
+  EXPECT_THAT(injected, Not(HasSubstr(less)));
 }
 
 }  // namespace

@@ -205,7 +205,7 @@ scene::ParticleScene one_cell_at_the_edge() {
   return seen_from(spheres, {-5, 0, 0}, 47.9);
 }
 
-TEST(GlParticleFrames, PlantedFaultsChangeThePicture) {
+TEST(GlParticleFrames, InjectedFaultsChangeThePicture) {
   for_each_device([](measure::Device& device) {
     for_each_technique(device, [&](std::string_view technique) {
       const auto draw = [&](const scene::ParticleScene& scene, ParticleFault fault) {

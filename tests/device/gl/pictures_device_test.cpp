@@ -173,7 +173,7 @@ TEST(GlPictures, RepeatsHaveTheSameBits) {
   });
 }
 
-TEST(GlPictures, PlantedFaultsLeaveTheBound) {
+TEST(GlPictures, InjectedFaultsLeaveTheBound) {
   // A sampler that is worse than 8 bits has a bound that hides faults.
   constexpr double coarse = 1.0 / 64;
   for_each_device([](measure::Device& device) {

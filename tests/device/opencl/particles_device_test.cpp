@@ -132,31 +132,31 @@ scene::ParticleScene at_the_edge() {
   return seen_from(spheres, {0, 0, 0}, 60, 97, 97);
 }
 
-struct Planted {
+struct Injected {
   ParticleFault fault;
   std::string_view technique;
   bool conservative_depth = false;
 };
 
 // Each fault is one that the picture shows.
-TEST(OpenClParticles, PlantedFaultsAreSeen) {
+TEST(OpenClParticles, InjectedFaultsAreSeen) {
   const std::vector<scene::ParticleScene> scenes{generated("coincident", 4000, "path_z:7/8"),
                                                  generated("uniform", 60000, "random:5"),
                                                  at_the_edge(), small_and_large()};
   std::vector<reference::SphereTruth> truths;
   for (const scene::ParticleScene& scene : scenes) truths.push_back(truth_of(scene));
   for_each_device([&](measure::Device& device) {
-    for (const Planted& each :
-         std::initializer_list<Planted>{{ParticleFault::none, "tiles"},
-                                        {ParticleFault::small_sprite, "tiles"},
-                                        {ParticleFault::small_sprite, "quad_screen"},
-                                        {ParticleFault::unresolved_ties, "tiles"},
-                                        {ParticleFault::reversed_depth, "tiles"},
-                                        {ParticleFault::wrong_sense, "tiles"},
-                                        {ParticleFault::wrong_sense, "quad_screen", true},
-                                        {ParticleFault::culled_visible, "tiles"},
-                                        {ParticleFault::lost_at_border, "tiles"},
-                                        {ParticleFault::missing_barrier, "tiles"}}) {
+    for (const Injected& each :
+         std::initializer_list<Injected>{{ParticleFault::none, "tiles"},
+                                         {ParticleFault::small_sprite, "tiles"},
+                                         {ParticleFault::small_sprite, "quad_screen"},
+                                         {ParticleFault::unresolved_ties, "tiles"},
+                                         {ParticleFault::reversed_depth, "tiles"},
+                                         {ParticleFault::wrong_sense, "tiles"},
+                                         {ParticleFault::wrong_sense, "quad_screen", true},
+                                         {ParticleFault::culled_visible, "tiles"},
+                                         {ParticleFault::lost_at_border, "tiles"},
+                                         {ParticleFault::missing_barrier, "tiles"}}) {
       SCOPED_TRACE(static_cast<int>(each.fault));
       SCOPED_TRACE(each.technique);
       const ParticleOptions options{.conservative_depth = each.conservative_depth,

@@ -180,7 +180,7 @@ TEST(OpenClPictures, EarlyTerminationErrsByNoMoreThanItsBudget) {
   });
 }
 
-TEST(OpenClPictures, APlantedFaultIsOutsideTheBound) {
+TEST(OpenClPictures, AnInjectedFaultIsOutsideTheBound) {
   for_each_device([](measure::Device& device) {
     for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
       for (const Fault fault : {Fault::half_voxel_shift, Fault::flipped_axis, Fault::extra_sample,

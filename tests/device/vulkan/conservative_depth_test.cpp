@@ -43,9 +43,9 @@ TEST(ConservativeDepth, IsPromisedWhereItIsOnAndOnlyThere) {
     const auto on = modes("sphere_conservative");
     EXPECT_TRUE(on.contains(depth_less));
     EXPECT_FALSE(on.contains(depth_greater));
-    const auto planted = modes("sphere_wrong_sense");
-    EXPECT_TRUE(planted.contains(depth_greater));
-    EXPECT_FALSE(planted.contains(depth_less));
+    const auto injected = modes("sphere_wrong_sense");
+    EXPECT_TRUE(injected.contains(depth_greater));
+    EXPECT_FALSE(injected.contains(depth_less));
   }
 }
 

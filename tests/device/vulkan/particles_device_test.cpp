@@ -263,14 +263,14 @@ TEST(VulkanParticles, StatisticsAreThoseOfTheStagesThereAre) {
   });
 }
 
-// Pixels that a planted fault makes wrong, among those that are certain.
+// Pixels that an injected fault makes wrong, among those that are certain.
 int pixels_wrong_by(measure::Device& device, std::string_view technique,
                     const scene::ParticleScene& scene, ParticleFault fault) {
   const reference::SphereTruth truth = reference::render_spheres(scene, bounds, 1);
   return wrong_pixels(picture(device, particle_work(technique, scene, {.fault = fault})), truth);
 }
 
-TEST(VulkanParticles, PlantedFaultsChangeThePicture) {
+TEST(VulkanParticles, InjectedFaultsChangeThePicture) {
   for_each_device([](measure::Device& device) {
     scene::ParticleScene small = generated("uniform", 30);
     small.width = 300;

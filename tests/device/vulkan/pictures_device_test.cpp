@@ -200,7 +200,7 @@ TEST(VulkanPictures, TheSpeedOfLightReadsWhatTheRaycasterReads) {
   });
 }
 
-TEST(VulkanPictures, APlantedFaultIsOutsideTheBound) {
+TEST(VulkanPictures, AnInjectedFaultIsOutsideTheBound) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene =
         make_scene({.data = "generate:gradient_box:24", .transfer_function = "haze"});

@@ -16,9 +16,9 @@ class Differences : public testing::Test {
     for (record::Device* device : {&device_a, &device_b}) {
       device->id = "vulkan:lavapipe";
       device->driver_version = "1";
-      device->statistics_dialect = {{"fragment_invocations", "exact"},
-                                    {"vertex_invocations", "exact"},
-                                    {"compute_invocations", "exact"}};
+      device->statistics_calibration = {{"fragment_invocations", "exact"},
+                                        {"vertex_invocations", "exact"},
+                                        {"compute_invocations", "exact"}};
     }
     for (record::Record* record : {&record_a, &record_b}) {
       record->outcome = record::Outcome::measured;
@@ -106,7 +106,7 @@ TEST_F(Differences, AStatisticIsHeldToWhatItsDriversCanCount) {
   EXPECT_EQ(only().kind, DifferenceKind::regression);  // one driver, two numbers
   use_another_driver();
   EXPECT_EQ(only().kind, DifferenceKind::changed);  // both exact, but the API leaves it open
-  device_a.statistics_dialect["fragment_invocations"] = "inflated: 1.02 to 3.9";
+  device_a.statistics_calibration["fragment_invocations"] = "inflated: 1.02 to 3.9";
   EXPECT_EQ(only().kind, DifferenceKind::calibration);
   EXPECT_THAT(only().text, HasSubstr("a: inflated: 1.02 to 3.9; b: exact"));
 }
@@ -125,7 +125,7 @@ TEST_F(Differences, AStatisticThatOnlyOneDriverTellsIsExpected) {
 }
 
 TEST_F(Differences, AnUnsteadyStatisticIsReportedEvenOnOneDriver) {
-  device_a.statistics_dialect["fragment_invocations"] = "unsteady";
+  device_a.statistics_calibration["fragment_invocations"] = "unsteady";
   record_b.statistics["fragment_invocations"] = 101;
   EXPECT_EQ(only().kind, DifferenceKind::calibration);
 }
@@ -222,7 +222,7 @@ TEST(DeviceDifferences, LimitsAreGainedLostAndChanged) {
   record::Device b = a;
   a.limits = {{"x", "1"}, {"y", "1"}};
   b.limits = {{"x", "2"}, {"z", "1"}};
-  b.statistics_dialect = {{"fragment_invocations", "exact"}};
+  b.statistics_calibration = {{"fragment_invocations", "exact"}};
   const auto found = find_differences(a, b);
   ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(found[0].text, "1 → 2");

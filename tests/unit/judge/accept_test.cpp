@@ -258,11 +258,11 @@ TEST_F(AcceptTest, DataThatChangedSinceTheRunAreRefused) {
 }
 
 TEST_F(AcceptTest, RefusesWhatIsNoBaseline) {
-  add_run("planted", [](record::Record& record, core::Image&) {
-    if (record.configuration == bricks_) record.planted = "slowdown:20";
+  add_run("injected", [](record::Record& record, core::Image&) {
+    if (record.configuration == bricks_) record.injected = "slowdown:20";
   });
-  EXPECT_THROW((void)accept_run("planted"), core::InputError);
-  EXPECT_THROW((void)accept_run("planted", {.only = plain_}), core::InputError);
+  EXPECT_THROW((void)accept_run("injected"), core::InputError);
+  EXPECT_THROW((void)accept_run("injected", {.only = plain_}), core::InputError);
   add_run("empty",
           [](record::Record& record, core::Image&) { record.outcome = record::Outcome::skipped; });
   EXPECT_THROW((void)accept_run("empty"), core::InputError);

@@ -1,4 +1,4 @@
-// What the correlation finds of planted slowdowns, and what it leaves alone.
+// What the correlation finds of injected slowdowns, and what it leaves alone.
 
 #include <gmock/gmock.h>
 
@@ -54,9 +54,9 @@ TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsNamedFirst) {
       CorrelationWorld world(trial);
       for (const char* each : {lavapipe, llvmpipe, pocl}) {
         // Half a percent of the frame.
-        const auto planted =
+        const auto injected =
             id == each ? on_configuration(chosen, 1 + 0.005 / 0.7) : CorrelationWorld::Change{};
-        world.add_device(each, true, 0.1, planted);
+        world.add_device(each, true, 0.1, injected);
       }
       const CorrelationFindings result = world.judge();
       const auto found = named(result);
@@ -97,10 +97,10 @@ TEST(AcceptedDevices, AQuarterPercentOfALevelIsOneFinding) {
 
 TEST(AcceptedDevices, EverythingIsSaidOnceAndWhatStandsOutBeside) {
   CorrelationWorld world(5);
-  const auto planted = [](const record::Record& r) {
+  const auto injected = [](const record::Record& r) {
     return r.configuration == chosen ? 1.2 : 1.02;
   };
-  world.add_device(lavapipe, true, 0.02, planted);
+  world.add_device(lavapipe, true, 0.02, injected);
   world.add_device(llvmpipe, true);
   const CorrelationFindings result = world.judge();
   const auto found = named(result);
@@ -156,13 +156,13 @@ struct Trials {
   int wrong = 0;
 };
 
-Trials new_devices(const CorrelationWorld::Change& planted, const std::string& configuration,
+Trials new_devices(const CorrelationWorld::Change& injected, const std::string& configuration,
                    const std::string& level, double scatter, std::uint64_t runs = 100) {
   Trials trials;
   for (std::uint64_t trial = 0; trial < runs; ++trial) {
     CorrelationWorld world(1000 + trial);
     world.add_device(lavapipe, true, 0);
-    world.add_device(llvmpipe, false, scatter, planted, planted);
+    world.add_device(llvmpipe, false, scatter, injected, injected);
     bool hit = false;
     for (const Finding& finding : named(world.judge())) {
       EXPECT_EQ(finding.verdict, Verdict::advisory);
@@ -194,7 +194,7 @@ TEST(NewDevice, ThreePercentOfALevel) {
 }
 
 // 1 % of them is 5 of 500; of 1,500 once tried it was 14.
-TEST(NewDevice, NothingPlanted) {
+TEST(NewDevice, NothingInjected) {
   const Trials trials = new_devices({}, "none", "none", 0.02, 500);
   EXPECT_LE(trials.wrong, 10);
 }

@@ -187,12 +187,12 @@ TEST_F(GateTest, SkippedIsSkippedUnlessTheSameDeviceDidItBefore) {
   EXPECT_EQ(gate("a").exit_code(), ExitCode::cannot_judge);
 }
 
-TEST_F(GateTest, PlantedFaultIsNamed) {
+TEST_F(GateTest, InjectedFaultIsNamed) {
   add_run("a");
   (void)accept_run("a");
   add_run("b", [](record::Record& record, core::Image& image) {
     wrong_image_on("vulkan:lavapipe")(record, image);
-    if (record.device == "vulkan:lavapipe") record.planted = "swap_axes";
+    if (record.device == "vulkan:lavapipe") record.injected = "swap_axes";
   });
   EXPECT_THAT(with(gate("b"), Verdict::regression).at(0).message,
               HasSubstr("[injected: swap_axes]"));

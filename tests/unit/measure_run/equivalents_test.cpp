@@ -123,8 +123,8 @@ TEST_F(RunTwins, AreMeasuredWhereThatIsAskedFor) {
   EXPECT_EQ(run(full()).taken_over, 0);
 }
 
-TEST_F(RunTwins, AreMeasuredWhereAFaultIsPlanted) {
-  options.plants = {{.fault = "half_voxel_shift", .only = {}}};
+TEST_F(RunTwins, AreMeasuredWhereAFaultIsInjected) {
+  options.faults = {{.fault = "half_voxel_shift", .only = {}}};
   EXPECT_EQ(run(full()).taken_over, 0);
 }
 

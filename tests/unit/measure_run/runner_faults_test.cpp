@@ -21,14 +21,14 @@ class RunFaults : public RunTest {
   // others must have been measured.
   record::Record outcome_of(const std::string& fault) {
     const Plan what = small_plan();
-    options.plants = {{fault, configuration_key(suite, what.configurations.at(1))}};
+    options.faults = {{fault, configuration_key(suite, what.configurations.at(1))}};
     const RunResult result = run(what);
     EXPECT_EQ(result.measured, 3);
     EXPECT_EQ(result.failed, 1);
     const auto all = records(result.run);
     EXPECT_EQ(all.size(), 4U);
     for (const record::Record& record : all) {
-      if (!record.planted.empty()) return record;
+      if (!record.injected.empty()) return record;
       EXPECT_EQ(record.outcome, Outcome::measured) << record.reason;
     }
     return {};
@@ -44,7 +44,7 @@ TEST_F(RunFaults, ACrashCostsOneConfigurationAndNamesItsSignal) {
   const record::Record record = outcome_of("crash");
   EXPECT_EQ(record.outcome, Outcome::crashed);
   EXPECT_THAT(record.reason, HasSubstr("SIGSEGV"));
-  EXPECT_EQ(record.planted, "crash");
+  EXPECT_EQ(record.injected, "crash");
   EXPECT_EQ(started_workers().size(), 2U);
 }
 
@@ -182,7 +182,7 @@ TEST_F(RunFaults, AReplacedWorkerGoesOnWithTheClocksOfTheFirst) {
 TEST_F(RunFaults, NeitherDescriptorsNorZombiesStay) {
   const std::size_t before = open_descriptors();
   options.limit = std::chrono::seconds(1);
-  options.plants = {{"crash", "*camera=random:7*"}, {"hang", "*camera=orbit_y:1/8*step=0.5*"}};
+  options.faults = {{"crash", "*camera=random:7*"}, {"hang", "*camera=orbit_y:1/8*step=0.5*"}};
   const RunResult result = run(small_plan());
   EXPECT_EQ(result.measured, 1);
   EXPECT_EQ(result.failed, 3);

@@ -197,7 +197,7 @@ TEST_F(RunTest, WorkersOfOneDeviceShareAPlan) {
 TEST_F(RunTest, WorkersOfOneDeviceGoOnWithARun) {
   options.jobs = 2;
   options.protocol.timed = false;
-  options.plants = {{.fault = "crash", .only = "*step=0.5*"}};
+  options.faults = {{.fault = "crash", .only = "*step=0.5*"}};
   EXPECT_EQ(run(small_plan()).failed, 2);
   options.resume = true;
   const RunResult resumed = run(small_plan());
@@ -207,14 +207,14 @@ TEST_F(RunTest, WorkersOfOneDeviceGoOnWithARun) {
 }
 
 TEST_F(RunTest, WhatIsDrawnAgainTakesTheOldRecordsPlace) {
-  options.plants = {{.fault = "crash", .only = "*step=0.5*"}};
+  options.faults = {{.fault = "crash", .only = "*step=0.5*"}};
   const RunResult first = run(small_plan());
   ASSERT_EQ(first.failed, 2);
   std::string one;
   for (const record::Record& each : records(first.run)) {
     if (each.outcome == record::Outcome::crashed) one = each.configuration;
   }
-  options.plants.clear();
+  options.faults.clear();
   options.resume = true;
   options.again = {{"null:scripted", one}, {"null:other", "technique=raycast"}};
   told.clear();

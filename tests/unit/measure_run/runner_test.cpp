@@ -50,7 +50,7 @@ TEST_F(RunTest, ARecordTellsEverythingAboutItsConfiguration) {
   EXPECT_EQ(record.technique, "raycast");
   EXPECT_EQ(record.device, "null:scripted");
   EXPECT_NE(record.factors.at("sampler"), "auto");  // resolved with the device
-  EXPECT_EQ(record.planted, "");
+  EXPECT_EQ(record.injected, "");
   EXPECT_EQ(record.wall_ns.size(), 8U);
   EXPECT_EQ(record.device_ns.size(), 8U);
   EXPECT_EQ(record.clock(), "device");
@@ -129,36 +129,36 @@ TEST_F(RunTest, MissingDataIsSkippedWithTheReason) {
   EXPECT_EQ(std::ranges::count(all, "absent: no such file", &record::Record::reason), 2);
 }
 
-TEST_F(RunTest, PlantedFaultsAreInTheRecordAndInThePicture) {
+TEST_F(RunTest, InjectedFaultsAreInTheRecordAndInThePicture) {
   const RunResult plain = run(small_plan());
   const auto before = records(plain.run);
-  options.plants = {{"flipped_axis", "*step=0.5*"}};
+  options.faults = {{"flipped_axis", "*step=0.5*"}};
   const RunResult faulty = run(small_plan());
   const auto after = records(faulty.run);
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 0; i < after.size(); ++i) {
     const bool hit = after[i].factors.at("step") == "0.5";
-    EXPECT_EQ(after[i].planted, hit ? "flipped_axis" : "");
+    EXPECT_EQ(after[i].injected, hit ? "flipped_axis" : "");
     EXPECT_EQ(after[i].image != before[i].image, hit);
     EXPECT_EQ(after[i].configuration, before[i].configuration);
   }
 }
 
-TEST_F(RunTest, APlantedSlowdownIsThatMuchMoreWork) {
+TEST_F(RunTest, AnInjectedSlowdownIsThatMuchMoreWork) {
   const auto before = records(run(small_plan()).run);
-  options.plants = {{"slowdown:20", "null:*"}};
+  options.faults = {{"slowdown:20", "null:*"}};
   const auto after = records(run(small_plan()).run);
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 0; i < after.size(); ++i) {
-    EXPECT_EQ(after[i].planted, "slowdown:20");
+    EXPECT_EQ(after[i].injected, "slowdown:20");
     EXPECT_NEAR(after[i].wall_ns[0] / before[i].wall_ns[0], 1.2, 1e-9);
   }
 }
 
 TEST_F(RunTest, AnUnknownFaultOrLpPerfIsRefusedBeforeAnythingRuns) {
-  options.plants = {{"gremlin", ""}};
+  options.faults = {{"gremlin", ""}};
   EXPECT_THROW(run(small_plan()), core::InputError);
-  options.plants.clear();
+  options.faults.clear();
   const Variable set("LP_PERF", "no_depth");
   EXPECT_THROW(run(small_plan()), core::InputError);
   EXPECT_THAT(started_workers(), IsEmpty());

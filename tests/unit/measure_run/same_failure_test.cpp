@@ -94,7 +94,7 @@ TEST_F(SameFailureRun, IsPaidForTwice) {
                           {"data", {"ball", "cube"}},
                           {"step", {"0.5", "1", "2"}},
                           {"camera", {"random:7"}}});
-  options.plants = {{"crash", "*data=cube*"}};
+  options.faults = {{"crash", "*data=cube*"}};
   const RunResult result = run(what);
   EXPECT_EQ(result.measured, 3);
   EXPECT_EQ(result.failed, 3);

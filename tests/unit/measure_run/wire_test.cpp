@@ -56,22 +56,22 @@ TEST(Wire, AJobCarriesProtocolAndPlants) {
       .name = "n",
       .configuration = {{"step", "0.5"}},
       .protocol = {.warm_up_frames = 2, .timed_frames = 3, .counters = false, .timed = false},
-      .plants = {"slowdown:20"}};
+      .faults = {"slowdown:20"}};
   const auto back = as_job(to_message(job));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->configuration, job.configuration);
   EXPECT_EQ(back->protocol.timed_frames, 3);
   EXPECT_FALSE(back->protocol.counters);
   EXPECT_FALSE(back->protocol.timed);
-  EXPECT_EQ(back->plants, job.plants);
+  EXPECT_EQ(back->faults, job.faults);
 }
 
 TEST(Wire, BatchesAreAskedForAndAnswered) {
   const auto hold =
-      as_hold(to_message(Hold{.configuration = {{"step", "0.5"}}, .plants = {"slowdown:5"}}));
+      as_hold(to_message(Hold{.configuration = {{"step", "0.5"}}, .faults = {"slowdown:5"}}));
   ASSERT_TRUE(hold);
   EXPECT_EQ(hold->configuration.at("step"), "0.5");
-  EXPECT_THAT(hold->plants, testing::ElementsAre("slowdown:5"));
+  EXPECT_THAT(hold->faults, testing::ElementsAre("slowdown:5"));
   EXPECT_EQ(as_frames(to_message(Frames{.count = 7}))->count, 7);
   EXPECT_TRUE(as_release(to_message(Release{})));
   EXPECT_FALSE(as_release(to_message(Frames{})));

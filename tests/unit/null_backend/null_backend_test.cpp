@@ -186,7 +186,7 @@ TEST(NullTime, PrepareFactorsAreOfOneWork) {
   EXPECT_EQ(next_ns(work()), 100);
 }
 
-TEST(NullTime, NoiseIsPlantedAndSeeded) {
+TEST(NullTime, NoiseIsInjectedAndSeeded) {
   Script script{.base_ns = 1000, .ns_per_sample = 0, .noise = 0.05};
   const std::vector<double> first = times(script, 4000);
   EXPECT_EQ(times(script, 4000), first) << "the same seed, the same times";
@@ -266,7 +266,7 @@ TEST(NullImage, DependsOnTheSceneAlone) {
   for (const float each : plain.rgba) EXPECT_TRUE(each >= 0 && each <= 1);
 }
 
-TEST(NullImage, PlantedFaultsShow) {
+TEST(NullImage, InjectedFaultsShow) {
   const core::Image plain = image({}, work());
   measure::VolumeWork faulty = volume();
   faulty.options.fault = technique::Fault::half_voxel_shift;

@@ -119,7 +119,7 @@ TEST(DeviceTest, KeyChangesWithEverythingTimingsDependOn) {
   Device other = device;
   other.limits["max_image_3d"] = "1";
   other.name = "as marketed";
-  other.statistics_dialect.clear();
+  other.statistics_calibration.clear();
   EXPECT_EQ(other.key(), device.key());
 }
 
@@ -148,7 +148,7 @@ TEST(DeviceTest, StatisticsKeyIsOfIdAndDriverAlone) {
   Device other = device;
   other.environment.clear();
   other.cpu_features = "none";
-  other.statistics_dialect.clear();
+  other.statistics_calibration.clear();
   EXPECT_EQ(other.statistics_key(), device.statistics_key());
   other.driver_version = "1.2 LLVM-15";  // the same letters once made a file name
   EXPECT_NE(other.statistics_key(), device.statistics_key());

@@ -26,8 +26,8 @@ inline Device sample_device(const std::string& id = "null:scripted") {
           .cpu_features = "avx2,fma",
           .environment = {{"LP_NUM_THREADS", "2"}},
           .limits = {{"max_image_3d", "2048"}},
-          .statistics_dialect = {{"compute_invocations", "exact"},
-                                 {"fragment_invocations", "inflated: 1.07 to 3.9 times"}}};
+          .statistics_calibration = {{"compute_invocations", "exact"},
+                                     {"fragment_invocations", "inflated: 1.07 to 3.9 times"}}};
 }
 
 inline ClockTrust sample_clock() {
@@ -54,7 +54,7 @@ inline Record sample_record(const std::string& configuration = "camera=a,data=b,
           .outcome = Outcome::measured,
           .reason = "a reason",
           .same_as = "camera=random:7,technique=raycast",
-          .planted = "a fault",
+          .injected = "a fault",
           .wall_ns = {12.5, 3.25, 1e9, 0.1},
           .device_ns = {12, 3, 0.9e9, 0.05},
           .device_clock_trusted = true,

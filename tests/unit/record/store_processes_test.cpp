@@ -20,6 +20,10 @@
 namespace triptych::record {
 namespace {
 
+// Of a connection of the test itself: the late writer looks at the file at any time, even as this
+// one commits.
+constexpr int patience_ms = 10'000;
+
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
@@ -27,7 +31,7 @@ using Mode = Store::Mode;
 
 TEST_F(StoreTest, BusyIsWaitedForThenSaid) {
   make_store(file_);
-  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE);
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE, patience_ms);
   other.exec("BEGIN IMMEDIATE");
   Store store(file_, Mode::append, milliseconds(200));
   const auto start = std::chrono::steady_clock::now();
@@ -164,7 +168,8 @@ TEST_F(StoreTest, CreatedByAnotherBetweenLookAndLock) {
   make_store(model);
   const LateWriter late(file_);
   // RESERVED: others still read a blank file, but must wait to write.
-  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                         patience_ms);
   other.exec("BEGIN IMMEDIATE");
   late.begin();
   SQLite::Database from(model.string());

@@ -10,7 +10,7 @@ namespace triptych::reference {
 
 struct FloatOptions {
   double ert = 0;
-  double shift_voxels = 0;  // a planted fault: the field is read that far off along x
+  double shift_voxels = 0;  // an injected fault: the field is read that far off along x
   int weight_bits = 0;      // interpolation weights rounded to so many bits; 0: not rounded
 };
 

@@ -142,7 +142,7 @@ TEST(CommandOf, DrawsTheConfigurationAgain) {
             "step=0.5 --truth --out repro");
   Finding injected = wrong;
   injected.injected = {"coarse_filter"};
-  EXPECT_THAT(command_of(injected, quick), HasSubstr(" --plant coarse_filter --truth --out"));
+  EXPECT_THAT(command_of(injected, quick), HasSubstr(" --inject coarse_filter --truth --out"));
   Finding hung =
       finding(regression, "gl:x", "step=1", "hung: no answer within 2 s; it last said: x");
   EXPECT_THAT(command_of(hung, quick), HasSubstr(" --limit 2 --truth --out"));

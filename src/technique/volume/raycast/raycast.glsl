@@ -36,7 +36,7 @@ struct March {
 void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels) {
   real end = min(real(m.i + 1), ray.steps);
   real back = field(grid, ray.p0 + end * ray.g);
-  // Not always what begin and end say (a planted fault).
+  // Not always what begin and end say (an injected fault).
   real length = step_voxels * tri_step_share(ray.steps, m.i);
   bool fresh = TRI_PREINTEGRATED != 2 || cut.per_cell == 0.0;
   if (TRI_PREINTEGRATED == 2 && m.light.transmittance == 0.0) cut.left = 0.0;  // no passes for what nobody sees

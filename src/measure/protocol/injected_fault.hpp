@@ -14,28 +14,28 @@ namespace triptych::measure {
 
 // A fault put into what is measured, to prove that the gate catches it: a technique::Fault by
 // name, "slowdown:PERCENT" (real extra work), "crash", "hang", "device_lost", "lost_counter".
-struct Plant {
+struct InjectedFault {
   std::string fault;
   std::string only;  // glob over configuration keys and device ids; empty: everywhere
 };
 
 // The faults of those that are meant for a configuration on a device.
-[[nodiscard]] std::vector<std::string> faults_for(std::span<const Plant> plants,
+[[nodiscard]] std::vector<std::string> faults_for(std::span<const InjectedFault> all,
                                                   const std::string& configuration,
                                                   const std::string& device);
 
 // "half_voxel_shift, …, slowdown:PERCENT (0.01 to 100)".
-[[nodiscard]] std::string plant_names();
+[[nodiscard]] std::string fault_names();
 
 // Throws InputError for a name that is none of the faults, naming those there are.
-void check_plant(std::string_view fault);
+void check_fault(std::string_view fault);
 
 // Puts the fault into what is drawn, or does at once what it says: "crash" ends this process with
 // SIGSEGV, "hang" never returns, "device_lost" throws DeviceLost. Throws NotSupported when this
 // kind of work has no such fault.
-void apply_plant(std::string_view fault, Work& work);
+void inject(std::string_view fault, Work& work);
 
 // "lost_counter" takes the first of our own counters away; other faults change nothing here.
-void apply_plant(std::string_view fault, record::Record& record);
+void inject(std::string_view fault, record::Record& record);
 
 }  // namespace triptych::measure

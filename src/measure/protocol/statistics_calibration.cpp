@@ -1,4 +1,4 @@
-#include "measure/protocol/dialect.hpp"
+#include "measure/protocol/statistics_calibration.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 namespace triptych::measure {
 namespace {
 
-using Dialect = std::map<std::string, std::string>;
+using Calibration = std::map<std::string, std::string>;
 
 // --- the scenes ---
 
@@ -101,18 +101,18 @@ record::Counts counts_of(std::string_view technique, std::uint64_t sprites) {
   return counts;
 }
 
-std::vector<DialectScene> draw_scenes() {
-  std::vector<DialectScene> scenes;
+std::vector<CalibrationScene> draw_scenes() {
+  std::vector<CalibrationScene> scenes;
   for (const char* const technique : {"quad_instanced", "quad_screen", "quad_tess"}) {
     const ParticleWork one = around_the_eye();
-    DialectScene& whole = scenes.emplace_back();
+    CalibrationScene& whole = scenes.emplace_back();
     whole.name = fmt::format("one sprite of {} over the whole view", technique);
     whole.expected = counts_of(technique, 1);
     whole.expected["fragment_invocations"] =
         static_cast<std::uint64_t>(one.scene.width) * static_cast<std::uint64_t>(one.scene.height);
     whole.work = {.technique = technique, .scene = one};
 
-    DialectScene& many = scenes.emplace_back();
+    CalibrationScene& many = scenes.emplace_back();
     many.name = fmt::format("{} small sprites of {}", small_sprites, technique);
     many.expected = counts_of(technique, small_sprites);
     many.counts_fragments = true;
@@ -122,7 +122,7 @@ std::vector<DialectScene> draw_scenes() {
 }
 
 // One invocation per pixel: both sides are whole work groups of any size in use.
-DialectScene compute_scene(int width, int height) {
+CalibrationScene compute_scene(int width, int height) {
   VolumeWork volume;
   volume.scene.grid = std::make_shared<const scene::VoxelGrid>(
       scene::encode(scene::generate_volume("uniform_box", {8, 8, 8}), scene::VoxelFormat::f32));
@@ -139,7 +139,7 @@ DialectScene compute_scene(int width, int height) {
 
 // --- what the device says of them ---
 
-using Readings = std::map<std::string, std::vector<DialectReading>>;
+using Readings = std::map<std::string, std::vector<CalibrationReading>>;
 
 std::optional<std::uint64_t> find_count(const record::Counts& counts, const std::string& name) {
   const auto found = counts.find(name);
@@ -148,7 +148,7 @@ std::optional<std::uint64_t> find_count(const record::Counts& counts, const std:
 
 // Adds the readings of one scene; none where the device tells no statistics at all. A technique
 // without our own counter of fragments leaves the driver's unjudged.
-void read_scene(Device& device, const DialectScene& scene, Readings& readings) {
+void read_scene(Device& device, const CalibrationScene& scene, Readings& readings) {
   const auto prepared = device.prepare(scene.work);
   const record::Counts first = prepared->frame(Purpose::statistics).counts;
   if (first.empty()) return;
@@ -175,9 +175,9 @@ std::string text_of(const std::optional<std::uint64_t>& count) {
 }
 
 // The counter of ours that the statistic is in every scene; empty where none is.
-std::string counted_by_us(const std::vector<DialectReading>& readings) {
+std::string counted_by_us(const std::vector<CalibrationReading>& readings) {
   for (const auto& [name, value] : readings.front().ours) {
-    const bool same = std::ranges::all_of(readings, [&](const DialectReading& each) {
+    const bool same = std::ranges::all_of(readings, [&](const CalibrationReading& each) {
       return find_count(each.ours, name) == each.first;
     });
     if (same) return name;
@@ -185,13 +185,13 @@ std::string counted_by_us(const std::vector<DialectReading>& readings) {
   return {};
 }
 
-double multiple(const DialectReading& reading) {
+double multiple(const CalibrationReading& reading) {
   return static_cast<double>(reading.first.value_or(0)) / static_cast<double>(reading.expected);
 }
 
-std::string differences(const std::vector<DialectReading>& readings) {
+std::string differences(const std::vector<CalibrationReading>& readings) {
   std::vector<std::string> wrong;
-  for (const DialectReading& each : readings) {
+  for (const CalibrationReading& each : readings) {
     if (each.first == each.expected) continue;
     wrong.push_back(fmt::format("{} for {} ({})", text_of(each.first), each.expected, each.scene));
   }
@@ -200,23 +200,23 @@ std::string differences(const std::vector<DialectReading>& readings) {
 
 }  // namespace
 
-std::vector<DialectScene> dialect_scenes(technique::Work kind) {
+std::vector<CalibrationScene> calibration_scenes(technique::Work kind) {
   if (kind == technique::Work::draw) return draw_scenes();
   return {compute_scene(64, 64), compute_scene(192, 64)};
 }
 
-std::string dialect_verdict(const std::vector<DialectReading>& readings) {
-  const auto told = [](const DialectReading& each) { return each.first || each.again; };
+std::string calibration_verdict(const std::vector<CalibrationReading>& readings) {
+  const auto told = [](const CalibrationReading& each) { return each.first || each.again; };
   if (std::ranges::none_of(readings, told)) return "absent: never told";
   const auto unsteady = std::ranges::find_if(
-      readings, [](const DialectReading& each) { return each.first != each.again; });
+      readings, [](const CalibrationReading& each) { return each.first != each.again; });
   if (unsteady != readings.end()) {
     return fmt::format("unsteady: {}, and {} when drawn again ({})", text_of(unsteady->first),
                        text_of(unsteady->again), unsteady->scene);
   }
   if (!std::ranges::all_of(readings, told)) return differences(readings);
-  if (std::ranges::all_of(readings,
-                          [](const DialectReading& each) { return each.first == each.expected; })) {
+  if (std::ranges::all_of(
+          readings, [](const CalibrationReading& each) { return each.first == each.expected; })) {
     return "exact";
   }
   if (const std::string ours = counted_by_us(readings); !ours.empty()) {
@@ -226,7 +226,7 @@ std::string dialect_verdict(const std::vector<DialectReading>& readings) {
   if (low.first == std::uint64_t{0}) return differences(readings);
   // Equal fractions, compared without rounding.
   const bool same_multiple =
-      std::ranges::all_of(readings, [&first = readings.front()](const DialectReading& each) {
+      std::ranges::all_of(readings, [&first = readings.front()](const CalibrationReading& each) {
         return *each.first * first.expected == *first.first * each.expected;
       });
   if (same_multiple && readings.size() > 1) {
@@ -239,10 +239,10 @@ std::string dialect_verdict(const std::vector<DialectReading>& readings) {
   return differences(readings);
 }
 
-Dialect calibrate_dialect(Device& device, technique::Work kind) {
+Calibration calibrate_statistics(Device& device, technique::Work kind) {
   Readings readings;
   std::map<std::string, std::string> unknown;
-  for (const DialectScene& scene : dialect_scenes(kind)) {
+  for (const CalibrationScene& scene : calibration_scenes(kind)) {
     try {
       if (device.unsupported(scene.work)) continue;
       read_scene(device, scene, readings);
@@ -259,12 +259,12 @@ Dialect calibrate_dialect(Device& device, technique::Work kind) {
     // A device that told nothing of the first scene tells nothing of the others: OpenCL.
     if (readings.empty() && unknown.empty()) break;
   }
-  Dialect dialect;
-  if (readings.empty()) return dialect;
-  for (const auto& [name, each] : readings) dialect[name] = dialect_verdict(each);
+  Calibration calibration;
+  if (readings.empty()) return calibration;
+  for (const auto& [name, each] : readings) calibration[name] = calibration_verdict(each);
   // What failed in one scene is not vouched for by the others.
-  for (const auto& [name, reason] : unknown) dialect[name] = reason;
-  return dialect;
+  for (const auto& [name, reason] : unknown) calibration[name] = reason;
+  return calibration;
 }
 
 }  // namespace triptych::measure

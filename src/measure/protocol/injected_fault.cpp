@@ -1,4 +1,4 @@
-#include "measure/protocol/plant.hpp"
+#include "measure/protocol/injected_fault.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -77,21 +77,21 @@ bool is_mishap(std::string_view fault) {
 
 }  // namespace
 
-std::vector<std::string> faults_for(std::span<const Plant> plants, const std::string& configuration,
-                                    const std::string& device) {
+std::vector<std::string> faults_for(std::span<const InjectedFault> all,
+                                    const std::string& configuration, const std::string& device) {
   std::vector<std::string> faults;
-  for (const Plant& plant : plants) {
-    const auto matches = [&plant](const std::string& text) {
-      return ::fnmatch(plant.only.c_str(), text.c_str(), 0) == 0;
+  for (const InjectedFault& fault : all) {
+    const auto matches = [&fault](const std::string& text) {
+      return ::fnmatch(fault.only.c_str(), text.c_str(), 0) == 0;
     };
-    if (plant.only.empty() || matches(configuration) || matches(device)) {
-      faults.push_back(plant.fault);
+    if (fault.only.empty() || matches(configuration) || matches(device)) {
+      faults.push_back(fault.fault);
     }
   }
   return faults;
 }
 
-std::string plant_names() {
+std::string fault_names() {
   std::vector<std::string_view> names;
   for (const auto& [name, unused] : volume_faults) names.push_back(name);
   for (const auto& [name, unused] : particle_faults) names.push_back(name);
@@ -100,22 +100,22 @@ std::string plant_names() {
   return fmt::format("{}, slowdown:PERCENT (0.01 to 100)", fmt::join(names, ", "));
 }
 
-void check_plant(std::string_view fault) {
+void check_fault(std::string_view fault) {
   if (named(volume_faults, fault) || named(particle_faults, fault) || is_mishap(fault)) return;
   if (fault == lost_counter) return;
   if (fault.starts_with(slowdown) && stride_of(fault.substr(slowdown.size()))) return;
-  throw core::InputError(fmt::format("unknown fault '{}'; there are: {}", fault, plant_names()));
+  throw core::InputError(fmt::format("unknown fault '{}'; there are: {}", fault, fault_names()));
 }
 
-void apply_plant(std::string_view fault, Work& work) {
-  check_plant(fault);
+void inject(std::string_view fault, Work& work) {
+  check_fault(fault);
   if (fault == lost_counter) return;
   if (fault == "crash") crash();
   if (fault == "hang") hang();
-  if (fault == "device_lost") throw core::DeviceLost("plant", "device_lost");
-  const auto plant_into = [&](auto& options, const auto& faults) {
-    if (const auto planted = named(faults, fault)) {
-      options.fault = *planted;
+  if (fault == "device_lost") throw core::DeviceLost("injected", "device_lost");
+  const auto inject_into = [&](auto& options, const auto& faults) {
+    if (const auto injected = named(faults, fault)) {
+      options.fault = *injected;
     } else if (fault.starts_with(slowdown)) {
       options.extra_work_stride = *stride_of(fault.substr(slowdown.size()));
     } else {
@@ -124,13 +124,13 @@ void apply_plant(std::string_view fault, Work& work) {
     }
   };
   if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {
-    plant_into(volume->options, volume_faults);
+    inject_into(volume->options, volume_faults);
   } else {
-    plant_into(std::get<ParticleWork>(work.scene).options, particle_faults);
+    inject_into(std::get<ParticleWork>(work.scene).options, particle_faults);
   }
 }
 
-void apply_plant(std::string_view fault, record::Record& record) {
+void inject(std::string_view fault, record::Record& record) {
   if (fault == lost_counter && !record.counters.empty()) {
     record.counters.erase(record.counters.begin());
   }

@@ -16,7 +16,7 @@
 namespace triptych::measure {
 
 // A scene to calibrate with, and what a driver that counts exactly says of it.
-struct DialectScene {
+struct CalibrationScene {
   std::string name;  // for people: "one quad over 66×50 pixels"
   Work work;
   record::Counts expected;
@@ -26,11 +26,11 @@ struct DialectScene {
 
 // Those of one kind of work. Widths and heights of what is drawn are no multiples of 4: a driver
 // that counts whole stamps of pixels shows.
-[[nodiscard]] std::vector<DialectScene> dialect_scenes(technique::Work kind);
+[[nodiscard]] std::vector<CalibrationScene> calibration_scenes(technique::Work kind);
 
 // One statistic in one scene: `first` in one frame, `again` in the next; nothing where the device
 // told other statistics of that frame but not this one.
-struct DialectReading {
+struct CalibrationReading {
   std::string scene;
   std::uint64_t expected = 0;
   std::optional<std::uint64_t> first;
@@ -47,12 +47,12 @@ struct DialectReading {
 //   inflated      never too low; the range of multiples follows
 //   differs       anything else; what was seen in which scene follows
 // Precondition: at least one reading, and expected > 0 in each.
-[[nodiscard]] std::string dialect_verdict(const std::vector<DialectReading>& readings);
+[[nodiscard]] std::string calibration_verdict(const std::vector<CalibrationReading>& readings);
 
 // Statistic → verdict, for every statistic of the scenes that the device can draw. Empty for a
 // device that tells no statistics of any of them (OpenCL). An error of the API while a scene is
 // drawn becomes the verdict "unknown: …" on the statistics of that scene. Throws DeviceLost.
-[[nodiscard]] std::map<std::string, std::string> calibrate_dialect(Device& device,
-                                                                   technique::Work kind);
+[[nodiscard]] std::map<std::string, std::string> calibrate_statistics(Device& device,
+                                                                      technique::Work kind);
 
 }  // namespace triptych::measure

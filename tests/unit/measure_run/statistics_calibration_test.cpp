@@ -1,6 +1,6 @@
 // Verdicts on pipeline statistics, on a device that tells what it is scripted to.
 
-#include "measure/protocol/dialect.hpp"
+#include "measure/protocol/statistics_calibration.hpp"
 
 #include <gmock/gmock.h>
 
@@ -23,7 +23,7 @@ using ::testing::Key;
 using ::testing::Not;
 using ::testing::Pair;
 using ::testing::StartsWith;
-using Dialect = std::map<std::string, std::string>;
+using Calibration = std::map<std::string, std::string>;
 
 // The fragments of the many small sprites, by our own counter.
 constexpr std::uint64_t true_fragments = 2500;
@@ -36,7 +36,7 @@ bool is_one_sprite(const Work& work) {
 
 record::Counts exact_counts(const Work& work) {
   for (const technique::Work kind : {technique::Work::compute, technique::Work::draw}) {
-    for (const DialectScene& scene : dialect_scenes(kind)) {
+    for (const CalibrationScene& scene : calibration_scenes(kind)) {
       const bool same_picture = scene.work.technique == work.technique &&
                                 is_one_sprite(scene.work) == is_one_sprite(work);
       if (!same_picture) continue;
@@ -105,29 +105,29 @@ class CountingDevice final : public Device {
   std::string lacks_;
 };
 
-Dialect dialect_of(Script script, technique::Work kind = technique::Work::draw) {
+Calibration calibration_of(Script script, technique::Work kind = technique::Work::draw) {
   CountingDevice device(std::move(script));
-  return calibrate_dialect(device, kind);
+  return calibrate_statistics(device, kind);
 }
 
 void tell_the_truth(const Work&, int, record::Counts&) {}
 
-TEST(Dialect, ExactIsWhatCountsAsTheScenesDo) {
-  const Dialect dialect = dialect_of(tell_the_truth);
-  EXPECT_THAT(dialect, Each(Pair(testing::_, "exact")));
+TEST(Calibration, ExactIsWhatCountsAsTheScenesDo) {
+  const Calibration calibration = calibration_of(tell_the_truth);
+  EXPECT_THAT(calibration, Each(Pair(testing::_, "exact")));
   for (const char* const name :
        {"input_assembly_vertices", "input_assembly_primitives", "vertex_invocations",
         "geometry_invocations", "geometry_primitives", "clipping_invocations",
         "clipping_primitives", "fragment_invocations", "tessellation_control_patches",
         "tessellation_evaluation_invocations"}) {
-    EXPECT_THAT(dialect, Contains(Key(name)));
+    EXPECT_THAT(calibration, Contains(Key(name)));
   }
-  EXPECT_EQ(dialect_of(tell_the_truth, technique::Work::compute),
-            (Dialect{{"compute_invocations", "exact"}}));
+  EXPECT_EQ(calibration_of(tell_the_truth, technique::Work::compute),
+            (Calibration{{"compute_invocations", "exact"}}));
 }
 
-TEST(Dialect, TheViewIsNoWholeNumberOfStamps) {
-  for (const DialectScene& scene : dialect_scenes(technique::Work::draw)) {
+TEST(Calibration, TheViewIsNoWholeNumberOfStamps) {
+  for (const CalibrationScene& scene : calibration_scenes(technique::Work::draw)) {
     const scene::ParticleScene& drawn = std::get<ParticleWork>(scene.work.scene).scene;
     EXPECT_NE(drawn.width % 4, 0);
     EXPECT_NE(drawn.height % 4, 0);
@@ -138,90 +138,90 @@ TEST(Dialect, TheViewIsNoWholeNumberOfStamps) {
   }
 }
 
-TEST(Dialect, StampsOfPixelsAreInflatedByARange) {
-  const Dialect dialect = dialect_of([](const Work& work, int, record::Counts& counts) {
+TEST(Calibration, StampsOfPixelsAreInflatedByARange) {
+  const Calibration calibration = calibration_of([](const Work& work, int, record::Counts& counts) {
     counts["fragment_invocations"] = is_one_sprite(work) ? 3536 : 9856;
   });
-  EXPECT_THAT(dialect.at("fragment_invocations"),
+  EXPECT_THAT(calibration.at("fragment_invocations"),
               AllOf(StartsWith("inflated: 1.072 ("), HasSubstr("to 3.942 (100 small sprites of ")));
-  EXPECT_EQ(dialect.at("vertex_invocations"), "exact");
+  EXPECT_EQ(calibration.at("vertex_invocations"), "exact");
 }
 
-TEST(Dialect, OneMultipleEverywhereIsProportional) {
-  const Dialect dialect = dialect_of(
+TEST(Calibration, OneMultipleEverywhereIsProportional) {
+  const Calibration calibration = calibration_of(
       [](const Work&, int, record::Counts& counts) { counts["vertex_invocations"] *= 3; });
-  EXPECT_EQ(dialect.at("vertex_invocations"), "proportional: 3 times the true number");
+  EXPECT_EQ(calibration.at("vertex_invocations"), "proportional: 3 times the true number");
 }
 
-TEST(Dialect, WhichOfOurCountersADriverCountsIsNamed) {
+TEST(Calibration, WhichOfOurCountersADriverCountsIsNamed) {
   const auto kept = [](const Work&, int, record::Counts& counts) {
     counts["fragment_invocations"] = kept_fragments;
   };
-  EXPECT_EQ(dialect_of(kept).at("fragment_invocations"), "counts fragments_kept");
-  const Dialect almost = dialect_of([&](const Work& work, int n, record::Counts& counts) {
+  EXPECT_EQ(calibration_of(kept).at("fragment_invocations"), "counts fragments_kept");
+  const Calibration almost = calibration_of([&](const Work& work, int n, record::Counts& counts) {
     kept(work, n, counts);
     if (is_one_sprite(work)) ++counts["fragment_invocations"];
   });
   EXPECT_THAT(almost.at("fragment_invocations"), StartsWith("differs: "));
 }
 
-TEST(Dialect, TooLowSomewhereDiffers) {
-  const Dialect dialect = dialect_of([](const Work& work, int, record::Counts& counts) {
+TEST(Calibration, TooLowSomewhereDiffers) {
+  const Calibration calibration = calibration_of([](const Work& work, int, record::Counts& counts) {
     counts["clipping_primitives"] += is_one_sprite(work) ? 1U : 0U;
     if (work.technique == "quad_tess") counts["input_assembly_primitives"] = 0;
     if (!is_one_sprite(work)) counts["clipping_invocations"] -= 1;
   });
-  EXPECT_THAT(dialect.at("clipping_primitives"), StartsWith("inflated: 1 ("));
-  EXPECT_THAT(dialect.at("input_assembly_primitives"),
+  EXPECT_THAT(calibration.at("clipping_primitives"), StartsWith("inflated: 1 ("));
+  EXPECT_THAT(calibration.at("input_assembly_primitives"),
               AllOf(StartsWith("differs: 0 for 1 (one sprite of quad_tess"),
                     HasSubstr("0 for 100 (100 small sprites of quad_tess)"),
                     Not(HasSubstr("quad_screen"))));
-  EXPECT_THAT(dialect.at("clipping_invocations"), StartsWith("differs: 199 for 200 ("));
+  EXPECT_THAT(calibration.at("clipping_invocations"), StartsWith("differs: 199 for 200 ("));
 }
 
-TEST(Dialect, AnotherNumberOnTheSecondFrameIsUnsteady) {
-  const Dialect dialect = dialect_of([](const Work&, int n, record::Counts& counts) {
+TEST(Calibration, AnotherNumberOnTheSecondFrameIsUnsteady) {
+  const Calibration calibration = calibration_of([](const Work&, int n, record::Counts& counts) {
     counts["input_assembly_vertices"] *= static_cast<std::uint64_t>(n) + 1;
   });
-  EXPECT_THAT(dialect.at("input_assembly_vertices"),
+  EXPECT_THAT(calibration.at("input_assembly_vertices"),
               StartsWith("unsteady: 4, and 8 when drawn again (one sprite of quad_instanced"));
 }
 
-TEST(Dialect, WhatIsNeverToldIsAbsentAndWhatIsToldAtTimesDiffers) {
-  const Dialect dialect = dialect_of([](const Work& work, int, record::Counts& counts) {
+TEST(Calibration, WhatIsNeverToldIsAbsentAndWhatIsToldAtTimesDiffers) {
+  const Calibration calibration = calibration_of([](const Work& work, int, record::Counts& counts) {
     counts.erase("geometry_primitives");
     if (!is_one_sprite(work)) counts.erase("vertex_invocations");
   });
-  EXPECT_THAT(dialect.at("geometry_primitives"), StartsWith("absent"));
-  EXPECT_THAT(dialect.at("vertex_invocations"), StartsWith("differs: nothing for 400 ("));
+  EXPECT_THAT(calibration.at("geometry_primitives"), StartsWith("absent"));
+  EXPECT_THAT(calibration.at("vertex_invocations"), StartsWith("differs: nothing for 400 ("));
 }
 
-TEST(Dialect, ADeviceWithoutStatisticsHasNoneAndIsAskedOnce) {
+TEST(Calibration, ADeviceWithoutStatisticsHasNoneAndIsAskedOnce) {
   CountingDevice device([](const Work&, int, record::Counts& counts) { counts.clear(); });
-  EXPECT_THAT(calibrate_dialect(device, technique::Work::draw), IsEmpty());
+  EXPECT_THAT(calibrate_statistics(device, technique::Work::draw), IsEmpty());
   EXPECT_EQ(device.prepared.size(), 1U);
 }
 
-TEST(Dialect, AStageThatIsNotThereIsNotJudged) {
+TEST(Calibration, AStageThatIsNotThereIsNotJudged) {
   CountingDevice device(tell_the_truth, "quad_screen");
-  const Dialect dialect = calibrate_dialect(device, technique::Work::draw);
-  EXPECT_THAT(dialect, Not(Contains(Key("geometry_primitives"))));
-  EXPECT_THAT(dialect, Contains(Pair("tessellation_control_patches", "exact")));
+  const Calibration calibration = calibrate_statistics(device, technique::Work::draw);
+  EXPECT_THAT(calibration, Not(Contains(Key("geometry_primitives"))));
+  EXPECT_THAT(calibration, Contains(Pair("tessellation_control_patches", "exact")));
 
   CountingDevice none(tell_the_truth, "raycast");
-  EXPECT_THAT(calibrate_dialect(none, technique::Work::compute), IsEmpty());
+  EXPECT_THAT(calibrate_statistics(none, technique::Work::compute), IsEmpty());
 }
 
-TEST(Dialect, AnErrorVouchesForNothing) {
+TEST(Calibration, AnErrorVouchesForNothing) {
   const auto failing = [](const Work& work, int, record::Counts&) {
     if (work.technique == "quad_tess") throw core::Error("the driver refuses");
   };
-  const Dialect dialect = dialect_of(failing);
-  EXPECT_THAT(dialect.at("vertex_invocations"),
+  const Calibration calibration = calibration_of(failing);
+  EXPECT_THAT(calibration.at("vertex_invocations"),
               AllOf(StartsWith("unknown: "), HasSubstr("the driver refuses")));
-  EXPECT_EQ(dialect.at("geometry_primitives"), "exact");
+  EXPECT_EQ(calibration.at("geometry_primitives"), "exact");
 
-  EXPECT_THROW(static_cast<void>(dialect_of([](const Work&, int, record::Counts&) {
+  EXPECT_THROW(static_cast<void>(calibration_of([](const Work&, int, record::Counts&) {
                  throw core::DeviceLost("draw", "LOST");
                })),
                core::DeviceLost);

@@ -1,4 +1,5 @@
-// Statistics of a new driver version, judged by the dialects of this driver and of the stored ones.
+// Statistics of a new driver version, judged by the calibrations of this driver and of the stored
+// ones.
 
 #include <gmock/gmock.h>
 
@@ -11,21 +12,21 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-using Dialect = std::map<std::string, std::string>;
+using Calibration = std::map<std::string, std::string>;
 
-const Dialect exact{{"compute_invocations", "exact"}};
-const Dialect doubled{{"compute_invocations", "proportional: 2 times the true number"}};
+const Calibration exact{{"compute_invocations", "exact"}};
+const Calibration doubled{{"compute_invocations", "proportional: 2 times the true number"}};
 
-class DialectGateTest : public JudgeTest {
+class CalibrationGateTest : public JudgeTest {
  protected:
-  // What is said of a new version of lavapipe, whose dialect is `own` and which counts 49 instead
-  // of 48, where only GL's numbers are stored.
-  std::string advice(const Dialect& stored, const Dialect& own) {
-    dialects_["gl:llvmpipe-egl"] = stored;
+  // What is said of a new version of lavapipe, whose calibration is `own` and which counts 49
+  // instead of 48, where only GL's numbers are stored.
+  std::string advice(const Calibration& stored, const Calibration& own) {
+    calibrations_["gl:llvmpipe-egl"] = stored;
     accept_first([](record::Record& record, core::Image&) {
       if (record.device == "vulkan:lavapipe") record.statistics.clear();
     });
-    dialects_["vulkan:lavapipe"] = own;
+    calibrations_["vulkan:lavapipe"] = own;
     add_run("b", [](record::Record& record, core::Image&) {
       if (record.device == "vulkan:lavapipe") record.statistics = {{"compute_invocations", 49}};
     });
@@ -37,61 +38,61 @@ class DialectGateTest : public JudgeTest {
   }
 };
 
-TEST_F(DialectGateTest, WhatBothCountExactlyIsCompared) {
+TEST_F(CalibrationGateTest, WhatBothCountExactlyIsCompared) {
   EXPECT_THAT(advice(exact, exact), AllOf(HasSubstr("compute_invocations 49, but 48 on gl-"),
                                           Not(HasSubstr("not compared"))));
 }
 
-TEST_F(DialectGateTest, WhatThisDriverCountsOtherwiseIsNotCompared) {
+TEST_F(CalibrationGateTest, WhatThisDriverCountsOtherwiseIsNotCompared) {
   EXPECT_THAT(advice(exact, doubled),
               AllOf(HasSubstr("no number of it can be held against the stored ones"),
                     HasSubstr("not compared: compute_invocations (here proportional: 2 times"),
                     Not(HasSubstr("differs from"))));
 }
 
-TEST_F(DialectGateTest, WhatTheStoredDriverCountsOtherwiseIsNotCompared) {
+TEST_F(CalibrationGateTest, WhatTheStoredDriverCountsOtherwiseIsNotCompared) {
   EXPECT_THAT(advice(doubled, exact),
               AllOf(HasSubstr("not compared: compute_invocations (on gl-llvmpipe-egl"),
                     HasSubstr("proportional: 2 times"), Not(HasSubstr("differs from"))));
 }
 
-TEST_F(DialectGateTest, WhatNoSceneShowedIsNotCompared) {
+TEST_F(CalibrationGateTest, WhatNoSceneShowedIsNotCompared) {
   EXPECT_THAT(advice(exact, {{"vertex_invocations", "exact"}}),
               HasSubstr("compute_invocations (here not calibrated)"));
 }
 
-TEST_F(DialectGateTest, ADriverWithoutADialectIsComparedAsItIs) {
+TEST_F(CalibrationGateTest, ADriverWithoutACalibrationIsComparedAsItIs) {
   EXPECT_THAT(advice({}, exact), HasSubstr("compute_invocations 49, but 48 on gl-"));
 }
 
-TEST_F(DialectGateTest, ARunWithoutADialectStillHeedsTheStoredOne) {
+TEST_F(CalibrationGateTest, ARunWithoutACalibrationStillHeedsTheStoredOne) {
   EXPECT_THAT(advice(doubled, {}), HasSubstr("not compared: compute_invocations (on gl-"));
 }
 
-TEST_F(DialectGateTest, ARunThatDidNotLookKeepsTheStoredDialect) {
-  dialects_["gl:llvmpipe-egl"] = exact;
+TEST_F(CalibrationGateTest, ARunThatDidNotLookKeepsTheStoredCalibration) {
+  calibrations_["gl:llvmpipe-egl"] = exact;
   add_run("a");
   (void)accept_run("a");
-  dialects_.clear();
+  calibrations_.clear();
   add_run("b");
   (void)accept_run("b");
   const Baselines stored(folder_.path() / "baselines", plan);
-  EXPECT_EQ(stored.statistics_dialect(device_file("statistics", "gl").stem().string()), exact);
+  EXPECT_EQ(stored.statistics_calibration(device_file("statistics", "gl").stem().string()), exact);
   EXPECT_TRUE(
-      stored.statistics_dialect(device_file("statistics", "vulkan").stem().string()).empty());
+      stored.statistics_calibration(device_file("statistics", "vulkan").stem().string()).empty());
 }
 
 // A part of a plan asks for fewer statistics.
-TEST_F(DialectGateTest, ARunThatLookedAtSomeKeepsWhatIsStoredOfTheOthers) {
-  dialects_["gl:llvmpipe-egl"] = {{"compute_invocations", "exact"},
-                                  {"fragment_invocations", "exact"}};
+TEST_F(CalibrationGateTest, ARunThatLookedAtSomeKeepsWhatIsStoredOfTheOthers) {
+  calibrations_["gl:llvmpipe-egl"] = {{"compute_invocations", "exact"},
+                                      {"fragment_invocations", "exact"}};
   add_run("a");
   (void)accept_run("a");
-  dialects_["gl:llvmpipe-egl"] = {{"compute_invocations", "unsteady"}};
+  calibrations_["gl:llvmpipe-egl"] = {{"compute_invocations", "unsteady"}};
   add_run("b");
   (void)accept_run("b");
   EXPECT_THAT(Baselines(folder_.path() / "baselines", plan)
-                  .statistics_dialect(device_file("statistics", "gl").stem().string()),
+                  .statistics_calibration(device_file("statistics", "gl").stem().string()),
               testing::UnorderedElementsAre(testing::Pair("compute_invocations", "unsteady"),
                                             testing::Pair("fragment_invocations", "exact")));
 }

@@ -1,0 +1,110 @@
+"""Every command of triptych that README.md, CONTRIBUTING.md and docs/ show in a block of code runs, page by page and in
+the order of the page, on a scripted device in an empty folder. Devices and plans are replaced by small ones; names of
+commands, options and files stay. Those that a page shows of other programs are listed with what runs them.
+The program is $TRIPTYCH_PROGRAM.
+"""
+
+import glob
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = os.environ["TRIPTYCH_PROGRAM"]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+PLANS = {
+    "volume": "suite: volume\ntechnique: [raycast]\ndata: ['generate:gaussian_blob:8']\nviewport: [8]\n",
+    "particles": "suite: particles\ntechnique: [quad_ray]\nculling: [none]\ndata: ['generate:uniform:10']\nviewport: [8]\n",
+}
+# What a test of another name, or CI itself, runs.
+ELSEWHERE = {
+    "ci/gate": "ci_test and CI", "ci/test": "CI", "ci/build": "ci_test", "ci/setup": "CI", "ci/lint": "CI",
+    "ci/fresh": "needs root and a network", "ci/drivers/fetch": "needs a network", "ci/bench": "takes hours",
+    "ci/cluster/submit": "cluster tests", "analysis/analyze": "analysis.end_to_end", "apt-get": "examples_test",
+    "ctest": "CI", "cmake": "CI", "git": "the program in it is run", "cat": "", "exit": "", "export": "",
+}
+BLOCK = re.compile(r"^```(?:sh|bash|console)?\n(.*?)^```", re.MULTILINE | re.DOTALL)
+COMMAND = re.compile(r"(?:^|[\s;(/])triptych (?P<words>[a-z][^)\n]*)")
+FORM = re.compile(r"…| {2,}[a-z]")  # "STORE…", an explanation beside it: how it is called, no command
+
+
+def commands(page):
+    """The lines of its blocks; those that end in a backslash go on."""
+    for block in BLOCK.findall(page.read_text(encoding="utf-8")):
+        for line in re.sub(r"\\\n\s*", "", block).splitlines():
+            yield re.split(r"\s+#", line)[0].strip()
+
+
+def small(words):
+    """The same command with the scripted device, plans of one scene, and nothing outside its folder."""
+    words = re.sub(r"'?(?:vulkan|gl|opencl):[\w*-]+(?:,[A-Z_]+=\w+)?'?", "null:scripted", words.removesuffix("'"))
+    words = re.sub(r"\b(volume|particles)/(\w+)", r"\1-\2.yaml", words).replace("/tmp/", "")
+    words = re.sub(r"\S*build/\S*/triptych\b", PROGRAM, words).replace('"…"', "documented").replace("7/4000", "1/1")
+    name = words.split()[0]
+    if name in ("gate", "compare") and ".yaml" not in words and "--apis" not in words:
+        words += " volume-quick.yaml particles-quick.yaml"
+    if name in ("gate", "accept"):
+        words += " --baselines baselines" if "--base " not in words else ""
+    if name in ("gate", "run") and "--device" not in words:
+        words += " --device null:scripted"
+    if name == "validate":
+        words += " --shard 1/300"
+    return re.sub(r"--budget \d+", "--budget 1", words)
+
+
+class Documented(unittest.TestCase):
+    def run_page(self, page):
+        environment = {**os.environ, "TRIPTYCH_NULL_SCRIPT": '{"base_ns": 1e3}', "TRIPTYCH_DATA": ""}
+        with tempfile.TemporaryDirectory() as folder:
+            shown = [(line, COMMAND.search(line)) for line in commands(page)]
+            ran = set()
+            for line, command in ((line, small(match["words"])) for line, match in shown if match and not FORM.search(match[0])):
+                for suite, plan in re.findall(r"\b(volume|particles)(-\w+\.yaml)", command):
+                    pathlib.Path(folder, suite + plan).write_text(PLANS[suite], encoding="utf-8")
+                if command in ran:
+                    continue
+                ran.add(command)
+                with self.subTest(page=page.name, command=line):
+                    command = f"'{PROGRAM}' {command}"
+                    done = subprocess.run(command, shell=True, cwd=folder, env=environment, capture_output=True, text=True)
+                    self.assertIn(done.returncode, (0, 1, 2), f"{command}\n{done.stdout[-500:]}{done.stderr[-500:]}")
+                    self.ran += 1
+
+    def test_each_command_of_the_program_runs(self):
+        self.ran = 0
+        for page in PAGES:
+            self.run_page(page)
+        self.assertGreater(self.ran, 20)
+
+    def test_what_is_only_named_is_there(self):
+        """Commands and options of the README's list and of what stands in backquotes are in the program's help."""
+        helps = {}
+        for page in PAGES:
+            text = page.read_text(encoding="utf-8")
+            listed = [re.split(r" {2,}|(?<=…) (?=[a-z])", line)[0] for line in commands(page) if FORM.search(line)]
+            for form in listed + re.findall(r"`([^`\n]+)`", text):
+                for words in (part.removeprefix("triptych ").split() for part in form.split(", ") if form.startswith("triptych ")):
+                    if not words or not words[0].isalpha() or words[0] == "worker":
+                        continue
+                    with self.subTest(page=page.name, form=form):
+                        if words[0] not in helps:
+                            helps[words[0]] = subprocess.run([PROGRAM, words[0], "--help"], capture_output=True, text=True)
+                        self.assertEqual(helps[words[0]].returncode, 0, helps[words[0]].stderr)
+                        for option in (word for word in words if re.match(r"--\w", word)):
+                            self.assertRegex(helps[words[0]].stdout, rf"{option}\b")
+
+    def test_other_commands_are_known(self):
+        for page in PAGES:
+            for line in commands(page):
+                for word in re.findall(r"^(?:\(\. \S+; )?((?:ci|analysis)/[\w/]+|apt-get|ctest|cmake|git)\b", line):
+                    with self.subTest(page=page.name, command=line):
+                        self.assertIn(word, ELSEWHERE)
+                        if "/" in word:
+                            self.assertTrue((ROOT / word).exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

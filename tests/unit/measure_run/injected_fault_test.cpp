@@ -1,0 +1,47 @@
+#include "measure/protocol/injected_fault.hpp"
+
+#include <gmock/gmock.h>
+
+#include <csignal>
+
+#include "core/error.hpp"
+
+namespace triptych::measure {
+namespace {
+
+technique::RaycastOptions injected(std::string_view fault) {
+  Work work{.technique = "raycast", .scene = VolumeWork{}};
+  inject(fault, work);
+  return std::get<VolumeWork>(work.scene).options;
+}
+
+TEST(InjectedFault, PutsTheNamedFaultIntoTheOptions) {
+  using technique::Fault;
+  EXPECT_EQ(injected("half_voxel_shift").fault, Fault::half_voxel_shift);
+  EXPECT_EQ(injected("flipped_axis").fault, Fault::flipped_axis);
+  EXPECT_EQ(injected("extra_sample").fault, Fault::extra_sample);
+  EXPECT_EQ(injected("uncorrected_opacity").fault, Fault::uncorrected_opacity);
+  EXPECT_EQ(injected("coarse_filter").fault, Fault::coarse_filter);
+}
+
+TEST(InjectedFault, ASlowdownIsEveryNthRowTwice) {
+  EXPECT_EQ(injected("slowdown:20").extra_work_stride, 5);
+  EXPECT_EQ(injected("slowdown:3").extra_work_stride, 33);
+  EXPECT_EQ(injected("slowdown:100").extra_work_stride, 1);
+  EXPECT_EQ(injected("slowdown:2.5").extra_work_stride, 40);
+}
+
+TEST(InjectedFault, UnknownNamesAndImpossibleSlowdownsAreRefused) {
+  for (const char* fault : {"", "half_voxel", "slowdown", "slowdown:", "slowdown:0", "slowdown:-5",
+                            "slowdown:101", "slowdown:5x", "slowdown:nan"}) {
+    EXPECT_THROW(check_fault(fault), core::InputError) << fault;
+  }
+}
+
+TEST(InjectedFault, ALostDeviceIsThrownAndACrashIsReal) {
+  EXPECT_THROW(static_cast<void>(injected("device_lost")), core::DeviceLost);
+  EXPECT_EXIT(static_cast<void>(injected("crash")), testing::KilledBySignal(SIGSEGV), "");
+}
+
+}  // namespace
+}  // namespace triptych::measure
