@@ -12,6 +12,7 @@
 #include "report/finding_groups.hpp"
 #include "report/junit.hpp"
 #include "report/markdown.hpp"
+#include "report/verdict_json.hpp"
 
 namespace triptych::report {
 namespace {
@@ -58,7 +59,7 @@ std::vector<std::string> write_folder(const std::filesystem::path& folder,
 
 std::string json(std::span<const judge::GateResult> results) {
   core::Json json = core::Json::array();
-  for (const judge::GateResult& result : results) json.push_back(judge::to_json(result));
+  for (const judge::GateResult& result : results) json.push_back(to_json(result));
   return core::json_text(results.size() == 1 ? json.front() : json, 2) + "\n";
 }
 

@@ -17,7 +17,7 @@ namespace triptych::report {
                                                     const std::string& page,
                                                     const std::string& benchmark);
 
-// judge::to_json of one plan alone, else a list of them.
+// to_json (verdict_json.hpp) of one plan alone, else a list of them.
 [[nodiscard]] std::string json(std::span<const judge::GateResult> results);
 
 }  // namespace triptych::report

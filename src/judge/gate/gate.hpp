@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -72,15 +71,6 @@ struct GateResult {
   [[nodiscard]] std::string headline()
       const;  // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices"
 };
-
-// {"plan", "run", "exit_code", "headline", "findings": [{"check", "verdict", "test", "device",
-// "configuration", "message", "numbers"}], "correlations": [as of the pair], "accuracies": [as of
-// the scene]}
-[[nodiscard]] nlohmann::json to_json(const GateResult& result);
-// {"device_a", "device_b", "signal", "new_device", "line": {"configurations", "intercept", "slope",
-// "scale", "rho", "pearson", "admitted", "refusal"}, "points": [{"configuration", "x", "y",
-// "residual", "outlier"}]}; what is no number is null.
-[[nodiscard]] nlohmann::json to_json(const CorrelationPair& pair);
 
 struct GateRequest {
   std::string plan;

@@ -9,7 +9,6 @@
 #include <set>
 #include <utility>
 
-#include "core/json.hpp"
 #include "core/quoting.hpp"
 #include "judge/gate/run_view.hpp"
 
@@ -127,31 +126,6 @@ std::string GateResult::headline() const {
       }
       return fmt::format("CANNOT JUDGE: {}; {}", fmt::join(parts, "; "), tally(*this));
   }
-}
-
-core::Json to_json(const GateResult& result) {
-  core::Json findings = core::Json::array();
-  for (const Finding& finding : result.findings) {
-    findings.push_back({{"check", name_of(finding.check)},
-                        {"verdict", name_of(finding.verdict)},
-                        {"test", finding.test},
-                        {"device", finding.device},
-                        {"configuration", finding.configuration},
-                        {"message", finding.message},
-                        {"numbers", core::Json(finding.numbers)}});
-  }
-  core::Json correlations = core::Json::array();
-  for (const CorrelationPair& pair : result.correlations) correlations.push_back(to_json(pair));
-  core::Json accuracies = core::Json::array();
-  for (const accuracy::AccuracyScene& scene : result.accuracies)
-    accuracies.push_back(to_json(scene));
-  return {{"plan", result.plan},
-          {"run", result.run},
-          {"exit_code", static_cast<int>(result.exit_code())},
-          {"headline", result.headline()},
-          {"findings", std::move(findings)},
-          {"correlations", std::move(correlations)},
-          {"accuracies", std::move(accuracies)}};
 }
 
 std::string RunView::plan_test(Check check) const {

@@ -10,8 +10,8 @@
 #include "accuracy/cases.hpp"
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
-#include "core/json.hpp"
 #include "fixture.hpp"
+#include "report/verdict_json.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -117,7 +117,7 @@ TEST_F(AccuracyGateTest, AcceptedErrorsPass) {
   EXPECT_EQ(with(result, Verdict::pass, Check::accuracy).size(), 12U);
   ASSERT_EQ(result.accuracies.size(), 6U);  // two scenes, three devices
   EXPECT_EQ(result.accuracies[0].cases.size(), 2U);
-  const core::Json json = to_json(result).at("accuracies").at(0);
+  const core::Json json = report::to_json(result).at("accuracies").at(0);
   EXPECT_EQ(json.at("device"), result.accuracies[0].device);
   ASSERT_EQ(json.at("configurations").size(), 2U);
   EXPECT_EQ(json.at("configurations")[1].at("rmse"), result.accuracies[0].cases[1].rmse);

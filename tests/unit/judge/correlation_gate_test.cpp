@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "core/json.hpp"
 #include "correlation_world.hpp"
+#include "report/verdict_json.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -254,7 +254,7 @@ TEST(Pairs, ByCostAndByTimeWithTheirOutliers) {
   for (const CorrelationPoint& point : result.pairs[0].points) {
     EXPECT_EQ(point.outlier, point.configuration == chosen) << point.configuration;
   }
-  const core::Json json = to_json(result.pairs[0]);
+  const core::Json json = report::to_json(result.pairs[0]);
   EXPECT_EQ(json.at("line").at("admitted"), true);
   EXPECT_EQ(json.at("points").size(), 96U);
 }

@@ -9,7 +9,7 @@
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
-#include "core/json.hpp"
+#include "report/verdict_json.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -159,7 +159,7 @@ std::vector<Finding> JudgeTest::with(const GateResult& result, Verdict verdict, 
 }
 
 std::string JudgeTest::text(const GateResult& result) {
-  return to_json(result).dump(1);
+  return report::to_json(result).dump(1);
 }
 
 }  // namespace triptych::judge
