@@ -1,0 +1,74 @@
+"""A result set of two small plans on scripted devices: whole, proven by its sums, and the same when it is made again.
+The program is $TRIPTYCH_PROGRAM."""
+
+import csv
+import hashlib
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PLAN = """suite: volume
+technique: [raycast]
+data: ['generate:gaussian_blob:8', 'generate:gaussian_blob:16', 'generate:mandelbulb:16']
+camera: ['orbit_y:*/8', 'orbit_x:*/8']
+viewport: [8, 12]
+"""
+DEVICES = '{"devices": [1, 1.7], "base_ns": 1e4, "ns_per_sample": 20, "noise": 0.05}'
+
+
+class Publish(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.plan = self.folder / "small.yaml"
+        self.plan.write_text(PLAN, encoding="utf-8")
+
+    def publish(self, *words):
+        return subprocess.run(
+            [ROOT / "ci/publish", self.folder / "out", "--counted", "--timed", self.plan, "--device", "null:*", "--shares", "4", *words],
+            capture_output=True, text=True, env={**os.environ, "TRIPTYCH": os.environ["TRIPTYCH_PROGRAM"], "TRIPTYCH_DATA": "",
+                                                 "TRIPTYCH_NULL_SCRIPT": DEVICES})
+
+    def archive(self):
+        return (self.folder / "out/triptych-results.tar.xz").read_bytes()
+
+    def test_all_is_there_and_proven(self):
+        done = self.publish()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (self.folder / "user").mkdir()
+        subprocess.run(["tar", "xf", self.folder / "out/triptych-results.tar.xz", "-C", self.folder / "user"], check=True)
+        found = self.folder / "user/triptych-results"
+        sums = dict(reversed(line.split("  ")) for line in (found / "SHA256SUMS").read_text().splitlines())
+        self.assertEqual(set(sums) | {"SHA256SUMS"}, {str(each.relative_to(found)) for each in found.rglob("*") if each.is_file()})
+        for name, digest in sums.items():
+            self.assertEqual(hashlib.sha256((found / name).read_bytes()).hexdigest(), digest, name)
+        with open(found / "tables/records.csv", newline="", encoding="utf-8") as file:
+            self.assertEqual(len(list(csv.DictReader(file))), 96 * 2)
+        self.assertEqual((found / "plans/small.yaml").read_text(), PLAN)
+        self.assertTrue((found / "analysis/volume/time/figure_03_distribution.svg").exists())
+        readme = (found / "README.md").read_text()
+        for told in ("192 of 192 configurations", "CC BY 4.0", "null:scripted#2", "| small | 192 | 192 |"):
+            self.assertIn(told, readme)
+        first = self.archive()
+        self.assertEqual(self.publish().returncode, 0)
+        self.assertEqual(self.archive(), first)
+
+    def test_what_the_time_allowed_is_told_and_gone_on_with(self):
+        done = self.publish("--hours", "0.00001")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("after 1 of 4 shares", done.stderr)
+        readme = self.folder / "out/triptych-results/README.md"
+        self.assertIn("48 of 192 configurations", readme.read_text())
+        self.assertEqual(self.publish().returncode, 0)
+        self.assertIn("192 of 192 configurations", readme.read_text())
+
+    def test_nothing_measured_is_no_result(self):
+        done = self.publish("--device", "nobody:*")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("no device matches nobody:*", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
