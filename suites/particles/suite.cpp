@@ -15,9 +15,11 @@
 #include "scene/file_table.hpp"
 #include "scene/particle_generators.hpp"
 #include "suites/particles/factors.hpp"
+#include "suites/particles/grown_sprites.hpp"
 #include "suites/particles/plain_work.hpp"
 #include "suites/particles/stress_cases.hpp"
 #include "suites/particles/tolerance.hpp"
+#include "technique/particles/margins.hpp"
 #include "triptych_suite_particles_embedded.hpp"
 
 namespace triptych::particles_suite {
@@ -68,6 +70,8 @@ class ParticleSuite final : public measure::SuiteWithTruth {
     load(configuration);
     return loaded_.particles->hash;
   }
+  std::map<std::string, double> open_counts(
+      const Configuration& configuration, const std::map<std::string, double>& precision) override;
   std::string limit_key(const Configuration& configuration) override;
   measure::Limit limit(const Configuration& configuration) override;
   std::vector<record::Expectation> expectations(const Configuration& configuration) override;
@@ -214,6 +218,18 @@ std::string ParticleSuite::truth_key(const Configuration& configuration,
                                      .hash();
   return fmt::format("spheres {} data {} model {}{}", reference::spheres_version,
                      pictured.particles->hash, model_hash, beside_factors(configuration));
+}
+
+// A driver that shows no finer grid than this has sprites that grow
+// (technique/particles/margins.hpp).
+std::map<std::string, double> ParticleSuite::open_counts(
+    const Configuration& configuration, const std::map<std::string, double>& precision) {
+  const auto bits = precision.find("sub_pixel_bits");
+  if (bits == precision.end()) return {};
+  const double growth = technique::sprite_growth(static_cast<int>(bits->second));
+  if (growth <= 0) return {};
+  const double open = fragments_of_growth(scene(configuration), growth);
+  return {{"fragments", open}, {"fragments_discarded", open}};
 }
 
 std::string ParticleSuite::beside_factors(const Configuration& configuration) {

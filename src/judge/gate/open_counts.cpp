@@ -7,7 +7,7 @@ namespace triptych::judge {
 
 double OpenCounts::of(const std::string& counter) {
   const double fragments = open_fragments(counter, record_);
-  if (fragments > 0 || !find_) return fragments;
+  if (!find_) return fragments;
   if (!known_) {
     try {
       known_ = find_(record_);
@@ -16,7 +16,7 @@ double OpenCounts::of(const std::string& counter) {
     }
   }
   const auto found = known_->find(counter);
-  return found == known_->end() ? 0 : found->second;
+  return found == known_->end() ? fragments : fragments + found->second;
 }
 
 }  // namespace triptych::judge

@@ -1,0 +1,124 @@
+#include "suites/particles/grown_sprites.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+
+namespace triptych::particles_suite {
+namespace {
+
+// In camera space: x right, y up, z along the view.
+struct Square {
+  glm::dvec3 centre;
+  glm::dvec3 right;  // of length 1
+  glm::dvec3 up;
+  double half = 0;
+  double grown = 0;
+};
+
+class Image {
+ public:
+  explicit Image(const scene::ParticleScene& scene)
+      : scene_(scene),
+        half_y_(scene::tangent_of_half(scene.camera.fov_y_deg)),
+        half_x_(half_y_ * scene.width / scene.height) {}
+
+  // A pixel's size at distance 1, of the larger side.
+  [[nodiscard]] double pixel() const {
+    return std::max(2 * half_x_ / scene_.width, 2 * half_y_ / scene_.height);
+  }
+  [[nodiscard]] glm::dvec3 in_camera(const std::array<float, 4>& sphere) const {
+    const glm::dvec3 to = glm::dvec3(sphere[0], sphere[1], sphere[2]) - scene_.camera.eye;
+    return {glm::dot(to, scene_.camera.right()), glm::dot(to, scene_.camera.up),
+            glm::dot(to, scene_.camera.forward)};
+  }
+  [[nodiscard]] std::uint64_t ring(const Square& square) const;
+
+ private:
+  struct Bounds {
+    int x_begin, x_end, y_begin, y_end;
+  };
+  // Of the pixels that the grown square may cover: all, where a corner is not before the eye.
+  [[nodiscard]] Bounds bounds(const Square& square) const;
+  [[nodiscard]] double column(double x) const { return (x / half_x_ + 1) * scene_.width / 2; }
+  [[nodiscard]] double row(double y) const { return (1 - y / half_y_) * scene_.height / 2; }
+
+  const scene::ParticleScene& scene_;
+  double half_y_;
+  double half_x_;
+};
+
+Image::Bounds Image::bounds(const Square& square) const {
+  glm::dvec2 low(INFINITY);
+  glm::dvec2 high(-INFINITY);
+  for (const glm::dvec2 side : {glm::dvec2(-1, -1), {-1, 1}, {1, -1}, {1, 1}}) {
+    const glm::dvec3 corner =
+        square.centre + square.grown * (side.x * square.right + side.y * square.up);
+    if (!(corner.z > 0)) return {0, scene_.width, 0, scene_.height};
+    const glm::dvec2 at(column(corner.x / corner.z), row(corner.y / corner.z));
+    low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+    high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+  }
+  const auto within = [](double value, int size) {
+    return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(size)));
+  };
+  return {within(std::floor(low.x), scene_.width), within(std::ceil(high.x), scene_.width),
+          within(std::floor(low.y), scene_.height), within(std::ceil(high.y), scene_.height)};
+}
+
+std::uint64_t Image::ring(const Square& square) const {
+  const Bounds look = bounds(square);
+  const double plane2 = glm::dot(square.centre, square.centre);
+  std::uint64_t count = 0;
+  for (int y = look.y_begin; y < look.y_end; ++y) {
+    for (int x = look.x_begin; x < look.x_end; ++x) {
+      const glm::dvec3 ray((2 * (x + 0.5) / scene_.width - 1) * half_x_,
+                           (1 - 2 * (y + 0.5) / scene_.height) * half_y_, 1);
+      const double along = glm::dot(ray, square.centre);
+      if (!(along > 0)) continue;
+      const glm::dvec3 from = ray * (plane2 / along) - square.centre;
+      const double off =
+          std::max(std::abs(glm::dot(from, square.right)), std::abs(glm::dot(from, square.up)));
+      if (off > square.half && off <= square.grown) ++count;
+    }
+  }
+  return count;
+}
+
+// As technique/portable/sphere_math.h places sprites: just before the sphere, a margin of 1/64
+// pixel around it. Nothing where the sprite is the whole viewport, or behind the eye.
+std::optional<Square> square_of(const glm::dvec3& centre, double radius, double pixel,
+                                double growth) {
+  const double d = glm::length(centre);
+  const bool surrounds = d * d <= radius * radius * 1.001;
+  if (surrounds || centre.z + radius <= 0) return std::nullopt;
+  const glm::dvec3 v = centre / d;
+  const glm::dvec3 reference = std::abs(v.y) > 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 right = glm::normalize(glm::cross(v, reference));
+  const double half = radius + pixel * d / 64;
+  return Square{.centre = v * ((d - radius) * 0.9990234375),
+                .right = right,
+                .up = glm::cross(right, v),
+                .half = half,
+                .grown = half + growth * pixel * std::max(centre.z, 0.0)};
+}
+
+}  // namespace
+
+double fragments_of_growth(const scene::ParticleScene& scene, double growth) {
+  const Image image(scene);
+  double count = 0;
+  for (std::size_t i = 0; i < scene.particles->count(); ++i) {
+    const auto square = square_of(image.in_camera(scene.particles->spheres[i]), scene.radius(i),
+                                  image.pixel(), growth);
+    if (square) count += static_cast<double>(image.ring(*square));
+  }
+  return count;
+}
+
+}  // namespace triptych::particles_suite

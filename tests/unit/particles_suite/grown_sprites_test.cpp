@@ -1,0 +1,51 @@
+// Fragments by which ray-aligned sprites grow, against their areas on the image.
+
+#include "suites/particles/grown_sprites.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+namespace triptych::particles_suite {
+namespace {
+
+// One sphere seen from the origin along −z, in a square picture of 200².
+scene::ParticleScene one(double x, double z, double radius, double fov_y_deg) {
+  auto set = std::make_shared<scene::ParticleSet>();
+  set->spheres = {{static_cast<float>(x), 0, static_cast<float>(-z), static_cast<float>(radius)}};
+  scene::ParticleScene scene;
+  scene.particles = set;
+  scene.camera.fov_y_deg = fov_y_deg;
+  scene.width = 200;
+  scene.height = 200;
+  return scene;
+}
+
+// On the axis a square of half-size h pixels grows by g: by 8·h·g + 4·g², but for the pixels that
+// its border hits or misses, at most one along each of its sides. With a field of view of 90° a
+// pixel is 1/100 at distance 1; the plane lies 1 % before the centre's depth.
+TEST(GrownSprites, OnTheAxisAnEdgeMovesByTheGrowth) {
+  const double growth = 3;
+  const double plane = 10 - 0.5;
+  const double half = 0.5 * 100 / plane;
+  const double grown = half + growth * 10 / plane;
+  const double expected = 4 * (grown * grown - half * half);
+  EXPECT_NEAR(fragments_of_growth(one(0, 10, 0.5, 90), growth), expected, 8 * grown);
+}
+
+// 70° from the axis a length along the radius covers 1/cos 70° as many pixels, here of two edges.
+TEST(GrownSprites, AwayFromTheAxisMuchMore) {
+  const double sideways = 10 * std::tan(70 * std::acos(-1.0) / 180);
+  const double near_axis = fragments_of_growth(one(0, 10, 1, 150), 1);
+  const double far = fragments_of_growth(one(sideways, 10, 1, 150), 1);
+  EXPECT_GT(near_axis, 0);
+  EXPECT_GT(far, 2 * near_axis);
+}
+
+TEST(GrownSprites, NothingBehindTheEye) {
+  EXPECT_EQ(fragments_of_growth(one(0, -10, 1, 90), 3), 0);
+}
+
+}  // namespace
+}  // namespace triptych::particles_suite
