@@ -168,8 +168,7 @@ TEST_F(StoreTest, CreatedByAnotherBetweenLookAndLock) {
   make_store(model);
   const LateWriter late(file_);
   // RESERVED: others still read a blank file, but must wait to write.
-  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
-                         patience_ms);
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, patience_ms);
   other.exec("BEGIN IMMEDIATE");
   late.begin();
   SQLite::Database from(model.string());
