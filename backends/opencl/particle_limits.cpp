@@ -10,8 +10,8 @@
 
 namespace triptych::opencl_backend {
 
-BinTable bin_table(int width, int height, std::size_t compute_units) {
-  constexpr std::size_t per_unit = 8;
+BinTable bin_table(int width, int height, std::size_t particles) {
+  constexpr std::size_t per_chunk = 512;
   constexpr std::size_t fewest = 16;
   constexpr std::size_t most = 512;
   constexpr std::size_t most_words = std::size_t{1} << 24;
@@ -19,7 +19,7 @@ BinTable bin_table(int width, int height, std::size_t compute_units) {
   const std::size_t columns = parts(static_cast<std::size_t>(width), tile_edge);
   const std::size_t rows = parts(static_cast<std::size_t>(height), tile_edge);
   const std::size_t bins = columns * rows + parts(columns, coarse_edge) * parts(rows, coarse_edge);
-  const std::size_t chunks = std::min(std::min(per_unit * compute_units, most), most_words / bins);
+  const std::size_t chunks = std::min(std::min(particles / per_chunk, most), most_words / bins);
   return {.bins = bins, .chunks = std::max(chunks, fewest)};
 }
 
@@ -39,9 +39,8 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
   const std::uint64_t count = work.scene.particles->count();
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(work.scene.width) * static_cast<std::uint64_t>(work.scene.height);
-  const auto units = checked([&] { return session.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(); });
   const std::uint64_t table =
-      sizeof(cl_uint) * bin_table(work.scene.width, work.scene.height, units).words();
+      sizeof(cl_uint) * bin_table(work.scene.width, work.scene.height, count).words();
   const std::uint64_t largest = std::max(16 * std::max(count, pixels), table);
   if (largest > most) {
     return fmt::format(

@@ -17,9 +17,10 @@ struct BinTable {
 
   [[nodiscard]] std::size_t words() const { return bins * chunks; }
 };
-// Some chunks for each compute unit, so that none waits long for the last; fewer where the table
-// would be larger than what it is to sort.
-[[nodiscard]] BinTable bin_table(int width, int height, std::size_t compute_units);
+// A chunk for some particles each, so that many compute units have work; fewer where the table would
+// be larger than what it is to sort. The scene alone decides: the bytes that a frame takes belong to
+// no machine.
+[[nodiscard]] BinTable bin_table(int width, int height, std::size_t particles);
 
 // Why the device cannot draw these particles so; empty when it can.
 [[nodiscard]] std::optional<std::string> particle_defect(const Session& session,

@@ -23,11 +23,6 @@ std::array<std::size_t, 2> tile_grid(const scene::ParticleScene& scene) {
   return {tiles(scene.width), tiles(scene.height)};
 }
 
-BinTable bin_table_of(const Session& session, const scene::ParticleScene& scene) {
-  const auto units = checked([&] { return session.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(); });
-  return bin_table(scene.width, scene.height, units);
-}
-
 }  // namespace
 
 ParticleStages::ParticleStages(const Session& session, ParticleData data,
@@ -39,7 +34,7 @@ ParticleStages::ParticleStages(const Session& session, ParticleData data,
       height_(static_cast<std::size_t>(work.scene.height)),
       pixels_(static_cast<std::size_t>(work.scene.width) * height_),
       tiles_(tile_grid(work.scene)),
-      table_(bin_table_of(session, work.scene)),
+      table_(bin_table(work.scene.width, work.scene.height, work.scene.particles->count())),
       data_(std::move(data)),
       counter_rows_(std::max({table_.bins, data_.cell_count, table_.chunks})),
       camera_(make_buffer(4 * data_.count)),
