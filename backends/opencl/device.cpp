@@ -177,6 +177,7 @@ double Device::filter_weight_error(const measure::VolumePath& path) const {
 std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
   if (const auto* particles = std::get_if<measure::ParticleWork>(&work.scene)) {
+    volumes_ = {};  // such as the one that statistics were calibrated with: it is not the frame's
     return particle_techniques.at(work.technique)(session_, programs_, *particles);
   }
   const auto& volume = std::get<measure::VolumeWork>(work.scene);
