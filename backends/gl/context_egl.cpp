@@ -31,12 +31,21 @@ struct Egl {
           get_proc_address("eglGetPlatformDisplayEXT"));
   PFNEGLQUERYDEVICESEXTPROC query_devices =
       reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(get_proc_address("eglQueryDevicesEXT"));
+  PFNEGLQUERYDISPLAYATTRIBEXTPROC query_display = reinterpret_cast<PFNEGLQUERYDISPLAYATTRIBEXTPROC>(
+      get_proc_address("eglQueryDisplayAttribEXT"));
+  PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string =
+      reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(get_proc_address("eglQueryDeviceStringEXT"));
 
-  // Whole words: one extension's name may begin another's.
   [[nodiscard]] bool has(EGLDisplay display, std::string_view extension) const {
-    const char* names = query_string(display, EGL_EXTENSIONS);
-    return names != nullptr &&
-           fmt::format(" {} ", names).find(fmt::format(" {} ", extension)) != std::string::npos;
+    return is_among(query_string(display, EGL_EXTENSIONS), extension);
+  }
+  // Whether the display's device is one that Mesa calls software.
+  [[nodiscard]] bool is_software(EGLDisplay display) const {
+    EGLAttrib device = 0;
+    if (query_display == nullptr || query_device_string == nullptr) return false;
+    if (query_display(display, EGL_DEVICE_EXT, &device) == EGL_FALSE) return false;
+    const char* names = query_device_string(reinterpret_cast<EGLDeviceEXT>(device), EGL_EXTENSIONS);
+    return is_among(names, "EGL_MESA_device_software");
   }
   [[nodiscard]] core::ApiError error(std::string call,
                                      core::CodePlace place = core::CodePlace::current()) {
@@ -44,6 +53,12 @@ struct Egl {
   }
 
  private:
+  // Whole words: one extension's name may begin another's.
+  static bool is_among(const char* names, std::string_view extension) {
+    return names != nullptr &&
+           fmt::format(" {} ", names).find(fmt::format(" {} ", extension)) != std::string::npos;
+  }
+
   static std::string code_name(EGLint code) {
     static constexpr std::array names{
         "EGL_SUCCESS",       "EGL_NOT_INITIALIZED",     "EGL_BAD_ACCESS",
@@ -75,6 +90,9 @@ class EglContext final : public Context {
   }
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
+  [[nodiscard]] bool computes_on_the_processor() const override {
+    return egl_.is_software(display_);
+  }
   // The display stays: it is the process's, shared with every other context on it.
   ~EglContext() override { egl_.destroy_context(display_, handle_); }
 

@@ -55,6 +55,7 @@ class OsmesaContext final : public Context {
   }
   OsmesaContext(const OsmesaContext&) = delete;
   OsmesaContext& operator=(const OsmesaContext&) = delete;
+  [[nodiscard]] bool computes_on_the_processor() const override { return true; }
   ~OsmesaContext() override { osmesa_.destroy(handle_); }
 
  private:

@@ -15,6 +15,7 @@
 #include "backends/gl/volume_prepared.hpp"
 #include "core/error.hpp"
 #include "technique/particles/option_reason.hpp"
+#include "technique/volume/packed_cells.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -47,6 +48,7 @@ class GlDevice final : public measure::Device {
     const Current current(*context_);
     rasterizer_ = {context_->gl().sub_pixel_bits(), point_margin(context_->gl()),
                    largest_point(context_->gl())};
+    most_texels_ = static_cast<std::uint64_t>(context_->gl().limit(GL_MAX_TEXTURE_BUFFER_SIZE));
     if (ComputePass::unsupported(context_->gl(), 1, 1)) return;
     for (std::size_t i = 0; i < filter_error_.size(); ++i) {
       filter_error_[i] = probe_filter(context_->gl(), static_cast<scene::VoxelFormat>(i));
@@ -82,14 +84,19 @@ class GlDevice final : public measure::Device {
     return reason;
   }
 
-  [[nodiscard]] measure::VolumePath default_path(scene::VoxelFormat native) const override {
+  [[nodiscard]] measure::VolumePath default_path(const measure::VolumeKind& volume) const override {
+    if (context_->computes_on_the_processor() && volume.may_be_packed() &&
+        technique::packs_by_default(volume.size, volume.native, volume.filter_suffices,
+                                    most_texels_)) {
+      return {volume.native, technique::Sampler::packed};
+    }
     const measure::VolumePath hardware{scene::VoxelFormat::f32, technique::Sampler::hardware};
     if (filter_weight_error(hardware) < exact_filter) return hardware;
-    return {native, technique::Sampler::manual};
+    return {volume.native, technique::Sampler::manual};
   }
 
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override {
-    if (path.sampler == technique::Sampler::manual) return 0;
+    if (path.sampler != technique::Sampler::hardware) return 0;
     return filter_error_.at(static_cast<std::size_t>(path.voxel));
   }
 
@@ -117,6 +124,7 @@ class GlDevice final : public measure::Device {
   Stamps stamps_;
   measure::Rasterizer rasterizer_;
   // By voxel format; 1, the worst there is, where it cannot be probed.
+  std::uint64_t most_texels_ = 0;
   std::array<double, 3> filter_error_{1, 1, 1};
 };
 

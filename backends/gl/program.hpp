@@ -10,6 +10,8 @@ namespace triptych::gl_backend {
 // The compile-time constants of the shared raycasting source (technique/volume/raycast).
 struct Constants {
   bool manual_sampler = true;
+  bool packed = false;  // technique::Sampler::packed
+  int voxel_bits = 32;
   bool shading = false;
   bool count = false;
   bool speed_of_light = false;

@@ -10,6 +10,7 @@
 #include "backends/gl/prepared.hpp"
 #include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
+#include "technique/volume/packed_cells.hpp"
 #include "technique/volume/preintegration.hpp"
 #include "technique/volume/raycast_buffers.hpp"
 
@@ -101,11 +102,32 @@ class VolumeDrawing final : public Drawing {
   std::optional<Counting> counting_;
 };
 
+std::optional<std::string> texture_reason(const Api& gl, const scene::VoxelGrid& grid) {
+  const auto [nx, ny, nz] = grid.size;
+  const std::int64_t edge = gl.limit(GL_MAX_3D_TEXTURE_SIZE);
+  if (std::max({nx, ny, nz}) > edge) {
+    return fmt::format("a volume of {}x{}x{}, GL_MAX_3D_TEXTURE_SIZE is {}", nx, ny, nz, edge);
+  }
+  const TexelFormat format = texel_format(grid.format);
+  gl.TexImage3D(GL_PROXY_TEXTURE_3D, 0, static_cast<GLint>(format.internal), nx, ny, nz, 0, GL_RED,
+                format.type, nullptr);
+  GLint accepted = 0;
+  gl.GetTexLevelParameteriv(GL_PROXY_TEXTURE_3D, 0, GL_TEXTURE_WIDTH, &accepted);
+  gl.check("glTexImage3D");
+  if (accepted == 0) {
+    return fmt::format("no texture of {}x{}x{} {} ({} bytes) by GL_PROXY_TEXTURE_3D", nx, ny, nz,
+                       scene::name_of(grid.format), grid.data.size());
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Constants constants_of(const measure::VolumeWork& work) {
   return {
       .manual_sampler = work.options.sampler == technique::Sampler::manual,
+      .packed = is_packed(work),
+      .voxel_bits = static_cast<int>(8 * scene::bytes_of(work.scene.grid->format)),
       .shading = work.scene.shading.enabled,
       .count = false,
       .speed_of_light = false,
@@ -127,24 +149,14 @@ std::optional<std::string> volume_unsupported(const Api& gl, const measure::Volu
     return "precision fp64 needs OpenGL 4.3";
   }
   const scene::VoxelGrid& grid = *work.scene.grid;
-  const auto [nx, ny, nz] = grid.size;
-  const std::int64_t edge = gl.limit(GL_MAX_3D_TEXTURE_SIZE);
-  if (std::max({nx, ny, nz}) > edge) {
-    return fmt::format("a volume of {}x{}x{}, GL_MAX_3D_TEXTURE_SIZE is {}", nx, ny, nz, edge);
-  }
-  const TexelFormat format = texel_format(grid.format);
-  gl.TexImage3D(GL_PROXY_TEXTURE_3D, 0, static_cast<GLint>(format.internal), nx, ny, nz, 0, GL_RED,
-                format.type, nullptr);
-  GLint accepted = 0;
-  gl.GetTexLevelParameteriv(GL_PROXY_TEXTURE_3D, 0, GL_TEXTURE_WIDTH, &accepted);
-  gl.check("glTexImage3D");
-  if (accepted == 0) {
-    return fmt::format("no texture of {}x{}x{} {} ({} bytes) by GL_PROXY_TEXTURE_3D", nx, ny, nz,
-                       scene::name_of(grid.format), grid.data.size());
-  }
+  const technique::RaycastBuffers buffers = technique::raycast_buffers(work.scene, work.options);
+  const auto most_texels = static_cast<std::uint64_t>(gl.limit(GL_MAX_TEXTURE_BUFFER_SIZE));
+  auto reason = is_packed(work) ? technique::packed_reason(
+                                      grid, buffers, {most_texels, "GL_MAX_TEXTURE_BUFFER_SIZE"})
+                                : texture_reason(gl, grid);
+  if (reason) return reason;
   return technique::buffer_reason(
-      technique::raycast_buffers(work.scene, work.options),
-      static_cast<std::uint64_t>(gl.limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)),
+      buffers, static_cast<std::uint64_t>(gl.limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)),
       "GL_MAX_SHADER_STORAGE_BLOCK_SIZE");
 }
 

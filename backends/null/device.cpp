@@ -134,8 +134,8 @@ class NullDevice final : public measure::Device {
     return std::nullopt;
   }
 
-  measure::VolumePath default_path(scene::VoxelFormat native) const override {
-    return {.voxel = native, .sampler = technique::Sampler::manual};
+  measure::VolumePath default_path(const measure::VolumeKind& volume) const override {
+    return {.voxel = volume.native, .sampler = technique::Sampler::manual};
   }
 
   double filter_weight_error(const measure::VolumePath& path) const override {

@@ -51,7 +51,7 @@ class Device final : public measure::Device {
 
   [[nodiscard]] const record::Device& info() const override { return info_; }
   [[nodiscard]] std::optional<std::string> unsupported(const measure::Work& work) const override;
-  [[nodiscard]] measure::VolumePath default_path(scene::VoxelFormat native) const override;
+  [[nodiscard]] measure::VolumePath default_path(const measure::VolumeKind& volume) const override;
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override;
   [[nodiscard]] record::Counts memory() const override { return session_.held.counts(); }
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
@@ -147,6 +147,11 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
   if (volume->options.precision == technique::Precision::fp64 && !has_doubles_) {
     return "precision fp64 needs cl_khr_fp64, which the device lacks";
   }
+  if (volume->options.sampler == Sampler::packed) {
+    return "sampler packed reads texels of buffers, which OpenCL C has not: sampler manual reads "
+           "the "
+           "volume's own voxels in pairs";
+  }
   if (volume->options.sampler == Sampler::hardware) {
     if (auto defect = image_defect(*volume->scene.grid)) return defect;
   }
@@ -157,7 +162,8 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
 // faster than its sampler (speed_of_light: 405 against 44 million samples a second on two cores).
 // The volume's own format: u8, u16 and f32 take the same time there as long as they fit the caches
 // (409, 413 and 446 million samples a second at 128³), and the smaller ones do so longer.
-measure::VolumePath Device::default_path(scene::VoxelFormat native) const {
+measure::VolumePath Device::default_path(const measure::VolumeKind& volume) const {
+  const scene::VoxelFormat native = volume.native;
   const measure::VolumePath hardware{native, Sampler::hardware};
   constexpr double exact = 1e-5;
   if (is_gpu_ && image_format(session_, native) && filter_weight_error(hardware) < exact) {

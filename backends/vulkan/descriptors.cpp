@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <vulkan/vulkan_format_traits.hpp>
 
 #include "core/error.hpp"
 
@@ -66,6 +67,17 @@ void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                                                          .descriptorType = type,
                                                          .pBufferInfo = &info},
                                   {});
+}
+
+vk::raii::BufferView texel_view(const Gpu& gpu, const Buffer& buffer, vk::Format format) {
+  const vk::DeviceSize texels = buffer.size() / vk::blockSize(format);
+  const vk::DeviceSize most = gpu.properties.limits.maxTexelBufferElements;
+  if (texels > most) {
+    throw core::NotSupported(
+        fmt::format("needs {} texels in one buffer; maxTexelBufferElements = {}", texels, most));
+  }
+  return {gpu.device, vk::BufferViewCreateInfo{
+                          .buffer = buffer.get(), .format = format, .range = VK_WHOLE_SIZE}};
 }
 
 void bind_texels(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,

@@ -32,6 +32,10 @@ struct Layout {
 // The whole buffer. Throws core::NotSupported where that is more than maxStorageBufferRange.
 void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  vk::DescriptorType type, const Buffer& buffer);
+// The whole buffer as texels. Throws core::NotSupported where those are more than
+// maxTexelBufferElements.
+[[nodiscard]] vk::raii::BufferView texel_view(const Gpu& gpu, const Buffer& buffer,
+                                              vk::Format format);
 // A view of a buffer that was made for uniform texels.
 void bind_texels(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  const vk::raii::BufferView& view);

@@ -14,6 +14,7 @@
 #include "backends/vulkan/techniques.hpp"
 #include "backends/vulkan/volume_resources.hpp"
 #include "core/error.hpp"
+#include "technique/volume/packed_cells.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -72,9 +73,16 @@ std::optional<double> Device::hardware_error(scene::VoxelFormat format) const {
   return filter_errors_.at(static_cast<std::size_t>(format));
 }
 
-// A filter that is exact beats eight fetches and their arithmetic everywhere; among exact ones R32F
-// is the fastest on CPU devices, and no slower elsewhere while it fits the caches.
-measure::VolumePath Device::default_path(scene::VoxelFormat native) const {
+// A filter that is exact beats eight fetches and their arithmetic wherever there is hardware for
+// it; among exact ones R32F is the fastest on CPU devices, and no slower elsewhere while it fits
+// the caches.
+measure::VolumePath Device::default_path(const measure::VolumeKind& volume) const {
+  const scene::VoxelFormat native = volume.native;
+  if (gpu_.is_cpu() && volume.may_be_packed() &&
+      technique::packs_by_default(volume.size, native, volume.filter_suffices,
+                                  gpu_.properties.limits.maxTexelBufferElements)) {
+    return {.voxel = native, .sampler = technique::Sampler::packed};
+  }
   for (const scene::VoxelFormat format : {scene::VoxelFormat::f32, native}) {
     if (hardware_error(format).value_or(1) < exact_filter) {
       return {.voxel = format, .sampler = technique::Sampler::hardware};
@@ -84,7 +92,7 @@ measure::VolumePath Device::default_path(scene::VoxelFormat native) const {
 }
 
 double Device::filter_weight_error(const measure::VolumePath& path) const {
-  if (path.sampler == technique::Sampler::manual) return 0;
+  if (path.sampler != technique::Sampler::hardware) return 0;
   const std::optional<double> error = hardware_error(path.voxel);
   // A wrong filter is no wide bound.
   if (error) return std::min(*error, allowed_filter_error(gpu_));

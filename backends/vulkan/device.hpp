@@ -18,7 +18,7 @@ class Device final : public measure::Device {
 
   [[nodiscard]] const record::Device& info() const override { return info_; }
   [[nodiscard]] std::optional<std::string> unsupported(const measure::Work& work) const override;
-  [[nodiscard]] measure::VolumePath default_path(scene::VoxelFormat native) const override;
+  [[nodiscard]] measure::VolumePath default_path(const measure::VolumeKind& volume) const override;
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override;
   [[nodiscard]] std::optional<measure::Rasterizer> rasterizer() const override;
   [[nodiscard]] record::Counts memory() const override { return gpu_.held.counts(); }

@@ -47,8 +47,9 @@ struct Constants {
   std::int32_t preintegrated = 0;  // technique::preintegration_form
   std::int32_t leaps = 0;
   std::int32_t adapt = 0;
+  std::int32_t voxel_bits = 32;
 };
-static_assert(sizeof(Constants) == 8 * 4);
+static_assert(sizeof(Constants) == 9 * 4);
 
 // The embedded SPIR-V by its file name, "raycast.comp.spv".
 [[nodiscard]] std::string_view spirv(std::string_view name);

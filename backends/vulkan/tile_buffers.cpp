@@ -41,17 +41,6 @@ std::uint64_t times(const measure::ParticleWork& work) {
   return work.options.extra_work_stride > 0 ? 2 : 1;
 }
 
-vk::raii::BufferView texel_view(const Gpu& gpu, const Buffer& buffer, vk::Format format) {
-  const vk::DeviceSize size = format == vk::Format::eR32Uint ? word : 4 * word;
-  const vk::DeviceSize most = gpu.properties.limits.maxTexelBufferElements;
-  if (buffer.size() / size > most) {
-    throw core::NotSupported(fmt::format(
-        "needs {} texels in one buffer; maxTexelBufferElements = {}", buffer.size() / size, most));
-  }
-  return {gpu.device, vk::BufferViewCreateInfo{
-                          .buffer = buffer.get(), .format = format, .range = VK_WHOLE_SIZE}};
-}
-
 }  // namespace
 
 std::vector<vk::DescriptorSetLayoutBinding> tile_bindings() {

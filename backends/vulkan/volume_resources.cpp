@@ -9,6 +9,7 @@
 #include "technique/volume/brick_map.hpp"
 #include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
+#include "technique/volume/packed_cells.hpp"
 #include "technique/volume/preintegration.hpp"
 #include "technique/volume/quadrature_table.hpp"
 #include "technique/volume/raycast_parameters.hpp"
@@ -18,10 +19,15 @@ namespace {
 
 constexpr std::uint32_t passes = 2;
 constexpr std::uint32_t storage_buffers = 4;  // bricks, output, counters, quadrature
+constexpr std::uint32_t texel_buffers = 4;    // cells, table, bricks, quadrature
+// What bricks and quadrature may be read as.
+constexpr auto shader_buffer =
+    vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformTexelBuffer;
 
 Buffer upload_parameters(const Gpu& gpu, const measure::VolumeWork& work) {
-  // A texel reaches the shader divided by its format's largest.
-  const double stored_maximum = scene::largest_stored(work.scene.grid->format);
+  // A texel of an image reaches the shader divided by its format's largest.
+  const double stored_maximum =
+      is_packed(work) ? 1 : scene::largest_stored(work.scene.grid->format);
   return make_buffer(gpu, technique::raycast_parameters(work.scene, work.options, stored_maximum),
                      vk::BufferUsageFlagBits::eUniformBuffer);
 }
@@ -30,12 +36,12 @@ Buffer upload_bricks(const Gpu& gpu, const measure::VolumeWork& work) {
   // Read by nothing when nothing is skipped.
   const std::vector<std::int32_t> map =
       technique::brick_map(work.scene, work.options.skip, work.options.adapt);
-  return make_buffer(gpu, std::as_bytes(std::span(map)), vk::BufferUsageFlagBits::eStorageBuffer);
+  return make_buffer(gpu, std::as_bytes(std::span(map)), shader_buffer);
 }
 
 Buffer upload_quadrature(const Gpu& gpu, const scene::VolumeScene& scene) {
   const technique::QuadratureTable table = technique::quadrature_table(scene);
-  return make_buffer(gpu, std::as_bytes(std::span(table)), vk::BufferUsageFlagBits::eStorageBuffer);
+  return make_buffer(gpu, std::as_bytes(std::span(table)), shader_buffer);
 }
 
 Image upload_table(const Gpu& gpu, const scene::TransferFunction& function) {
@@ -46,20 +52,28 @@ Image upload_table(const Gpu& gpu, const scene::TransferFunction& function) {
   return image;
 }
 
-std::array<vk::DescriptorSetLayoutBinding, 7> volume_bindings() {
+Buffer upload_cells(const Gpu& gpu, const scene::VoxelGrid& grid) {
+  return make_buffer(
+      gpu, technique::packed_bytes(grid.size, grid.format),
+      [&](std::size_t begin, std::span<std::byte> out) {
+        technique::fill_packed_cells(grid, begin, out);
+      },
+      vk::BufferUsageFlagBits::eUniformTexelBuffer);
+}
+
+std::array<vk::DescriptorSetLayoutBinding, 7> volume_bindings(bool packed) {
   using enum vk::DescriptorType;
+  const vk::DescriptorType texture = packed ? eUniformTexelBuffer : eCombinedImageSampler;
+  const vk::DescriptorType buffer = packed ? eUniformTexelBuffer : eStorageBuffer;
   constexpr auto stages = vk::ShaderStageFlagBits::eCompute | vk::ShaderStageFlagBits::eFragment;
   const auto binding = [&](Binding number, vk::DescriptorType type) {
     return vk::DescriptorSetLayoutBinding{
         .binding = number, .descriptorType = type, .descriptorCount = 1, .stageFlags = stages};
   };
-  return {binding(parameters_binding, eUniformBuffer),
-          binding(volume_binding, eCombinedImageSampler),
-          binding(transfer_binding, eCombinedImageSampler),
-          binding(bricks_binding, eStorageBuffer),
-          binding(output_binding, eStorageBuffer),
-          binding(counters_binding, eStorageBuffer),
-          binding(quadrature_binding, eStorageBuffer)};
+  return {binding(parameters_binding, eUniformBuffer), binding(volume_binding, texture),
+          binding(transfer_binding, texture),          binding(bricks_binding, buffer),
+          binding(output_binding, eStorageBuffer),     binding(counters_binding, eStorageBuffer),
+          binding(quadrature_binding, buffer)};
 }
 
 std::size_t pixel_count(const scene::VolumeScene& scene) {
@@ -94,29 +108,62 @@ VolumeResources::VolumeResources(const Gpu& gpu, const measure::VolumeWork& work
     : gpu_(gpu),
       pixels_(pixel_count(work.scene)),
       output_(output),
-      volume_(upload_volume(gpu, *work.scene.grid)),
-      table_(upload_table(gpu, work.scene.transfer_function)),
       bricks_(upload_bricks(gpu, work)),
       quadrature_(upload_quadrature(gpu, work.scene)),
       parameters_(upload_parameters(gpu, work)),
-      linear_(make_sampler(gpu, vk::Filter::eLinear)),
-      nearest_(make_sampler(gpu, vk::Filter::eNearest)),
-      hardware_filter_(work.options.sampler == technique::Sampler::hardware),
-      layout_(make_layout(gpu, volume_bindings())),
-      pool_(make_pool(gpu, passes, storage_buffers)),
+      layout_(make_layout(gpu, volume_bindings(is_packed(work)))),
+      pool_(make_pool(gpu, passes, storage_buffers, is_packed(work) ? texel_buffers : 0)),
       sets_(allocate_sets(gpu, pool_, layout_, passes)) {
+  if (is_packed(work)) {
+    texels_.emplace(make_texels(work));
+  } else {
+    images_.emplace(make_images(work));
+  }
   write_set(Pass::timed);
   write_set(Pass::counting);
+}
+
+VolumeResources::Images VolumeResources::make_images(const measure::VolumeWork& work) const {
+  const bool linear = work.options.sampler == technique::Sampler::hardware;
+  return {.volume = upload_volume(gpu_, *work.scene.grid),
+          .table = upload_table(gpu_, work.scene.transfer_function),
+          .volume_sampler = make_sampler(gpu_, linear ? vk::Filter::eLinear : vk::Filter::eNearest),
+          .nearest = make_sampler(gpu_, vk::Filter::eNearest)};
+}
+
+VolumeResources::Texels VolumeResources::make_texels(const measure::VolumeWork& work) const {
+  const scene::VoxelGrid& grid = *work.scene.grid;
+  Buffer cells = upload_cells(gpu_, grid);
+  Buffer table = make_buffer(gpu_, std::as_bytes(std::span(work.scene.transfer_function.entries)),
+                             vk::BufferUsageFlagBits::eUniformTexelBuffer);
+  const vk::Format cell = technique::packed_texel_bytes(grid.format) == 8
+                              ? vk::Format::eR32G32Uint
+                              : vk::Format::eR32G32B32A32Uint;
+  vk::raii::BufferView cells_view = texel_view(gpu_, cells, cell);
+  vk::raii::BufferView table_view = texel_view(gpu_, table, vk::Format::eR32G32B32A32Sfloat);
+  return {.cells = std::move(cells),
+          .table = std::move(table),
+          .cells_view = std::move(cells_view),
+          .table_view = std::move(table_view),
+          .bricks_view = texel_view(gpu_, bricks_, vk::Format::eR32Sint),
+          .quadrature_view = texel_view(gpu_, quadrature_, vk::Format::eR32G32B32A32Sfloat)};
 }
 
 void VolumeResources::write_set(Pass pass) const {
   using enum vk::DescriptorType;
   const vk::DescriptorSet to = set(pass);
   bind_buffer(gpu_, to, parameters_binding, eUniformBuffer, parameters_);
-  bind_texture(gpu_, to, volume_binding, volume_, hardware_filter_ ? linear_ : nearest_);
-  bind_texture(gpu_, to, transfer_binding, table_, nearest_);
-  bind_buffer(gpu_, to, bricks_binding, eStorageBuffer, bricks_);
-  bind_buffer(gpu_, to, quadrature_binding, eStorageBuffer, quadrature_);
+  if (texels_) {
+    bind_texels(gpu_, to, volume_binding, texels_->cells_view);
+    bind_texels(gpu_, to, transfer_binding, texels_->table_view);
+    bind_texels(gpu_, to, bricks_binding, texels_->bricks_view);
+    bind_texels(gpu_, to, quadrature_binding, texels_->quadrature_view);
+  } else {
+    bind_texture(gpu_, to, volume_binding, images_->volume, images_->volume_sampler);
+    bind_texture(gpu_, to, transfer_binding, images_->table, images_->nearest);
+    bind_buffer(gpu_, to, bricks_binding, eStorageBuffer, bricks_);
+    bind_buffer(gpu_, to, quadrature_binding, eStorageBuffer, quadrature_);
+  }
   if (output_ != nullptr) bind_buffer(gpu_, to, output_binding, eStorageBuffer, *output_);
 }
 
@@ -161,14 +208,16 @@ Constants constants_of(const measure::VolumeWork& work) {
                               : technique::opacity_form(work.scene.step_voxels),
           .preintegrated = technique::preintegration_form(work.scene),
           .leaps = work.options.skip == technique::Skip::distance ? 1 : 0,
-          .adapt = work.options.adapt > 0 ? 1 : 0};
+          .adapt = work.options.adapt > 0 ? 1 : 0,
+          .voxel_bits = static_cast<std::int32_t>(8 * scene::bytes_of(work.scene.grid->format))};
 }
 
 std::string_view raycast_spirv(std::string_view shader, const measure::VolumeWork& work,
                                Pass pass) {
   const std::size_t dot = shader.find('.');
-  return spirv(fmt::format("{}{}{}{}{}{}.spv", shader.substr(0, dot),
+  return spirv(fmt::format("{}{}{}{}{}{}{}.spv", shader.substr(0, dot),
                            work.scene.quadrature == scene::Quadrature::cells ? "_cells" : "",
+                           is_packed(work) ? "_packed" : "",
                            work.options.precision == technique::Precision::fp64 ? "_fp64" : "",
                            technique::has_long_rays(work.scene) ? "_long" : "",
                            pass == Pass::counting ? "_counting" : "", shader.substr(dot)));

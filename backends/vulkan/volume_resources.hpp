@@ -26,6 +26,10 @@ enum Binding : std::uint32_t {
 
 [[nodiscard]] Image upload_volume(const Gpu& gpu, const scene::VoxelGrid& grid);
 
+[[nodiscard]] inline bool is_packed(const measure::VolumeWork& work) {
+  return work.options.sampler == technique::Sampler::packed;
+}
+
 // A pass over the picture.
 enum class Pass : std::uint8_t {
   timed,    // with the injected extra work, if there is any
@@ -46,19 +50,34 @@ class VolumeResources {
   [[nodiscard]] record::Counts read_counters() const;
 
  private:
+  // Voxels and transfer function as images; for sampler packed as texels of buffers, as are then
+  // bricks and quadrature.
+  struct Images {
+    Image volume;
+    Image table;
+    vk::raii::Sampler volume_sampler;
+    vk::raii::Sampler nearest;
+  };
+  struct Texels {
+    Buffer cells;
+    Buffer table;
+    vk::raii::BufferView cells_view;
+    vk::raii::BufferView table_view;
+    vk::raii::BufferView bricks_view;
+    vk::raii::BufferView quadrature_view;
+  };
+  [[nodiscard]] Images make_images(const measure::VolumeWork& work) const;
+  [[nodiscard]] Texels make_texels(const measure::VolumeWork& work) const;
   void write_set(Pass pass) const;
 
   const Gpu& gpu_;
   std::size_t pixels_;
   const Buffer* output_;
-  Image volume_;
-  Image table_;
   Buffer bricks_;
   Buffer quadrature_;
   Buffer parameters_;
-  vk::raii::Sampler linear_;
-  vk::raii::Sampler nearest_;
-  bool hardware_filter_;
+  std::optional<Images> images_;
+  std::optional<Texels> texels_;
   std::optional<Buffer> counters_;
   Layout layout_;
   vk::raii::DescriptorPool pool_;

@@ -5,6 +5,7 @@
 #include "backends/vulkan/filter_probe.hpp"
 #include "backends/vulkan/support.hpp"
 #include "backends/vulkan/volume_resources.hpp"
+#include "technique/volume/packed_cells.hpp"
 #include "technique/volume/raycast_buffers.hpp"
 
 namespace triptych::vulkan_backend {
@@ -18,6 +19,13 @@ std::optional<std::string> format_reason(const Gpu& gpu, const measure::VolumeWo
     return fmt::format("cannot filter images of format {} linearly", name);
   }
   return std::nullopt;
+}
+
+std::optional<std::string> texel_reason(const Gpu& gpu, const measure::VolumeWork& work,
+                                        const technique::RaycastBuffers& buffers) {
+  return technique::packed_reason(
+      *work.scene.grid, buffers,
+      {.texels = gpu.properties.limits.maxTexelBufferElements, .name = "maxTexelBufferElements"});
 }
 
 std::optional<std::string> volume_size_reason(const Gpu& gpu, const scene::VoxelGrid& grid) {
@@ -47,19 +55,25 @@ std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWo
   if (work.options.precision == technique::Precision::fp64 && !gpu.features.shaderFloat64) {
     return "precision fp64 needs shaderFloat64, which the device lacks";
   }
-  if (auto reason = format_reason(gpu, work)) return reason;
-  if (auto reason = volume_size_reason(gpu, *scene.grid)) return reason;
+  const technique::RaycastBuffers buffers = technique::raycast_buffers(scene, work.options);
+  if (is_packed(work)) {
+    if (auto reason = texel_reason(gpu, work, buffers)) return reason;
+  } else {
+    if (auto reason = format_reason(gpu, work)) return reason;
+    if (auto reason = volume_size_reason(gpu, *scene.grid)) return reason;
+  }
   constexpr std::uint64_t pixel_bytes = technique::raycast_counter_stride * sizeof(std::uint32_t);
   if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
     return reason;
   }
-  const technique::RaycastBuffers buffers = technique::raycast_buffers(scene, work.options);
   if (auto reason = technique::buffer_reason(buffers, gpu.properties.limits.maxStorageBufferRange,
                                              "maxStorageBufferRange")) {
     return reason;
   }
-  return memory_reason(
-      gpu, scene.grid->voxel_count() * scene::bytes_of(scene.grid->format) + buffers.all());
+  const std::uint64_t volume =
+      is_packed(work) ? technique::packed_bytes(scene.grid->size, scene.grid->format)
+                      : scene.grid->voxel_count() * scene::bytes_of(scene.grid->format);
+  return memory_reason(gpu, volume + buffers.all());
 }
 
 }  // namespace triptych::vulkan_backend

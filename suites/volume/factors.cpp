@@ -34,8 +34,10 @@ const std::vector<Factor>& volume_factors() {
            "analytic:PROBLEM:SIZE, known by a formula, or stress:CASE:VARIANT"),
       choice("voxel", {"auto", "u8", "u16", "f32"}, "auto", Decides::how_it_is_made,
              "how voxels are stored on the device; auto: the device's fastest exact path"),
-      choice("sampler", {"auto", "hardware", "manual"}, "auto", Decides::how_it_is_made,
-             "who interpolates between voxels; auto: as for voxel"),
+      choice(
+          "sampler", {"auto", "hardware", "manual", "packed"}, "auto", Decides::how_it_is_made,
+          "who interpolates between voxels: the device's sampler, the kernel, or the kernel from "
+          "cells of eight; auto: as for voxel"),
       silent(
           text("window", "full",
                "values that the transfer function spans: full, or LOW..HIGH in the data's units or "

@@ -76,7 +76,8 @@ class VolumeSuite final : public measure::SuiteWithTruth {
     scene::VoxelFormat native = scene::VoxelFormat::f32;
     std::shared_ptr<const scene::VoxelGrid> grid;
   };
-  using ChooseFormat = std::function<scene::VoxelFormat(scene::VoxelFormat native)>;
+  using ChooseFormat =
+      std::function<scene::VoxelFormat(scene::VoxelFormat native, const std::array<int, 3>& size)>;
 
   // What the truth is rendered of: the scene, and the errors that a device's path may make in it.
   struct Judged {
@@ -127,7 +128,8 @@ const VolumeSuite::Loaded& VolumeSuite::load(const Configuration& configuration,
   const std::string& window = configuration.at("window");
   const std::string& mapping = configuration.at("mapping");
   if (loaded_.grid && loaded_.data == data && loaded_.window == window &&
-      loaded_.mapping == mapping && choose(loaded_.native) == loaded_.grid->format) {
+      loaded_.mapping == mapping &&
+      choose(loaded_.native, loaded_.grid->size) == loaded_.grid->format) {
     return loaded_;
   }
   loaded_ = {};  // frees the old one before the new one is loaded
@@ -135,18 +137,19 @@ const VolumeSuite::Loaded& VolumeSuite::load(const Configuration& configuration,
   scene::Volume volume = read(data, stress);
   scene::set_window(volume, scene::parse_window(window), scene::mapping(mapping));
   const scene::VoxelFormat native = scene::lossless_format(volume);
-  loaded_ = {.data = data,
-             .window = window,
-             .mapping = mapping,
-             .stress = std::move(stress),
-             .native = native,
-             .grid = std::make_shared<const scene::VoxelGrid>(
-                 scene::encode(std::move(volume), choose(native)))};
+  const scene::VoxelFormat format = choose(native, volume.size);
+  loaded_ = {
+      .data = data,
+      .window = window,
+      .mapping = mapping,
+      .stress = std::move(stress),
+      .native = native,
+      .grid = std::make_shared<const scene::VoxelGrid>(scene::encode(std::move(volume), format))};
   return loaded_;
 }
 
 const VolumeSuite::Loaded& VolumeSuite::load_as_it_is(const Configuration& configuration) {
-  return load(configuration, [](scene::VoxelFormat native) { return native; });
+  return load(configuration, [](scene::VoxelFormat native, const auto&) { return native; });
 }
 
 // What may be `own` in a configuration of the data loaded.
@@ -173,29 +176,36 @@ scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
 
 // No device's sampler interpolates in double precision, and floats would round integers. Quadrature
 // cells asks no sampler.
-measure::VolumePath default_path(const measure::Device& device, scene::VoxelFormat native,
+measure::VolumePath default_path(const measure::Device& device, measure::VolumeKind volume,
                                  technique::Precision precision, scene::Quadrature quadrature) {
-  if (precision == technique::Precision::fp64 || quadrature == scene::Quadrature::cells) {
-    return {native, technique::Sampler::manual};
+  const bool asks_no_sampler =
+      precision == technique::Precision::fp64 || quadrature == scene::Quadrature::cells;
+  if (asks_no_sampler) volume.filter_suffices = false;
+  const measure::VolumePath path = device.default_path(volume);
+  if (asks_no_sampler && path.sampler == technique::Sampler::hardware) {
+    return {volume.native, technique::Sampler::manual};
   }
-  return device.default_path(native);
+  return path;
 }
 
 measure::Work VolumeSuite::work(Configuration& configuration, const measure::Device& device) {
   const technique::Precision precision = technique::precision(configuration.at("precision"));
   const scene::Quadrature quadrature = levels_of(configuration, {}).quadrature();
+  std::optional<technique::Sampler> named;
+  if (configuration.at("sampler") != "auto") {
+    named = technique::sampler(configuration.at("sampler"));
+  }
   measure::VolumePath path;
-  const auto choose = [&](scene::VoxelFormat native) {
-    path = default_path(device, native, precision, quadrature);
+  const auto choose = [&](scene::VoxelFormat native, const std::array<int, 3>& size) {
+    path = default_path(device, {native, size, named, configuration.at("shading") == "none"},
+                        precision, quadrature);
     if (configuration.at("voxel") != "auto")
       path.voxel = scene::voxel_format(configuration.at("voxel"));
     return path.voxel;
   };
   const Loaded& loaded = load(configuration, choose);
-  choose(loaded.native);
-  if (configuration.at("sampler") != "auto") {
-    path.sampler = technique::sampler(configuration.at("sampler"));
-  }
+  choose(loaded.native, loaded.grid->size);
+  path.sampler = named.value_or(path.sampler);
   configuration["voxel"] = scene::name_of(path.voxel);
   configuration["sampler"] = technique::name_of(path.sampler);
   return {.technique = configuration.at("technique"),
@@ -307,7 +317,7 @@ std::string VolumeSuite::truth_key(const Configuration& configuration,
 }
 
 std::string VolumeSuite::data_hash(const Configuration& configuration) {
-  const auto choose = [&](scene::VoxelFormat native) {
+  const auto choose = [&](scene::VoxelFormat native, const auto&) {
     const std::string& voxel = configuration.at("voxel");
     return voxel == "auto" ? native : scene::voxel_format(voxel);
   };

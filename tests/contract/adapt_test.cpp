@@ -112,7 +112,7 @@ TEST(Adapt, V1IsExactWithOneSampleARay) {
       size.step_voxels = step;
       const reference::AnalyticScene analytic =
           analytic_scene(reference::AnalyticProblem::v1_constant, size);
-      const technique::Sampler sampler = device.default_path(scene::VoxelFormat::f32).sampler;
+      const technique::Sampler sampler = device.default_path({scene::VoxelFormat::f32}).sampler;
       const measure::Work work =
           walking({.technique = "raycast",
                    .scene = VolumeWork{.scene = analytic.scene,

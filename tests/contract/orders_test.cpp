@@ -26,11 +26,11 @@ reference::AnalyticScene scene_of(AnalyticProblem problem, int size, double step
 }
 
 measure::Work work_of(const measure::Device& device, const scene::VolumeScene& scene) {
-  return {
-      .technique = "raycast",
-      .scene = measure::VolumeWork{
-          .scene = scene,
-          .options = {.sampler = device.default_path(scene::VoxelFormat::f32).sampler, .ert = 0}}};
+  return {.technique = "raycast",
+          .scene = measure::VolumeWork{
+              .scene = scene,
+              .options = {.sampler = device.default_path({scene::VoxelFormat::f32}).sampler,
+                          .ert = 0}}};
 }
 
 // Root mean square of the error over pixels and channels against `exact(x, y)`.

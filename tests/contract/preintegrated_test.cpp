@@ -24,11 +24,11 @@ reference::AnalyticScene scene_of(AnalyticProblem problem, int size, double step
 }
 
 measure::Work work_of(const measure::Device& device, const scene::VolumeScene& scene) {
-  return {
-      .technique = "raycast",
-      .scene = VolumeWork{
-          .scene = scene,
-          .options = {.sampler = device.default_path(scene::VoxelFormat::f32).sampler, .ert = 0}}};
+  return {.technique = "raycast",
+          .scene = VolumeWork{
+              .scene = scene,
+              .options = {.sampler = device.default_path({scene::VoxelFormat::f32}).sampler,
+                          .ert = 0}}};
 }
 
 double rms_error(const core::Image& image, const reference::AnalyticScene& analytic) {

@@ -19,7 +19,8 @@ using volume_suite::stress_scene;
 using volume_suite::StressScene;
 
 measure::Work work_of(const measure::Device& device, StressScene stress) {
-  const measure::VolumePath path = device.default_path(scene::lossless_format(stress.volume.type));
+  const measure::VolumePath path = device.default_path(
+      {.native = scene::lossless_format(stress.volume.type), .size = stress.volume.size});
   scene::VolumeScene scene{.grid = std::make_shared<const scene::VoxelGrid>(
                                scene::encode(std::move(stress.volume), path.voxel)),
                            .transfer_function = scene::without_denormals(stress.function),

@@ -16,7 +16,7 @@ TEST(Truth, EveryPathStaysWithinItsBound) {
     for (const scene::VoxelFormat format :
          {scene::VoxelFormat::u8, scene::VoxelFormat::u16, scene::VoxelFormat::f32}) {
       for (const technique::Sampler sampler :
-           {technique::Sampler::hardware, technique::Sampler::manual}) {
+           {technique::Sampler::hardware, technique::Sampler::manual, technique::Sampler::packed}) {
         SCOPED_TRACE(std::string(scene::name_of(format)) + " " +
                      std::string(technique::name_of(sampler)));
         scene::VolumeScene scene = small_scene("surfaces");

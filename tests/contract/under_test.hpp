@@ -33,7 +33,8 @@ inline void on_every_device(const std::function<void(measure::Device&)>& body) {
 // The scene on the path that the device takes by default.
 inline measure::Work default_work(const measure::Device& device, scene::Volume volume,
                                   scene::VolumeScene scene) {
-  const measure::VolumePath path = device.default_path(scene::lossless_format(volume.type));
+  const measure::VolumePath path =
+      device.default_path({.native = scene::lossless_format(volume.type), .size = volume.size});
   scene.grid =
       std::make_shared<const scene::VoxelGrid>(scene::encode(std::move(volume), path.voxel));
   scene.camera = scene::camera_at("orbit_y:1/8", scene.box(), 90);

@@ -11,3 +11,4 @@ layout(constant_id = 4) const int opacity_form = 0;
 layout(constant_id = 5) const int TRI_PREINTEGRATED = 0;
 layout(constant_id = 6) const int TRI_LEAPS = 0;
 layout(constant_id = 7) const int TRI_ADAPT = 0;
+layout(constant_id = 8) const int TRI_VOXEL_BITS = 32;

@@ -87,6 +87,18 @@ struct VolumePath {
   technique::Sampler sampler = technique::Sampler::manual;
 };
 
+// What the choice of a path rests on.
+struct VolumeKind {
+  scene::VoxelFormat native = scene::VoxelFormat::f32;  // the smallest that holds the data exactly
+  std::array<int, 3> size{1, 1, 1};
+  std::optional<technique::Sampler> sampler = std::nullopt;  // that a plan names
+  // One filtered value a sample is all that is asked for: no shading, no cells, no doubles.
+  bool filter_suffices = true;
+  [[nodiscard]] bool may_be_packed() const {
+    return sampler.value_or(technique::Sampler::packed) == technique::Sampler::packed;
+  }
+};
+
 // What a device's rasterizer leaves open: which fragments an edge covers.
 struct Rasterizer {
   int sub_pixel_bits = 8;  // vertices are moved to a grid of 2⁻ᵇ pixel
@@ -109,7 +121,7 @@ class Device {
   [[nodiscard]] virtual std::optional<std::string> unsupported(const Work& work) const = 0;
 
   // `native` is the smallest format that holds the data exactly.
-  [[nodiscard]] virtual VolumePath default_path(scene::VoxelFormat native) const = 0;
+  [[nodiscard]] virtual VolumePath default_path(const VolumeKind& volume) const = 0;
 
   // Largest error of this device's trilinear filter, as a share of the difference between
   // neighbouring voxels, found by a probe when the device was opened; 0 within rounding for

@@ -77,7 +77,7 @@ std::vector<std::byte> bytes_of(const BasicRaycastParameters<Real>& parameters) 
 std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
                                         const RaycastOptions& options) {
   if (options.sampler == Sampler::hardware) {
-    return "quadrature cells reads the voxels of a cell itself: it is for sampler manual";
+    return "quadrature cells reads the voxels of a cell itself: it is for sampler manual or packed";
   }
   constexpr std::int64_t most_passes = 32'768;
   const auto [nx, ny, nz] = scene.grid->size;
@@ -93,7 +93,15 @@ std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
 }  // namespace
 
 std::string_view name_of(Sampler sampler) {
-  return sampler == Sampler::hardware ? "hardware" : "manual";
+  switch (sampler) {
+    case Sampler::hardware:
+      return "hardware";
+    case Sampler::manual:
+      return "manual";
+    case Sampler::packed:
+      return "packed";
+  }
+  return {};
 }
 std::string_view name_of(Skip skip) {
   switch (skip) {
@@ -113,7 +121,8 @@ std::string_view name_of(Precision precision) {
 Sampler sampler(std::string_view name) {
   if (name == "hardware") return Sampler::hardware;
   if (name == "manual") return Sampler::manual;
-  throw core::InputError(fmt::format("sampler '{}': expected hardware or manual", name));
+  if (name == "packed") return Sampler::packed;
+  throw core::InputError(fmt::format("sampler '{}': expected hardware, manual or packed", name));
 }
 
 Skip skip(std::string_view name) {
@@ -155,7 +164,7 @@ std::optional<std::string> raycast_reason(std::string_view technique,
   }
   if (options.sampler == Sampler::hardware) {
     return "a device's sampler interpolates in single precision at best: precision fp64 is for "
-           "sampler manual";
+           "sampler manual or packed";
   }
   return std::nullopt;
 }

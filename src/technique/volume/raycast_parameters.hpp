@@ -13,7 +13,9 @@
 
 namespace triptych::technique {
 
-enum class Sampler : std::uint8_t { hardware, manual };  // who interpolates between voxels
+// Who interpolates between voxels: the device's sampler; the kernel, from eight of them; the
+// kernel, from a cell that holds all eight (packed_cells.hpp).
+enum class Sampler : std::uint8_t { hardware, manual, packed };
 // What empty space is skipped by: nothing; a walk from brick to brick; leaps over whole cubes of
 // bricks of one kind, as far as the next brick of the other kind allows (brick_reach.hpp).
 enum class Skip : std::uint8_t { none, bricks, distance };

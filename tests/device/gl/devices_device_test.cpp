@@ -92,17 +92,21 @@ TEST(GlDevices, TwoOpenAtOnceDoNotDisturbEachOther) {
 TEST(GlDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
   for_each_device([](const measure::Device& device) {
     for (const auto native : {scene::VoxelFormat::u8, scene::VoxelFormat::u16}) {
-      const measure::VolumePath path = device.default_path(native);
+      const measure::VolumePath path = device.default_path({native});
       EXPECT_LT(device.filter_weight_error(path), 1e-5);
-      if (path.sampler == technique::Sampler::manual) {
+      if (path.sampler != technique::Sampler::hardware) {
         EXPECT_EQ(path.voxel, native);
       }
     }
     // Known to be exact: what errs here is our use of it.
     if (device.info().driver == "llvmpipe") {
-      const measure::VolumePath path = device.default_path(scene::VoxelFormat::u8);
-      EXPECT_EQ(path.voxel, scene::VoxelFormat::f32);
-      EXPECT_EQ(path.sampler, technique::Sampler::hardware);
+      const measure::VolumePath path = device.default_path({scene::VoxelFormat::u8});
+      EXPECT_EQ(path.voxel, scene::VoxelFormat::u8);
+      EXPECT_EQ(path.sampler, technique::Sampler::packed);
+      const measure::VolumePath filtered = device.default_path(
+          {.native = scene::VoxelFormat::u8, .sampler = technique::Sampler::hardware});
+      EXPECT_EQ(filtered.voxel, scene::VoxelFormat::f32);
+      EXPECT_EQ(filtered.sampler, technique::Sampler::hardware);
     }
     for (const auto voxel : {scene::VoxelFormat::u8, scene::VoxelFormat::f32}) {
       const double error = device.filter_weight_error({voxel, technique::Sampler::hardware});

@@ -92,7 +92,7 @@ TEST(OpenClDevices, DriversHaveShortNames) {
 TEST(OpenClDevices, TheDefaultPathIsAsExactAsInterpolatingByHand) {
   for_each_device([](const measure::Device& device) {
     for (const auto native : {scene::VoxelFormat::u8, scene::VoxelFormat::u16}) {
-      const measure::VolumePath path = device.default_path(native);
+      const measure::VolumePath path = device.default_path({native});
       EXPECT_LT(device.filter_weight_error(path), 1e-5);
     }
     for (const auto voxel :

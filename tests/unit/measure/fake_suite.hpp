@@ -85,7 +85,7 @@ class FakeSuite final : public Suite {
         configuration.at("skip") == "bricks" ? technique::Skip::bricks : technique::Skip::none;
     if (configuration.at("sampler") == "auto") {
       configuration["sampler"] =
-          std::string(technique::name_of(device.default_path(scene::VoxelFormat::f32).sampler));
+          std::string(technique::name_of(device.default_path({scene::VoxelFormat::f32}).sampler));
     }
     volume.options.sampler = technique::sampler(configuration.at("sampler"));
     return {.technique = configuration.at("technique"), .scene = std::move(volume)};

@@ -117,7 +117,7 @@ class GrowingDevice final : public Device {
     if (step < finest_step_) return "too many samples";
     return std::nullopt;
   }
-  VolumePath default_path(scene::VoxelFormat) const override { return {}; }
+  VolumePath default_path(const VolumeKind&) const override { return {}; }
   double filter_weight_error(const VolumePath&) const override { return 0; }
   std::unique_ptr<Prepared> prepare(const measure::Work& work) override {
     const double step = std::get<VolumeWork>(work.scene).scene.step_voxels;

@@ -90,7 +90,7 @@ class CountingDevice final : public Device {
     if (work.technique == lacks_) return "no such stage";
     return std::nullopt;
   }
-  VolumePath default_path(scene::VoxelFormat) const override { return {}; }
+  VolumePath default_path(const VolumeKind&) const override { return {}; }
   double filter_weight_error(const VolumePath&) const override { return 0; }
   std::unique_ptr<Prepared> prepare(const Work& work) override {
     prepared.push_back(work.technique);

@@ -10,7 +10,8 @@ namespace {
 
 TEST(Sources, WholeHasWhatItIncludesInTheirPlace) {
   std::string expected(source("raycast.glsl"));
-  for (const std::string name : {"volume/raycast/field.glsl", "volume/raycast/walk.glsl"}) {
+  for (const std::string name :
+       {"volume/raycast/field.glsl", "volume/raycast/packed.glsl", "volume/raycast/walk.glsl"}) {
     const std::string line = "#include \"" + name + "\"\n";
     const std::size_t place = expected.find(line);
     ASSERT_NE(place, std::string::npos) << name;

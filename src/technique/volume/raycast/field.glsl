@@ -32,6 +32,12 @@ Grid load_grid() {
   return grid;
 }
 
+#if TRI_PACKED
+
+#include "volume/raycast/packed.glsl"
+
+#else
+
 // What is stored. A texel of u8 or u16 is its integer over the largest one, rounded to float: doubles get
 // the integer itself.
 real voxel(Grid grid, ivec3 at) {
@@ -81,20 +87,26 @@ real field(Grid grid, real3 p) {
   return stored * grid.value_map.x + grid.value_map.y;
 }
 
+// Of normalised values from one voxel before p to one behind it.
+real3 rises(Grid grid, real3 p) {
+  return real3(field(grid, p + real3(1, 0, 0)) - field(grid, p - real3(1, 0, 0)),
+               field(grid, p + real3(0, 1, 0)) - field(grid, p - real3(0, 1, 0)),
+               field(grid, p + real3(0, 0, 1)) - field(grid, p - real3(0, 0, 1)));
+}
+
+#endif
+
 real4 transfer(real x) {
   real position = tri_table_position(x);
   int k = min(int(position), 254);
-  real4 a = real4(texelFetch(transfer_texture, k, 0));
-  real4 b = real4(texelFetch(transfer_texture, k + 1, 0));
+  real4 a = real4(transfer_entry(k));
+  real4 b = real4(transfer_entry(k + 1));
   return a + (position - real(k)) * (b - a);
 }
 
 // Headlight shading (scene::Shading): d is the world direction of the ray.
 real3 shade(Grid grid, real3 colour, real3 p, real3 d) {
-  real3 g = real3(field(grid, p + real3(1, 0, 0)) - field(grid, p - real3(1, 0, 0)),
-                  field(grid, p + real3(0, 1, 0)) - field(grid, p - real3(0, 1, 0)),
-                  field(grid, p + real3(0, 0, 1)) - field(grid, p - real3(0, 0, 1)));
-  g *= 0.5 * u.inverse_spacing.w * u.inverse_spacing.xyz;
+  real3 g = rises(grid, p) * (0.5 * u.inverse_spacing.w * u.inverse_spacing.xyz);
   real cosine = abs(dot(g, d)) / max(sqrt(dot(g, g)), u.ray_up.w);
   real highlight = cosine;
 #if TRI_LONG_RAYS

@@ -1,8 +1,9 @@
 // Mirrors technique::RaycastParameters (raycast_parameters.hpp), where the meaning of each field stands.
 // The backend's prelude defines TRI_BINDING(n) and the compile-time constants
-//   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT, TRI_PREINTEGRATED, TRI_LEAPS, TRI_ADAPT (integers),
-// which may be specialization constants, and the macros TRI_PRECISION (bits of a `real`: 32 or 64), TRI_COUNT (0 or 1)
-// and TRI_LONG_RAYS (0 or 1: technique::has_long_rays). Where it also defines the macro TRI_OPACITY_FORM, that is
+//   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT, TRI_PREINTEGRATED, TRI_LEAPS, TRI_ADAPT,
+//   TRI_VOXEL_BITS (integers),
+// which may be specialization constants, and the macros TRI_PRECISION (bits of a `real`: 32 or 64), TRI_COUNT (0 or 1),
+// TRI_LONG_RAYS (0 or 1: technique::has_long_rays) and TRI_PACKED (0 or 1: technique::Sampler::packed). Where it also defines the macro TRI_OPACITY_FORM, that is
 // technique::opacity_form of the step. TRI_PREINTEGRATED is technique::preintegration_form.
 #ifndef TRI_OPACITY_FORM
 #define TRI_OPACITY_FORM 0
@@ -21,13 +22,27 @@ layout(std140) TRI_BINDING(0) uniform Parameters {
   ivec4 viewport;
 } u;
 
+// transfer_entry: one of 256. brick_at: 1 for a visible brick, 0 for another; with TRI_LEAPS what
+// technique::brick_reach says of it, with TRI_ADAPT its technique::BrickKind. quadrature_entry: one of
+// technique::quadrature_table. Devices for which sampler packed is made take storage buffers lane by lane, and
+// texels of a buffer in one go.
+#if TRI_PACKED
+TRI_BINDING(1) uniform usamplerBuffer cell_texels;  // technique::fill_packed_cells
+TRI_BINDING(2) uniform samplerBuffer transfer_texels;
+TRI_BINDING(3) uniform isamplerBuffer brick_texels;
+TRI_BINDING(6) uniform samplerBuffer quadrature_texels;
+vec4 transfer_entry(int i) { return texelFetch(transfer_texels, i); }
+int brick_at(int i) { return texelFetch(brick_texels, i).r; }
+vec4 quadrature_entry(int i) { return texelFetch(quadrature_texels, i); }
+#else
 TRI_BINDING(1) uniform sampler3D volume_texture;
-TRI_BINDING(2) uniform sampler1D transfer_texture;  // 256 RGBA32F entries, read by texelFetch
-// 1 for a visible brick, 0 for another; with TRI_LEAPS what technique::brick_reach says of it, with TRI_ADAPT its
-// technique::BrickKind.
+TRI_BINDING(2) uniform sampler1D transfer_texture;
 layout(std430) TRI_BINDING(3) readonly buffer Bricks { int brick_visible[]; };
-// technique::quadrature_table.
 layout(std430) TRI_BINDING(6) readonly buffer Quadrature { vec4 quadrature_table[]; };
+vec4 transfer_entry(int i) { return texelFetch(transfer_texture, i, 0); }
+int brick_at(int i) { return brick_visible[i]; }
+vec4 quadrature_entry(int i) { return quadrature_table[i]; }
+#endif
 #if TRI_COUNT
 layout(std430) TRI_BINDING(5) writeonly buffer Counters { uint counters[]; };
 #endif

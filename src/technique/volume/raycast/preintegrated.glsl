@@ -25,8 +25,8 @@ void add_piece(inout vec4 gathered, float depth, vec3 a0, vec3 a1, vec3 a2) {
 // The piece from position a to b among the entries, within the cell that begins with entry `cell`. Beyond
 // the first and the last entry the function is constant.
 void add_part_of_cell(inout vec4 gathered, int cell, float a, float b, float length) {
-  vec4 lower = texelFetch(transfer_texture, max(cell, 0), 0);
-  vec4 rise = texelFetch(transfer_texture, min(cell + 1, 255), 0) - lower;
+  vec4 lower = transfer_entry(max(cell, 0));
+  vec4 rise = transfer_entry(min(cell + 1, 255)) - lower;
   vec4 first = lower + (a - float(cell)) * rise;
   vec4 change = (b - a) * rise;
   float last_alpha = lower.a + (b - float(cell)) * rise.a;
@@ -39,12 +39,14 @@ void add_part_of_cell(inout vec4 gathered, int cell, float a, float b, float len
 
 // The optical depth of the whole cells from entry `first` to `last`.
 float depth_of_cells(int first, int last, float per_cell) {
-  return per_cell * quadrature_table[3 * (256 * first + last)].x;
+  return per_cell * quadrature_entry(3 * (256 * first + last)).x;
 }
 
 void add_cells(inout vec4 gathered, int first, int last, float per_cell) {
   int pair = 3 * (256 * first + last);
-  add_piece(gathered, per_cell * quadrature_table[pair].x, quadrature_table[pair].yzw, quadrature_table[pair + 1].xyz, quadrature_table[pair + 2].xyz);
+  vec4 depth_and_mean = quadrature_entry(pair);
+  add_piece(gathered, per_cell * depth_and_mean.x, depth_and_mean.yzw, quadrature_entry(pair + 1).xyz,
+            quadrature_entry(pair + 2).xyz);
 }
 
 bool are_too_deep(int first, int last, float per_cell) {

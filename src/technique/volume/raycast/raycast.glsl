@@ -4,9 +4,8 @@
 #include "volume/raycast/field.glsl"
 #include "volume/raycast/walk.glsl"
 
-// One sample at p. `whole`: it stands for a whole step, else for `share` of one.
-void add_sample(inout Light light, Grid grid, Ray ray, real3 p, bool whole, real steps) {
-  real4 c = transfer(field(grid, p));
+// One sample at p, of colour and opacity c. `whole`: it stands for a whole step, else for `share` of one.
+void add_classified(inout Light light, Grid grid, Ray ray, real4 c, real3 p, bool whole, real steps) {
   if (TRI_COUNT == 1) count_samples++;
   if (TRI_SPEED_OF_LIGHT == 1) {
     light.colour += c.rgb;
@@ -19,6 +18,10 @@ void add_sample(inout Light light, Grid grid, Ray ray, real3 p, bool whole, real
     light.colour += weight * c.rgb;
     light.transmittance -= weight;
   }
+}
+
+void add_sample(inout Light light, Grid grid, Ray ray, real3 p, bool whole, real steps) {
+  add_classified(light, grid, ray, transfer(field(grid, p)), p, whole, steps);
 }
 
 // How far a ray has got.
@@ -78,6 +81,26 @@ void advance(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels,
   m.i += begun ? 0 : 1;
 }
 
+#if TRI_PACKED
+// The next two samples, or the one that is left: the loads of both are under way before either is waited for.
+void advance_two(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
+  real3 p = ray.p0 + (real(m.i) + 0.5) * ray.g;
+  real3 q = ray.p0 + (real(m.i + 1) + 0.5) * ray.g;
+  real x = field(grid, p);
+  real y = field(grid, q);
+  real4 a = transfer(x);
+  real4 b = transfer(y);
+  add_classified(m.light, grid, ray, a, p, true, step_voxels);
+  end_in_the_dark(m, enough);
+  m.i += 1;
+  if (m.i < m.stop) {
+    add_classified(m.light, grid, ray, b, q, true, step_voxels);
+    end_in_the_dark(m, enough);
+    m.i += 1;
+  }
+}
+#endif
+
 // The samples of the run as one in the middle of their way (technique::brick_kinds); not before the first of
 // them, which may be the ray's last and stand for little.
 void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
@@ -124,6 +147,10 @@ vec4 raycast(ivec2 pixel) {
     if (TRI_PREINTEGRATED == 0) m.stop = min(m.stop, last);
     if (TRI_PREINTEGRATED != 0) m.front = field(grid, ray.p0 + real(m.i) * ray.g);
     while (m.i < m.stop) {
+#if TRI_PACKED && !TRI_LONG_RAYS
+      if (TRI_PREINTEGRATED == 0 && TRI_SHADING == 0) advance_two(m, grid, ray, step_voxels, enough);
+      else
+#endif
       advance(m, cut, grid, ray, step_voxels, enough);
 #if TRI_LONG_RAYS
 #define TRI_THREE_MORE TRI_ONE_MORE TRI_ONE_MORE TRI_ONE_MORE

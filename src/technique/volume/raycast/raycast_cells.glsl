@@ -48,6 +48,12 @@ float cubic(vec4 c, float s) { return c.x + s * (c.y + s * (c.z + s * c.w)); }
 vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
   if (TRI_FAULT == fault_half_voxel_shift) a.x += 0.5;
   if (TRI_FAULT == fault_coarse_filter) a = floor(a * 256.0 + 0.5) / 256.0;
+#if TRI_PACKED
+  if (TRI_FAULT == fault_flipped_axis) { cell.y = grid.last.y - 1 - cell.y; a.y = 1.0 - a.y; b.y = 0.0 - b.y; }
+  Corners corners = corners_of(grid, cell_index(grid, clamp(cell + 1, ivec3(0), grid.last + 1)));
+  vec4 v0 = vec4(corners.lower.xz, corners.upper.xz);
+  vec4 v1 = vec4(corners.lower.yw, corners.upper.yw);
+#else
   ivec3 lo = clamp(cell, ivec3(0), grid.last);
   ivec3 hi = clamp(cell + 1, ivec3(0), grid.last);
   if (TRI_FAULT == fault_flipped_axis) { lo.y = grid.last.y - lo.y; hi.y = grid.last.y - hi.y; }
@@ -55,6 +61,7 @@ vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
                  voxel(grid, ivec3(lo.x, hi.y, hi.z)));
   vec4 v1 = vec4(voxel(grid, ivec3(hi.x, lo.y, lo.z)), voxel(grid, ivec3(hi.x, hi.y, lo.z)),
                  voxel(grid, ivec3(hi.x, lo.y, hi.z)), voxel(grid, hi));
+#endif
   vec4 x0 = v0 + a.x * (v1 - v0);  // along x: constant terms for the four edges, …
   vec4 x1 = b.x * (v1 - v0);       // … and those in s
   vec2 rise0 = x0.yw - x0.xz;
@@ -72,7 +79,7 @@ vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
 }
 
 // technique::kink_table: of row i the least kink ≥ i, the greatest < i, and the first visible entry ≥ i.
-vec4 kink_row(float i) { return quadrature_table[int(clamp(i, 0.0, 256.0))]; }
+vec4 kink_row(float i) { return quadrature_entry(int(clamp(i, 0.0, 256.0))); }
 
 // Whether any value on the way has opacity: between the least and the greatest of the cubic's Bernstein
 // coefficients.
@@ -196,7 +203,7 @@ Around look_around(Way way, Grid grid, ivec3 cell) {
   int edge = u.brick_grid.w;
   ivec3 bricks = u.brick_grid.xyz;
   ivec3 brick = clamp(cell, ivec3(0), bricks * edge - 1) / edge;
-  int reach = brick_visible[brick.x + bricks.x * (brick.y + bricks.y * brick.z)];
+  int reach = brick_at(brick.x + bricks.x * (brick.y + bricks.y * brick.z));
   ivec3 beyond = ivec3(max(abs(reach), 1));
   ivec3 low = (brick + 1 - beyond) * edge;
   ivec3 high = (brick + beyond) * edge;

@@ -21,7 +21,7 @@ void enter(inout Walk walk) {
   // As unsigned numbers, negative indices are beyond the end too.
   walk.outside = any(greaterThanEqual(uvec3(walk.brick), uvec3(size)));
   int index = walk.brick.x + size.x * (walk.brick.y + size.y * walk.brick.z);
-  int kind = walk.outside ? 1 : brick_visible[walk.outside ? 0 : index];
+  int kind = walk.outside ? 1 : brick_at(walk.outside ? 0 : index);
   walk.visible = kind != 0;
   walk.kind = TRI_ADAPT == 1 ? kind : 1;
 }
@@ -106,7 +106,7 @@ struct Leap {
 Leap leap(Leaps leaps, Ray ray, int i, int end) {
   real3 p = leaps.p0 + (real(i) + 0.5) * ray.g;
   ivec3 brick = clamp(ivec3(p * leaps.inverse_edge), ivec3(0), leaps.size - 1);
-  int signed_reach = brick_visible[brick.x + leaps.size.x * (brick.y + leaps.size.y * brick.z)];
+  int signed_reach = brick_at(brick.x + leaps.size.x * (brick.y + leaps.size.y * brick.z));
   int reach = abs(signed_reach);
   // Axis by axis: integer mix() came with GLSL 4.50.
   int back = 1 - reach;
@@ -150,5 +150,5 @@ ivec2 next_run_by_leaps(Leaps leaps, Ray ray, int begin, int end) {
 bool skips(Ray ray) {
   int longest = max(u.brick_grid.x, max(u.brick_grid.y, u.brick_grid.z));
   int nothing = min(0, int(ray.steps));
-  return u.brick_grid.w > nothing && (TRI_LEAPS == 0 || brick_visible[0] < longest);
+  return u.brick_grid.w > nothing && (TRI_LEAPS == 0 || brick_at(0) < longest);
 }

@@ -1,0 +1,88 @@
+// Fetching from technique::packed_cells: a load or two bring the eight voxels around a position.
+
+struct Corners {
+  real4 lower, upper;  // of z: (x, y), (x+1, y), (x, y+1), (x+1, y+1)
+};
+
+// Where a position lies: in which cell, and where in it.
+struct Place {
+  ivec3 cell;
+  real3 f;
+};
+
+// Within the layer of half cells around the outermost voxel centres, truncation is floor. Clamping to the far
+// end of the last cell keeps what a position beyond the volume reads within the buffer.
+Place place_of(Grid grid, real3 p) {
+  if (TRI_FAULT == fault_half_voxel_shift) p.x += 0.5;
+  if (TRI_FAULT == fault_flipped_axis) p.y = real(grid.last.y + 1) - p.y;
+  real3 q = clamp(p + 0.5, real3(0.0), real3(grid.last) + 1.9375);
+  Place place;
+  place.cell = ivec3(q);
+  place.f = q - real3(place.cell);
+  if (TRI_FAULT == fault_coarse_filter) place.f = floor(place.f * 256.0 + 0.5) / 256.0;
+  return place;
+}
+
+ivec3 cell_strides(Grid grid) {
+  int row = grid.last.x + 2;
+  return ivec3(1, row, row * (grid.last.y + 2));
+}
+
+int cell_index(Grid grid, ivec3 cell) {
+  ivec3 strides = cell_strides(grid);
+  return cell.x + strides.y * cell.y + strides.z * cell.z;
+}
+
+ivec4 bytes_of(uint word) { return ivec4(word & 255u, word >> 8 & 255u, word >> 16 & 255u, word >> 24); }
+ivec4 halves_of(uvec2 words) {
+  return ivec4(words.x & 65535u, words.x >> 16, words.y & 65535u, words.y >> 16);
+}
+
+Corners corners_of(Grid grid, int index) {
+  uvec4 texel = texelFetch(cell_texels, index);
+  if (TRI_VOXEL_BITS == 8) return Corners(real4(bytes_of(texel.x)), real4(bytes_of(texel.y)));
+  if (TRI_VOXEL_BITS == 16) return Corners(real4(halves_of(texel.xy)), real4(halves_of(texel.zw)));
+  uvec4 above = texelFetch(cell_texels, index + cell_strides(grid).z);
+  return Corners(real4(uintBitsToFloat(texel)), real4(uintBitsToFloat(above)));
+}
+
+// By how much the corners of the cell `front` are more than those of `back`; integers without rounding.
+Corners corners_between(Grid grid, int back, int front) {
+  if (TRI_VOXEL_BITS <= 16) {
+    uvec4 a = texelFetch(cell_texels, back);
+    uvec4 b = texelFetch(cell_texels, front);
+    if (TRI_VOXEL_BITS == 8) {
+      return Corners(real4(bytes_of(b.x) - bytes_of(a.x)), real4(bytes_of(b.y) - bytes_of(a.y)));
+    }
+    return Corners(real4(halves_of(b.xy) - halves_of(a.xy)), real4(halves_of(b.zw) - halves_of(a.zw)));
+  }
+  Corners a = corners_of(grid, back);
+  Corners b = corners_of(grid, front);
+  return Corners(b.lower - a.lower, b.upper - a.upper);
+}
+
+real trilinear(Corners corners, real3 f) {
+  real4 z = corners.lower + f.z * (corners.upper - corners.lower);
+  real2 y = z.xy + f.y * (z.zw - z.xy);
+  return y.x + f.x * (y.y - y.x);
+}
+
+// Normalised value at p.
+real field(Grid grid, real3 p) {
+  Place place = place_of(grid, p);
+  real stored = trilinear(corners_of(grid, cell_index(grid, place.cell)), place.f);
+  return stored * grid.value_map.x + grid.value_map.y;
+}
+
+// Of normalised values from one voxel before p to one behind it: both lie at the same place in their cells.
+// Beside the outermost cells, along whose own axis all is constant, there are none.
+real3 rises(Grid grid, real3 p) {
+  Place place = place_of(grid, p);
+  ivec3 strides = cell_strides(grid);
+  int here = cell_index(grid, place.cell);
+  ivec3 back = here - strides * ivec3(greaterThan(place.cell, ivec3(0)));
+  ivec3 front = here + strides * ivec3(lessThanEqual(place.cell, grid.last));
+  return grid.value_map.x * real3(trilinear(corners_between(grid, back.x, front.x), place.f),
+                                  trilinear(corners_between(grid, back.y, front.y), place.f),
+                                  trilinear(corners_between(grid, back.z, front.z), place.f));
+}
