@@ -113,7 +113,10 @@ real3 shade(Grid grid, real3 colour, real3 p, real3 d) {
   // Of constant length, hence written out by compilers: no pass of a loop (raycast()).
   for (int i = 0; i < 31; ++i) highlight *= i < u.volume_size.w ? highlight : 1.0;
 #else
-  for (int i = 0; i < u.volume_size.w; ++i) highlight *= highlight;
+  // The 0 is dressed up as something of the sample, as in skips(): else lavapipe (Mesa 22.3) compiles the shader
+  // anew in every submission, for this loop's sake.
+  int squarings = u.volume_size.w + min(0, int(cosine));
+  for (int i = 0; i < squarings; ++i) highlight *= highlight;
 #endif
   return colour * (u.shading.x + u.shading.y * cosine) + u.shading.z * highlight;
 }
