@@ -17,9 +17,9 @@ struct BinTable {
 
   [[nodiscard]] std::size_t words() const { return bins * chunks; }
 };
-// A chunk for some particles each, so that many compute units have work; fewer where the table would
-// be larger than what it is to sort. The scene alone decides: the bytes that a frame takes belong to
-// no machine.
+// A chunk for some particles each, so that many compute units have work; fewer where the table
+// would be larger than what it is to sort. The scene alone decides: the bytes that a frame takes
+// belong to no machine.
 [[nodiscard]] BinTable bin_table(int width, int height, std::size_t particles);
 
 // Why the device cannot draw these particles so; empty when it can.
