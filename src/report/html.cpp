@@ -25,8 +25,8 @@ std::string_view take_character(std::string_view& text) {
 }
 
 // Those that have no place in either language.
-bool is_control(char c) {
-  return c >= 0 && c < 0x20 && c != '\n' && c != '\t';
+bool is_control(unsigned char c) {
+  return c < 0x20 && c != '\n' && c != '\t';
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ bool starts_a_text(std::string_view bytes) {
   const auto lines = split_lines(bytes);
   return lines.size() > 1 && std::ranges::all_of(lines, [](std::string_view line) {
            if (line.find_first_not_of("0123456789+-.eE \t") == std::string_view::npos) return true;
-           const auto is_control = [](char c) { return c >= 0 && c < ' ' && c != '\t'; };
+           const auto is_control = [](unsigned char c) { return c < ' ' && c != '\t'; };
            return line.starts_with('#') && std::ranges::none_of(line, is_control);
          });
 }

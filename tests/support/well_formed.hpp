@@ -57,7 +57,8 @@ class XmlCheck {
   void character(char end) {
     const char c = rest_.front();
     if (c == '<' && end != '<') return fail("'<' in a value");
-    if (c >= 0 && c < 0x20 && c != '\n' && c != '\t') return fail("control character");
+    if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
+      return fail("control character");
     if (c == '&' && !(take("&amp;") || take("&lt;") || take("&gt;") || take("&quot;"))) {
       return fail("unknown entity");
     }
