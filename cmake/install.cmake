@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(depends libegl1 libvulkan1 "pocl-opencl-icd | opencl-icd" "mesa-vulkan-drivers | vulkan-icd"
     "libegl-mesa0 | libegl-vendor" libgl1-mesa-dri)
 # The counting tool holds this Valgrind's own code, and asks the installed one for its version.
-if(VALGRIND_VERSION)
+if(TARGET triptych_counter)
   list(APPEND depends "valgrind (>= 1:${VALGRIND_VERSION})" "valgrind (<< 1:${VALGRIND_VERSION}.99)")
 endif()
 # Gone from Mesa 25.1 on.

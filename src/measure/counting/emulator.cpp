@@ -64,6 +64,9 @@ std::string tool_file() {
 
 std::variant<Emulator, std::string> look() {
   constexpr std::string_view cannot = "instructions cannot be counted";
+#ifndef __x86_64__
+  return fmt::format("{}: that takes an x86-64 processor", cannot);
+#endif
   const auto version = output_of({"valgrind", "--version"});
   if (!version) return fmt::format("{}: valgrind is not to be started; install valgrind", cannot);
   const std::string tool = tool_file();
