@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "measure/run/runner.hpp"
 #include "measure/worker/worker_link.hpp"
+#include "tests/unit/measure_run/spawning.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -91,6 +92,7 @@ TEST(Process, DestructionTakesTheWholeGroupAndLeavesNoZombie) {
 }
 
 TEST(Process, AMissingProgramIsAnIoError) {
+  if (!spawning_tells_of_a_missing_program()) GTEST_SKIP() << spawning_tells_nothing;
   EXPECT_THROW(Process({"/nowhere/triptych"}, {}), core::IoError);
   EXPECT_THROW(Process({}, {}), core::IoError);
 }

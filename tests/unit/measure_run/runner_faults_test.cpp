@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "tests/unit/measure_run/run_fixture.hpp"
+#include "tests/unit/measure_run/spawning.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -152,6 +153,7 @@ TEST_F(RunFaults, ACommandThatDiesIsReportedWithItsSignalAndLastWords) {
 }
 
 TEST_F(RunFaults, ACommandThatIsNotThereFailsEverythingWithTheReason) {
+  if (!spawning_tells_of_a_missing_program()) GTEST_SKIP() << spawning_tells_nothing;
   options.worker_command = {"/nowhere/triptych"};
   const RunResult result = run(small_plan());
   EXPECT_EQ(result.failed, 4);

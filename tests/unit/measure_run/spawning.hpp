@@ -1,0 +1,23 @@
+#pragma once
+// Whether posix_spawn says that a program is missing. QEMU's emulation of a processor does not: the
+// child of a vfork there shares no memory with its parent, and ends with code 127.
+
+#include <spawn.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+
+namespace triptych::measure {
+
+inline bool spawning_tells_of_a_missing_program() {
+  char name[] = "/nowhere/program";
+  char* words[] = {name, nullptr};
+  pid_t child = 0;
+  if (::posix_spawn(&child, name, nullptr, nullptr, words, nullptr) != 0) return true;
+  ::waitpid(child, nullptr, 0);
+  return false;
+}
+
+inline constexpr const char* spawning_tells_nothing =
+    "posix_spawn does not say that a program is missing, as under QEMU";
+
+}  // namespace triptych::measure
