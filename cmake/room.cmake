@@ -67,6 +67,14 @@ function(triptych_room name)
   target_link_libraries(triptych_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
 endfunction()
 
+# Tests that are emulated (cmake/arm64.cmake) take longer by this factor.
+set(TRIPTYCH_PATIENCE 1 CACHE STRING "How many times longer than usual a test may take")
+# triptych_patience(SECONDS OUT)
+function(triptych_patience seconds out)
+  math(EXPR patience "${seconds} * ${TRIPTYCH_PATIENCE}")
+  set(${out} ${patience} PARENT_SCOPE)
+endfunction()
+
 # triptych_test(NAME SOURCES file... ROOMS room... [LABELS label...] [LIBS lib...])
 # One GoogleTest program; its cases are found by CTest.
 function(triptych_test name)
@@ -86,8 +94,10 @@ function(triptych_test name)
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
   endif()
-  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 300)
+  triptych_patience(60 discovery)
+  triptych_patience(300 timeout)
+  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT ${discovery}
+                       PROPERTIES TIMEOUT ${timeout})
   # gtest_discover_tests cannot hand on a list, so the labels are set on the tests that it found. Processes that share
   # PoCL's kernel cache crash, so one of them at a time.
   set(lock "")
