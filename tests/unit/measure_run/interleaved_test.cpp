@@ -137,7 +137,7 @@ TEST_F(TurnsTest, ACrashCostsOneConfigurationAndNamesItsSide) {
 }
 
 TEST_F(TurnsTest, AHangCostsItsLimit) {
-  options_.limit = std::chrono::seconds(1);
+  options_.limit = hang_limit;
   Interleaved interleaved = open();
   const auto end = ended(interleaved, "hang");
   ASSERT_TRUE(end);

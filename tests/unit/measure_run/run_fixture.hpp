@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
+#include <chrono>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -15,6 +16,9 @@
 #include "tests/unit/measure_run/scratch.hpp"
 
 namespace triptych::measure {
+
+// What waits for a hang in vain waits so long; what does not hang has to answer within it.
+inline constexpr std::chrono::seconds hang_limit{MEASURE_RUN_PATIENCE};
 
 class RunTest : public testing::Test {
  protected:

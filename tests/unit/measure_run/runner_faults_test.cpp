@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "record/hung.hpp"
 #include "tests/unit/measure_run/run_fixture.hpp"
 #include "tests/unit/measure_run/spawning.hpp"
 
@@ -50,10 +51,10 @@ TEST_F(RunFaults, ACrashCostsOneConfigurationAndNamesItsSignal) {
 }
 
 TEST_F(RunFaults, AHangCostsOneConfigurationAndItsLimit) {
-  options.limit = std::chrono::seconds(1);
+  options.limit = hang_limit;
   const record::Record record = outcome_of("hang");
   EXPECT_EQ(record.outcome, Outcome::hung);
-  EXPECT_THAT(record.reason, HasSubstr("no answer within 1 s"));
+  EXPECT_THAT(record.reason, HasSubstr(record::no_answer_within(hang_limit)));
   EXPECT_EQ(started_workers().size(), 2U);
 }
 
@@ -163,10 +164,10 @@ TEST_F(RunFaults, ACommandThatIsNotThereFailsEverythingWithTheReason) {
 TEST_F(RunFaults, AWorkerThatHangsWhileStartingIsGivenUp) {
   const Variable hanging("TRIPTYCH_NULL_SCRIPT",
                          R"({"failures": [{"kind": "hang", "at": "open"}]})");
-  options.start_limit = std::chrono::seconds(1);
+  options.start_limit = hang_limit;
   const RunResult result = run(small_plan());
   EXPECT_EQ(result.failed, 4);
-  EXPECT_THAT(records(result.run).front().reason, HasSubstr("no answer within 1 s"));
+  EXPECT_THAT(records(result.run).front().reason, HasSubstr(record::no_answer_within(hang_limit)));
 }
 
 TEST_F(RunFaults, AReplacedWorkerGoesOnWithTheClocksOfTheFirst) {
@@ -183,7 +184,7 @@ TEST_F(RunFaults, AReplacedWorkerGoesOnWithTheClocksOfTheFirst) {
 
 TEST_F(RunFaults, NeitherDescriptorsNorZombiesStay) {
   const std::size_t before = open_descriptors();
-  options.limit = std::chrono::seconds(1);
+  options.limit = hang_limit;
   options.faults = {{"crash", "*camera=random:7*"}, {"hang", "*camera=orbit_y:1/8*step=0.5*"}};
   const RunResult result = run(small_plan());
   EXPECT_EQ(result.measured, 1);

@@ -277,7 +277,8 @@ std::uint64_t peak_memory_bytes() {
 TEST(Nrrd, AClaimTakesNoMemoryBeforeTheDataAreThere) {
   core::Random random(1);
   std::string bytes(std::size_t{1} << 20, '\0');
-  for (char& byte : bytes) byte = static_cast<char>(static_cast<unsigned char>(random.uniform() * 256));
+  for (char& byte : bytes)
+    byte = static_cast<char>(static_cast<unsigned char>(random.uniform() * 256));
   std::string header = minimal;
   header.replace(header.find("raw"), 3, "gzip");
   header.replace(header.find("2 1 1"), 5, "1024 1024 1000");
