@@ -241,6 +241,8 @@ class Figure::Drawing {
       case Kind::strokes:
         return strokes_element(shape);
       case Kind::upright:
+        if (const double at = across_.share(first.x); at < 0 || at > 1)
+          return {};  // beyond the frame
         return fmt::format("<path {} d=\"M{:.1f} {:.1f}v{:.0f}\"/>", line_attributes(shape.style),
                            x_of(first.x), top_, figure_.height_);
       case Kind::label:

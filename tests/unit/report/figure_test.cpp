@@ -53,6 +53,17 @@ Figure some_figure(const std::string& text) {
   return figure;
 }
 
+TEST(Figure, ARuleBeyondTheAxisIsNotDrawn) {
+  Figure figure("rules", {.logarithmic = true}, {}, 200, 100);
+  figure.point({1, 2}, {});
+  figure.point({10, 4}, {});
+  const std::string without = figure.svg();
+  figure.upright(1e-6);
+  EXPECT_EQ(figure.svg(), without);
+  figure.upright(5);
+  EXPECT_NE(figure.svg(), without);
+}
+
 TEST(Figure, IsWellFormedWhateverItIsTold) {
   for (const std::string& text : test::hostile_strings()) {
     const std::string svg = some_figure(text).svg();
