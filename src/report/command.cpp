@@ -9,8 +9,8 @@
 namespace triptych::report {
 
 std::string text_of(const Command& command) {
-  std::vector<std::string> words{"triptych", command.command, command.object, "--device",
-                                 command.device};
+  std::vector<std::string> words{"triptych", command.command, command.object};
+  if (!command.device.empty()) words.insert(words.end(), {"--device", command.device});
   for (const auto& [factor, level] : command.factors) {
     words.insert(words.end(), {"--set", record::factor_list({{factor, level}})});
   }

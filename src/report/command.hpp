@@ -9,7 +9,7 @@
 
 namespace triptych::report {
 
-// `triptych COMMAND OBJECT` of one configuration on one device.
+// `triptych COMMAND OBJECT`, of one configuration on one device where these are given.
 struct Command {
   std::string command;  // "render"
   std::string object;   // a suite or a plan

@@ -174,6 +174,7 @@ class Grouping {
     const Finding* first = *std::ranges::min_element(members, is_smaller);
     FindingGroup group{first, members.size(), signature_of(members)};
     group.members = members;
+    group.shape = shape_of(*first);
     if (const auto found = passes_.find({first->check, first->configuration});
         found != passes_.end() && !first->configuration.empty()) {
       group.right_on = found->second;
@@ -222,21 +223,28 @@ bool is_told_by_a_picture(const Finding& finding) {
          finding.check == Check::accuracy || record::limit_in(finding.message);
 }
 
-bool is_told_by_the_gate(Check check) {
-  return check == Check::counters || check == Check::statistics || check == Check::cost ||
-         check == Check::memory;
-}
-
 // What is wrong by what is stored alone is measured and judged again, into a store of its own.
 void judge_again(const Finding& finding, const judge::GateResult& result, Command& command) {
   command.command = "gate";
-  command.object = result.argument.empty() ? record::plan_argument(result.plan) : result.argument;
-  command.factors.insert(result.defaults.begin(), result.defaults.end());
+  command.object = result.argument.empty() ? result.plan : result.argument;
+  if (finding.check == Check::correlation) {
+    // The line is drawn through all configurations of all devices.
+    command.device.clear();
+    command.factors.clear();
+  } else {
+    command.factors.insert(result.defaults.begin(), result.defaults.end());
+  }
   command.more = {"--measure", "--check", std::string(judge::name_of(finding.check)), "--store",
                   "repro.sqlite"};
+  if (finding.check == Check::timing) command.more.emplace_back("--times");
   if (!result.baselines.empty()) {
     command.more.insert(command.more.end(), {"--baselines", result.baselines});
   }
+}
+
+// A plan from a file goes by its path, which a store alone does not hold.
+bool is_known(const judge::GateResult& result) {
+  return !result.argument.empty() || result.plan.find('/') != std::string::npos;
 }
 
 }  // namespace
@@ -251,10 +259,11 @@ std::vector<FindingGroup> grouped(std::span<const Finding> findings) {
 }
 
 bool have_one_cause(const FindingGroup& a, const FindingGroup& b) {
-  const auto key = [](const Finding& finding) {
-    return std::tuple(finding.verdict, std::string_view(finding.device), shape_of(finding));
+  const auto key = [](const FindingGroup& group) {
+    return std::tuple(group.first->verdict, std::string_view(group.first->device),
+                      std::string_view(group.shape));
   };
-  if (key(*a.first) != key(*b.first)) return false;
+  if (key(a) != key(b)) return false;
   if (ended_a_program(*a.first)) return true;
   const auto techniques = [](const FindingGroup& group) {
     std::set<std::string> all;
@@ -284,7 +293,8 @@ bool is_open(const Finding& finding) {
 }
 
 std::string command_of(const Finding& finding, const judge::GateResult& result) {
-  if (finding.device.empty() || finding.configuration.empty()) return {};
+  if (finding.device.empty()) return {};
+  if (finding.configuration.empty() && finding.check != Check::correlation) return {};
   Command command{.command = "render",
                   .object = finding.test.substr(0, finding.test.find('.')),
                   .device = finding.device,
@@ -296,10 +306,10 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
   if (finding.check == Check::cost) command.limit.reset();
   if (is_told_by_a_picture(finding)) {
     if (finding.check == Check::accuracy) command.more.erase(command.more.begin());
-  } else if (is_told_by_the_gate(finding.check)) {
+  } else if (is_open(finding) && is_known(result)) {
     judge_again(finding, result, command);
   } else {
-    return {};  // one run of a time shows nothing
+    return {};
   }
   if (const auto set = result.environments.find(finding.device); set != result.environments.end()) {
     command.environment = set->second;

@@ -23,6 +23,7 @@ struct FindingGroup {
   // it.
   std::size_t changed_with_it = 0;
   std::vector<const judge::Finding*> members = {};
+  std::string shape = {};  // of its messages: "# of # pixels are over the bound"
   // The configuration, or "12 configurations"; empty for a finding about a whole device or plan.
   [[nodiscard]] std::string subject() const;
 };

@@ -50,7 +50,7 @@ std::string escape(std::string_view text) {
         result += "&quot;";
         break;
       default:
-        if (!is_control(character.front())) result += character;
+        if (!is_control(static_cast<unsigned char>(character.front()))) result += character;
     }
   }
   return result;

@@ -56,6 +56,8 @@ struct Pictures {
 [[nodiscard]] std::string comparison_dialog();
 // Of one plan.
 [[nodiscard]] std::string devices_section(const PlanData& plan);
+// Cost and times beside what is stored, as bars.
+[[nodiscard]] std::string changes_section(const PlanData& plan);
 [[nodiscard]] std::string times_section(const PlanData& plan);
 [[nodiscard]] std::string speed_of_light_section(const PlanData& plan);
 // Of each pair of devices, what keeps step and what is off its line.

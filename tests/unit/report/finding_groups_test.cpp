@@ -155,9 +155,7 @@ TEST(CommandOf, DrawsTheConfigurationAgain) {
 TEST(CommandOf, JudgesAgainWhatIsHeldAgainstBaselines) {
   const Finding cost = finding(regression, "gl:x", "step=1", "more", Check::cost);
   judge::GateResult mine{.plan = "mine", .run = "r", .findings = {}};
-  EXPECT_EQ(command_of(cost, mine),
-            "triptych gate FOLDER/mine.yaml --device gl:x --set step=1 --measure --check cost "
-            "--store repro.sqlite");
+  EXPECT_EQ(command_of(cost, mine), "") << "a store does not hold where the file is";
   mine.argument = "a b/mine.yaml";
   mine.defaults = {{"skip", "distance"}};
   mine.baselines = "b";
@@ -166,10 +164,26 @@ TEST(CommandOf, JudgesAgainWhatIsHeldAgainstBaselines) {
             "--measure --check cost --store repro.sqlite --baselines b");
 }
 
+TEST(CommandOf, MeasuresTimesAgainWhereTheyDecided) {
+  const judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
+  EXPECT_EQ(command_of(finding(regression, "gl:x", "step=1", "slower", Check::timing), quick),
+            "triptych gate volume/quick --device gl:x --set step=1 --measure --check timing --store "
+            "repro.sqlite --times");
+}
+
+TEST(CommandOf, DrawsTheLineThroughAllDevicesAgain) {
+  const judge::GateResult cost{.plan = "volume/cost", .run = "r", .findings = {}};
+  for (const char* configuration : {"", "step=1"}) {
+    EXPECT_EQ(
+        command_of(finding(regression, "gl:x", configuration, "off", Check::correlation), cost),
+        "triptych gate volume/cost --measure --check correlation --store repro.sqlite");
+  }
+}
+
 TEST(CommandOf, IsNothingWhereNoneShowsIt) {
   const judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
   EXPECT_EQ(command_of(finding(regression, "", ""), quick), "");
-  EXPECT_EQ(command_of(finding(regression, "gl:x", "step=1", "slower", Check::timing), quick), "");
+  EXPECT_EQ(command_of(finding(advisory, "gl:x", "step=1", "slower", Check::timing), quick), "");
 }
 
 }  // namespace

@@ -63,6 +63,15 @@ TEST(Page, EveryLinkLeadsSomewhere) {
   EXPECT_GE(seen, 3);
 }
 
+TEST(Page, ShowsCostAndTimesBesideWhatIsStored) {
+  EXPECT_THAT(page_of(false), HasSubstr("<p>16 frames take as many instructions as stored.</p>"));
+  const std::string page = page_of(true);
+  EXPECT_THAT(page, HasSubstr("<p>4 of 15 frames take other instructions than stored.</p>"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"number\">968\u2009288 → 987\u2009654</td>"));
+  EXPECT_THAT(page, HasSubstr("<span class=\"bar more\" style=\"width:100.0%\">"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"number\">-10.00 %</td><td><span class=\"bar less\""));
+}
+
 TEST(Page, NeedsNoNetwork) {
   const std::string page = page_of(true);
   EXPECT_THAT(page, Not(HasSubstr("src=\"http")));

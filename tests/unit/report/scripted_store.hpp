@@ -107,6 +107,14 @@ class ScriptedStore {
                  : "within the bound",
          bad);
     find(record, judge::Check::counters, "1 counters as stored", false);
+    if (crashed) return;
+    const bool dearer = wrong_ && device == "vulkan:lavapipe" && technique == "slices";
+    find(record, judge::Check::cost, "instructions", dearer);
+    verdict_.findings.back().numbers = {{"ratio", dearer ? 1.02 : 1},
+                                        {"device_code", 987654},
+                                        {"stored_device_code", dearer ? 968288 : 987654}};
+    find(record, judge::Check::timing, "times", false);
+    verdict_.findings.back().numbers = {{"ratio", 0.9}};
   }
   void find(const record::Record& record, judge::Check check, const std::string& message,
             bool bad) {
