@@ -346,9 +346,10 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
       ->excludes("--untimed");
   command.add_flag("--measure-every", arguments.measure_every,
                    "Measure configurations too that their scene cannot tell from one before");
-  add_inject_option(command, arguments.faults,
-                    "Inject a fault to prove that the gate catches it: " + measure::fault_names() +
-                        "; FAULT@GLOB limits it to configurations or devices");
+  add_inject_option(
+      command, arguments.faults,
+      "Inject a fault to prove that the gate catches it: " + measure::fault_names() +
+          "; FAULT@factor=level,… or FAULT@GLOB limits it to configurations or devices");
 }
 
 }  // namespace

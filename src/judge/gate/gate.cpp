@@ -281,7 +281,7 @@ GateResult judge_run(const record::Store& store, const std::string& run, const B
                      const GateRequest& request) {
   const RunView view = view_of(store, run, baselines, request);
   GateResult result{.plan = request.plan, .run = run, .findings = {}};
-  result.argument = view.argument();
+  result.argument = request.argument;
   result.defaults = request.defaults;
   report_what_is_there(view, result);
   const WrongImages wrong = run_exact_checks(view, result);

@@ -62,7 +62,7 @@ struct GateResult {
   std::set<std::string> devices = {};  // that measured something, of those asked for
   // What was set for a device when it was measured, by its id; commands repeat it.
   std::map<std::string, std::map<std::string, std::string>> environments = {};
-  std::string argument = {};                         // as of the request, never empty
+  std::string argument = {};                         // as of the request
   std::map<std::string, std::string> defaults = {};  // likewise
   std::string baselines = {};                        // the folder, where commands have to name it
   // Of which all findings are advice or reasons for not judging.

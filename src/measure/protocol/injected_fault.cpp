@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "record/factor_list.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -65,6 +66,16 @@ bool is_mishap(std::string_view fault) {
   return false;
 }
 
+// Whether a configuration has all of the levels, "technique=raycast,step=2".
+bool has_levels(const std::string& configuration, const std::string& levels) {
+  const auto wanted = record::parse_factor_list(levels);
+  const auto there = record::parse_factor_list(configuration);
+  return !wanted.empty() && std::ranges::all_of(wanted, [&](const auto& level) {
+    const auto found = there.find(level.first);
+    return found != there.end() && found->second == level.second;
+  });
+}
+
 [[noreturn]] void crash() {
   std::signal(SIGSEGV, SIG_DFL);  // a sanitizer's handler would turn the signal into an exit code
   std::raise(SIGSEGV);
@@ -84,7 +95,8 @@ std::vector<std::string> faults_for(std::span<const InjectedFault> all,
     const auto matches = [&fault](const std::string& text) {
       return ::fnmatch(fault.only.c_str(), text.c_str(), 0) == 0;
     };
-    if (fault.only.empty() || matches(configuration) || matches(device)) {
+    if (fault.only.empty() || matches(configuration) || matches(device) ||
+        has_levels(configuration, fault.only)) {
       faults.push_back(fault.fault);
     }
   }

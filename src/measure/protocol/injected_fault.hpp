@@ -16,7 +16,9 @@ namespace triptych::measure {
 // name, "slowdown:PERCENT" (real extra work), "crash", "hang", "device_lost", "lost_counter".
 struct InjectedFault {
   std::string fault;
-  std::string only;  // glob over configuration keys and device ids; empty: everywhere
+  // Levels, "technique=raycast,step=2", or a glob over configuration keys and device ids; empty:
+  // everywhere.
+  std::string only;
 };
 
 // The faults of those that are meant for a configuration on a device.

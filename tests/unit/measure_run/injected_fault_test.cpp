@@ -31,6 +31,19 @@ TEST(InjectedFault, ASlowdownIsEveryNthRowTwice) {
   EXPECT_EQ(injected("slowdown:2.5").extra_work_stride, 40);
 }
 
+TEST(InjectedFault, IsLimitedByLevelsOrByAPattern) {
+  const auto hits = [](const char* only) {
+    const InjectedFault fault{"slowdown:1", only};
+    return !faults_for({&fault, 1}, "data=ball,step=2,technique=raycast", "gl:x").empty();
+  };
+  for (const char* only : {"", "step=2", "technique=raycast,step=2", "*ball*", "gl:*"}) {
+    EXPECT_TRUE(hits(only)) << only;
+  }
+  for (const char* only : {"step=1", "step=2,skip=none", "raycast", "vulkan:*", ","}) {
+    EXPECT_FALSE(hits(only)) << only;
+  }
+}
+
 TEST(InjectedFault, UnknownNamesAndImpossibleSlowdownsAreRefused) {
   for (const char* fault : {"", "half_voxel", "slowdown", "slowdown:", "slowdown:0", "slowdown:-5",
                             "slowdown:101", "slowdown:5x", "slowdown:nan"}) {
