@@ -123,6 +123,20 @@ def check_merged(store, configurations):
     assert not others, others[:3]
 
 
+def check_sizes(folder, plan, store, configurations):
+    """Jobs of about a minute, by what was measured before: nothing of it is waited for."""
+    with contextlib.closing(sqlite3.connect(store)) as database:
+        count, seconds = database.execute(
+            "SELECT count(*), total(prepare_ns + overhead_ns + loop_wall_ns) / 1e9 FROM record").fetchone()
+        seconds += database.execute("SELECT total(ns) / 1e9 FROM sample WHERE clock = 'wall'").fetchone()[0]
+    assert count == DEVICES * configurations
+    told = run(CLUSTER / "submit", "--folder", folder / "sized", "--minutes", 1, "--like", store, "--device", "null:*", plan)
+    wanted = -(-seconds // 60)
+    assert f"of {wanted:.0f} are job" in told, f"{seconds} s: {told}"
+    run("scancel", "--user", os.environ.get("USER", "root"))
+    wait("the end of what was cancelled", queue_is_empty, 300)
+
+
 def test(folder, generator):
     plan = folder / "plan.yaml"
     plan.write_text(plan_text())
@@ -145,6 +159,7 @@ def test(folder, generator):
     told = (farm / "merge.log").read_text()
     assert (farm / "merged.sqlite").exists(), told
     check_merged(farm / "merged.sqlite", configurations)
+    check_sizes(folder, plan, farm / "merged.sqlite", len(configurations))
     run(TRIPTYCH, "report", "--store", farm / "merged.sqlite", "--out", folder / "report.html") if not LARGE else None
     print(f"{len(configurations)} configurations on {DEVICES} devices in {SHARDS} jobs, {len(lost)} killed for good and "
           f"{len(sent_again)} sent again by Slurm: all there once, {time.monotonic() - begin:.0f} s")
