@@ -170,7 +170,7 @@ std::variant<Answer, DeviceRun::Ended> DeviceRun::exchange(const Message& messag
   } else {
     try {
       if (auto answer = as_answer(std::move(std::get<Message>(reply)))) return std::move(*answer);
-      ended = {record::Outcome::failed, "the worker said something other than its answer"};
+      ended = {record::Outcome::failed, strange_answer};
     } catch (const core::InputError& error) {
       ended = {record::Outcome::failed, error.what()};
     }

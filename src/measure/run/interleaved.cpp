@@ -110,7 +110,7 @@ class Interleaved::Slot {
     } catch (const core::InputError& error) {
       give_up(record::Outcome::failed, error.what());
     }
-    give_up(record::Outcome::failed, "the worker said something other than its answer");
+    give_up(record::Outcome::failed, strange_answer);
   }
 
   // Throws SideEnded for an outcome that is none of a measured configuration.

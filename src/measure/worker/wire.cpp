@@ -95,7 +95,7 @@ auto reading(std::string_view type, Read read) {
   try {
     return read();
   } catch (const Json::exception& error) {
-    throw core::InputError(fmt::format("a worker's '{}' is incomplete: {}", type, error.what()));
+    throw core::InputError(fmt::format("{} (its '{}': {})", strange_answer, type, error.what()));
   }
 }
 

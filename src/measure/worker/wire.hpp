@@ -102,6 +102,10 @@ struct Batch {
   std::vector<double> device_ns;  // empty where the device did not tell it of each
 };
 
+// What is said of a message that is none of those expected. Builds that are compared may differ.
+inline constexpr const char* strange_answer =
+    "the worker's answer makes no sense; its program may be of another version";
+
 [[nodiscard]] Message to_message(const Start& start);
 [[nodiscard]] Message to_message(const Hello& hello);
 [[nodiscard]] Message to_message(const Refused& refused);
