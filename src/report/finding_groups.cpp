@@ -28,8 +28,8 @@ using Factors = std::map<std::string, std::string>;
 std::string shape_of(const Finding& finding) {
   const std::string_view message = finding.message;
   std::string shape(message.substr(0, message.find(record::not_tried)));
-  if (const std::size_t mark = shape.find(" [injected: "); mark != std::string::npos) {
-    shape.erase(mark);
+  for (const std::string_view end : {" [injected: ", "; cache misses "}) {  // more code misses more
+    shape.erase(std::min(shape.find(end), shape.size()));
   }
   return core::without_numbers(shape) + fmt::format("{}", fmt::join(finding.injected, "+"));
 }

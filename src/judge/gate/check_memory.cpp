@@ -78,6 +78,9 @@ std::vector<Finding> check_memory(const RunView& view) {
       if (told) untold.not_stored.push_back(record->configuration);
     } else if (!told) {
       untold.lost.push_back(record->configuration);
+    } else if (record->injected.find("slowdown:") != std::string::npos) {
+      findings.push_back(finding_about(*record, Check::memory, Verdict::skipped,
+                                       "what an injected slowdown draws again takes memory"));
     } else {
       findings.push_back(judge(*record, own->second));
     }

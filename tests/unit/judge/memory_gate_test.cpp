@@ -36,6 +36,16 @@ TEST_F(MemoryGateTest, OneByteMoreIsARegression) {
   EXPECT_EQ(wrong[0].message, "buffers 4096 → 4097 bytes");
 }
 
+// It keeps what it draws again; that is no fault of its own.
+TEST_F(MemoryGateTest, AnInjectedSlowdownIsNotJudged) {
+  accept_first(taking(4096));
+  add_run("b", [](record::Record& record, core::Image& image) {
+    taking(4097)(record, image);
+    record.injected = "slowdown:1";
+  });
+  EXPECT_EQ(with(gate("b"), Verdict::regression).size(), 0U);
+}
+
 TEST_F(MemoryGateTest, ANewKindIsMore) {
   accept_first(taking(4096));
   add_run("b", [](record::Record& record, core::Image& image) {

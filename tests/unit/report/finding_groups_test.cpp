@@ -55,6 +55,14 @@ TEST(FindingGroups, WhatWasNotTriedIsOfTheCauseThatWas) {
   EXPECT_EQ(groups[0].first, &findings[1]);
 }
 
+TEST(FindingGroups, MoreCodeAndMoreMissesAreOneCause) {
+  const std::vector<Finding> findings{
+      finding(regression, "gl:x", "step=1", "instructions 3 → 4 in all; code 1 → 2", Check::cost),
+      finding(regression, "gl:x", "step=2",
+              "instructions 5 → 6 in all; code 3 → 4; cache misses of code 1 → 2", Check::cost)};
+  EXPECT_EQ(grouped(findings).size(), 1U);
+}
+
 TEST(FindingGroups, TechniquesAreCausesOfTheirOwnUnlessAllSayIt) {
   std::vector<Finding> findings{finding(regression, "gl:x", "technique=a"),
                                 finding(regression, "gl:x", "technique=b")};
