@@ -141,9 +141,11 @@ std::optional<double> probe_filter(const Gpu& gpu, scene::VoxelFormat format) {
   return worst;
 }
 
-double allowed_filter_error(const Gpu& gpu) {
+double allowed_filter_error(const Gpu& gpu, scene::VoxelFormat format) {
   const auto bits = static_cast<int>(gpu.properties.limits.subTexelPrecisionBits);
-  return 3 * (std::ldexp(1.0, -bits) + std::ldexp(1.0, -8));
+  constexpr std::array<int, 3> value_bits{8, 11, 24};  // by VoxelFormat
+  return 3 * (std::ldexp(1.0, -bits) +
+              std::ldexp(1.0, -value_bits.at(static_cast<std::size_t>(format))));
 }
 
 }  // namespace triptych::vulkan_backend

@@ -5,6 +5,7 @@
 
 #include "backends/vulkan/descriptors.hpp"
 #include "backends/vulkan/devices.hpp"
+#include "backends/vulkan/filter_probe.hpp"
 #include "backends/vulkan/instance.hpp"
 #include "backends/vulkan/support.hpp"
 #include "core/error.hpp"
@@ -74,6 +75,24 @@ TEST(VulkanLimits, ABufferIsBoundWholeOrNotAtAll) {
     EXPECT_NO_THROW(bind_buffer(gpu, set, 0, eStorageBuffer, fits));
     EXPECT_THROW(bind_buffer(gpu, set, 0, eStorageBuffer, larger), core::NotSupported);
   });
+}
+
+// More is a wrong filter, of which the bound of pictures must not become wide.
+TEST(VulkanLimits, AFilterErrsByNoMoreThanItsFormatAndTheWeightsLeaveOpen) {
+  using enum scene::VoxelFormat;
+  const Instance instance;
+  for (const Candidate& each : candidates(instance.physical_devices())) {
+    SCOPED_TRACE(each.info.id);
+    Gpu gpu = open_gpu(each.physical);
+    for (const scene::VoxelFormat format : {u8, u16, f32}) {
+      const double error = probe_filter(gpu, format).value_or(0);
+      EXPECT_LE(error, allowed_filter_error(gpu, format)) << scene::name_of(format);
+    }
+    gpu.properties.limits.subTexelPrecisionBits = 4;
+    EXPECT_NEAR(allowed_filter_error(gpu, f32), 3.0 / 16, 1e-6);
+    EXPECT_NEAR(allowed_filter_error(gpu, u16), 3.0 / 16 + 3.0 / 2048, 1e-6);
+    EXPECT_NEAR(allowed_filter_error(gpu, u8), 3.0 / 16 + 3.0 / 256, 1e-6);
+  }
 }
 
 }  // namespace
