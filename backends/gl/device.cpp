@@ -46,8 +46,8 @@ class GlDevice final : public measure::Device {
         context_(std::move(context)),
         stamps_(is_software(info_) ? Stamps::finished : Stamps::in_stream) {
     const Current current(*context_);
-    rasterizer_ = {context_->gl().sub_pixel_bits(), point_margin(context_->gl()),
-                   largest_point(context_->gl())};
+    const double margin = point_margin(context_->gl());
+    rasterizer_ = {context_->gl().sub_pixel_bits(), margin, largest_point(context_->gl()) - margin};
     most_texels_ = static_cast<std::uint64_t>(context_->gl().limit(GL_MAX_TEXTURE_BUFFER_SIZE));
     if (ComputePass::unsupported(context_->gl(), 1, 1)) return;
     for (std::size_t i = 0; i < filter_error_.size(); ++i) {

@@ -34,8 +34,9 @@ const judge::TruthPair& Truths::of(const record::Record& record) {
 
 const std::map<std::string, double>& Truths::open_counts_of(const record::Record& record) {
   std::string key = memory_key(record);
-  if (const auto skip = record.factors.find("skip"); skip != record.factors.end()) {
-    key += " " + skip->second;
+  for (const char* factor : {"skip", "culling"}) {
+    const auto found = record.factors.find(factor);
+    if (found != record.factors.end()) key += " " + found->second;
   }
   if (const auto found = open_counts_.find(key); found != open_counts_.end()) return found->second;
   return open_counts_

@@ -16,6 +16,7 @@
 #include "scene/particle_generators.hpp"
 #include "suites/particles/factors.hpp"
 #include "suites/particles/grown_sprites.hpp"
+#include "suites/particles/large_points.hpp"
 #include "suites/particles/plain_work.hpp"
 #include "suites/particles/stress_cases.hpp"
 #include "suites/particles/tolerance.hpp"
@@ -224,12 +225,18 @@ std::string ParticleSuite::truth_key(const Configuration& configuration,
 // (technique/particles/margins.hpp).
 std::map<std::string, double> ParticleSuite::open_counts(
     const Configuration& configuration, const std::map<std::string, double>& precision) {
+  std::map<std::string, double> open;
+  if (const auto largest = precision.find("largest_point"); largest != precision.end()) {
+    open = open_by_quads(scene(configuration), largest->second,
+                         configuration.at("culling") == "occlusion");
+  }
   const auto bits = precision.find("sub_pixel_bits");
-  if (bits == precision.end()) return {};
+  if (bits == precision.end()) return open;
   const double growth = technique::sprite_growth(static_cast<int>(bits->second));
-  if (growth <= 0) return {};
-  const double open = fragments_of_growth(scene(configuration), growth);
-  return {{"fragments", open}, {"fragments_discarded", open}};
+  if (growth <= 0) return open;
+  const double grown = fragments_of_growth(scene(configuration), growth);
+  for (const char* counter : {"fragments", "fragments_discarded"}) open[counter] += grown;
+  return open;
 }
 
 std::string ParticleSuite::beside_factors(const Configuration& configuration) {

@@ -1,11 +1,8 @@
 #include "judge/gate/open_fragments.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <string_view>
 
 #include "judge/baselines/frame_change.hpp"
 
@@ -15,8 +12,6 @@ namespace {
 // Where the API leaves the number open and the device does not tell, what was accepted has: eight
 // bits, as has our own rasterizer for OpenCL.
 constexpr double usual_bits = 8;
-// Pixels of the smallest device of which counters were accepted.
-constexpr double usual_point = 240;
 
 std::optional<double> told(const record::Record& record, const char* name) {
   const auto found = record.precision.find(name);
@@ -32,26 +27,6 @@ bool is_open(const std::string& counter, const record::Record& record) {
          ray->second == "vertex";
 }
 
-// A sprite larger than the device's points is a quad: four vertices for one, and without the
-// fragments by which the square around a sprite is larger than its rectangle. Quads are drawn first
-// and whole, so that behind them occlusion culls more. Which sprites those are is the device's own;
-// who is seen of them is not.
-std::optional<double> open_by_points(const std::string& counter, const record::Record& record) {
-  const double sprites = count_of(record.counters, "sprites").value_or(0);
-  const double vertices = count_of(record.counters, "vertices").value_or(0);
-  const bool some = vertices > sprites;
-  if (!some || told(record, "largest_point").value_or(usual_point) >= usual_point) return {};
-  if (counter == "vertices") return 3 * sprites;
-  const auto culling = record.factors.find("culling");
-  const bool occludes = culling != record.factors.end() && culling->second == "occlusion";
-  constexpr std::array<std::string_view, 2> in_corners{"fragments", "fragments_discarded"};
-  constexpr std::array<std::string_view, 5> behind{
-      "cells_culled", "particles_culled", "particles_submitted", "sprites", "fragments_kept"};
-  const bool any = std::ranges::find(in_corners, counter) != in_corners.end() ||
-                   (occludes && std::ranges::find(behind, counter) != behind.end());
-  return any ? std::optional(std::numeric_limits<double>::infinity()) : std::nullopt;
-}
-
 }  // namespace
 
 // A driver moves each vertex to its grid of 2⁻ᵇ pixel, rounding or cutting off: by less than a
@@ -65,7 +40,6 @@ std::optional<double> open_by_points(const std::string& counter, const record::R
 // m times that, with m = S over the particles in sight. What is open is the mean and five standard
 // deviations.
 double open_fragments(const std::string& counter, const record::Record& record) {
-  if (const auto open = open_by_points(counter, record)) return *open;
   constexpr double deviations = 5;
   if (!is_open(counter, record)) return 0;
   const double bits = told(record, "sub_pixel_bits").value_or(usual_bits);

@@ -104,7 +104,7 @@ struct Rasterizer {
   int sub_pixel_bits = 8;  // vertices are moved to a grid of 2⁻ᵇ pixel
   double point_margin =
       0;  // pixels by which points are larger than their squares, and may be again
-  double largest_point = 0;  // pixels; larger sprites are quads
+  double largest_point = 0;  // pixels, without the margin; larger sprites are quads
 };
 
 class Device {

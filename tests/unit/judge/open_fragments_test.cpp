@@ -48,27 +48,5 @@ TEST(OpenFragments, AreMoreOnACoarseGridAndWhereSpritesLieTogether) {
   EXPECT_EQ(open_fragments("fragments", nothing), 0);
 }
 
-TEST(OpenFragments, SpritesLargerThanTheDevicesPointsAreQuads) {
-  record::Record record = record_of(100, 10000, 8);
-  record.precision["point_margin"] = 0;
-  record.precision["largest_point"] = 64;
-  record.counters["vertices"] = 100;
-  EXPECT_EQ(open_fragments("vertices", record), 0) << "all are points";
-  record.counters["vertices"] = 103;
-  EXPECT_EQ(open_fragments("vertices", record), 300);
-  EXPECT_GT(open_fragments("fragments_discarded", record), 10000);
-  for (const char* other : {"sprites", "fragments_kept", "visible_ids"}) {
-    EXPECT_EQ(open_fragments(other, record), 0) << other;
-  }
-  record.factors["culling"] = "occlusion";
-  EXPECT_GT(open_fragments("cells_culled", record), 1) << "quads hide more";
-  EXPECT_EQ(open_fragments("visible_ids", record), 0);
-  EXPECT_EQ(open_fragments("cells", record), 0);
-  record.precision["largest_point"] = 255;
-  EXPECT_EQ(open_fragments("vertices", record), 0);
-  record.precision.erase("largest_point");
-  EXPECT_EQ(open_fragments("vertices", record), 0) << "not told";
-}
-
 }  // namespace
 }  // namespace triptych::judge

@@ -1,0 +1,84 @@
+// What quads in place of points leave open, against spheres of known size on the image.
+
+#include "suites/particles/large_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "suites/particles/suite.hpp"
+
+namespace triptych::particles_suite {
+namespace {
+
+// Spheres of radius 1, seen from the origin along −z, in a square picture of 200² and 90°: at
+// distance z a sphere on the axis is 200/√(z² − 1) pixels wide, and a margin of 1/32.
+scene::ParticleScene at_distances(const std::vector<float>& distances) {
+  auto set = std::make_shared<scene::ParticleSet>();
+  for (const float z : distances) set->spheres.push_back({0, 0, -z, 1});
+  scene::ParticleScene scene;
+  scene.particles = set;
+  scene.camera.fov_y_deg = 90;
+  scene.width = 200;
+  scene.height = 200;
+  return scene;
+}
+
+TEST(OpenByQuads, OnlySpheresThatAreLargerThanThePoints) {
+  const scene::ParticleScene scene = at_distances({3, 5, 9});  // 70.7, 40.9 and 22.4 pixels
+  EXPECT_TRUE(open_by_quads(scene, 71, true).empty());
+  EXPECT_EQ(open_by_quads(scene, 70, false).at("vertices"), 3);
+  EXPECT_EQ(open_by_quads(scene, 40, false).at("vertices"), 6);
+  EXPECT_EQ(open_by_quads(scene, 1, false).at("vertices"), 9);
+  EXPECT_EQ(open_by_quads(scene, 70, false).size(), 3) << "nothing is open of what is kept";
+}
+
+TEST(OpenByQuads, FragmentsInTheCornersOfSquares) {
+  const scene::ParticleScene round = at_distances({3});
+  EXPECT_EQ(open_by_quads(round, 10, false).at("fragments"), 72 * 72 - 70 * 70);
+  // Half of it beyond the edge of the picture: 72² less the 70 rows of 35 and a half.
+  scene::ParticleScene cut = round;
+  auto set = std::make_shared<scene::ParticleSet>();
+  set->spheres = {{3, 0, -3, 1}};
+  cut.particles = set;
+  const auto open = open_by_quads(cut, 10, false);
+  EXPECT_GT(open.at("fragments"), 2000);
+  EXPECT_EQ(open.at("fragments"), open.at("fragments_discarded"));
+}
+
+TEST(OpenByQuads, NothingBehindTheEyeAndWholePicturesAroundIt) {
+  EXPECT_TRUE(open_by_quads(at_distances({-3}), 1, false).empty());
+  EXPECT_EQ(open_by_quads(at_distances({0}), 199, false).at("vertices"), 3);
+  EXPECT_EQ(open_by_quads(at_distances({0}), 199, false).at("fragments"), 0);
+  EXPECT_TRUE(open_by_quads(at_distances({0}), 201, false).empty());
+}
+
+TEST(OpenByQuads, BehindQuadsOcclusionCullsMore) {
+  const auto open = open_by_quads(at_distances({3, 9}), 64, true);
+  EXPECT_EQ(open.at("cells_culled"), 2);
+  EXPECT_EQ(open.at("vertices"), 8);
+  EXPECT_FALSE(open.contains("visible_ids"));
+  EXPECT_FALSE(open.contains("cells"));
+}
+
+// A device whose points are as large as a picture has no quads, whatever it counts.
+TEST(OpenByQuads, AsADeviceTells) {
+  const auto suite = make_suite({});
+  measure::Configuration configuration;
+  for (const measure::Factor& factor : suite->factors()) {
+    configuration[factor.name] = factor.standard;
+  }
+  configuration["technique"] = "point";
+  configuration["data"] = "generate:uniform:100";
+  configuration["viewport"] = "64";
+  const auto open_with = [&](double largest) {
+    return suite->open_counts(configuration, {{"largest_point", largest}, {"sub_pixel_bits", 8}});
+  };
+  EXPECT_TRUE(open_with(80).empty());
+  EXPECT_GT(open_with(1).at("vertices"), 0);
+  EXPECT_LE(open_with(1).at("vertices"), 300);
+  EXPECT_TRUE(suite->open_counts(configuration, {{"sub_pixel_bits", 8}}).empty()) << "not told";
+}
+
+}  // namespace
+}  // namespace triptych::particles_suite
