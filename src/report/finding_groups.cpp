@@ -120,6 +120,8 @@ class Grouping {
       const auto place = std::pair(finding.check, std::string_view(finding.device));
       if (finding.verdict == Verdict::pass) {
         passes_[{finding.check, finding.configuration}].push_back(finding.device);
+      } else if (finding.verdict == Verdict::regression) {
+        wrong_[{finding.check, finding.configuration}].push_back(finding.device);
       }
       if (finding.configuration.empty()) continue;
       for (const auto& [factor, level] : factors_of(finding)) levels_[place][factor].insert(level);
@@ -179,6 +181,13 @@ class Grouping {
         found != passes_.end() && !first->configuration.empty()) {
       group.right_on = found->second;
     }
+    if (const auto found = wrong_.find({first->check, first->configuration});
+        found != wrong_.end() && !first->configuration.empty()) {
+      std::ranges::copy_if(found->second, std::back_inserter(group.wrong_on),
+                           [&](const std::string& device) {
+                             return judge::family_of(device) != judge::family_of(first->device);
+                           });
+    }
     if (first->check == Check::image) {
       group.changed_with_it =
           static_cast<std::size_t>(std::ranges::count_if(members, [&](const Finding* f) {
@@ -213,7 +222,9 @@ class Grouping {
 
   Places changed_;  // a wrong picture's counters or statistics
   std::map<std::pair<Check, std::string_view>, Levels> levels_;
+  // By configuration, devices.
   std::map<std::pair<Check, std::string_view>, std::vector<std::string>> passes_;
+  std::map<std::pair<Check, std::string_view>, std::vector<std::string>> wrong_;
   std::map<std::tuple<Verdict, Check, std::string_view, std::string>, Members> by_shape_;
 };
 
@@ -254,6 +265,38 @@ std::string FindingGroup::subject() const {
                              : fmt::format("{} configurations", configurations);
 }
 
+std::string FindingGroup::whose() const {
+  const bool drawn = first->check == Check::image || first->check == Check::stress ||
+                     first->check == Check::counters;
+  if (first->verdict != Verdict::regression || !drawn) return {};
+  const auto verb = [](const std::vector<std::string>& devices, const char* one, const char* many) {
+    return fmt::format("{} {}", fmt::join(devices, ", "), devices.size() == 1 ? one : many);
+  };
+  if (!wrong_on.empty()) {
+    return fmt::format("not the driver's: {} wrong, too", verb(wrong_on, "is", "are"));
+  }
+  if (!first->injected.empty()) return {};
+  const std::string api = first->device.substr(0, first->device.find(':') + 1);
+  const auto by_its_api = [&](const std::vector<std::string>& devices) {
+    std::vector<std::string> same;
+    for (const std::string& each : devices) {
+      const bool itself = each == first->device;  // of another version
+      const bool other = judge::family_of(each) != judge::family_of(first->device);
+      if (each.starts_with(api) && (itself || other)) {
+        same.push_back(each + (itself ? " of another version" : ""));
+      }
+    }
+    return same;
+  };
+  if (const auto now = by_its_api(right_on); !now.empty()) {
+    return fmt::format("the driver's: {} right by the same API", verb(now, "is", "are"));
+  }
+  if (const auto then = by_its_api(first->accepted_on); !then.empty()) {
+    return fmt::format("the driver's: {} right by the same API", verb(then, "was", "were"));
+  }
+  return {};
+}
+
 std::vector<FindingGroup> grouped(std::span<const Finding> findings) {
   return Grouping(findings).groups();
 }
@@ -280,6 +323,7 @@ bool take_in(FindingGroup& group, const FindingGroup& other) {
   if (smaller) {
     group.first = other.first;
     group.right_on = other.right_on;
+    group.wrong_on = other.wrong_on;
   }
   group.configurations += other.configurations;
   group.members.insert(group.members.end(), other.members.begin(), other.members.end());

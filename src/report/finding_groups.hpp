@@ -19,6 +19,8 @@ struct FindingGroup {
   std::string signature = {};
   // Devices whose answer to the smallest case is a pass.
   std::vector<std::string> right_on = {};
+  // Other devices, of another family of drivers, that are wrong there by the same check.
+  std::vector<std::string> wrong_on = {};
   // Of a wrong picture: in how many of its configurations the counters or statistics changed with
   // it.
   std::size_t changed_with_it = 0;
@@ -26,6 +28,9 @@ struct FindingGroup {
   std::string shape = {};  // of its messages: "# of # pixels are over the bound"
   // The configuration, or "12 configurations"; empty for a finding about a whole device or plan.
   [[nodiscard]] std::string subject() const;
+  // Whose it is, as far as other devices tell: "the driver's: vulkan:x is right by the same API",
+  // "not the driver's: gl:y is wrong, too"; empty where they do not.
+  [[nodiscard]] std::string whose() const;
 };
 
 // Of the same check, verdict and device, the same message but for its numbers, and the same

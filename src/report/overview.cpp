@@ -204,6 +204,7 @@ std::string message_of(const Cause& cause) {
     text += fmt::format("; {} {} right", fmt::join(group.right_on, ", "),
                         group.right_on.size() == 1 ? "is" : "are");
   }
+  if (const std::string whose = group.whose(); !whose.empty()) text += "; " + whose;
   if (group.changed_with_it > 0) {
     text += group.configurations == 1
                 ? "; its counters changed too"

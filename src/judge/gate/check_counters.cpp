@@ -13,14 +13,7 @@
 namespace triptych::judge {
 namespace {
 
-// Drivers that are one program behind several interfaces have one vote.
-std::string family_of(const std::string& device) {
-  std::string driver = device.substr(device.find(':') + 1);
-  driver = driver.substr(0, driver.find('#'));
-  return driver == "lavapipe" || driver.starts_with("llvmpipe") ? "llvmpipe" : driver;
-}
-
-// What was accepted on other devices: the least and the most, and of whom.
+// What was accepted on other devices: the least and the most, and of whom. A family has one vote.
 struct Range {
   std::uint64_t least = UINT64_MAX;
   std::uint64_t most = 0;
@@ -95,12 +88,6 @@ void compare_counter(const std::string& name, const std::map<std::string, std::u
   compare_with_others(name, Range(stored), record, open, out);
 }
 
-bool knows_driver(const RunView& view, const record::Device& device) {
-  const auto& accepted = view.baselines.manifest().devices;
-  const auto found = accepted.find(device.id);
-  return found != accepted.end() && found->second.contains(device.statistics_key());
-}
-
 Finding check_record(const RunView& view, const record::Record& record,
                      const StoredCounters& stored) {
   const auto about = [&](Verdict verdict, std::string message) {
@@ -112,7 +99,7 @@ Finding check_record(const RunView& view, const record::Record& record,
                                   "nothing was counted; run the plan again with counting frames");
   }
   Differences differences;
-  const bool known_driver = knows_driver(view, view.device(record));
+  const bool known_driver = view.knows_driver(view.device(record));
   OpenCounts open(record, view.request.open_counts);
   for (const auto& [name, values] : stored) {
     compare_counter(name, values, record, known_driver, open, differences);
@@ -159,7 +146,7 @@ std::vector<Finding> check_counters(const RunView& view) {
   for (const auto& [device, configurations] : not_stored) {
     // What no accepted device could draw says nothing of one that was never accepted.
     const record::Device& info = view.devices.at(device);
-    const bool known = !view.baselines.present() || knows_driver(view, info);
+    const bool known = !view.baselines.present() || view.knows_driver(info);
     findings.push_back(
         finding_about(view, info, Check::counters, known ? Verdict::cannot_judge : Verdict::skipped,
                       fmt::format("no stored counters for {}; accept them: {}",

@@ -261,7 +261,29 @@ void report_what_is_there(const RunView& view, GateResult& result) {
   if (!view.baselines.present()) report_no_baselines(view, result.findings);
 }
 
+// What was right before, by the program as it is, tells a driver's fault from one of ours.
+void tell_where_accepted(const RunView& view, std::vector<Finding>& findings) {
+  if (!view.baselines.present()) return;
+  for (Finding& each : findings) {
+    if (each.verdict != Verdict::regression || each.configuration.empty()) continue;
+    const auto device = view.devices.find(each.device);  // there is none of a scene itself
+    if (device == view.devices.end() || view.knows_driver(device->second)) continue;
+    std::set<std::string> devices;
+    const auto stored = view.baselines.counters(each.configuration).value_or(StoredCounters{});
+    for (const auto& [counter, values] : stored) {
+      for (const auto& [id, value] : values) devices.insert(id);
+    }
+    each.accepted_on.assign(devices.begin(), devices.end());
+  }
+}
+
 }  // namespace
+
+std::string family_of(const std::string& device) {
+  std::string driver = device.substr(device.find(':') + 1);
+  driver = driver.substr(0, driver.find('#'));
+  return driver == "lavapipe" || driver.starts_with("llvmpipe") ? "llvmpipe" : driver;
+}
 
 void sort_findings(std::vector<Finding>& findings) {
   // What changed most is named first; what has no ratio comes by its name.
@@ -288,6 +310,7 @@ GateResult judge_run(const record::Store& store, const std::string& run, const B
   if (judges_times(view)) append(result.findings, check_timings(view, wrong));
   apply_waivers(view, result.findings);
   apply_known(view, result.findings);
+  tell_where_accepted(view, result.findings);
   sort_findings(result.findings);
   return result;
 }

@@ -51,7 +51,13 @@ struct Finding {
   // correlation also by which device.
   std::string subject = {};
   std::vector<std::string> injected = {};  // faults that `run --inject` put into it
+  // Of a regression on a driver version that was never accepted: the devices that were accepted
+  // with its configuration, the same one with another version among them.
+  std::vector<std::string> accepted_on = {};
 };
+
+// Of a device's id. Drivers that are one program behind several interfaces are one family.
+[[nodiscard]] std::string family_of(const std::string& device);
 
 struct GateResult {
   std::string plan;

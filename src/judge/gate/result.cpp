@@ -128,6 +128,12 @@ std::string GateResult::headline() const {
   }
 }
 
+bool RunView::knows_driver(const record::Device& device) const {
+  const auto& accepted = baselines.manifest().devices;
+  const auto found = accepted.find(device.id);
+  return found != accepted.end() && found->second.contains(device.statistics_key());
+}
+
 std::string RunView::plan_test(Check check) const {
   std::string test = request.plan;
   std::ranges::replace(test, '/', '.');

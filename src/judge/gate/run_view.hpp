@@ -25,6 +25,8 @@ struct RunView {
   [[nodiscard]] const record::Device& device(const record::Record& record) const {
     return devices.at(record.device);
   }
+  // Whether this version of the device's driver was accepted.
+  [[nodiscard]] bool knows_driver(const record::Device& device) const;
   // For findings that belong to no device: the test id without one.
   [[nodiscard]] std::string plan_test(Check check) const;
   // The plan as commands take it.

@@ -108,8 +108,13 @@ TEST_F(GateTest, AnotherVersionOfADriverMayMoveTheEdgesOfSprites) {
   EXPECT_EQ(gate("edges").exit_code(), ExitCode::pass) << text(gate("edges"));
   add_run("spheres", fragments(9995, 37619));
   EXPECT_THAT(text(gate("spheres")), HasSubstr("fragments_kept 37619"));
+  EXPECT_THAT(gate("spheres").findings.front().accepted_on,
+              testing::ElementsAre("gl:llvmpipe-egl", "opencl:pocl", "vulkan:lavapipe"));
   add_run("a row more", fragments(20000, 37614));
   EXPECT_THAT(text(gate("a row more")), HasSubstr("fragments_discarded 20000"));
+  driver_versions_.clear();
+  add_run("version as accepted", fragments(9995, 37619));
+  EXPECT_THAT(gate("version as accepted").findings.front().accepted_on, testing::IsEmpty());
 }
 
 // Of what was accepted on two programs, both are right.

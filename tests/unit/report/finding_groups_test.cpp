@@ -43,6 +43,29 @@ TEST(FindingGroups, OneCauseIsSaidOnceWithTheSmallestCase) {
   EXPECT_EQ(groups[0].subject(), "2 configurations");
 }
 
+TEST(FindingGroups, WhoseItIsByWhatOtherDevicesDo) {
+  const auto whose = [](std::vector<Finding> findings) { return grouped(findings)[0].whose(); };
+  Finding wrong = finding(regression, "vulkan:new", "technique=a");
+  EXPECT_EQ(whose({wrong}), "");
+  const Finding right = finding(pass, "vulkan:old", "technique=a", "within");
+  EXPECT_EQ(whose({wrong, right}), "the driver's: vulkan:old is right by the same API");
+  EXPECT_EQ(whose({wrong, finding(pass, "gl:old", "technique=a", "within")}), "")
+      << "our code for the API may be wrong";
+  wrong.accepted_on = {"gl:old", "vulkan:new", "vulkan:old"};
+  EXPECT_EQ(whose({wrong}),
+            "the driver's: vulkan:new of another version, vulkan:old were right by the same API");
+  EXPECT_EQ(whose({wrong, finding(regression, "opencl:x", "technique=a")}),
+            "not the driver's: vulkan:new is wrong, too");
+  wrong.injected = {"half_voxel"};
+  EXPECT_EQ(whose({wrong, right}), "");
+  EXPECT_EQ(whose({finding(regression, "vulkan:lavapipe", "technique=a"),
+                   finding(regression, "gl:llvmpipe-egl", "technique=a")}),
+            "")
+      << "one driver behind two interfaces";
+  const Finding dearer = finding(regression, "vulkan:new", "technique=a", "more", Check::cost);
+  EXPECT_EQ(whose({dearer, finding(pass, "vulkan:old", "technique=a", "", Check::cost)}), "");
+}
+
 // What two shown failures foretell is counted with them, and one that was tried is told.
 TEST(FindingGroups, WhatWasNotTriedIsOfTheCauseThatWas) {
   const std::vector<Finding> findings{
