@@ -181,13 +181,7 @@ class Grouping {
         found != passes_.end() && !first->configuration.empty()) {
       group.right_on = found->second;
     }
-    if (const auto found = wrong_.find({first->check, first->configuration});
-        found != wrong_.end() && !first->configuration.empty()) {
-      std::ranges::copy_if(found->second, std::back_inserter(group.wrong_on),
-                           [&](const std::string& device) {
-                             return judge::family_of(device) != judge::family_of(first->device);
-                           });
-    }
+    group.wrong_on = also_wrong(members);
     if (first->check == Check::image) {
       group.changed_with_it =
           static_cast<std::size_t>(std::ranges::count_if(members, [&](const Finding* f) {
@@ -195,6 +189,26 @@ class Grouping {
           }));
     }
     return group;
+  }
+
+  // Devices of other families that are wrong in some of these configurations, and right in none.
+  [[nodiscard]] std::vector<std::string> also_wrong(const Members& members) const {
+    std::set<std::string> wrong;
+    std::set<std::string> right;
+    const auto add = [](const auto& from, const Finding* member, std::set<std::string>& to) {
+      const auto found = from.find({member->check, member->configuration});
+      if (found != from.end()) to.insert(found->second.begin(), found->second.end());
+    };
+    for (const Finding* each : members) {
+      if (each->configuration.empty()) continue;
+      add(wrong_, each, wrong);
+      add(passes_, each, right);
+    }
+    std::erase_if(wrong, [&](const std::string& device) {
+      return right.contains(device) ||
+             judge::family_of(device) == judge::family_of(members.front()->device);
+    });
+    return {wrong.begin(), wrong.end()};
   }
 
   // Of each factor at most two levels that are hit, or one that is not; more tell nothing.

@@ -19,7 +19,8 @@ struct FindingGroup {
   std::string signature = {};
   // Devices whose answer to the smallest case is a pass.
   std::vector<std::string> right_on = {};
-  // Other devices, of another family of drivers, that are wrong there by the same check.
+  // Devices of other families of drivers that are wrong by the same check in some of its
+  // configurations, and right in none.
   std::vector<std::string> wrong_on = {};
   // Of a wrong picture: in how many of its configurations the counters or statistics changed with
   // it.

@@ -128,7 +128,11 @@ class Screen {
         "  {} {}", sign_of(first),
         core::printable(fmt::format("{}: {}", judge::name_of(first.check), place_of(cause)),
                         width_ - 4))};
-    append_wrapped(lines, core::printable(message_of(cause), longest_message * (width_ - 6)), "");
+    std::string message = core::printable(message_of(cause), longest_message * (width_ - 6));
+    if (const std::string whose = cause.group.whose(); !whose.empty()) {
+      message += "; " + core::printable(whose);
+    }
+    append_wrapped(lines, message, "");
     const std::string command = command_of(first, *cause.result);
     // Cut short it would be another command.
     if (width_of(command) > longest_command) {

@@ -29,7 +29,7 @@ std::string item(const Cause& cause) {
   const judge::Finding& first = *cause.group.first;
   std::string text = fmt::format("- **{}** {}: {}  \n  {}\n", judge::name_of(first.verdict),
                                  judge::name_of(first.check), markdown_escaped(place_of(cause)),
-                                 markdown_escaped(message_of(cause)));
+                                 markdown_escaped(whole_message_of(cause)));
   const std::string command = command_of(first, *cause.result);
   if (!command.empty() && command.size() < longest_command) text += fenced(command, "  ");
   return text;

@@ -204,13 +204,17 @@ std::string message_of(const Cause& cause) {
     text += fmt::format("; {} {} right", fmt::join(group.right_on, ", "),
                         group.right_on.size() == 1 ? "is" : "are");
   }
-  if (const std::string whose = group.whose(); !whose.empty()) text += "; " + whose;
   if (group.changed_with_it > 0) {
     text += group.configurations == 1
                 ? "; its counters changed too"
                 : fmt::format("; counters of {} changed too", group.changed_with_it);
   }
   return text;
+}
+
+std::string whole_message_of(const Cause& cause) {
+  const std::string whose = cause.group.whose();
+  return message_of(cause) + (whose.empty() ? "" : "; " + whose);
 }
 
 }  // namespace triptych::report

@@ -50,5 +50,7 @@ struct Overview {
 [[nodiscard]] std::string place_of(const Cause& cause);
 // The message; of several configurations the smallest is named. Text of unknown origin.
 [[nodiscard]] std::string message_of(const Cause& cause);
+// With whose it is.
+[[nodiscard]] std::string whole_message_of(const Cause& cause);
 
 }  // namespace triptych::report

@@ -151,7 +151,7 @@ std::string article(const Cause& cause, const PlanData& plan, const std::string&
       "</article>\n",
       judge::name_of(first.verdict), id, is_open(first) ? "finding" : "remark",
       escape(first.device), escape(suite_of(plan)), judge::name_of(first.check),
-      breakable(place_of(cause)), escape(message_of(cause)), links(cause, plan),
+      breakable(place_of(cause)), escape(whole_message_of(cause)), links(cause, plan),
       first.configuration.empty()
           ? ""
           : fmt::format("<p class=\"system\">{}{}</p>", several ? "the smallest: " : "",

@@ -173,7 +173,8 @@ PFN_vkVoidFunction own(std::string_view name) {
   const std::string_view wanted = known_limit(change().name) ? std::string_view() : change().name;
   for (const std::span<const Hook> hooks : every_hook()) {
     for (const Hook& each : hooks) {
-      if (each.change == wanted && each.command == name) return each.function;
+      const bool of_all = each.command == "vkGetPhysicalDeviceProperties2";
+      if ((each.change == wanted || of_all) && each.command == name) return each.function;
     }
   }
   return nullptr;

@@ -67,8 +67,12 @@ VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice physical,
   lower(properties->limits);
 }
 
-// A device of which nothing is stored.
+// A device of which nothing is stored; with a fault, a version of which nothing is.
 void rename(VkPhysicalDeviceDriverProperties& driver) {
+  if (!known_limit(change().name)) {
+    driver.driverInfo[change().name.copy(driver.driverInfo, VK_MAX_DRIVER_INFO_SIZE - 1)] = '\0';
+    return;
+  }
   driver.driverID = {};
   constexpr std::string_view name = "layer";
   driver.driverName[name.copy(driver.driverName, name.size())] = '\0';

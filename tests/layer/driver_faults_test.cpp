@@ -1,4 +1,5 @@
-// Drivers that are wrong: each fault is found, told as few causes, and leaves the rest right.
+// Drivers that are wrong: each fault is found, told as few causes and as the driver's, and leaves
+// the rest right.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -64,6 +65,11 @@ int causes_in(const std::string& screen) {
   return causes;
 }
 
+// As one line, however the screen breaks it.
+std::string unwrapped(const std::string& screen) {
+  return std::regex_replace(screen, std::regex("\\s+"), " ");
+}
+
 class DriverFaults : public LayerTest {
  protected:
   // Every fault that one plan finds.
@@ -80,6 +86,8 @@ class DriverFaults : public LayerTest {
       EXPECT_THAT(judged.output, HasSubstr(fmt::format("\n  ✗ {}", each.told)));
       EXPECT_LE(causes_in(judged.output), each.causes) << judged.output;
       EXPECT_THAT(judged.output, HasSubstr(fmt::format("TRIPTYCH_LAYER={} ", each.name)));
+      EXPECT_THAT(unwrapped(judged.output), HasSubstr("the driver's: vulkan:lavapipe of another "
+                                                      "version was right by the same API"));
     }
   }
 };
@@ -90,6 +98,20 @@ TEST_F(DriverFaults, InVolumes) {
 
 TEST_F(DriverFaults, InParticles) {
   check(particles);
+}
+
+TEST_F(DriverFaults, AreToldFromOurOwn) {
+  const std::string devices = "--device vulkan:lavapipe --device opencl:pocl";
+  const test::Result accepted = layered.accept(particles, devices);
+  if (accepted.output.find("no device matches opencl:pocl") != std::string::npos) {
+    GTEST_SKIP() << "needs PoCL";
+  }
+  ASSERT_EQ(accepted.code, 0) << accepted.output;
+  EXPECT_EQ(layered.draw("", particles, devices + " --inject small_sprite").code, 0);
+  const std::string ours = unwrapped(layered.judge(particles).output);
+  EXPECT_THAT(ours, HasSubstr("not the driver's: opencl:pocl is wrong, too"));
+  EXPECT_THAT(ours, HasSubstr("not the driver's: vulkan:lavapipe is wrong, too"));
+  EXPECT_THAT(ours, testing::Not(HasSubstr("; the driver's")));
 }
 
 TEST_F(DriverFaults, InQueriesAreToldOfTheDevice) {

@@ -32,10 +32,11 @@ class Layered {
   }
 
   // Of tests/layer/PLAN.yaml: one picture and one frame of counters each, into PLAN.sqlite.
-  [[nodiscard]] test::Result draw(std::string_view change, std::string_view plan) const {
+  [[nodiscard]] test::Result draw(std::string_view change, std::string_view plan,
+                                  const std::string& choice = "--device 'vulkan:*'") const {
     std::filesystem::remove(folder_.path() / fmt::format("{}.sqlite", plan));
-    return run(change, fmt::format("run {} --device 'vulkan:*' --untimed --store {}.sqlite",
-                                   file_of(plan), plan));
+    return run(change,
+               fmt::format("run {} {} --untimed --store {}.sqlite", file_of(plan), choice, plan));
   }
 
   [[nodiscard]] test::Result judge(std::string_view plan) const {
@@ -44,9 +45,10 @@ class Layered {
                                file_of(plan), plan));
   }
 
-  // Takes what lavapipe draws now for right.
-  [[nodiscard]] test::Result accept(std::string_view plan) const {
-    test::Result drawn = draw("", plan);
+  // Takes what is drawn now for right.
+  [[nodiscard]] test::Result accept(std::string_view plan,
+                                    const std::string& choice = "--device 'vulkan:*'") const {
+    test::Result drawn = draw("", plan, choice);
     if (drawn.code != 0) return drawn;
     return run("", fmt::format("accept {} --store {}.sqlite --baselines baselines --reason test",
                                file_of(plan), plan));
