@@ -83,7 +83,7 @@ void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed, I
 
 // Room is set aside for all of them, so that none is copied, but taken only as they come: a claim
 // alone costs no memory.
-std::size_t inflate_into(std::vector<std::byte>& voxels, std::uint64_t needed, Inflater& inflater) {
+std::size_t inflate_into(VoxelBytes& voxels, std::uint64_t needed, Inflater& inflater) {
   constexpr std::uint64_t piece = std::uint64_t{16} << 20;
   voxels.reserve(needed);
   for (;;) {
@@ -129,7 +129,7 @@ void read_gzip(Volume& volume, const RawVoxels& source, std::uint64_t needed, In
   }
 }
 
-void swap_bytes(std::vector<std::byte>& voxels, std::size_t width) {
+void swap_bytes(VoxelBytes& voxels, std::size_t width) {
   for (std::size_t i = 0; i < voxels.size(); i += width) {
     std::reverse(voxels.data() + i, voxels.data() + i + width);
   }

@@ -59,11 +59,11 @@ class Normaliser {
 
 // Converts element by element, in place where both types have one size.
 template <typename From, typename To, typename Convert>
-std::vector<std::byte> convert(std::vector<std::byte>&& voxels, Convert&& each) {
+VoxelBytes convert(VoxelBytes&& voxels, Convert&& each) {
   const std::size_t n = voxels.size() / sizeof(From);
-  std::vector<std::byte> fresh;
+  VoxelBytes fresh;
   if constexpr (sizeof(From) != sizeof(To)) fresh.resize(n * sizeof(To));
-  std::vector<std::byte>& out = sizeof(From) == sizeof(To) ? voxels : fresh;
+  VoxelBytes& out = sizeof(From) == sizeof(To) ? voxels : fresh;
   for (std::size_t i = 0; i < n; ++i) {
     const To result = each(load_scalar<From>(voxels.data(), i));
     std::memcpy(out.data() + i * sizeof(To), &result, sizeof(To));

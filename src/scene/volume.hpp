@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/voxel_memory.hpp"
+
 namespace triptych::scene {
 
 enum class ScalarType : std::uint8_t { u8, i8, u16, i16, f32, f64 };
@@ -29,7 +31,7 @@ struct Volume {
   std::array<int, 3> size{};
   std::array<double, 3> spacing{1, 1, 1};
   ScalarType type = ScalarType::u8;
-  std::vector<std::byte> voxels;
+  VoxelBytes voxels;
   // The values mapped to 0 and 1 of the transfer function: minimum and maximum over the finite
   // voxels of a file; a generator states its own. lo == hi is allowed: every voxel then maps to 0.
   double range_lo = 0;
@@ -57,7 +59,7 @@ struct VoxelGrid {
   VoxelFormat format = VoxelFormat::f32;
   std::array<int, 3> size{};
   std::array<double, 3> spacing{1, 1, 1};
-  std::vector<std::byte> data;
+  VoxelBytes data;
   double scale = 1;
   double offset = 0;
   double range_lo = 0;

@@ -26,12 +26,21 @@ const std::string small = any_size + "--set viewport=16 ";
 TEST(Memory, DataThatNeedMoreFailTheirConfigurationAlone) {
   if (sanitized) GTEST_SKIP() << "built with a sanitizer";
   const Program program;
-  const std::string data = "--set data=generate:gaussian_blob:16,generate:gaussian_blob:700 ";
+  const std::string data = "--set data=generate:gaussian_blob:16,generate:gaussian_blob:500 ";
   const Result result = program.run(small + data + "--memory 300M");
   EXPECT_EQ(result.code, 0) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("out of host memory with data generate:gaussian_blob:700; "
+  EXPECT_THAT(result.output, HasSubstr("out of host memory with data generate:gaussian_blob:500; "
                                        "this worker may allocate 300 MiB"));
   EXPECT_THAT(result.output, HasSubstr("1 measured, 0 skipped, 1 failed"));
+}
+
+// From 512 MiB on voxels lie in a file.
+TEST(Memory, IsNotWhatManyVoxelsTake) {
+  if (sanitized) GTEST_SKIP() << "built with a sanitizer";
+  const Program program;
+  const Result result = program.run(small + "--set data=generate:sparse_field:820 --memory 300M");
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("1 measured, 0 skipped, 0 failed"));
 }
 
 TEST(Memory, ASizeIsANumberOfBytes) {
