@@ -131,8 +131,9 @@ class Device {
   // Nothing where there is none.
   [[nodiscard]] virtual std::optional<Rasterizer> rasterizer() const { return std::nullopt; }
 
-  // Bytes that the backend holds on the device now, as "buffers" and "images". What a driver takes
-  // for itself is not among them. Empty where nobody counts them.
+  // Bytes that the backend holds on the device now, as "buffers" and "images"; as "moved" those
+  // that every frame of what is prepared moves there (technique/volume/parts.hpp). What a driver
+  // takes for itself is not among them. Empty where nobody counts them.
   [[nodiscard]] virtual record::Counts memory() const { return {}; }
 
   // Throws NotSupported, ApiError, DeviceLost.

@@ -14,6 +14,7 @@ class MemoryLedger {
   struct Sums {
     std::atomic<std::uint64_t> buffers{0};
     std::atomic<std::uint64_t> images{0};
+    std::atomic<std::uint64_t> moved{0};
   };
   using Sum = std::atomic<std::uint64_t> Sums::*;
 
@@ -53,10 +54,14 @@ class MemoryLedger {
 
   [[nodiscard]] Entry buffer(std::uint64_t bytes) const { return {sums_, &Sums::buffers, bytes}; }
   [[nodiscard]] Entry image(std::uint64_t bytes) const { return {sums_, &Sums::images, bytes}; }
+  // What every frame moves to the device anew, for as long as there are such frames.
+  [[nodiscard]] Entry moved(std::uint64_t bytes) const { return {sums_, &Sums::moved, bytes}; }
 
   // Device::memory().
   [[nodiscard]] record::Counts counts() const {
-    return {{"buffers", sums_->buffers}, {"images", sums_->images}};
+    record::Counts counts{{"buffers", sums_->buffers}, {"images", sums_->images}};
+    if (sums_->moved > 0) counts.emplace("moved", sums_->moved);
+    return counts;
   }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 #include <bit>
 #include <glm/geometric.hpp>
+#include <string_view>
 
 #include "scene/volume_scene.hpp"
 #include "technique/volume/preintegration.hpp"
@@ -24,5 +25,10 @@ namespace triptych::technique {
                        (preintegration_form(scene) == 2 ? 1 : 0);
   return steps * loops > most_passes;
 }
+
+// Why such rays cannot be drawn by shaders in parts of a volume, whose loop takes a sample a pass.
+inline constexpr std::string_view long_rays_in_parts =
+    "in parts of a volume a ray may take only so many samples as some drivers let a loop make "
+    "passes: take a longer step";
 
 }  // namespace triptych::technique

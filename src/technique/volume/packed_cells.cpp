@@ -80,11 +80,10 @@ void fill_packed_cells(const scene::VoxelGrid& grid, std::size_t begin, std::spa
   for (std::size_t at = 0; at < out.size(); at += texel) packer.write(&out[at]);
 }
 
-std::optional<std::string> packed_reason(const scene::VoxelGrid& grid,
-                                         const RaycastBuffers& buffers, const TexelLimit& most) {
+std::optional<std::string> packed_reason(std::uint64_t cells, const RaycastBuffers& buffers,
+                                         const TexelLimit& most) {
   constexpr std::uint64_t word = 4;
-  const std::uint64_t needed = std::max(
-      {packed_texels(grid.size, grid.format), buffers.bricks / word, buffers.table / (4 * word)});
+  const std::uint64_t needed = std::max({cells, buffers.bricks / word, buffers.table / (4 * word)});
   if (needed <= most.texels) return std::nullopt;
   return fmt::format("sampler packed needs {} texels in one buffer; {} = {}", needed, most.name,
                      most.texels);

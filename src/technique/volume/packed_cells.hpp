@@ -37,9 +37,9 @@ struct TexelLimit {
   std::uint64_t texels = 0;
   std::string_view name;
 };
-// Why such a device cannot draw with Sampler::packed, which reads cells, bricks and the
-// quadrature's table as texels; empty where it can.
-[[nodiscard]] std::optional<std::string> packed_reason(const scene::VoxelGrid& grid,
+// Why such a device cannot draw with Sampler::packed, which reads cells, so many texels, bricks and
+// the quadrature's table as texels; empty where it can.
+[[nodiscard]] std::optional<std::string> packed_reason(std::uint64_t cells,
                                                        const RaycastBuffers& buffers,
                                                        const TexelLimit& most);
 

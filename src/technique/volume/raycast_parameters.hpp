@@ -48,6 +48,9 @@ struct RaycastOptions {
   double ert = 1.0 / 512;  // stop below this transmittance; 0: never
   double adapt = 0;        // error that merging samples within bricks may make (brick_kinds.hpp)
   Precision precision = Precision::fp32;
+  // Bytes of device memory for voxels: a volume that takes more is drawn in parts (parts.hpp); 0:
+  // as many as the device's own limits let it have.
+  std::uint64_t budget = 0;
   Fault fault = Fault::none;
   // 1/extra_work_stride of the image is drawn a second time (volume/extra_work.hpp): an injected
   // slowdown of as much by real work; 0: none.

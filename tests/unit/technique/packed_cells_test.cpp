@@ -80,12 +80,14 @@ TEST(PackedCells, PartsMakeTheWhole) {
 TEST(PackedCells, WhatADeviceCannotReadIsNamedWithBothNumbers) {
   scene::VoxelGrid grid{.format = VoxelFormat::u8, .size = {511, 511, 512}};
   constexpr TexelLimit limit{.texels = 134217728, .name = "theLimit"};
-  EXPECT_EQ(packed_reason(grid, {}, limit).value_or(""),
+  EXPECT_EQ(packed_reason(packed_texels(grid.size, grid.format), {}, limit).value_or(""),
             "sampler packed needs 134479872 texels in one buffer; theLimit = 134217728");
   grid.size = {511, 511, 511};
-  EXPECT_FALSE(packed_reason(grid, {}, limit));
-  EXPECT_TRUE(packed_reason(grid, {.bricks = 4 * (limit.texels + 1)}, limit));
-  EXPECT_TRUE(packed_reason(grid, {.table = 16 * (limit.texels + 1)}, limit));
+  EXPECT_FALSE(packed_reason(packed_texels(grid.size, grid.format), {}, limit));
+  EXPECT_TRUE(packed_reason(packed_texels(grid.size, grid.format),
+                            {.bricks = 4 * (limit.texels + 1)}, limit));
+  EXPECT_TRUE(packed_reason(packed_texels(grid.size, grid.format),
+                            {.table = 16 * (limit.texels + 1)}, limit));
 }
 
 TEST(PackedCells, AreTheDefaultWhereTheyAreFaster) {

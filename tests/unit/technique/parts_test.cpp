@@ -1,0 +1,164 @@
+#include "technique/volume/parts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "scene/generators.hpp"
+#include "technique/volume/brick_map.hpp"
+#include "technique/volume/packed_cells.hpp"
+
+namespace triptych::technique {
+namespace {
+
+constexpr Layers of_one_byte{.bytes = 1, .more = 1, .whole = 102};
+
+// Of 100 slices, the eye at this height.
+scene::VolumeScene scene_of(double eye_z) {
+  scene::VolumeScene scene;
+  scene.grid = std::make_shared<const scene::VoxelGrid>(scene::VoxelGrid{
+      .format = scene::VoxelFormat::u8, .size = {4, 4, 100}, .spacing = {1, 1, 2}});
+  scene.camera.eye = {2, 2, 2 * eye_z};
+  return scene;
+}
+
+std::vector<Part> cut(const scene::VolumeScene& scene, std::uint64_t room) {
+  const Cut cut = cut_into_parts("raycast", scene, {}, of_one_byte, {room, "the room"});
+  EXPECT_FALSE(cut.reason) << *cut.reason;
+  return cut.parts;
+}
+
+TEST(Parts, OfWhatHasRoomThereAreNone) {
+  EXPECT_TRUE(cut(scene_of(50), 102).empty());
+  EXPECT_FALSE(cut(scene_of(50), 101).empty());
+}
+
+TEST(Parts, TakeEveryCellOnceAndHoldWhatItsSamplesReach) {
+  for (const double eye : {-30.0, 0.0, 3.0, 49.5, 50.0, 99.0, 200.0}) {
+    for (const bool shaded : {false, true}) {
+      for (const std::uint64_t room : {11U, 30U, 80U}) {
+        scene::VolumeScene scene = scene_of(eye);
+        scene.shading.enabled = shaded;
+        const std::vector<Part> parts = cut(scene, room);
+        std::vector<int> taken(101);
+        for (const Part& part : parts) {
+          EXPECT_LE(of_one_byte.bytes_of(part.held()), room);
+          const int reach = shaded ? 2 : 1;
+          EXPECT_LE(part.first_held, std::max(part.begin - reach, 0));
+          EXPECT_GE(part.end_held, std::min(part.end + reach, 101));
+          for (int cell = part.begin; cell < part.end; ++cell)
+            ++taken[static_cast<std::size_t>(cell)];
+        }
+        // Those beside the first part are its own, too.
+        const Part& first = parts.front();
+        for (const int beside : {first.begin, first.end - 1}) {
+          int& times = taken[static_cast<std::size_t>(beside)];
+          if (times == 2) --times;
+        }
+        EXPECT_EQ(std::ranges::count(taken, 1), 101) << "eye " << eye << " room " << room;
+      }
+    }
+  }
+}
+
+// Every ray meets them in this order: begins where the eye is, and goes up or down.
+TEST(Parts, BeginAtTheEyeAndGoOutwards) {
+  for (const double eye : {-30.0, 0.0, 37.0, 50.0, 99.0, 200.0}) {
+    const std::vector<Part> parts = cut(scene_of(eye), 20);
+    const double cell = std::clamp(eye + 0.5, 0.0, 100.0);
+    EXPECT_LE(parts.front().begin, cell);
+    EXPECT_GE(parts.front().end, cell);
+    int below = parts.front().begin;
+    int above = parts.front().end;
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      const bool down = parts[i].end == below + 1 || parts[i].end == below;
+      const bool up = parts[i].begin == above - 1 || parts[i].begin == above;
+      EXPECT_TRUE(down || up) << "part " << i << ", eye " << eye;
+      if (down) below = parts[i].begin;
+      if (up && !down) above = parts[i].end;
+    }
+    EXPECT_EQ(below, 0);
+    EXPECT_EQ(above, 101);
+  }
+}
+
+// A preintegrated step reads both its ends.
+TEST(Parts, HoldAWholeStep) {
+  scene::VolumeScene scene = scene_of(50);
+  scene.quadrature = scene::Quadrature::preintegrated;
+  scene.step_voxels = 6.5;
+  for (const Part& part : cut(scene, 60)) {
+    EXPECT_LE(part.first_held, std::max(part.begin - 8, 0));
+    EXPECT_GE(part.end_held, std::min(part.end + 8, 101));
+  }
+}
+
+TEST(Parts, AreRefusedWithTheReason) {
+  const scene::VolumeScene scene = scene_of(50);
+  const auto reason = [&](std::string_view technique, Sampler sampler, std::uint64_t room) {
+    return cut_into_parts(technique, scene, {.sampler = sampler}, of_one_byte,
+                          within_budget({room, "theLimit"}, {}))
+        .reason.value_or("");
+  };
+  EXPECT_EQ(reason("raycast", Sampler::manual, 5),
+            "the volume takes 102 bytes, theLimit is 5; its thinnest part takes 6");
+  EXPECT_EQ(reason("raycast", Sampler::manual, 6), "");
+  EXPECT_EQ(reason("raycast_fragment", Sampler::manual, 50),
+            "the volume takes 102 bytes, theLimit is 50; in parts it is drawn by raycast only, not "
+            "by raycast_fragment");
+  EXPECT_NE(reason("raycast", Sampler::hardware, 50).find("by sampler manual or packed"),
+            std::string::npos);
+  EXPECT_EQ(within_budget({1000, "theLimit"}, {.budget = 10}).limit, "the budget");
+  EXPECT_EQ(within_budget({1000, "theLimit"}, {.budget = 2000}).bytes, 1000U);
+}
+
+TEST(Parts, AreReadWhereABrickNearThemIsVisible) {
+  scene::VolumeScene scene = scene_of(50);
+  scene::VoxelGrid grid = *scene.grid;
+  grid.data.resize(grid.voxel_count());
+  grid.scale = 1.0 / 255;
+  grid.data[16U * 70U] = std::byte{255};  // in slice 70
+  scene.grid = std::make_shared<const scene::VoxelGrid>(std::move(grid));
+  scene.transfer_function = scene::load_transfer_function("surfaces");
+  const std::vector<Part> parts = cut(scene, 20);
+  for (const Skip skip : {Skip::bricks, Skip::distance, Skip::none}) {
+    const auto map = brick_map(scene, skip);
+    int read = 0;
+    for (const PartPass& pass : part_passes(parts, scene, {.skip = skip}, map)) {
+      EXPECT_EQ(pass.parameters.first_held, pass.part.first_held);
+      read += pass.read ? 1 : 0;
+      if (pass.part.begin <= 71 && pass.part.end > 70) EXPECT_TRUE(pass.read);
+    }
+    EXPECT_LE(read, skip == Skip::none ? 10 : 3) << name_of(skip);
+    if (skip == Skip::none) EXPECT_EQ(read, static_cast<int>(parts.size()));
+  }
+}
+
+TEST(Layers, AreThoseOfTheCells) {
+  for (const auto format :
+       {scene::VoxelFormat::u8, scene::VoxelFormat::u16, scene::VoxelFormat::f32}) {
+    const std::array<int, 3> size{7, 5, 9};
+    const Layers packed = packed_layers(size, format);
+    EXPECT_EQ(packed.whole, packed_bytes(size, format));
+    EXPECT_EQ(packed.bytes_of(10), packed.whole);
+    EXPECT_EQ(slice_layers(size, format).whole, 7U * 5U * 9U * scene::bytes_of(format));
+  }
+}
+
+TEST(Slices, LieAroundTheCells) {
+  scene::VoxelGrid grid{.format = scene::VoxelFormat::u8, .size = {1, 1, 9}};
+  grid.data.resize(9);
+  for (std::size_t i = 0; i < 9; ++i) grid.data[i] = std::byte{static_cast<unsigned char>(i)};
+  const auto slices = [&](int first, int end) {
+    const Slices of = slices_of({.first_held = first, .end_held = end}, grid);
+    EXPECT_EQ(of.bytes.size(), static_cast<std::size_t>(of.count));
+    return std::pair{static_cast<int>(of.bytes.front()), of.count};
+  };
+  EXPECT_EQ(slices(0, 3), std::pair(0, 3));   // cells 0 … 2: slices 0 … 2
+  EXPECT_EQ(slices(3, 5), std::pair(2, 3));   // between slices 2, 3 and 4
+  EXPECT_EQ(slices(8, 10), std::pair(7, 2));  // the last one's own
+}
+
+}  // namespace
+}  // namespace triptych::technique
