@@ -66,7 +66,7 @@ TRI_FN float4 cubic_of_cell(__constant Parameters* u, TRI_VOLUME volume, int3 ce
   int near_row = cell.y + 1;
   int far_row = near_row + 1;
 #endif
-  TRI_VOLUME first = volume + (cell.x + 1 + slice * (cell.z + 1));
+  TRI_VOLUME first = volume + (cell.x + 1 + slice * held_layer(u, cell.z + 1));
   TRI_VOXEL4 low = (TRI_VOXEL4)(vload2(0, first + row * near_row), vload2(0, first + row * far_row));
   TRI_VOXEL4 high = (TRI_VOXEL4)(vload2(0, first + slice + row * near_row),
                                  vload2(0, first + slice + row * far_row));
@@ -236,10 +236,25 @@ TRI_FN int look_around(__constant Parameters* u, __global const int* brick_map, 
   return signed_reach > 0;
 }
 
+#if TRI_PARTS
+// As in raycast.cl.
+typedef struct {
+  Gathered gathered;
+  Counts counts;
+  int3 cell;
+  float begin;
+  float seen;
+  float end;
+} Pause;
+#define TRI_PAUSES , __global Pause* pauses
+#else
+#define TRI_PAUSES
+#endif
+
 // As the kernel of raycast.cl.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const int* brick_map, __global float4* image,
-                      __global uint* counters, __global const float4* kinks) {
+                      __global uint* counters, __global const float4* kinks TRI_PAUSES) {
   int x = (int)get_global_id(0);
   int y = (int)get_global_id(1);
   int2 pixel = (int2)(tri_drawn_column(x, y, u->viewport.w, u->viewport.z), y);
@@ -258,7 +273,23 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
   float begin = 0.0f;
   float seen = u->brick_grid.w > 0 ? 0.0f : 3.0e38f;  // up to here all bricks are visible
   float end = ray.steps;
+#if TRI_PARTS
+  __global Pause* own =
+      pauses + tri_output_place(x, y, u->viewport.x, u->viewport.y, u->viewport.w, (int)get_global_size(0));
+  if (u->pass.x > 0) {
+    Pause pause = *own;
+    gathered = pause.gathered;
+    counts = pause.counts;
+    cell = pause.cell;
+    begin = pause.begin;
+    seen = pause.seen;
+    end = pause.end;
+  }
+#endif
   while (begin < end) {
+#if TRI_PARTS
+    if (!cell_is_here(u, cell.z + 1)) break;
+#endif
     int visible = 1;
     int3 planes = cell + way.forward;
     if (begin >= seen) {
@@ -282,6 +313,9 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
     if (gathered.transmittance < u->ray_right.w) end = 0.0f;
   }
   counts.terminated = gathered.transmittance < u->ray_right.w;
+#if TRI_PARTS
+  *own = (Pause){gathered, counts, cell, begin, seen, end};
+#endif
   int at = tri_output_place(x, y, u->viewport.x, u->viewport.y, u->viewport.w, (int)get_global_size(0));
   image[at] = (float4)(gathered.sum.xyz, 1.0f - gathered.transmittance) +
               gathered.transmittance * u->background;

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "backends/opencl/filter_probe.hpp"
@@ -12,6 +11,7 @@
 #include "backends/opencl/programs.hpp"
 #include "backends/opencl/techniques.hpp"
 #include "backends/opencl/volume_data.hpp"
+#include "backends/opencl/volume_parts.hpp"
 #include "core/error.hpp"
 #include "technique/volume/raycast_buffers.hpp"
 
@@ -58,7 +58,8 @@ class Device final : public measure::Device {
 
  private:
   [[nodiscard]] std::optional<std::string> image_defect(const scene::VoxelGrid& grid) const;
-  [[nodiscard]] std::optional<std::string> size_defect(const measure::VolumeWork& work) const;
+  [[nodiscard]] std::optional<std::string> size_defect(std::string_view technique,
+                                                       const measure::VolumeWork& work) const;
 
   record::Device info_;
   Session session_;
@@ -95,33 +96,25 @@ std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) co
 }
 
 // Why one of the buffers does not fit.
-std::optional<std::string> Device::size_defect(const measure::VolumeWork& work) const {
-  const auto most =
-      checked([&] { return session_.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(); });
-  const auto total = checked([&] { return session_.device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(); });
-  const scene::VoxelGrid& grid = *work.scene.grid;
-  const std::uint64_t voxels = bordered_voxels(grid.size);
-  constexpr std::uint64_t most_voxels = std::numeric_limits<std::int32_t>::max();
-  if (work.options.sampler == Sampler::manual && voxels > most_voxels) {
-    return fmt::format("the volume has {} voxels with its border, the kernel's index reaches {}",
-                       voxels, most_voxels);
-  }
-  const std::uint64_t volume = voxels * scene::bytes_of(grid.format);
+std::optional<std::string> Device::size_defect(std::string_view technique,
+                                               const measure::VolumeWork& work) const {
+  const technique::Cut cut = cut_of(session_, technique, work);
+  if (cut.reason) return cut.reason;
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(work.scene.width) * static_cast<std::uint64_t>(work.scene.height);
-  if (pixels * technique::raycast_counter_stride > most_voxels) {
+  if (pixels * technique::raycast_counter_stride > most_indices) {
     return fmt::format("{} pixels, the kernel's index reaches {}", pixels,
-                       most_voxels / technique::raycast_counter_stride);
+                       most_indices / technique::raycast_counter_stride);
   }
-  if (volume > most) {
-    return fmt::format("the volume takes {} bytes, CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}", volume,
-                       most);
-  }
-  const technique::RaycastBuffers buffers = technique::raycast_buffers(work.scene, work.options);
+  technique::RaycastBuffers buffers = technique::raycast_buffers(work.scene, work.options);
+  if (!cut.parts.empty()) buffers.pauses = technique::pauses_bytes(work.scene, work.options);
+  const auto most =
+      checked([&] { return session_.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(); });
   if (auto defect = technique::buffer_reason(buffers, most, "CL_DEVICE_MAX_MEM_ALLOC_SIZE")) {
     return defect;
   }
-  const std::uint64_t all = volume + buffers.all();
+  const std::uint64_t all = bordered_layers(*work.scene.grid).room_for(cut.parts) + buffers.all();
+  const auto total = checked([&] { return session_.device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(); });
   if (all > total) {
     return fmt::format("{} bytes are needed, CL_DEVICE_GLOBAL_MEM_SIZE is {}", all, total);
   }
@@ -155,7 +148,7 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
   if (volume->options.sampler == Sampler::hardware) {
     if (auto defect = image_defect(*volume->scene.grid)) return defect;
   }
-  return size_defect(*volume);
+  return size_defect(work.technique, *volume);
 }
 
 // By hand from a buffer wherever the sampler is not exact: on PoCL 3.1 that is also nine times

@@ -12,4 +12,8 @@ typedef struct {
   int4 volume_size;
   int4 brick_grid;
   int4 viewport;
+#if TRI_PARTS
+  int4 part;  // technique::PartParameters
+  int4 pass;
+#endif
 } Parameters;

@@ -24,6 +24,7 @@ struct Constants {
   bool cells = false;     // a source of its own
   bool leaps = false;     // technique::Skip::distance
   bool adapt = false;
+  bool parts = false;  // draws technique::Part by part
   technique::Precision precision = technique::Precision::fp32;
   technique::Fault fault = technique::Fault::none;
   int batch = 1;

@@ -36,6 +36,18 @@ TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {
   return ray;
 }
 
+#if TRI_PARTS
+TRI_FN int cell_is_here(__constant Parameters* u, int cell) {
+  return cell >= u->part.x && cell < u->part.y;
+}
+
+// Whether the voxels around the ray, so many steps along, are those of the part: of the cell that fetch() reads.
+TRI_FN int is_here(__constant Parameters* u, const Ray* ray, real along) {
+  real z = ray->p0.z + along * ray->g.z;
+  return cell_is_here(u, (int)clamp_coordinate(z + 0.5f, (real)u->volume_size.z));
+}
+#endif
+
 // Whether there is anything to skip; leaps see at a glance that a volume is full.
 TRI_FN int skips(__constant Parameters* u, __global const int* brick_map) {
   int4 grid = u->brick_grid;

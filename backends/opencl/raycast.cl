@@ -7,6 +7,9 @@
 //
 // Compile-time constants: TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, TRI_PREINTEGRATED
 // (technique::preintegration_form), TRI_LEAPS, TRI_ADAPT, and those of volume.cl.
+//
+// With TRI_PARTS a pass takes what lies in the part of the volume that the device holds, and leaves the ray
+// as it was left.
 
 // Colours and opacities per voxel length of n values, linear between the table's 256 entries.
 TRI_FN void classify(__constant float4* table, const real* value, int n, real4* colour,
@@ -173,11 +176,43 @@ TRI_FN int take_steps(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 }
 #endif
 
+#if TRI_PARTS
+// What a ray is to go on with in the next part of the volume.
+typedef struct {
+  Gathered gathered;
+  Counts counts;
+  Walk walk;
+  int i;     // the next sample
+  int stop;  // the end of the run that it lies in
+  int ended;
+} Pause;
+#define TRI_PAUSES , __global Pause* pauses
+
+// Whether what is taken at i lies in the part: a sample, a step, or the middle of a run to be merged.
+TRI_FN int next_is_here(__constant Parameters* u, const Ray* ray, const Walk* walk, int i, int stop) {
+  real along = (real)i + (TRI_PREINTEGRATED ? 0.0f : 0.5f);
+#if TRI_ADAPT
+  real end = (real)stop < ray->steps ? (real)stop : ray->steps;
+  if (walk->merged) along = max(0.5f * ((real)i + end), along);
+#endif
+  return is_here(u, ray, along);
+}
+
+// How many of the n samples from the i-th on lie in the part.
+TRI_FN int samples_here(__constant Parameters* u, const Ray* ray, int i, int n) {
+  real place = TRI_PREINTEGRATED ? 0.0f : 0.5f;
+  while (n > 0 && !is_here(u, ray, (real)(i + n - 1) + place)) --n;
+  return n;
+}
+#else
+#define TRI_PAUSES
+#endif
+
 // Image: premultiplied RGBA, top row first. Column x of the grid is
 // image column tri_drawn_column(x): x itself for the picture, others beside it for injected extra work.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const int* brick_map, __global float4* image,
-                      __global uint* counters, __global const float4* pairs) {
+                      __global uint* counters, __global const float4* pairs TRI_PAUSES) {
   int x = (int)get_global_id(0);
   int y = (int)get_global_id(1);
   int2 pixel = (int2)(tri_drawn_column(x, y, u->viewport.w, u->viewport.z), y);
@@ -194,13 +229,36 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
   if (skipping) walk = start_walk(u, &ray);
   int i = 0;
   int ended = 0;
+#if TRI_PARTS
+  __global Pause* own =
+      pauses + tri_output_place(x, y, u->viewport.x, u->viewport.y, u->viewport.w, (int)get_global_size(0));
+  int begun = 0;  // the end of the run that was begun
+  if (u->pass.x > 0) {
+    Pause pause = *own;
+    gathered = pause.gathered;
+    counts = pause.counts;
+    walk = pause.walk;
+    i = pause.i;
+    begun = pause.stop;
+    ended = pause.ended;
+  }
+#endif
   while (i < count && !ended) {
     int stop = count;
+#if TRI_PARTS
+    if (i < begun) {
+      stop = begun;
+    } else
+#endif
     if (skipping) {
       int2 run = next_run(u, brick_map, &walk, &ray, i, count, &counts);
       i = run.x;
       stop = run.y;
     }
+#if TRI_PARTS
+    begun = stop;
+    if (i < stop && !next_is_here(u, &ray, &walk, i, stop)) break;
+#endif
 #if TRI_ADAPT
     if (walk.merged && i < stop) {
       ended = take_merged(u, volume, table, &ray, i, stop, &gathered, &counts);
@@ -210,14 +268,25 @@ __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant fl
     while (i < stop && !ended) {
 #if TRI_PREINTEGRATED
       int n = min(stop - i, TRI_STEPS_PER_BATCH);
+#if TRI_PARTS
+      n = samples_here(u, &ray, i, n);
+      if (n == 0) break;
+#endif
       ended = take_steps(u, volume, table, pairs, &ray, i, n, &gathered, &counts);
 #else
       int n = TRI_BATCH == 1 ? 1 : min(stop - i, TRI_BATCH);
+#if TRI_PARTS
+      n = samples_here(u, &ray, i, n);
+      if (n == 0) break;
+#endif
       ended = take_batch(u, volume, table, &ray, i, n, &gathered, &counts);
 #endif
       i += n;
     }
   }
+#if TRI_PARTS
+  *own = (Pause){gathered, counts, walk, i, begun, ended};
+#endif
   int at = tri_output_place(x, y, u->viewport.x, u->viewport.y, u->viewport.w, (int)get_global_size(0));
 #if TRI_SPEED_OF_LIGHT
   gathered.transmittance += gathered.sum.w;

@@ -4,7 +4,8 @@
 // turns each into vector instructions, 16 samples wide where the machine has them; for TRI_BATCH 1,
 // which GPUs are given, nothing remains of the loops.
 //
-// Compile-time constants: TRI_MANUAL_SAMPLER, TRI_VOXEL (the stored type), TRI_FAULT, TRI_BATCH.
+// Compile-time constants: TRI_MANUAL_SAMPLER, TRI_VOXEL (the stored type), TRI_FAULT, TRI_BATCH, TRI_PARTS
+// (technique::Part).
 
 // Room for a batch, and for the six neighbours that shading looks at.
 #define TRI_LANES (TRI_BATCH > 8 ? TRI_BATCH : 8)
@@ -62,6 +63,15 @@ TRI_FN real trilinear(TRI_VOLUME v, int row, int slice, real fx, real fy, real f
 }
 #endif
 
+// Of a cell along z, where the device holds its layer. What lies in other parts may be asked for and is not used.
+TRI_FN int held_layer(__constant Parameters* u, int cell) {
+#if TRI_PARTS
+  return clamp(cell - u->part.z, 0, u->part.w - 1);
+#else
+  return cell;
+#endif
+}
+
 // Normalised values at the first n positions.
 TRI_FN void fetch(__constant Parameters* u, TRI_VOLUME volume, Positions* p, int n, real* value) {
 #if TRI_FAULT == FAULT_HALF_VOXEL_SHIFT
@@ -88,7 +98,7 @@ TRI_FN void fetch(__constant Parameters* u, TRI_VOLUME volume, Positions* p, int
     int ix = (int)qx;
     int iy = (int)qy;
     int iz = (int)qz;
-    first[k] = ix + row * iy + slice * iz;
+    first[k] = ix + row * iy + slice * held_layer(u, iz);
     p->x[k] = rounded_weight(qx - (real)ix);
     p->y[k] = rounded_weight(qy - (real)iy);
     p->z[k] = rounded_weight(qz - (real)iz);

@@ -29,7 +29,7 @@ cl_channel_type channel_type(scene::VoxelFormat voxel) {
   return CL_FLOAT;
 }
 
-// Slice k − 1 of the grid (clamped) with its border.
+// The k-th slice of the bordered volume: slice k − 1 of the grid (clamped) with its border.
 void copy_bordered_slice(const scene::VoxelGrid& grid, int k, std::vector<std::byte>& slice) {
   const std::size_t bytes = scene::bytes_of(grid.format);
   const auto [nx, ny, nz] = grid.size;
@@ -47,14 +47,9 @@ void copy_bordered_slice(const scene::VoxelGrid& grid, int k, std::vector<std::b
 }
 
 cl::Buffer upload_buffer(const Session& session, const scene::VoxelGrid& grid) {
-  const std::size_t bytes = bordered_voxels(grid.size) * scene::bytes_of(grid.format);
-  const std::size_t slices = to_size(grid.size[2]) + 2;
-  const cl::Buffer buffer = make_buffer(session, CL_MEM_READ_ONLY, bytes);
-  std::vector<std::byte> slice(bytes / slices);
-  for (std::size_t k = 0; k < slices; ++k) {
-    copy_bordered_slice(grid, static_cast<int>(k), slice);
-    session.queue.enqueueWriteBuffer(buffer, CL_TRUE, k * slice.size(), slice.size(), slice.data());
-  }
+  const technique::Layers layers = bordered_layers(grid);
+  const cl::Buffer buffer = make_buffer(session, CL_MEM_READ_ONLY, layers.whole);
+  write_layers(session, buffer, grid, 0, grid.size[2] + 1);
   return buffer;
 }
 
@@ -106,10 +101,21 @@ std::optional<cl::ImageFormat> image_format(const Session& session, scene::Voxel
   return std::nullopt;
 }
 
-std::uint64_t bordered_voxels(const std::array<int, 3>& size) {
-  std::uint64_t voxels = 1;
-  for (const int n : size) voxels *= static_cast<std::uint64_t>(n) + 2;
-  return voxels;
+technique::Layers bordered_layers(const scene::VoxelGrid& grid) {
+  const std::uint64_t layer =
+      (to_size(grid.size[0]) + 2) * (to_size(grid.size[1]) + 2) * scene::bytes_of(grid.format);
+  return {.bytes = layer, .more = 1, .whole = layer * (to_size(grid.size[2]) + 2)};
+}
+
+void write_layers(const Session& session, const cl::Buffer& buffer, const scene::VoxelGrid& grid,
+                  int first, int cells) {
+  const technique::Layers layers = bordered_layers(grid);
+  std::vector<std::byte> slice(layers.bytes);
+  for (int k = 0; k < cells + layers.more; ++k) {
+    copy_bordered_slice(grid, first + k, slice);
+    session.queue.enqueueWriteBuffer(buffer, CL_TRUE, to_size(k) * slice.size(), slice.size(),
+                                     slice.data());
+  }
 }
 
 double stored_maximum(scene::VoxelFormat voxel, technique::Sampler sampler) {
@@ -126,11 +132,11 @@ cl::Memory upload(const Session& session, const scene::VoxelGrid& grid,
 
 const VolumeCache::Entry& VolumeCache::get(const Session& session, const scene::VoxelGrid& grid,
                                            technique::Sampler sampler,
-                                           const technique::BrickLayout& layout) {
+                                           const technique::BrickLayout& layout, int held_cells) {
   const std::string key = grid.hash.empty()
                               ? std::string()
-                              : fmt::format("{} {} {}", grid.hash, scene::name_of(grid.format),
-                                            technique::name_of(sampler));
+                              : fmt::format("{} {} {} {}", grid.hash, scene::name_of(grid.format),
+                                            technique::name_of(sampler), held_cells);
   if (!key.empty() && key == key_) {
     if (layout != entry_.layout) {
       entry_.ranges = technique::brick_ranges(grid, layout);
@@ -140,7 +146,12 @@ const VolumeCache::Entry& VolumeCache::get(const Session& session, const scene::
   }
   key_.clear();
   entry_ = {};  // frees the old volume before the new one is made
-  entry_ = {.volume = upload(session, grid, sampler),
+  const auto room = [&] {
+    return checked([&]() -> cl::Memory {
+      return make_buffer(session, CL_MEM_READ_ONLY, bordered_layers(grid).bytes_of(held_cells));
+    });
+  };
+  entry_ = {.volume = held_cells > 0 ? room() : upload(session, grid, sampler),
             .layout = layout,
             .ranges = technique::brick_ranges(grid, layout)};
   key_ = key;

@@ -9,6 +9,7 @@
 #include "backends/opencl/objects.hpp"
 #include "scene/volume.hpp"
 #include "technique/volume/bricks.hpp"
+#include "technique/volume/parts.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::opencl_backend {
@@ -18,9 +19,12 @@ namespace triptych::opencl_backend {
 [[nodiscard]] std::optional<cl::ImageFormat> image_format(const Session& session,
                                                           scene::VoxelFormat voxel);
 
-// Voxels of the buffer that the manual sampler reads: the volume with a border of one copy of its
-// outermost layer on every side.
-[[nodiscard]] std::uint64_t bordered_voxels(const std::array<int, 3>& size);
+// The buffer that the manual sampler reads: the volume with a border of one copy of its outermost
+// layer on every side. Cell c lies between its slices c and c + 1.
+[[nodiscard]] technique::Layers bordered_layers(const scene::VoxelGrid& grid);
+// Fills the beginning of such a buffer with so many cells from `first` on. Throws cl::Error.
+void write_layers(const Session& session, const cl::Buffer& buffer, const scene::VoxelGrid& grid,
+                  int first, int cells);
 
 // The stored number that reaches the kernel as 1 (technique::raycast_parameters).
 [[nodiscard]] double stored_maximum(scene::VoxelFormat voxel, technique::Sampler sampler);
@@ -37,9 +41,10 @@ class VolumeCache {
     technique::BrickLayout layout;
     technique::BrickRanges ranges;
   };
-  // Valid until the next call.
+  // Valid until the next call. With `held_cells` a buffer for as many of them, unwritten.
   [[nodiscard]] const Entry& get(const Session& session, const scene::VoxelGrid& grid,
-                                 technique::Sampler sampler, const technique::BrickLayout& layout);
+                                 technique::Sampler sampler, const technique::BrickLayout& layout,
+                                 int held_cells);
 
  private:
   std::string key_;

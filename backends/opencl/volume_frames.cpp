@@ -7,8 +7,10 @@
 #include "technique/volume/brick_map.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/extra_work.hpp"
+#include "technique/volume/parts.hpp"
 #include "technique/volume/preintegration.hpp"
 #include "technique/volume/quadrature_table.hpp"
+#include "technique/volume/raycast_buffers.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::opencl_backend {
@@ -47,37 +49,51 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
     : session_(session),
       width_(work.scene.width),
       height_(work.scene.height),
-      hash_(Programs::hash(program_source(source_files(constants)), constants.options())),
       counts_(technique::raycast_counter_stride * static_cast<std::size_t>(width_) *
               static_cast<std::size_t>(height_)) {
-  const cl::Program timed =
-      programs.get(program_source(source_files(constants)), constants.options());
+  const technique::Cut cut =
+      cut_of(session, constants.speed_of_light ? "speed_of_light" : "raycast", work);
+  constants.parts = !cut.parts.empty();
+  const std::string source = program_source(source_files(constants));
+  hash_ = Programs::hash(source, constants.options());
+  const cl::Program timed = programs.get(source, constants.options());
   constants.count = true;
-  const cl::Program counting =
-      programs.get(program_source(source_files(constants)), constants.options());
+  const cl::Program counting = programs.get(source, constants.options());
   const VolumeCache::Entry& volume =
       volumes.get(session, *work.scene.grid, constants.sampler,
-                  technique::brick_layout(work.scene, work.options.skip, work.options.adapt));
-  const std::vector<std::byte> parameters = technique::raycast_parameters(
-      work.scene, work.options, stored_maximum(constants.voxel, constants.sampler));
+                  technique::brick_layout(work.scene, work.options.skip, work.options.adapt),
+                  technique::most_held(cut.parts));
+  const std::vector<std::int32_t> map =
+      technique::brick_map(volume.ranges, work.scene, work.options.skip, work.options.adapt);
   checked([&] {
     volume_ = volume.volume;
-    table_ = upload_bytes(session, std::as_bytes(std::span(work.scene.transfer_function.entries)));
-    const std::vector<std::int32_t> map =
-        technique::brick_map(volume.ranges, work.scene, work.options.skip, work.options.adapt);
-    const technique::QuadratureTable table = technique::quadrature_table(work.scene);
-    quadrature_ = upload_bytes(session, std::as_bytes(std::span(table)));
-    bricks_ = upload_bytes(session, std::as_bytes(std::span(map)));
+    upload_surroundings(work, constants, map);
     const int stride = work.options.extra_work_stride;
-    image_ =
-        make_buffer(session, CL_MEM_WRITE_ONLY,
-                    4 * sizeof(float) *
-                        static_cast<std::size_t>(technique::drawn_pixels(width_, height_, stride)));
-    counters_ = make_buffer(session, CL_MEM_WRITE_ONLY, counts_.size() * sizeof(std::uint32_t));
-    parameters_ = upload_bytes(session, parameters);
     timed_.push_back(launch(timed, technique::drawn_columns(width_, stride)));
     counting_.push_back(launch(counting, width_));
+    if (cut.parts.empty()) return;
+    pauses_ =
+        make_buffer(session, CL_MEM_READ_WRITE, technique::pauses_bytes(work.scene, work.options));
+    for (Launch* each : {&timed_.front(), &counting_.front()}) each->kernel.setArg(7, pauses_);
+    parts_.emplace(session, work, cut.parts, map, cl::Buffer(volume_(), true), parameters_);
   });
+}
+
+// All but the voxels.
+void VolumeFrames::upload_surroundings(const measure::VolumeWork& work, const Constants& constants,
+                                       std::span<const std::int32_t> map) {
+  table_ = upload_bytes(session_, std::as_bytes(std::span(work.scene.transfer_function.entries)));
+  const technique::QuadratureTable table = technique::quadrature_table(work.scene);
+  quadrature_ = upload_bytes(session_, std::as_bytes(std::span(table)));
+  bricks_ = upload_bytes(session_, std::as_bytes(map));
+  const auto drawn = static_cast<std::size_t>(
+      technique::drawn_pixels(width_, height_, work.options.extra_work_stride));
+  image_ = make_buffer(session_, CL_MEM_WRITE_ONLY, 4 * sizeof(float) * drawn);
+  counters_ = make_buffer(session_, CL_MEM_WRITE_ONLY, counts_.size() * sizeof(std::uint32_t));
+  std::vector<std::byte> parameters = technique::raycast_parameters(
+      work.scene, work.options, stored_maximum(constants.voxel, constants.sampler));
+  if (constants.parts) parameters.resize(parameters.size() + sizeof(technique::PartParameters));
+  parameters_ = upload_bytes(session_, parameters);
 }
 
 Launch VolumeFrames::launch(const cl::Program& program, int columns) const {
@@ -96,7 +112,12 @@ measure::Frame VolumeFrames::frame(measure::Purpose purpose) {
     const bool counts = purpose == measure::Purpose::counters;
     measure::Frame frame;
     const auto begin = std::chrono::steady_clock::now();
-    run(session_, counts ? counting_ : timed_, events_);
+    const std::vector<Launch>& launches = counts ? counting_ : timed_;
+    if (parts_) {
+      parts_->run(launches.front(), events_);
+    } else {
+      run(session_, launches, events_);
+    }
     const auto end = std::chrono::steady_clock::now();
     frame.wall_ns = std::chrono::duration<double, std::nano>(end - begin).count();
     if (purpose == measure::Purpose::timing) frame.device_ns = device_ns(events_);

@@ -2,6 +2,8 @@
 // Frames of the volume techniques: one kernel over all pixels.
 
 #include <array>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "backends/opencl/objects.hpp"
 #include "backends/opencl/programs.hpp"
 #include "backends/opencl/volume_data.hpp"
+#include "backends/opencl/volume_parts.hpp"
 #include "measure/contract/backend.hpp"
 
 namespace triptych::opencl_backend {
@@ -27,6 +30,8 @@ class VolumeFrames final : public measure::Prepared {
   [[nodiscard]] std::string kernel_hash() const override { return hash_; }
 
  private:
+  void upload_surroundings(const measure::VolumeWork& work, const Constants& constants,
+                           std::span<const std::int32_t> map);
   [[nodiscard]] Launch launch(const cl::Program& program, int columns) const;
   [[nodiscard]] record::Counts read_counters();
 
@@ -41,9 +46,11 @@ class VolumeFrames final : public measure::Prepared {
   cl::Buffer quadrature_;
   cl::Buffer image_;
   cl::Buffer counters_;
-  std::vector<Launch> timed_;      // one, with the injected extra work if there is any
-  std::vector<Launch> counting_;   // one, of the picture alone
-  std::vector<cl::Event> events_;  // of the last frame, one per launch
+  cl::Buffer pauses_;                 // of rays between two parts
+  std::optional<VolumeParts> parts_;  // of a volume that the device does not hold whole
+  std::vector<Launch> timed_;         // one, with the injected extra work if there is any
+  std::vector<Launch> counting_;      // one, of the picture alone
+  std::vector<cl::Event> events_;     // of the last frame, one per launch
   std::vector<std::uint32_t> counts_;
 };
 
