@@ -21,17 +21,18 @@ class ComputeFrames final : public measure::Prepared {
   void record_timed(const vk::raii::CommandBuffer& commands) const;
   void dispatch(const vk::raii::CommandBuffer& commands, Pass pass, int columns) const;
   void prepare_counters();
+  [[nodiscard]] measure::Frame submit_parts(measure::Purpose purpose);
 
   const Gpu& gpu_;
   const Instance& instance_;
   Constants constants_;
-  std::string_view timed_code_;
-  std::string_view counting_code_;
   int width_;
   int height_;
   int drawn_columns_;
   Buffer output_;
   VolumeResources resources_;
+  std::string_view timed_code_;
+  std::string_view counting_code_;
   vk::Pipeline pipeline_;
   vk::Pipeline counting_pipeline_;  // null until a counting frame is asked for
   Frames frames_;

@@ -75,7 +75,8 @@ std::optional<double> Device::hardware_error(scene::VoxelFormat format) const {
 
 // A filter that is exact beats eight fetches and their arithmetic wherever there is hardware for
 // it; among exact ones R32F is the fastest on CPU devices, and no slower elsewhere while it fits
-// the caches.
+// the caches. A volume that the device cannot hold as one image is drawn in parts, which samplers
+// would not.
 measure::VolumePath Device::default_path(const measure::VolumeKind& volume) const {
   const scene::VoxelFormat native = volume.native;
   if (gpu_.is_cpu() && volume.may_be_packed() &&
@@ -84,6 +85,7 @@ measure::VolumePath Device::default_path(const measure::VolumeKind& volume) cons
     return {.voxel = native, .sampler = technique::Sampler::packed};
   }
   for (const scene::VoxelFormat format : {scene::VoxelFormat::f32, native}) {
+    if (!holds_whole(gpu_, volume.size, format)) continue;
     if (hardware_error(format).value_or(1) < exact_filter) {
       return {.voxel = format, .sampler = technique::Sampler::hardware};
     }

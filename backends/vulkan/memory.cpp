@@ -107,7 +107,12 @@ Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D
 Buffer make_buffer(const Gpu& gpu, std::size_t size, const Fill& fill, vk::BufferUsageFlags usage) {
   Buffer buffer(gpu, std::max(size, smallest_buffer), usage | vk::BufferUsageFlagBits::eTransferDst,
                 Place::device);
-  if (size == 0) return buffer;
+  upload(gpu, buffer, size, fill);
+  return buffer;
+}
+
+void upload(const Gpu& gpu, const Buffer& to, std::size_t size, const Fill& fill) {
+  if (size == 0) return;
   const Buffer staging(gpu, std::min(size, staging_goal), vk::BufferUsageFlagBits::eTransferSrc,
                        Place::upload);
   const std::span<std::byte> memory = staging.mapped();
@@ -115,11 +120,10 @@ Buffer make_buffer(const Gpu& gpu, std::size_t size, const Fill& fill, vk::Buffe
     const std::span<std::byte> part = memory.first(std::min(memory.size(), size - begin));
     fill(begin, part);
     run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
-      commands.copyBuffer(staging.get(), buffer.get(),
+      commands.copyBuffer(staging.get(), to.get(),
                           vk::BufferCopy{.dstOffset = begin, .size = part.size()});
     });
   }
-  return buffer;
 }
 
 Buffer make_buffer(const Gpu& gpu, std::span<const std::byte> bytes, vk::BufferUsageFlags usage) {
@@ -130,7 +134,12 @@ Buffer make_buffer(const Gpu& gpu, std::span<const std::byte> bytes, vk::BufferU
 }
 
 void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texels) {
-  const vk::Extent3D extent = image.extent();
+  upload(gpu, image, texels, image.extent().depth);
+}
+
+void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texels,
+            std::uint32_t slices_in_all) {
+  const vk::Extent3D extent{image.extent().width, image.extent().height, slices_in_all};
   const std::size_t slice = texels.size() / extent.depth;
   const std::size_t slices = std::clamp<std::size_t>(staging_goal / slice, 1, extent.depth);
   const Buffer staging(gpu, slices * slice, vk::BufferUsageFlagBits::eTransferSrc, Place::upload);

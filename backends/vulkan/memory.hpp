@@ -77,9 +77,15 @@ using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
 [[nodiscard]] Buffer make_buffer(const Gpu& gpu, std::span<const std::byte> bytes,
                                  vk::BufferUsageFlags usage);
 
-// Fills a fresh image, x fastest, and leaves it in eShaderReadOnlyOptimal. Goes through a small
+// Fills an image, x fastest, and leaves it in eShaderReadOnlyOptimal. Goes through a small
 // staging buffer slice by slice, so that the device never holds a second copy.
 void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texels);
+// The same of its first slices alone; those behind are as if never written.
+void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texels,
+            std::uint32_t slices);
+
+// Writes the first bytes of a buffer that make_buffer made, as it does.
+void upload(const Gpu& gpu, const Buffer& to, std::size_t size, const Fill& fill);
 
 // Writes the first bytes of a buffer that make_buffer made.
 void upload(const Gpu& gpu, const Buffer& to, std::span<const std::byte> bytes);

@@ -6,38 +6,23 @@
 #include <span>
 #include <vector>
 
-#include "technique/volume/brick_map.hpp"
 #include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
 #include "technique/volume/packed_cells.hpp"
 #include "technique/volume/preintegration.hpp"
 #include "technique/volume/quadrature_table.hpp"
+#include "technique/volume/raycast_buffers.hpp"
 #include "technique/volume/raycast_parameters.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
 
 constexpr std::uint32_t passes = 2;
-constexpr std::uint32_t storage_buffers = 4;  // bricks, output, counters, quadrature
+constexpr std::uint32_t storage_buffers = 5;  // bricks, output, counters, quadrature, pauses
 constexpr std::uint32_t texel_buffers = 4;    // cells, table, bricks, quadrature
 // What bricks and quadrature may be read as.
 constexpr auto shader_buffer =
     vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformTexelBuffer;
-
-Buffer upload_parameters(const Gpu& gpu, const measure::VolumeWork& work) {
-  // A texel of an image reaches the shader divided by its format's largest.
-  const double stored_maximum =
-      is_packed(work) ? 1 : scene::largest_stored(work.scene.grid->format);
-  return make_buffer(gpu, technique::raycast_parameters(work.scene, work.options, stored_maximum),
-                     vk::BufferUsageFlagBits::eUniformBuffer);
-}
-
-Buffer upload_bricks(const Gpu& gpu, const measure::VolumeWork& work) {
-  // Read by nothing when nothing is skipped.
-  const std::vector<std::int32_t> map =
-      technique::brick_map(work.scene, work.options.skip, work.options.adapt);
-  return make_buffer(gpu, std::as_bytes(std::span(map)), shader_buffer);
-}
 
 Buffer upload_quadrature(const Gpu& gpu, const scene::VolumeScene& scene) {
   const technique::QuadratureTable table = technique::quadrature_table(scene);
@@ -52,16 +37,31 @@ Image upload_table(const Gpu& gpu, const scene::TransferFunction& function) {
   return image;
 }
 
-Buffer upload_cells(const Gpu& gpu, const scene::VoxelGrid& grid) {
+// Room for so many cells, which the host writes before it is read; 0: the whole volume.
+Buffer make_cells(const Gpu& gpu, const measure::VolumeWork& work, int held) {
+  const scene::VoxelGrid& grid = *work.scene.grid;
+  constexpr auto usage = vk::BufferUsageFlagBits::eUniformTexelBuffer;
+  if (held > 0) {
+    return {gpu, layers_of(work).bytes_of(held), usage | vk::BufferUsageFlagBits::eTransferDst,
+            Place::device};
+  }
   return make_buffer(
       gpu, technique::packed_bytes(grid.size, grid.format),
       [&](std::size_t begin, std::span<std::byte> out) {
         technique::fill_packed_cells(grid, begin, out);
       },
-      vk::BufferUsageFlagBits::eUniformTexelBuffer);
+      usage);
 }
 
-std::array<vk::DescriptorSetLayoutBinding, 7> volume_bindings(bool packed) {
+Image volume_image(const Gpu& gpu, const scene::VoxelGrid& grid, int slices) {
+  return {
+      gpu, vk::ImageType::e3D, texture_format(grid.format),
+      vk::Extent3D{static_cast<std::uint32_t>(grid.size[0]),
+                   static_cast<std::uint32_t>(grid.size[1]), static_cast<std::uint32_t>(slices)},
+      vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst};
+}
+
+std::vector<vk::DescriptorSetLayoutBinding> volume_bindings(bool packed, bool in_parts) {
   using enum vk::DescriptorType;
   const vk::DescriptorType texture = packed ? eUniformTexelBuffer : eCombinedImageSampler;
   const vk::DescriptorType buffer = packed ? eUniformTexelBuffer : eStorageBuffer;
@@ -70,10 +70,13 @@ std::array<vk::DescriptorSetLayoutBinding, 7> volume_bindings(bool packed) {
     return vk::DescriptorSetLayoutBinding{
         .binding = number, .descriptorType = type, .descriptorCount = 1, .stageFlags = stages};
   };
-  return {binding(parameters_binding, eUniformBuffer), binding(volume_binding, texture),
-          binding(transfer_binding, texture),          binding(bricks_binding, buffer),
-          binding(output_binding, eStorageBuffer),     binding(counters_binding, eStorageBuffer),
-          binding(quadrature_binding, buffer)};
+  std::vector bindings{
+      binding(parameters_binding, eUniformBuffer), binding(volume_binding, texture),
+      binding(transfer_binding, texture),          binding(bricks_binding, buffer),
+      binding(output_binding, eStorageBuffer),     binding(counters_binding, eStorageBuffer),
+      binding(quadrature_binding, buffer)};
+  if (in_parts) bindings.push_back(binding(pauses_binding, eStorageBuffer));
+  return bindings;
 }
 
 std::size_t pixel_count(const scene::VolumeScene& scene) {
@@ -95,45 +98,73 @@ vk::Format texture_format(scene::VoxelFormat format) {
 }
 
 Image upload_volume(const Gpu& gpu, const scene::VoxelGrid& grid) {
-  Image image(gpu, vk::ImageType::e3D, texture_format(grid.format),
-              {static_cast<std::uint32_t>(grid.size[0]), static_cast<std::uint32_t>(grid.size[1]),
-               static_cast<std::uint32_t>(grid.size[2])},
-              vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
+  Image image = volume_image(gpu, grid, grid.size[2]);
   upload(gpu, image, grid.data);
   return image;
 }
 
 VolumeResources::VolumeResources(const Gpu& gpu, const measure::VolumeWork& work,
-                                 const Buffer* output)
+                                 const Buffer* output, std::span<const std::int32_t> map)
+    : VolumeResources(gpu, work, output, map,
+                      output != nullptr ? cut_of(gpu, "raycast", work).parts
+                                        : std::vector<technique::Part>{}) {}
+
+VolumeResources::VolumeResources(const Gpu& gpu, const measure::VolumeWork& work,
+                                 const Buffer* output, std::span<const std::int32_t> map,
+                                 const std::vector<technique::Part>& parts)
     : gpu_(gpu),
       pixels_(pixel_count(work.scene)),
       output_(output),
-      bricks_(upload_bricks(gpu, work)),
+      bricks_(make_buffer(gpu, std::as_bytes(map), shader_buffer)),
       quadrature_(upload_quadrature(gpu, work.scene)),
-      parameters_(upload_parameters(gpu, work)),
-      layout_(make_layout(gpu, volume_bindings(is_packed(work)))),
+      parameters_(make_parameters(work, map, parts)),
+      layout_(make_layout(gpu, volume_bindings(is_packed(work), !parts.empty()))),
       pool_(make_pool(gpu, passes, storage_buffers, is_packed(work) ? texel_buffers : 0)),
       sets_(allocate_sets(gpu, pool_, layout_, passes)) {
+  const int held = technique::most_held(parts);
   if (is_packed(work)) {
-    texels_.emplace(make_texels(work));
+    texels_.emplace(make_texels(work, held));
   } else {
-    images_.emplace(make_images(work));
+    images_.emplace(make_images(work, held));
+  }
+  if (parts_) {
+    pauses_.emplace(gpu, technique::pauses_bytes(work.scene, work.options),
+                    vk::BufferUsageFlagBits::eStorageBuffer, Place::device);
   }
   write_set(Pass::timed);
   write_set(Pass::counting);
 }
 
-VolumeResources::Images VolumeResources::make_images(const measure::VolumeWork& work) const {
+// Of a volume in parts, with room for those of a part behind the others.
+Buffer VolumeResources::make_parameters(const measure::VolumeWork& work,
+                                        std::span<const std::int32_t> map,
+                                        const std::vector<technique::Part>& parts) {
+  // A texel of an image reaches the shader divided by its format's largest.
+  const double stored_maximum =
+      is_packed(work) ? 1 : scene::largest_stored(work.scene.grid->format);
+  std::vector<std::byte> parameters =
+      technique::raycast_parameters(work.scene, work.options, stored_maximum);
+  if (!parts.empty()) {
+    parameters.resize(parameters.size() + sizeof(technique::PartParameters));
+    parts_.emplace(gpu_, work, parts, map, parameters);
+  }
+  return make_buffer(gpu_, parameters, vk::BufferUsageFlagBits::eUniformBuffer);
+}
+
+VolumeResources::Images VolumeResources::make_images(const measure::VolumeWork& work,
+                                                     int held) const {
+  const scene::VoxelGrid& grid = *work.scene.grid;
   const bool linear = work.options.sampler == technique::Sampler::hardware;
-  return {.volume = upload_volume(gpu_, *work.scene.grid),
+  return {.volume = held > 0 ? volume_image(gpu_, grid, held + 1) : upload_volume(gpu_, grid),
           .table = upload_table(gpu_, work.scene.transfer_function),
           .volume_sampler = make_sampler(gpu_, linear ? vk::Filter::eLinear : vk::Filter::eNearest),
           .nearest = make_sampler(gpu_, vk::Filter::eNearest)};
 }
 
-VolumeResources::Texels VolumeResources::make_texels(const measure::VolumeWork& work) const {
+VolumeResources::Texels VolumeResources::make_texels(const measure::VolumeWork& work,
+                                                     int held) const {
   const scene::VoxelGrid& grid = *work.scene.grid;
-  Buffer cells = upload_cells(gpu_, grid);
+  Buffer cells = make_cells(gpu_, work, held);
   Buffer table = make_buffer(gpu_, std::as_bytes(std::span(work.scene.transfer_function.entries)),
                              vk::BufferUsageFlagBits::eUniformTexelBuffer);
   const vk::Format cell = technique::packed_texel_bytes(grid.format) == 8
@@ -147,6 +178,11 @@ VolumeResources::Texels VolumeResources::make_texels(const measure::VolumeWork& 
           .table_view = std::move(table_view),
           .bricks_view = texel_view(gpu_, bricks_, vk::Format::eR32Sint),
           .quadrature_view = texel_view(gpu_, quadrature_, vk::Format::eR32G32B32A32Sfloat)};
+}
+
+void VolumeResources::move_part(int n) {
+  parts_->move(n, parameters_, images_ ? &images_->volume : nullptr,
+               texels_ ? &texels_->cells : nullptr);
 }
 
 void VolumeResources::write_set(Pass pass) const {
@@ -165,6 +201,7 @@ void VolumeResources::write_set(Pass pass) const {
     bind_buffer(gpu_, to, quadrature_binding, eStorageBuffer, quadrature_);
   }
   if (output_ != nullptr) bind_buffer(gpu_, to, output_binding, eStorageBuffer, *output_);
+  if (pauses_) bind_buffer(gpu_, to, pauses_binding, eStorageBuffer, *pauses_);
 }
 
 vk::DescriptorSet VolumeResources::set(Pass pass) const {
@@ -212,15 +249,16 @@ Constants constants_of(const measure::VolumeWork& work) {
           .voxel_bits = static_cast<std::int32_t>(8 * scene::bytes_of(work.scene.grid->format))};
 }
 
-std::string_view raycast_spirv(std::string_view shader, const measure::VolumeWork& work,
-                               Pass pass) {
+std::string_view raycast_spirv(std::string_view shader, const measure::VolumeWork& work, Pass pass,
+                               bool in_parts) {
   const std::size_t dot = shader.find('.');
-  return spirv(fmt::format("{}{}{}{}{}{}{}.spv", shader.substr(0, dot),
+  return spirv(fmt::format("{}{}{}{}{}{}{}{}.spv", shader.substr(0, dot),
                            work.scene.quadrature == scene::Quadrature::cells ? "_cells" : "",
                            is_packed(work) ? "_packed" : "",
                            work.options.precision == technique::Precision::fp64 ? "_fp64" : "",
                            technique::has_long_rays(work.scene) ? "_long" : "",
-                           pass == Pass::counting ? "_counting" : "", shader.substr(dot)));
+                           in_parts ? "_parts" : "", pass == Pass::counting ? "_counting" : "",
+                           shader.substr(dot)));
 }
 
 }  // namespace triptych::vulkan_backend

@@ -7,7 +7,9 @@
 #include "backends/vulkan/descriptors.hpp"
 #include "backends/vulkan/memory.hpp"
 #include "backends/vulkan/pipeline.hpp"
+#include "backends/vulkan/volume_parts.hpp"
 #include "measure/contract/backend.hpp"
+#include "technique/volume/brick_map.hpp"
 
 namespace triptych::vulkan_backend {
 
@@ -19,7 +21,8 @@ enum Binding : std::uint32_t {
   bricks_binding = 3,
   output_binding = 4,  // compute only
   counters_binding = 5,
-  quadrature_binding = 6
+  quadrature_binding = 6,
+  pauses_binding = 7  // of a volume in parts
 };
 
 [[nodiscard]] vk::Format texture_format(scene::VoxelFormat format);
@@ -39,17 +42,27 @@ enum class Pass : std::uint8_t {
 class VolumeResources {
  public:
   // `output`, borrowed, is bound where it is given.
-  VolumeResources(const Gpu& gpu, const measure::VolumeWork& work, const Buffer* output);
+  VolumeResources(const Gpu& gpu, const measure::VolumeWork& work, const Buffer* output)
+      : VolumeResources(gpu, work, output,
+                        technique::brick_map(work.scene, work.options.skip, work.options.adapt)) {}
 
   [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
   [[nodiscard]] vk::DescriptorSet set(Pass pass) const;
 
   // Makes the counters' buffer, one block per pixel, and the set for Pass::counting. Called once.
   void bind_counters();
+  // Of a volume that the device does not hold whole; none else.
+  [[nodiscard]] int parts() const { return parts_ ? parts_->count() : 0; }
+  void move_part(int n);
   // Sums the counters over all pixels; adds "rays".
   [[nodiscard]] record::Counts read_counters() const;
 
  private:
+  VolumeResources(const Gpu& gpu, const measure::VolumeWork& work, const Buffer* output,
+                  std::span<const std::int32_t> map);
+  VolumeResources(const Gpu& gpu, const measure::VolumeWork& work, const Buffer* output,
+                  std::span<const std::int32_t> map, const std::vector<technique::Part>& parts);
+
   // Voxels and transfer function as images; for sampler packed as texels of buffers, as are then
   // bricks and quadrature.
   struct Images {
@@ -66,8 +79,12 @@ class VolumeResources {
     vk::raii::BufferView bricks_view;
     vk::raii::BufferView quadrature_view;
   };
-  [[nodiscard]] Images make_images(const measure::VolumeWork& work) const;
-  [[nodiscard]] Texels make_texels(const measure::VolumeWork& work) const;
+  // `held`: cells of the largest part; 0: the whole is uploaded.
+  [[nodiscard]] Images make_images(const measure::VolumeWork& work, int held) const;
+  [[nodiscard]] Texels make_texels(const measure::VolumeWork& work, int held) const;
+  [[nodiscard]] Buffer make_parameters(const measure::VolumeWork& work,
+                                       std::span<const std::int32_t> map,
+                                       const std::vector<technique::Part>& parts);
   void write_set(Pass pass) const;
 
   const Gpu& gpu_;
@@ -75,6 +92,8 @@ class VolumeResources {
   const Buffer* output_;
   Buffer bricks_;
   Buffer quadrature_;
+  std::optional<VolumeParts> parts_;
+  std::optional<Buffer> pauses_;  // of rays between two of them
   Buffer parameters_;
   std::optional<Images> images_;
   std::optional<Texels> texels_;
@@ -86,8 +105,10 @@ class VolumeResources {
 
 [[nodiscard]] Constants constants_of(const measure::VolumeWork& work);
 
-// The build of a raycaster for this work: `shader` is "raycast.comp" or "raycast_fragment.frag".
+// The build of a raycaster for this work: `shader` is "raycast.comp" or "raycast_fragment.frag";
+// `in_parts`: of those of technique raycast.
 [[nodiscard]] std::string_view raycast_spirv(std::string_view shader,
-                                             const measure::VolumeWork& work, Pass pass);
+                                             const measure::VolumeWork& work, Pass pass,
+                                             bool in_parts = false);
 
 }  // namespace triptych::vulkan_backend

@@ -21,29 +21,32 @@ std::optional<std::string> format_reason(const Gpu& gpu, const measure::VolumeWo
   return std::nullopt;
 }
 
-std::optional<std::string> texel_reason(const Gpu& gpu, const measure::VolumeWork& work,
-                                        const technique::RaycastBuffers& buffers) {
-  return technique::packed_reason(
-      *work.scene.grid, buffers,
-      {.texels = gpu.properties.limits.maxTexelBufferElements, .name = "maxTexelBufferElements"});
+std::optional<std::string> volume_size_reason(const Gpu& gpu, const scene::VoxelGrid& grid,
+                                              bool in_parts) {
+  const std::uint32_t limit = gpu.properties.limits.maxImageDimension3D;
+  const auto [nx, ny, nz] = grid.size;
+  const int longest = in_parts ? std::max(nx, ny) : std::max({nx, ny, nz});
+  if (static_cast<std::uint32_t>(longest) <= limit) return std::nullopt;
+  return fmt::format("a volume of {}x{}x{} voxels exceeds maxImageDimension3D = {}", nx, ny, nz,
+                     limit);
 }
 
-std::optional<std::string> volume_size_reason(const Gpu& gpu, const scene::VoxelGrid& grid) {
-  const std::uint32_t limit = gpu.properties.limits.maxImageDimension3D;
-  const int longest = std::ranges::max(grid.size);
-  if (static_cast<std::uint32_t>(longest) > limit) {
-    return fmt::format("a volume of {}x{}x{} voxels exceeds maxImageDimension3D = {}", grid.size[0],
-                       grid.size[1], grid.size[2], limit);
+// Why the volume fits neither whole nor in parts.
+std::optional<std::string> voxels_reason(const Gpu& gpu, const measure::VolumeWork& work,
+                                         const technique::RaycastBuffers& buffers,
+                                         const technique::Cut& cut) {
+  const scene::VoxelGrid& grid = *work.scene.grid;
+  const bool in_parts = !cut.parts.empty();
+  std::optional<std::string> reason;
+  if (is_packed(work)) {
+    reason = technique::packed_reason(
+        in_parts ? 0 : technique::packed_texels(grid.size, grid.format), buffers,
+        {.texels = gpu.properties.limits.maxTexelBufferElements, .name = "maxTexelBufferElements"});
+  } else {
+    reason = format_reason(gpu, work);
+    if (!reason) reason = volume_size_reason(gpu, grid, in_parts);
   }
-  const auto format = gpu.physical.getImageFormatProperties(
-      texture_format(grid.format), vk::ImageType::e3D, vk::ImageTiling::eOptimal,
-      vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
-  const std::uint64_t bytes = grid.voxel_count() * scene::bytes_of(grid.format);
-  if (bytes > format.maxResourceSize) {
-    return fmt::format("a volume of {} bytes exceeds maxResourceSize = {}", bytes,
-                       format.maxResourceSize);
-  }
-  return std::nullopt;
+  return reason ? reason : cut.reason;
 }
 
 }  // namespace
@@ -55,13 +58,10 @@ std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWo
   if (work.options.precision == technique::Precision::fp64 && !gpu.features.shaderFloat64) {
     return "precision fp64 needs shaderFloat64, which the device lacks";
   }
-  const technique::RaycastBuffers buffers = technique::raycast_buffers(scene, work.options);
-  if (is_packed(work)) {
-    if (auto reason = texel_reason(gpu, work, buffers)) return reason;
-  } else {
-    if (auto reason = format_reason(gpu, work)) return reason;
-    if (auto reason = volume_size_reason(gpu, *scene.grid)) return reason;
-  }
+  technique::RaycastBuffers buffers = technique::raycast_buffers(scene, work.options);
+  const technique::Cut cut = cut_of(gpu, technique, work);
+  if (!cut.parts.empty()) buffers.pauses = technique::pauses_bytes(scene, work.options);
+  if (auto reason = voxels_reason(gpu, work, buffers, cut)) return reason;
   constexpr std::uint64_t pixel_bytes = technique::raycast_counter_stride * sizeof(std::uint32_t);
   if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
     return reason;
@@ -70,10 +70,7 @@ std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWo
                                              "maxStorageBufferRange")) {
     return reason;
   }
-  const std::uint64_t volume =
-      is_packed(work) ? technique::packed_bytes(scene.grid->size, scene.grid->format)
-                      : scene.grid->voxel_count() * scene::bytes_of(scene.grid->format);
-  return memory_reason(gpu, volume + buffers.all());
+  return memory_reason(gpu, layers_of(work).room_for(cut.parts) + buffers.all());
 }
 
 }  // namespace triptych::vulkan_backend

@@ -11,7 +11,8 @@ namespace {
 TEST(Sources, WholeHasWhatItIncludesInTheirPlace) {
   std::string expected(source("raycast.glsl"));
   for (const std::string name :
-       {"volume/raycast/field.glsl", "volume/raycast/packed.glsl", "volume/raycast/walk.glsl"}) {
+       {"volume/raycast/field.glsl", "volume/raycast/packed.glsl", "volume/raycast/walk.glsl",
+        "volume/raycast/raycast_parts.glsl", "volume/raycast/pause.glsl"}) {
     const std::string line = "#include \"" + name + "\"\n";
     const std::size_t place = expected.find(line);
     ASSERT_NE(place, std::string::npos) << name;

@@ -41,6 +41,9 @@ Grid load_grid() {
 // What is stored. A texel of u8 or u16 is its integer over the largest one, rounded to float: doubles get
 // the integer itself.
 real voxel(Grid grid, ivec3 at) {
+#if TRI_PARTS
+  at.z = clamp(at.z - max(u.part.z - 1, 0), 0, u.part.w);
+#endif
   float texel = texelFetch(volume_texture, at, 0).r;
 #if TRI_PRECISION == 64
   if (grid.stored_maximum > 0.0) return floor(real(texel) * grid.stored_maximum + 0.5);

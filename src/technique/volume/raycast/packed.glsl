@@ -29,6 +29,9 @@ ivec3 cell_strides(Grid grid) {
 }
 
 int cell_index(Grid grid, ivec3 cell) {
+#if TRI_PARTS
+  cell.z = clamp(cell.z - u.part.z, 0, u.part.w - 1);
+#endif
   ivec3 strides = cell_strides(grid);
   return cell.x + strides.y * cell.y + strides.z * cell.z;
 }

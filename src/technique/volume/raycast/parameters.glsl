@@ -3,7 +3,8 @@
 //   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT, TRI_PREINTEGRATED, TRI_LEAPS, TRI_ADAPT,
 //   TRI_VOXEL_BITS (integers),
 // which may be specialization constants, and the macros TRI_PRECISION (bits of a `real`: 32 or 64), TRI_COUNT (0 or 1),
-// TRI_LONG_RAYS (0 or 1: technique::has_long_rays) and TRI_PACKED (0 or 1: technique::Sampler::packed). Where it also defines the macro TRI_OPACITY_FORM, that is
+// TRI_LONG_RAYS (0 or 1: technique::has_long_rays), TRI_PACKED (0 or 1: technique::Sampler::packed) and
+// TRI_PARTS (0 or 1: technique::Part). Where it also defines the macro TRI_OPACITY_FORM, that is
 // technique::opacity_form of the step. TRI_PREINTEGRATED is technique::preintegration_form.
 #ifndef TRI_OPACITY_FORM
 #define TRI_OPACITY_FORM 0
@@ -20,6 +21,10 @@ layout(std140) TRI_BINDING(0) uniform Parameters {
   ivec4 volume_size;
   ivec4 brick_grid;
   ivec4 viewport;
+#if TRI_PARTS
+  ivec4 part;  // technique::PartParameters
+  ivec4 pass;
+#endif
 } u;
 
 // transfer_entry: one of 256. brick_at: 1 for a visible brick, 0 for another; with TRI_LEAPS what

@@ -112,6 +112,12 @@ void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real en
   end_in_the_dark(m, enough);
 }
 
+#if TRI_PARTS
+
+#include "volume/raycast/raycast_parts.glsl"
+
+#else
+
 // Premultiplied RGBA of the pixel. Three habits of compilers for CPUs shape these loops. They run a block
 // of rays through both sides of a condition, so the opacity of the partial last step must not stand beside
 // that of a whole one: the last sample is taken behind the loops. Mesa 22.3's llvmpipe goes on
@@ -178,3 +184,5 @@ vec4 raycast(ivec2 pixel) {
 #endif
   return vec4(real4(m.light.colour, 1.0 - m.light.transmittance) + m.light.transmittance * u.background);
 }
+
+#endif

@@ -212,8 +212,32 @@ Around look_around(Way way, Grid grid, ivec3 cell) {
   return Around(reach > 0, low + way.forward * (high - low));
 }
 
-// Premultiplied RGBA of the pixel.
+#if TRI_PARTS
+
+#include "volume/raycast/pause.glsl"
+
+// The ray as it was left, and as it is left now; the cell is where it goes on.
+void resume(inout Light light, inout ivec3 cell, inout vec3 times, int place) {
+  Pause pause = pauses[place];
+  light = Light(pause.light.xyz, pause.light.w);
+  cell = pause.where.xyz;
+  times = pause.times.xyz;
+  resume_counts(pause);
+}
+
+void pause_here(Light light, ivec3 cell, vec3 times, int place) {
+  pauses[place] = Pause(vec4(light.colour, light.transmittance), ivec4(cell, 0), ivec4(0), vec4(times, 0.0),
+                        counts_so_far());
+}
+
+#endif
+
+// Premultiplied RGBA of the pixel; in parts as far as it has got, `place` that of its pause.
+#if TRI_PARTS
+vec4 raycast_part(ivec2 pixel, int place) {
+#else
 vec4 raycast(ivec2 pixel) {
+#endif
   Ray ray = make_ray(pixel);
   Grid grid = load_grid();
   Way way = make_way(ray);
@@ -227,7 +251,16 @@ vec4 raycast(ivec2 pixel) {
   float begin = 0.0;
   float seen = skipping ? 0.0 : 3.0e38;  // up to here all bricks are visible
   float end = ray.steps;
+#if TRI_PARTS
+  vec3 times = vec3(begin, seen, end);
+  if (u.pass.x > 0) resume(light, cell, times, place);
+  begin = times.x;
+  seen = times.y;
+  end = times.z;
+  while (begin < end && cell_is_here(cell.z + 1)) {
+#else
   while (begin < end) {
+#endif
     Around around = Around(true, cell + way.forward);
     if (begin >= seen) {
       around = look_around(way, grid, cell);
@@ -245,6 +278,9 @@ vec4 raycast(ivec2 pixel) {
     begin = max(leave, 0.0);
     if (light.transmittance < enough) end = 0.0;
   }
+#if TRI_PARTS
+  pause_here(light, cell, vec3(begin, seen, end), place);
+#endif
   if (TRI_COUNT == 1 && light.transmittance < enough) count_terminated = 1u;
 #if TRI_COUNT
   int at = 8 * (pixel.y * u.viewport.x + pixel.x);

@@ -1,0 +1,49 @@
+#pragma once
+// A volume of which the device holds one part at a time (technique/volume/parts.hpp).
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "backends/vulkan/memory.hpp"
+#include "measure/contract/backend.hpp"
+#include "technique/volume/parts.hpp"
+
+namespace triptych::vulkan_backend {
+
+// For technique raycast and compute shaders.
+[[nodiscard]] technique::Cut cut_of(const Gpu& gpu, std::string_view technique,
+                                    const measure::VolumeWork& work);
+
+// Whether one image does.
+[[nodiscard]] bool holds_whole(const Gpu& gpu, const std::array<int, 3>& size,
+                               scene::VoxelFormat format);
+
+// How the device holds cells: as slices of an image, or by sampler packed.
+[[nodiscard]] technique::Layers layers_of(const measure::VolumeWork& work);
+
+// Moves part after part to where the shader reads it.
+class VolumeParts {
+ public:
+  // `parameters` (technique::raycast_parameters) have room for technique::PartParameters behind
+  // them; `map`: technique::brick_map.
+  VolumeParts(const Gpu& gpu, const measure::VolumeWork& work,
+              std::span<const technique::Part> parts, std::span<const std::int32_t> map,
+              std::vector<std::byte> parameters);
+
+  [[nodiscard]] int count() const noexcept { return static_cast<int>(passes_.size()); }
+  // The n-th part's parameters and, where any are read, its voxels: into the image, or as cells.
+  void move(int n, const Buffer& parameters, const Image* image, const Buffer* cells);
+
+ private:
+  const Gpu& gpu_;
+  std::shared_ptr<const scene::VoxelGrid> grid_;
+  technique::Layers layers_;
+  std::vector<technique::PartPass> passes_;
+  std::vector<std::byte> parameters_;
+  measure::MemoryLedger::Entry moved_;
+};
+
+}  // namespace triptych::vulkan_backend

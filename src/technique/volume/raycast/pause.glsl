@@ -1,0 +1,24 @@
+// A ray between two passes over parts of the volume, of which the device holds one at a time (technique::Part).
+
+struct Pause {
+  real4 light;   // premultiplied colour, transmittance
+  ivec4 where;   // the walk's brick, or the cell; w: 1 where the run is to be merged
+  ivec4 run;     // the next sample, the end of the run that it lies in, 1 where the ray ended in the dark
+  vec4 times;    // of cells: where it goes on, up to where all bricks are visible, and where it ends
+  uvec4 counts;  // samples, samples_nonzero, bricks_visited, bricks_skipped
+};
+layout(std430) TRI_BINDING(7) buffer Pauses { Pause pauses[]; };
+
+bool cell_is_here(int cell) { return cell >= u.part.x && cell < u.part.y; }
+
+void resume_counts(Pause pause) {
+  count_samples = pause.counts.x;
+  count_nonzero = pause.counts.y;
+  count_bricks_visited = pause.counts.z;
+  count_bricks_skipped = pause.counts.w;
+  count_terminated = uint(pause.run.z);
+}
+
+uvec4 counts_so_far() {
+  return uvec4(count_samples, count_nonzero, count_bricks_visited, count_bricks_skipped);
+}

@@ -1,0 +1,102 @@
+// As raycast(), by the parts of a volume (technique::Part): what lies in the part that the device holds, sample by
+// sample with the same expressions, so that the bits are the same.
+#include "volume/raycast/pause.glsl"
+
+// Whether the voxels around the ray, so many steps along, are those of the part.
+bool is_here(Grid grid, Ray ray, real along) {
+  real z = ray.p0.z + along * ray.g.z;
+  return cell_is_here(int(clamp(z + 0.5, 0.0, real(grid.last.z + 1))));
+}
+
+// Where what is taken next lies.
+real next_along(March m, Ray ray, bool merged) {
+  real begin = real(m.i);
+  if (TRI_PREINTEGRATED != 0) return begin;
+  real middle = max(0.5 * (begin + min(real(m.stop), ray.steps)), begin + 0.5);
+  return TRI_ADAPT == 1 && merged ? middle : begin + 0.5;
+}
+
+// Where the ray was left before, and how it is left now.
+void resume(inout March m, inout Walk walk, inout bool merged, bool walks, int place) {
+  Pause pause = pauses[place];
+  m.light = Light(pause.light.xyz, pause.light.w);
+  m.i = pause.run.x;
+  m.stop = pause.run.y;
+  if (pause.run.z == 1) m.count = 0;
+  merged = pause.where.w == 1;
+  walk.brick = pause.where.xyz;
+  if (walks) enter(walk);
+  resume_counts(pause);
+}
+
+void pause_here(March m, Walk walk, bool merged, bool walks, bool dark, int place) {
+  ivec3 brick = walks ? walk.brick : ivec3(0);
+  pauses[place] = Pause(real4(m.light.colour, m.light.transmittance), ivec4(brick, merged ? 1 : 0),
+                        ivec4(m.i, m.stop, dark ? 1 : 0, 0), vec4(0.0), counts_so_far());
+}
+
+// The next sample or step of the run, or all of a run to be merged.
+void take_next(inout March m, inout Cut cut, inout bool fresh, bool merged, int last, Grid grid, Ray ray,
+               real step_voxels, real enough) {
+  if (TRI_ADAPT == 1 && merged) {
+    advance_merged(m, grid, ray, step_voxels, enough);
+  } else if (TRI_PREINTEGRATED == 0 && m.i == last) {
+    real steps = step_voxels * tri_step_share(ray.steps, last);
+    add_sample(m.light, grid, ray, ray.p0 + (real(last) + 0.5) * ray.g, false, steps);
+    m.i += 1;
+    end_in_the_dark(m, enough);
+  } else {
+    if (TRI_PREINTEGRATED != 0 && fresh) m.front = field(grid, ray.p0 + real(m.i) * ray.g);
+    fresh = false;
+    advance(m, cut, grid, ray, step_voxels, enough);
+  }
+}
+
+// Premultiplied RGBA of the pixel as far as it has got. `place`: of its pause.
+vec4 raycast_part(ivec2 pixel, int place) {
+  Ray ray = make_ray(pixel);
+  Grid grid = load_grid();
+  March m = March(Light(real3(0.0), 1.0), 0.0, 0, 0, tri_sample_count(ray.steps), false);
+  if (TRI_FAULT == fault_extra_sample && m.count > 0) { m.count += 1; ray.steps = real(m.count); }
+  Cut cut = Cut(0.0, 1.0);
+  int total = m.count;
+  real step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
+  bool skipping = skips(ray);
+  bool walks = skipping && TRI_LEAPS == 0;
+  bool merged = false;
+  Walk walk;
+  Leaps leaps;
+  if (walks) walk = start_walk(ray);
+  if (skipping && TRI_LEAPS == 1) leaps = make_leaps(ray);
+  if (u.pass.x > 0) resume(m, walk, merged, walks, place);
+  bool fresh = true;  // the value in front is to be read
+  bool here = true;
+  while (m.i < m.count && here) {
+    if (m.i >= m.stop) {
+      ivec2 run = ivec2(m.i, m.count);
+      if (skipping) {
+        run = TRI_LEAPS == 1 ? next_run_by_leaps(leaps, ray, m.i, m.count) : next_run(walk, m.i, m.count, merged);
+      }
+      m.i = run.x;
+      m.stop = run.y;
+      fresh = true;
+    }
+    bool begun = TRI_PREINTEGRATED == 2 && cut.per_cell > 0.0;
+    here = m.i >= m.stop || begun || is_here(grid, ray, next_along(m, ray, merged));
+    if (m.i < m.stop && here) {
+      take_next(m, cut, fresh, merged, total - 1, grid, ray, step_voxels, u.ray_right.w);
+    }
+  }
+  pause_here(m, walk, merged, walks, m.count < total, place);
+#if TRI_COUNT
+  int at = 8 * (pixel.y * u.viewport.x + pixel.x);
+  counters[at] = total > 0 ? 1u : 0u;
+  counters[at + 1] = count_samples;
+  counters[at + 2] = count_nonzero;
+  counters[at + 3] = count_bricks_visited;
+  counters[at + 4] = count_bricks_skipped;
+  counters[at + 5] = count_terminated;
+  counters[at + 6] = uint(total) - count_samples;
+#endif
+  return vec4(real4(m.light.colour, 1.0 - m.light.transmittance) + m.light.transmittance * u.background);
+}
