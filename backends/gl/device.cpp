@@ -12,6 +12,7 @@
 #include "backends/gl/filter_probe.hpp"
 #include "backends/gl/large_points.hpp"
 #include "backends/gl/techniques.hpp"
+#include "backends/gl/volume_parts.hpp"
 #include "backends/gl/volume_prepared.hpp"
 #include "core/error.hpp"
 #include "technique/particles/option_reason.hpp"
@@ -70,7 +71,7 @@ class GlDevice final : public measure::Device {
     if (const auto* raycaster = std::get_if<VolumeTechnique>(&entry->technique)) {
       if (volume == nullptr) return fmt::format("{} draws volumes, nothing else", work.technique);
       auto reason = technique::raycast_reason(work.technique, volume->scene, volume->options);
-      if (!reason) reason = volume_unsupported(gl, *volume);
+      if (!reason) reason = volume_unsupported(gl, work.technique, *volume);
       if (!reason) reason = raycaster->unsupported(gl, *volume);
       return reason;
     }
@@ -91,7 +92,9 @@ class GlDevice final : public measure::Device {
       return {volume.native, technique::Sampler::packed};
     }
     const measure::VolumePath hardware{scene::VoxelFormat::f32, technique::Sampler::hardware};
-    if (filter_weight_error(hardware) < exact_filter) return hardware;
+    if (filter_weight_error(hardware) < exact_filter && holds_whole(volume.size, hardware.voxel)) {
+      return hardware;
+    }
     return {volume.native, technique::Sampler::manual};
   }
 
@@ -119,6 +122,12 @@ class GlDevice final : public measure::Device {
   }
 
  private:
+  // What one texture does not hold is drawn in parts, which samplers would not.
+  [[nodiscard]] bool holds_whole(const std::array<int, 3>& size, scene::VoxelFormat format) const {
+    const Current current(*context_);
+    return gl_backend::holds_whole(context_->gl(), size, format);
+  }
+
   record::Device info_;
   std::unique_ptr<Context> context_;
   Stamps stamps_;

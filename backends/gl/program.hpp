@@ -21,6 +21,7 @@ struct Constants {
   bool cells = false;     // a source of its own
   bool leaps = false;
   bool adapt = false;
+  bool parts = false;      // draws technique::Part by part
   int precision = 32;      // bits of a number: 32 or 64
   bool long_rays = false;  // technique::has_long_rays
 };

@@ -8,6 +8,7 @@
 #include "technique/volume/brick_map.hpp"
 #include "technique/volume/packed_cells.hpp"
 #include "technique/volume/quadrature_table.hpp"
+#include "technique/volume/raycast_buffers.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -18,6 +19,7 @@ constexpr GLuint unit_volume = 1;
 constexpr GLuint unit_transfer = 2;
 constexpr GLuint binding_bricks = 3;
 constexpr GLuint binding_quadrature = 6;
+constexpr GLuint binding_pauses = 7;
 
 void use_texels_as_they_are(const Api& gl, GLenum target, GLint filter) {
   gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
@@ -39,27 +41,43 @@ Texture transfer_texture(const Api& gl, const scene::TransferFunction& function)
   return texture;
 }
 
-// One word where nothing is skipped: the kernel is the same and never reads it.
-Buffer brick_buffer(const Api& gl, const measure::VolumeWork& work) {
-  const std::vector<std::int32_t> map =
-      technique::brick_map(work.scene, work.options.skip, work.options.adapt);
-  return constant_buffer(gl, std::as_bytes(std::span(map)));
+// Of the whole volume, or room for the parts of it.
+Buffer cell_buffer(const Api& gl, const measure::VolumeWork& work,
+                   const std::vector<technique::Part>& parts) {
+  const scene::VoxelGrid& grid = *work.scene.grid;
+  const std::size_t size = layers_of(work).room_for(parts);
+  Buffer buffer = device_buffer(gl, size);
+  if (!parts.empty()) return buffer;
+  fill_buffer(gl, buffer, size, [&](std::size_t begin, std::span<std::byte> out) {
+    technique::fill_packed_cells(grid, begin, out);
+  });
+  return buffer;
 }
 
-// Through a small part of it, so that the host never holds a second copy.
-Buffer cell_buffer(const Api& gl, const scene::VoxelGrid& grid) {
-  constexpr std::size_t part = std::size_t{1} << 24U;
-  const std::size_t size = technique::packed_bytes(grid.size, grid.format);
-  Buffer buffer = device_buffer(gl, size);
-  std::vector<std::byte> bytes(std::min(part, size));
-  for (std::size_t begin = 0; begin < size; begin += part) {
-    const auto filled = std::span(bytes).first(std::min(part, size - begin));
-    technique::fill_packed_cells(grid, begin, filled);
-    gl.BufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(begin),
-                     static_cast<GLsizeiptr>(filled.size()), filled.data());
-  }
-  gl.check("glBufferSubData");
-  return buffer;
+Texture texture_of(const Api& gl, const scene::VoxelGrid& grid, bool linear, int slices,
+                   const void* voxels) {
+  const TexelFormat format = texel_format(grid.format);
+  Texture texture(gl);
+  gl.BindTexture(GL_TEXTURE_3D, texture.get());
+  use_texels_as_they_are(gl, GL_TEXTURE_3D, linear ? GL_LINEAR : GL_NEAREST);
+  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl.TexImage3D(GL_TEXTURE_3D, 0, static_cast<GLint>(format.internal), grid.size[0], grid.size[1],
+                slices, 0, GL_RED, format.type, voxels);
+  gl.check("glTexImage3D");
+  texture.holds(gl.held.image(technique::slice_layers(grid.size, grid.format).bytes *
+                              static_cast<std::uint64_t>(slices)));
+  return texture;
+}
+
+// With room for those of a part of the volume behind them, where it is drawn in parts.
+Buffer parameter_buffer(const Api& gl, const measure::VolumeWork& work, bool in_parts) {
+  // A texel of an image reaches the shader divided by its format's largest.
+  const double stored_maximum =
+      is_packed(work) ? 1 : scene::largest_stored(work.scene.grid->format);
+  std::vector<std::byte> bytes =
+      technique::raycast_parameters(work.scene, work.options, stored_maximum);
+  if (in_parts) bytes.resize(bytes.size() + sizeof(technique::PartParameters));
+  return constant_buffer(gl, bytes);
 }
 
 Buffer quadrature_buffer(const Api& gl, const scene::VolumeScene& scene) {
@@ -82,16 +100,7 @@ TexelFormat texel_format(scene::VoxelFormat format) {
 }
 
 Texture volume_texture(const Api& gl, const scene::VoxelGrid& grid, bool linear) {
-  const TexelFormat format = texel_format(grid.format);
-  Texture texture(gl);
-  gl.BindTexture(GL_TEXTURE_3D, texture.get());
-  use_texels_as_they_are(gl, GL_TEXTURE_3D, linear ? GL_LINEAR : GL_NEAREST);
-  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  gl.TexImage3D(GL_TEXTURE_3D, 0, static_cast<GLint>(format.internal), grid.size[0], grid.size[1],
-                grid.size[2], 0, GL_RED, format.type, grid.data.data());
-  gl.check("glTexImage3D");
-  texture.holds(gl.held.image(grid.data.size()));
-  return texture;
+  return texture_of(gl, grid, linear, grid.size[2], grid.data.data());
 }
 
 Buffer constant_buffer(const Api& gl, std::span<const std::byte> bytes) {
@@ -113,26 +122,55 @@ Buffer device_buffer(const Api& gl, std::size_t size) {
   return buffer;
 }
 
-VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work)
-    : bricks_(brick_buffer(gl, work)), quadrature_(quadrature_buffer(gl, work.scene)) {
-  const scene::VoxelGrid& grid = *work.scene.grid;
-  // A texel of an image reaches the shader divided by its format's largest.
-  parameters_ = constant_buffer(
-      gl, technique::raycast_parameters(work.scene, work.options,
-                                        is_packed(work) ? 1 : scene::largest_stored(grid.format)));
+// Through a small part of it, so that the host never holds a second copy.
+void fill_buffer(const Api& gl, const Buffer& buffer, std::size_t size, const Fill& fill) {
+  constexpr std::size_t piece = std::size_t{1} << 24U;
+  std::vector<std::byte> bytes(std::min(piece, size));
+  gl.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.get());
+  for (std::size_t begin = 0; begin < size; begin += piece) {
+    const auto filled = std::span(bytes).first(std::min(piece, size - begin));
+    fill(begin, filled);
+    gl.BufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(begin),
+                     static_cast<GLsizeiptr>(filled.size()), filled.data());
+  }
+  gl.check("glBufferSubData");
+}
+
+// Of the bricks one word where nothing is skipped: the kernel is the same and never reads it.
+VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work,
+                       const std::vector<technique::Part>& parts)
+    : quadrature_(quadrature_buffer(gl, work.scene)),
+      parameters_(parameter_buffer(gl, work, !parts.empty())) {
+  const std::vector<std::int32_t> map =
+      technique::brick_map(work.scene, work.options.skip, work.options.adapt);
+  bricks_ = constant_buffer(gl, std::as_bytes(std::span(map)));
+  if (!parts.empty()) {
+    parts_.emplace(gl, work, parts, map);
+    pauses_ = device_buffer(gl, technique::pauses_bytes(work.scene, work.options));
+  }
   if (is_packed(work)) {
-    see_texels(gl, work);
+    see_texels(gl, work, parts);
     return;
   }
+  const scene::VoxelGrid& grid = *work.scene.grid;
   const bool linear = work.options.sampler == technique::Sampler::hardware;
-  textures_.push_back({unit_volume, GL_TEXTURE_3D, volume_texture(gl, grid, linear)});
+  textures_.push_back(
+      {unit_volume, GL_TEXTURE_3D,
+       parts.empty() ? volume_texture(gl, grid, linear)
+                     : texture_of(gl, grid, false, technique::most_held(parts) + 1, nullptr)});
   textures_.push_back(
       {unit_transfer, GL_TEXTURE_1D, transfer_texture(gl, work.scene.transfer_function)});
 }
 
-void VolumeData::see_texels(const Api& gl, const measure::VolumeWork& work) {
+void VolumeData::move_part(const Api& gl, int n) const {
+  gl.ActiveTexture(GL_TEXTURE0 + unit_volume);
+  parts_->move(gl, n, parameters_, cells_.get() != 0 ? &cells_ : nullptr);
+}
+
+void VolumeData::see_texels(const Api& gl, const measure::VolumeWork& work,
+                            const std::vector<technique::Part>& parts) {
   const scene::VoxelGrid& grid = *work.scene.grid;
-  cells_ = cell_buffer(gl, grid);
+  cells_ = cell_buffer(gl, work, parts);
   table_ = constant_buffer(gl, std::as_bytes(std::span(work.scene.transfer_function.entries)));
   const auto see = [&](GLuint unit, const Buffer& buffer, GLenum format) {
     Texture texture(gl);
@@ -156,6 +194,7 @@ void VolumeData::bind(const Api& gl) const {
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_bricks, bricks_.get());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_quadrature, quadrature_.get());
   gl.BindBufferBase(GL_UNIFORM_BUFFER, binding_parameters, parameters_.get());
+  if (parts_) gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_pauses, pauses_.get());
 }
 
 }  // namespace triptych::gl_backend

@@ -1,9 +1,12 @@
 #pragma once
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "backends/gl/objects.hpp"
+#include "backends/gl/volume_parts.hpp"
 #include "measure/contract/backend.hpp"
 #include "scene/volume.hpp"
 
@@ -28,20 +31,33 @@ struct TexelFormat {
 [[nodiscard]] Buffer constant_buffer(const Api& gl, std::span<const std::byte> bytes);
 [[nodiscard]] Buffer device_buffer(const Api& gl, std::size_t size);
 
+// Writes the bytes of a buffer that begin at `begin`.
+using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
+void fill_buffer(const Api& gl, const Buffer& buffer, std::size_t size, const Fill& fill);
+
 // All that the shared raycasting source reads, on the device.
 class VolumeData {
  public:
-  VolumeData(const Api& gl, const measure::VolumeWork& work);
+  // With `parts` (technique::cut_into_parts) no voxels are there before they are moved.
+  VolumeData(const Api& gl, const measure::VolumeWork& work,
+             const std::vector<technique::Part>& parts);
 
-  // Makes the data what the shared source's bindings 0…3 and 6 stand for.
+  [[nodiscard]] int parts() const { return parts_ ? parts_->count() : 0; }
+  // Once bound.
+  void move_part(const Api& gl, int n) const;
+
+  // Makes the data what the shared source's bindings 0…3, 6 and 7 stand for.
   void bind(const Api& gl) const;
 
  private:
-  void see_texels(const Api& gl, const measure::VolumeWork& work);
+  void see_texels(const Api& gl, const measure::VolumeWork& work,
+                  const std::vector<technique::Part>& parts);
 
   Buffer bricks_;
   Buffer quadrature_;
   Buffer parameters_;
+  std::optional<VolumeParts> parts_;
+  Buffer pauses_;  // of rays between two parts
   // Textures of voxels and transfer function; for sampler packed the buffers whose texels are seen
   // through textures, as are then bricks and quadrature.
   Buffer cells_;

@@ -55,7 +55,12 @@ class VolumeDrawing final : public Drawing {
  public:
   VolumeDrawing(const Api& gl, const measure::VolumeWork& work, const Constants& constants,
                 std::unique_ptr<Pass> pass)
-      : constants_(constants), pixels_(pixel_count(work)), pass_(std::move(pass)), data_(gl, work) {
+      : constants_(constants),
+        pixels_(pixel_count(work)),
+        pass_(std::move(pass)),
+        data_(
+            gl, work,
+            constants.parts ? cut_of(gl, "raycast", work).parts : std::vector<technique::Part>{}) {
     const std::vector<Stage> stages = pass_->stages(gl, constants);
     program_ = link(gl, stages);
     std::vector<std::string> sources;
@@ -78,7 +83,14 @@ class VolumeDrawing final : public Drawing {
     }
   }
 
-  void submit(const Api& gl, measure::Purpose purpose) override { pass_->submit(gl, purpose); }
+  void submit(const Api& gl, measure::Purpose purpose) override {
+    if (data_.parts() == 0) pass_->submit(gl, purpose);
+    for (int part = 0; part < data_.parts(); ++part) {
+      data_.move_part(gl, part);
+      pass_->submit(gl, purpose);
+      gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+  }
 
   [[nodiscard]] record::Counts counters(const Api& gl) const override {
     return sum_counters(gl, counting_->counters, pixels_);
@@ -102,23 +114,33 @@ class VolumeDrawing final : public Drawing {
   std::optional<Counting> counting_;
 };
 
-std::optional<std::string> texture_reason(const Api& gl, const scene::VoxelGrid& grid) {
+std::optional<std::string> texture_reason(const Api& gl, const scene::VoxelGrid& grid,
+                                          bool in_parts) {
   const auto [nx, ny, nz] = grid.size;
   const std::int64_t edge = gl.limit(GL_MAX_3D_TEXTURE_SIZE);
-  if (std::max({nx, ny, nz}) > edge) {
+  if ((in_parts ? std::max(nx, ny) : std::max({nx, ny, nz})) > edge) {
     return fmt::format("a volume of {}x{}x{}, GL_MAX_3D_TEXTURE_SIZE is {}", nx, ny, nz, edge);
   }
-  const TexelFormat format = texel_format(grid.format);
-  gl.TexImage3D(GL_PROXY_TEXTURE_3D, 0, static_cast<GLint>(format.internal), nx, ny, nz, 0, GL_RED,
-                format.type, nullptr);
-  GLint accepted = 0;
-  gl.GetTexLevelParameteriv(GL_PROXY_TEXTURE_3D, 0, GL_TEXTURE_WIDTH, &accepted);
-  gl.check("glTexImage3D");
-  if (accepted == 0) {
+  if (!in_parts && !holds_whole(gl, grid.size, grid.format)) {
     return fmt::format("no texture of {}x{}x{} {} ({} bytes) by GL_PROXY_TEXTURE_3D", nx, ny, nz,
                        scene::name_of(grid.format), grid.data.size());
   }
   return std::nullopt;
+}
+
+// Why the volume fits neither whole nor in parts.
+std::optional<std::string> voxels_reason(const Api& gl, const measure::VolumeWork& work,
+                                         const technique::RaycastBuffers& buffers,
+                                         const technique::Cut& cut) {
+  const scene::VoxelGrid& grid = *work.scene.grid;
+  const bool in_parts = !cut.parts.empty();
+  const auto most_texels = static_cast<std::uint64_t>(gl.limit(GL_MAX_TEXTURE_BUFFER_SIZE));
+  auto reason = is_packed(work)
+                    ? technique::packed_reason(
+                          in_parts ? 0 : technique::packed_texels(grid.size, grid.format), buffers,
+                          {most_texels, "GL_MAX_TEXTURE_BUFFER_SIZE"})
+                    : texture_reason(gl, grid, in_parts);
+  return reason ? reason : cut.reason;
 }
 
 }  // namespace
@@ -142,19 +164,17 @@ Constants constants_of(const measure::VolumeWork& work) {
       .long_rays = technique::has_long_rays(work.scene)};
 }
 
-std::optional<std::string> volume_unsupported(const Api& gl, const measure::VolumeWork& work) {
+std::optional<std::string> volume_unsupported(const Api& gl, std::string_view technique,
+                                              const measure::VolumeWork& work) {
   if (auto reason = storage_unsupported(gl)) return reason;
   // Doubles came with 4.0, but below 4.3 the sources are compiled as GLSL 3.30 (program.cpp).
   if (work.options.precision == technique::Precision::fp64 && gl.VERSION_4_3 == 0) {
     return "precision fp64 needs OpenGL 4.3";
   }
-  const scene::VoxelGrid& grid = *work.scene.grid;
-  const technique::RaycastBuffers buffers = technique::raycast_buffers(work.scene, work.options);
-  const auto most_texels = static_cast<std::uint64_t>(gl.limit(GL_MAX_TEXTURE_BUFFER_SIZE));
-  auto reason = is_packed(work) ? technique::packed_reason(
-                                      grid, buffers, {most_texels, "GL_MAX_TEXTURE_BUFFER_SIZE"})
-                                : texture_reason(gl, grid);
-  if (reason) return reason;
+  technique::RaycastBuffers buffers = technique::raycast_buffers(work.scene, work.options);
+  const technique::Cut cut = cut_of(gl, technique, work);
+  if (!cut.parts.empty()) buffers.pauses = technique::pauses_bytes(work.scene, work.options);
+  if (auto reason = voxels_reason(gl, work, buffers, cut)) return reason;
   return technique::buffer_reason(
       buffers, static_cast<std::uint64_t>(gl.limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)),
       "GL_MAX_SHADER_STORAGE_BLOCK_SIZE");

@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "backends/gl/context.hpp"
 #include "backends/gl/pass.hpp"
@@ -15,6 +16,7 @@ namespace triptych::gl_backend {
 // Why this volume and picture are beyond what every volume technique needs: storage blocks, sizes
 // of textures and buffers. Empty when they are not.
 [[nodiscard]] std::optional<std::string> volume_unsupported(const Api& gl,
+                                                            std::string_view technique,
                                                             const measure::VolumeWork& work);
 
 // A volume technique with its scene: data uploaded, program linked. The context must be current

@@ -13,5 +13,10 @@ void main() {
   ivec2 pixel = ivec2(tri_drawn_column(at.x, at.y, u.viewport.w, u.viewport.z), at.y);
   if (pixel.x >= u.viewport.x || pixel.y >= u.viewport.y) return;
   int columns = 8 * int(gl_NumWorkGroups.x);
+#if TRI_PARTS
+  int place = tri_output_place(at.x, at.y, u.viewport.x, u.viewport.y, u.viewport.w, columns);
+  pixels[place] = raycast_part(pixel, place);
+#else
   pixels[tri_output_place(at.x, at.y, u.viewport.x, u.viewport.y, u.viewport.w, columns)] = raycast(pixel);
+#endif
 }

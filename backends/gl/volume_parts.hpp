@@ -1,0 +1,48 @@
+#pragma once
+// A volume of which the device holds one part at a time (technique/volume/parts.hpp).
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "backends/gl/objects.hpp"
+#include "measure/contract/backend.hpp"
+#include "technique/volume/parts.hpp"
+
+namespace triptych::gl_backend {
+
+// For technique raycast.
+[[nodiscard]] technique::Cut cut_of(const Api& gl, std::string_view technique,
+                                    const measure::VolumeWork& work);
+
+// How the device holds cells: as slices of a texture, or by sampler packed.
+[[nodiscard]] technique::Layers layers_of(const measure::VolumeWork& work);
+
+// Whether one texture holds a volume.
+[[nodiscard]] bool holds_whole(const Api& gl, const std::array<int, 3>& size,
+                               scene::VoxelFormat format);
+
+// Moves part after part to where the shader reads it.
+class VolumeParts {
+ public:
+  // `map`: technique::brick_map.
+  VolumeParts(const Api& gl, const measure::VolumeWork& work,
+              const std::vector<technique::Part>& parts, std::span<const std::int32_t> map);
+
+  [[nodiscard]] int count() const noexcept { return static_cast<int>(passes_.size()); }
+  // The n-th part's parameters behind the others, and where any are read its voxels: into the
+  // texture that is bound, or as cells.
+  void move(const Api& gl, int n, const Buffer& parameters, const Buffer* cells) const;
+
+ private:
+  void fill_cells(const Api& gl, const technique::Part& part, const Buffer& cells) const;
+
+  std::shared_ptr<const scene::VoxelGrid> grid_;
+  technique::Layers layers_;
+  std::vector<technique::PartPass> passes_;
+  std::size_t place_;  // of a part's in the parameters
+  measure::MemoryLedger::Entry moved_;
+};
+
+}  // namespace triptych::gl_backend
