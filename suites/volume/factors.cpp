@@ -71,6 +71,11 @@ const std::vector<Factor>& volume_factors() {
       choice("precision", {"fp32", "fp64"}, "fp32", Decides::how_it_is_made,
              "what rays, interpolation and compositing are computed in; fp64 needs sampler manual, "
              "which auto then is"),
+      number(
+          "budget", 0x1.0p-10, 1 << 20, std::string(no_budget), Decides::how_it_is_made,
+          "MiB of device memory for voxels: a volume that takes more is drawn in parts, front to "
+          "back, and moved there in every frame; none: as many as the device's limits allow",
+          {std::string(no_budget)}),
       text("camera", "orbit_y:1/8", "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED, or own"),
       text("viewport", "256", "N for NxN, or WxH, in pixels, or own"),
   };

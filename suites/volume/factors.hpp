@@ -14,6 +14,9 @@ namespace triptych::volume_suite {
 void check_value(const measure::Factor& factor, std::string_view value,
                  const std::vector<std::filesystem::path>& folders);
 
+// The level of `budget` that states none.
+inline constexpr std::string_view no_budget = "none";
+
 // The paper's field of view for volumes, in degrees.
 inline constexpr double field_of_view = 90;
 

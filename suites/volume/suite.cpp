@@ -174,12 +174,20 @@ scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
   };
 }
 
+// Bytes; 0 where none is stated.
+std::uint64_t budget_of(const measure::Configuration& configuration) {
+  if (configuration.at("budget") == no_budget) return 0;
+  return static_cast<std::uint64_t>(measure::as_number(configuration, "budget") * (1U << 20U));
+}
+
 // No device's sampler interpolates in double precision, and floats would round integers. Quadrature
-// cells asks no sampler.
+// cells asks no sampler, and one would round otherwise in parts of a volume.
 measure::VolumePath default_path(const measure::Device& device, measure::VolumeKind volume,
-                                 technique::Precision precision, scene::Quadrature quadrature) {
+                                 const measure::Configuration& configuration,
+                                 scene::Quadrature quadrature) {
   const bool asks_no_sampler =
-      precision == technique::Precision::fp64 || quadrature == scene::Quadrature::cells;
+      technique::precision(configuration.at("precision")) == technique::Precision::fp64 ||
+      quadrature == scene::Quadrature::cells || budget_of(configuration) > 0;
   if (asks_no_sampler) volume.filter_suffices = false;
   const measure::VolumePath path = device.default_path(volume);
   if (asks_no_sampler && path.sampler == technique::Sampler::hardware) {
@@ -189,7 +197,6 @@ measure::VolumePath default_path(const measure::Device& device, measure::VolumeK
 }
 
 measure::Work VolumeSuite::work(Configuration& configuration, const measure::Device& device) {
-  const technique::Precision precision = technique::precision(configuration.at("precision"));
   const scene::Quadrature quadrature = levels_of(configuration, {}).quadrature();
   std::optional<technique::Sampler> named;
   if (configuration.at("sampler") != "auto") {
@@ -198,7 +205,7 @@ measure::Work VolumeSuite::work(Configuration& configuration, const measure::Dev
   measure::VolumePath path;
   const auto choose = [&](scene::VoxelFormat native, const std::array<int, 3>& size) {
     path = default_path(device, {native, size, named, configuration.at("shading") == "none"},
-                        precision, quadrature);
+                        configuration, quadrature);
     if (configuration.at("voxel") != "auto")
       path.voxel = scene::voxel_format(configuration.at("voxel"));
     return path.voxel;
@@ -215,7 +222,8 @@ measure::Work VolumeSuite::work(Configuration& configuration, const measure::Dev
                           .skip = technique::skip(configuration.at("skip")),
                           .ert = levels_of(configuration, loaded.stress).ert(),
                           .adapt = levels_of(configuration, loaded.stress).adapt(),
-                          .precision = precision}}};
+                          .precision = technique::precision(configuration.at("precision")),
+                          .budget = budget_of(configuration)}}};
 }
 
 measure::Work VolumeSuite::calibration(technique::Work kind) {

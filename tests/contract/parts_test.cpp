@@ -1,0 +1,210 @@
+// A volume drawn in parts is the whole's picture to the bit, with the whole's counts.
+
+#include "technique/volume/parts.hpp"
+
+#include <fmt/format.h>
+
+#include "technique/volume/packed_cells.hpp"
+#include "under_test.hpp"
+#include "volume_truth.hpp"
+
+namespace triptych::contract {
+namespace {
+
+using scene::Quadrature;
+using technique::Sampler;
+using technique::Skip;
+
+// From outside, from within along the parts, across them, from within towards the last, and from so
+// far away that rays begin on a plane before the volume.
+std::vector<scene::Camera> cameras(const scene::Box& box) {
+  const glm::dvec3 size = box.hi - box.lo;
+  const auto at = [&](double x, double y, double z) { return glm::dvec3(x, y, z) * size; };
+  return {scene::camera_at("orbit_y:1/8", box, 90),
+          scene::looking({0.2 * size.x, 0.5 * size.y, 27.5}, at(0.9, 0.5, 0.45), 90),
+          scene::looking(at(0.4, 0.6, -0.5), at(0.45, 0.5, 0.5), 60),
+          scene::looking(at(0.6, 0.4, 0.9), at(0.5, 0.5, 3), 100),
+          scene::looking(at(900, 700, 20), at(0.5, 0.5, 0.5), 0.1)};
+}
+
+measure::VolumeWork& volume_of(measure::Work& work) {
+  return std::get<measure::VolumeWork>(work.scene);
+}
+
+// What the largest layout of the voxels takes.
+double whole_bytes(const measure::VolumeWork& work) {
+  const scene::VoxelGrid& grid = *work.scene.grid;
+  if (work.options.sampler == Sampler::packed) {
+    return static_cast<double>(technique::packed_bytes(grid.size, grid.format));
+  }
+  double bytes = static_cast<double>(scene::bytes_of(grid.format));
+  for (const int n : grid.size) bytes *= n + 2;
+  return bytes;
+}
+
+struct Drawn {
+  core::Image image;
+  record::Counts counts;
+  bool in_parts = false;
+};
+
+Drawn drawn(measure::Device& device, const measure::Work& work) {
+  const auto prepared = device.prepare(work);
+  Drawn result;
+  result.in_parts = device.memory().contains("moved");
+  result.counts = prepared->frame(measure::Purpose::counters).counts;
+  const core::Image counted = prepared->image();
+  static_cast<void>(prepared->frame(measure::Purpose::timing));
+  result.image = prepared->image();
+  EXPECT_EQ(counted, result.image);
+  return result;
+}
+
+// With about an n-th of the voxels on the device for each n.
+void expect_the_whole(measure::Device& device, measure::Work work, std::vector<int> shares) {
+  volume_of(work).options.budget = 0;
+  const Drawn whole = drawn(device, work);
+  EXPECT_FALSE(whole.in_parts);
+  for (const int share : shares) {
+    volume_of(work).options.budget =
+        static_cast<std::uint64_t>(whole_bytes(volume_of(work)) / share);
+    const Drawn parts = drawn(device, work);
+    EXPECT_TRUE(parts.in_parts);
+    EXPECT_EQ(parts.image, whole.image) << "1/" << share << " of the voxels";
+    EXPECT_EQ(parts.counts, whole.counts) << "1/" << share << " of the voxels";
+  }
+}
+
+// The samplers that the device draws parts with.
+std::vector<Sampler> samplers(measure::Device& device, measure::Work work) {
+  std::vector<Sampler> able;
+  for (const Sampler sampler : {Sampler::manual, Sampler::packed}) {
+    volume_of(work).options.sampler = sampler;
+    volume_of(work).options.budget = static_cast<std::uint64_t>(whole_bytes(volume_of(work)) / 2);
+    if (!device.unsupported(work)) able.push_back(sampler);
+  }
+  return able;
+}
+
+measure::Work work_of(std::string_view generator, scene::VolumeScene scene) {
+  scene::Volume volume = scene::generate_volume(generator, {37, 41, 61});
+  const scene::VoxelFormat format = scene::lossless_format(volume);
+  scene.grid = std::make_shared<const scene::VoxelGrid>(scene::encode(std::move(volume), format));
+  scene.camera = cameras(scene.box()).front();
+  return {.technique = "raycast",
+          .scene = measure::VolumeWork{.scene = std::move(scene), .options = {}}};
+}
+
+void expect_the_whole_by_every_skip(measure::Device& device, measure::Work& work) {
+  const auto views = cameras(volume_of(work).scene.box());
+  for (const Skip skip : {Skip::none, Skip::bricks, Skip::distance}) {
+    // All of them where rays leap, the first two where they walk.
+    for (std::size_t i = 0; i < (skip == Skip::distance ? views.size() : 2); ++i) {
+      SCOPED_TRACE(fmt::format("skip {} camera {}", technique::name_of(skip), i));
+      volume_of(work).scene.camera = views[i];
+      volume_of(work).options.skip = skip;
+      expect_the_whole(device, work, {5});
+    }
+  }
+}
+
+// Every way of drawing, from every side.
+TEST(Parts, HaveTheBitsAndTheCountsOfTheWhole) {
+  on_every_device([](measure::Device& device) {
+    for (const Quadrature quadrature :
+         {Quadrature::midpoint, Quadrature::preintegrated, Quadrature::cells}) {
+      for (const bool shaded : {false, true}) {
+        scene::VolumeScene scene = small_scene("surfaces");
+        scene.quadrature = quadrature;
+        scene.shading.enabled = shaded;
+        measure::Work work = work_of("nested_shells", std::move(scene));
+        const auto able = samplers(device, work);
+        ASSERT_FALSE(able.empty());
+        for (const Sampler sampler : able) {
+          SCOPED_TRACE(fmt::format("{} shaded {} {}", scene::name_of(quadrature), shaded,
+                                   technique::name_of(sampler)));
+          volume_of(work).options.sampler = sampler;
+          expect_the_whole_by_every_skip(device, work);
+        }
+      }
+    }
+  });
+}
+
+// Every voxel format, rays that end early or never, steps longer than a part's own cells.
+TEST(Parts, OfEveryFormatAndStep) {
+  on_every_device([](measure::Device& device) {
+    for (const std::string_view generator : {"sparse_field", "frequency_box"}) {
+      for (const Quadrature quadrature : {Quadrature::midpoint, Quadrature::preintegrated}) {
+        scene::VolumeScene scene = small_scene("haze");
+        scene.quadrature = quadrature;
+        measure::Work work = work_of(generator, std::move(scene));
+        for (const Sampler sampler : samplers(device, work)) {
+          volume_of(work).options.sampler = sampler;
+          for (const double ert : {0.0, 0.25}) {
+            for (const double step : {1.0 / 3, 4.0}) {
+              SCOPED_TRACE(fmt::format("{} {} {} ert {} step {}", generator,
+                                       scene::name_of(quadrature), technique::name_of(sampler), ert,
+                                       step));
+              volume_of(work).options.ert = ert;
+              volume_of(work).scene.step_voxels = step;
+              expect_the_whole(device, work, {2});
+            }
+          }
+        }
+      }
+    }
+  });
+}
+
+TEST(Parts, WithMergedBricksOrInDoublePrecision) {
+  on_every_device([](measure::Device& device) {
+    measure::Work work = work_of("nested_shells", small_scene("haze"));
+    const measure::Work plain = work;
+    for (const Sampler sampler : samplers(device, work)) {
+      work = plain;
+      volume_of(work).options.sampler = sampler;
+      volume_of(work).options.skip = Skip::bricks;
+      volume_of(work).options.adapt = 0.01;
+      expect_the_whole(device, work, {4});
+      work = plain;
+      volume_of(work).options.sampler = sampler;
+      volume_of(work).options.precision = technique::Precision::fp64;
+      if (!device.unsupported(work)) expect_the_whole(device, work, {4});
+    }
+  });
+}
+
+TEST(Parts, AreWithinTheTruthsBound) {
+  on_every_device([](measure::Device& device) {
+    measure::Work work = work_of("mandelbulb", small_scene("surfaces"));
+    for (const Sampler sampler : samplers(device, work)) {
+      volume_of(work).options.sampler = sampler;
+      volume_of(work).options.budget = static_cast<std::uint64_t>(whole_bytes(volume_of(work)) / 3);
+      expect_within_bound(device, work);
+    }
+  });
+}
+
+// With both numbers, and what would help.
+TEST(Parts, ThatCannotBeAreRefused) {
+  on_every_device([](measure::Device& device) {
+    measure::Work work = work_of("mandelbulb", small_scene("surfaces"));
+    auto& options = volume_of(work).options;
+    options.sampler = samplers(device, work).front();
+    options.budget = 1000;
+    const std::string thin = device.unsupported(work).value_or("");
+    EXPECT_NE(thin.find("the budget is 1000; its thinnest part takes"), std::string::npos) << thin;
+    for (const std::string_view technique : {"raycast_fragment", "speed_of_light"}) {
+      work.technique = technique;
+      options.budget = 20'000;
+      EXPECT_TRUE(device.unsupported(work)) << technique;
+    }
+    work.technique = "raycast";
+    options.sampler = Sampler::hardware;
+    EXPECT_TRUE(device.unsupported(work));
+  });
+}
+
+}  // namespace
+}  // namespace triptych::contract
