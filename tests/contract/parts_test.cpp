@@ -187,6 +187,25 @@ TEST(Parts, AreWithinTheTruthsBound) {
   });
 }
 
+// Without a budget: deeper than many devices' images may be.
+TEST(Parts, OfWhatNoImageHoldsAreWithinTheTruthsBound) {
+  on_every_device([](measure::Device& device) {
+    scene::Volume volume{.size = {5, 4, 5000}, .type = scene::ScalarType::u8, .range_hi = 100};
+    for (int i = 0; i < 5 * 4 * 5000; ++i) volume.voxels.push_back(std::byte(i * 37 % 101));
+    measure::Work work = default_work(device, std::move(volume), small_scene("haze"));
+    auto& [scene, options] = volume_of(work);
+    options.sampler = Sampler::manual;
+    scene.camera = scene::looking({2, 1.5, 2600}, {2.5, 2, 2500}, 60);
+    const auto prepared = device.prepare(work);
+    for (const char* name : {"maxImageDimension3D", "GL_MAX_3D_TEXTURE_SIZE"}) {
+      const auto limit = device.info().limits.find(name);
+      if (limit == device.info().limits.end()) continue;
+      EXPECT_EQ(device.memory().contains("moved"), std::stoi(limit->second) < 5000) << name;
+    }
+    expect_within_bound(device, work);
+  });
+}
+
 // With both numbers, and what would help.
 TEST(Parts, ThatCannotBeAreRefused) {
   on_every_device([](measure::Device& device) {
