@@ -81,9 +81,9 @@ std::string cost_bars(const PlanData& plan) {
       {"device", "technique", "scene", "device code", "driver", "in all", ""}};
   for (const Change& each : changed) {
     rows.push_back({escape(each.finding->device), escape(each.record->technique),
-                    breakable(scene_title(plan, *each.record)), counts_of(*each.finding, "device_code"),
-                    counts_of(*each.finding, "driver"), percent(each.share),
-                    bar(each.share, std::abs(changed.front().share))});
+                    breakable(scene_title(plan, *each.record)),
+                    counts_of(*each.finding, "device_code"), counts_of(*each.finding, "driver"),
+                    percent(each.share), bar(each.share, std::abs(changed.front().share))});
   }
   return told + table(rows, "bars");
 }

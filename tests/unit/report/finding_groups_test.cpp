@@ -197,9 +197,10 @@ TEST(CommandOf, JudgesAgainWhatIsHeldAgainstBaselines) {
 
 TEST(CommandOf, MeasuresTimesAgainWhereTheyDecided) {
   const judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
-  EXPECT_EQ(command_of(finding(regression, "gl:x", "step=1", "slower", Check::timing), quick),
-            "triptych gate volume/quick --device gl:x --set step=1 --measure --check timing --store "
-            "repro.sqlite --times");
+  EXPECT_EQ(
+      command_of(finding(regression, "gl:x", "step=1", "slower", Check::timing), quick),
+      "triptych gate volume/quick --device gl:x --set step=1 --measure --check timing --store "
+      "repro.sqlite --times");
 }
 
 TEST(CommandOf, DrawsTheLineThroughAllDevicesAgain) {
