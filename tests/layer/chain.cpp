@@ -209,7 +209,7 @@ VkResult refuse(std::string_view what) {
 
 }  // namespace triptych::layer
 
-extern "C" VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL
+extern "C" VKAPI_ATTR VkResult VKAPI_CALL
 vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* version) {
   version->loaderLayerInterfaceVersion = CURRENT_LOADER_LAYER_INTERFACE_VERSION;
   version->pfnGetInstanceProcAddr = &triptych::layer::instance_command;
