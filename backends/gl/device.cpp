@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "backends/gl/volume_prepared.hpp"
 #include "core/error.hpp"
 #include "technique/particles/option_reason.hpp"
+#include "technique/volume/filter_bound.hpp"
 #include "technique/volume/packed_cells.hpp"
 
 namespace triptych::gl_backend {
@@ -100,7 +102,9 @@ class GlDevice final : public measure::Device {
 
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override {
     if (path.sampler != technique::Sampler::hardware) return 0;
-    return filter_error_.at(static_cast<std::size_t>(path.voxel));
+    // A wrong filter is no wide bound.
+    return std::min(filter_error_.at(static_cast<std::size_t>(path.voxel)),
+                    technique::allowed_filter_error(technique::least_weight_bits, path.voxel));
   }
 
   [[nodiscard]] std::optional<measure::Rasterizer> rasterizer() const override {

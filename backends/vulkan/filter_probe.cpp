@@ -11,6 +11,7 @@
 #include "backends/vulkan/pipeline.hpp"
 #include "backends/vulkan/volume_resources.hpp"
 #include "core/random.hpp"
+#include "technique/volume/filter_bound.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -142,10 +143,8 @@ std::optional<double> probe_filter(const Gpu& gpu, scene::VoxelFormat format) {
 }
 
 double allowed_filter_error(const Gpu& gpu, scene::VoxelFormat format) {
-  const auto bits = static_cast<int>(gpu.properties.limits.subTexelPrecisionBits);
-  constexpr std::array<int, 3> value_bits{8, 11, 24};  // by VoxelFormat
-  return 3 * (std::ldexp(1.0, -bits) +
-              std::ldexp(1.0, -value_bits.at(static_cast<std::size_t>(format))));
+  return technique::allowed_filter_error(
+      static_cast<int>(gpu.properties.limits.subTexelPrecisionBits), format);
 }
 
 }  // namespace triptych::vulkan_backend
