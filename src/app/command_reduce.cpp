@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -13,7 +15,9 @@
 #include "app/truth.hpp"
 #include "core/json_text.hpp"
 #include "measure/run/single_frames.hpp"
+#include "measure/system/stopwatch.hpp"
 #include "record/factor_list.hpp"
+#include "record/hung.hpp"
 #include "reduction/reduce.hpp"
 #include "report/bug_report.hpp"
 #include "report/command.hpp"
@@ -27,7 +31,7 @@ namespace fs = std::filesystem;
 struct ReduceArguments {
   FrameArguments frame;
   std::string against;
-  int limit_s = 20;
+  int limit_s = 0;  // 0: as the first frame asks for
   int frames = 500;
   bool truth = true;  // render has it; here it is always so
 };
@@ -140,6 +144,21 @@ report::BugReport report_of(const OneFrame& frame, const reduction::Reduction& r
   return report;
 }
 
+// A hang costs its limit with every frame, so it is short. But a driver may take longer to end, and
+// what crashed would be called a hang: the first frame has as much time as in a run.
+std::chrono::seconds limit_of(const OneFrame& frame, measure::RunOptions options,
+                              record::Store& store) {
+  constexpr std::chrono::seconds least{20};
+  constexpr int times_as_long = 3;
+  options.limit = record::standard_limit;
+  measure::InterruptGuard interrupts;
+  measure::SingleFrames frames(frame.suite, frame.device, store, options, interrupts);
+  const measure::Stopwatch taken;
+  const record::Record first = frames.draw(frame.plan.configurations.front());
+  if (first.outcome == record::Outcome::hung) return least;
+  return std::max(least, std::chrono::ceil<std::chrono::seconds>(times_as_long * taken.elapsed()));
+}
+
 // The first frame, drawn twice: what fails once of two times cannot be made smaller.
 std::optional<reduction::Failure> first_failure(const measure::Configuration& start, Trial& trial) {
   std::optional<reduction::Failure> first = trial(start);
@@ -161,7 +180,9 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   const std::string other = arguments.against.empty()
                                 ? std::string()
                                 : choose_device(registry, "--against", arguments.against);
-  Trial trial(registry, frame, options_of(arguments), other, store);
+  measure::RunOptions options = options_of(arguments);
+  if (arguments.limit_s == 0) options.limit = limit_of(frame, options, store);
+  Trial trial(registry, frame, options, other, store);
   const measure::Configuration& start = frame.plan.configurations.front();
   const std::optional<reduction::Failure> first = first_failure(start, trial);
   if (!first) {
@@ -200,7 +221,11 @@ void add_reduce_command(Commands& commands) {
   command->add_option("--out", arguments->frame.out, "Folder to write into")->capture_default_str();
   command->add_option("--against", arguments->against,
                       "A device whose counters are right: others are a failure too");
-  add_limit_option(*command, arguments->limit_s, "a frame");
+  command
+      ->add_option("--limit", arguments->limit_s,
+                   "Seconds after which a frame counts as hung (default: 20, or three times what "
+                   "the first takes)")
+      ->check(CLI::Range(1, 86400));
   command->add_option("--frames", arguments->frames, "Draw at most so many")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
