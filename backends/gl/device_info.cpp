@@ -13,12 +13,18 @@
 namespace triptych::gl_backend {
 namespace {
 
-// Mesa's variables that choose the driver or change the code it generates.
-constexpr std::array<std::string_view, 10> code_variables{
-    "GALLIUM_DRIVER",   "GALLIUM_OVERRIDE_CPU_CAPS", "GALLIVM_DEBUG",
-    "GALLIVM_PERF",     "LIBGL_ALWAYS_SOFTWARE",     "LP_NATIVE_VECTOR_WIDTH",
-    "LP_NUM_THREADS",   "MESA_GL_VERSION_OVERRIDE",  "MESA_LOADER_DRIVER_OVERRIDE",
-    "TRIPTYCH_GL_DEBUG"};
+// Mesa's variables that choose the driver, change the code it generates or what it can do.
+constexpr std::array<std::string_view, 11> code_variables{"GALLIUM_DRIVER",
+                                                          "GALLIUM_OVERRIDE_CPU_CAPS",
+                                                          "GALLIVM_DEBUG",
+                                                          "GALLIVM_PERF",
+                                                          "LIBGL_ALWAYS_SOFTWARE",
+                                                          "LP_NATIVE_VECTOR_WIDTH",
+                                                          "LP_NUM_THREADS",
+                                                          "MESA_EXTENSION_OVERRIDE",
+                                                          "MESA_GL_VERSION_OVERRIDE",
+                                                          "MESA_LOADER_DRIVER_OVERRIDE",
+                                                          "TRIPTYCH_GL_DEBUG"};
 
 // A short name by what the vendor and renderer strings contain; else the renderer's first word.
 std::string driver_name(const std::string& vendor, const std::string& renderer) {

@@ -70,9 +70,13 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   return view;
 }
 
-// A configuration that this device has measured before is missed when it is skipped.
+// A configuration that this device has measured before is missed when it is skipped. With a setting
+// that overrides what the driver can do (MESA_GL_VERSION_OVERRIDE) it is another device.
 bool measured_before(const RunView& view, const record::Record& record) {
-  return view.baselines.present() &&
+  const bool overridden = std::ranges::any_of(
+      view.device(record).environment,
+      [](const auto& setting) { return setting.first.find("OVERRIDE") != std::string::npos; });
+  return !overridden && view.baselines.present() &&
          view.baselines.was_measured(record.device, record.configuration);
 }
 

@@ -86,6 +86,7 @@ void JudgeTest::add_run(const std::string& run, const Tweak& tweak) {
   store_.add_run({run, plan, "2026-02-01T00:00:00Z", {}, checks_, plan_hash_});
   for (record::Device device : devices()) {
     device.statistics_calibration = calibrations_[device.id];
+    device.environment.insert(settings_.begin(), settings_.end());
     if (driver_versions_.contains(device.id)) device.driver_version = driver_versions_[device.id];
     store_.add_device(run, device, {});
     for (const std::string& scene : {front_, std::string("camera=side,data=ball")}) {

@@ -66,6 +66,7 @@ class JudgeTest : public testing::Test {
   std::string plan_hash_;
   // Of the devices of runs to come, by id.
   std::map<std::string, std::string> driver_versions_;
+  std::map<std::string, std::string> settings_;  // of all of them
   std::map<std::string, std::map<std::string, std::string>> calibrations_;
 
  private:

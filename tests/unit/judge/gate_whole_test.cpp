@@ -185,6 +185,12 @@ TEST_F(GateTest, SkippedIsSkippedUnlessTheSameDeviceDidItBefore) {
   add_run("whole");
   (void)accept_run("whole");
   EXPECT_EQ(gate("a").exit_code(), ExitCode::cannot_judge);
+  settings_ = {{"LP_NUM_THREADS", "1"}};
+  add_run("threads", skip);
+  EXPECT_EQ(gate("threads").exit_code(), ExitCode::cannot_judge);
+  settings_ = {{"MESA_GL_VERSION_OVERRIDE", "3.3"}};
+  add_run("less", skip);
+  EXPECT_EQ(gate("less").exit_code(), ExitCode::pass) << text(gate("less"));
 }
 
 TEST_F(GateTest, InjectedFaultIsNamed) {
