@@ -4,6 +4,7 @@
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan_core.h>
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 
