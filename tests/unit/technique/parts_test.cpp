@@ -128,10 +128,11 @@ TEST(Parts, AreReadWhereABrickNearThemIsVisible) {
     for (const PartPass& pass : part_passes(parts, scene, {.skip = skip}, map)) {
       EXPECT_EQ(pass.parameters.first_held, pass.part.first_held);
       read += pass.read ? 1 : 0;
-      if (pass.part.begin <= 71 && pass.part.end > 70) EXPECT_TRUE(pass.read);
+      const bool has_slice_70 = pass.part.begin <= 71 && pass.part.end > 70;
+      EXPECT_TRUE(pass.read || !has_slice_70);
     }
     EXPECT_LE(read, skip == Skip::none ? 10 : 3) << name_of(skip);
-    if (skip == Skip::none) EXPECT_EQ(read, static_cast<int>(parts.size()));
+    EXPECT_TRUE(skip != Skip::none || read == static_cast<int>(parts.size()));
   }
 }
 
