@@ -227,8 +227,10 @@ TEST(ParticleFiles, AreFoundByNameFolderAndFrame) {
   EXPECT_EQ(load_particles("b@1.xyz", ColourKind::rgba8, {folder.path()}).count(), 3U);
   EXPECT_EQ(load_particles("a.xyz@0", ColourKind::rgba8, {folder.path()}).name, "a.xyz@0");
   EXPECT_EQ(load_particles("generate:uniform:10", ColourKind::rgba8).count(), 10U);
-  EXPECT_THROW(load_particles("c.xyz", ColourKind::rgba8, {folder.path()}), core::IoError);
-  EXPECT_THROW(load_particles("a.xyz@b", ColourKind::rgba8, {folder.path()}), core::InputError);
+  EXPECT_THROW(static_cast<void>(load_particles("c.xyz", ColourKind::rgba8, {folder.path()})),
+               core::IoError);
+  EXPECT_THROW(static_cast<void>(load_particles("a.xyz@b", ColourKind::rgba8, {folder.path()})),
+               core::InputError);
 }
 
 TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
@@ -245,7 +247,8 @@ TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
   expect_refused("a.abc", xyz, ": ", "'.abc' is no known kind of particles; expected .pdb");
   EXPECT_THAT([] { static_cast<void>(load_particles("generate:uniform", ColourKind::rgba8)); },
               ThrowsMessage<core::InputError>(HasSubstr("expected generate:NAME:COUNT")));
-  EXPECT_THROW(load_particles("generate:uniform:1e3", ColourKind::rgba8), core::InputError);
+  EXPECT_THROW(static_cast<void>(load_particles("generate:uniform:1e3", ColourKind::rgba8)),
+               core::InputError);
 }
 
 TEST(ParticleFiles, UnpackNoMoreThanIsAllowed) {

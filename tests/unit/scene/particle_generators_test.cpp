@@ -187,7 +187,8 @@ TEST(ParticleGenerators, RefuseWhatTheyDoNotKnow) {
                   AllOf(HasSubstr("'unifrom'"), HasSubstr("uniform, droplets, layer"))));
   EXPECT_THAT([] { static_cast<void>(generate_particles("uniform", 0, ColourKind::rgba8)); },
               ThrowsMessage<core::InputError>(HasSubstr("expected a count from 1 to 20000000")));
-  EXPECT_THROW(generate_particles("uniform", 20'000'001, ColourKind::rgba8), core::InputError);
+  EXPECT_THROW(static_cast<void>(generate_particles("uniform", 20'000'001, ColourKind::rgba8)),
+               core::InputError);
 }
 
 TEST(ParticleHash, SeesEveryArray) {

@@ -102,9 +102,9 @@ void expect_facts(const std::string& name, const Facts& facts,
   EXPECT_EQ(std::set<std::uint32_t>(set.rgba8.begin(), set.rgba8.end()).size(), facts.kinds);
   const std::string last = name + "@" + std::to_string(facts.frames - 1);
   EXPECT_EQ(load_particles(last, ColourKind::intensity, folders).count(), facts.count);
-  EXPECT_THROW(
-      load_particles(name + "@" + std::to_string(facts.frames), ColourKind::rgba8, folders),
-      core::InputError);
+  EXPECT_THROW(static_cast<void>(load_particles(name + "@" + std::to_string(facts.frames),
+                                                ColourKind::rgba8, folders)),
+               core::InputError);
 }
 
 TEST(RealData, EveryParticleFileLoadsAsDescribed) {
