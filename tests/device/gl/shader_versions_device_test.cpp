@@ -106,16 +106,25 @@ void replace_first(std::string& text, std::string_view what, std::string_view wi
   if (const auto at = text.find(what); at != std::string::npos) text.replace(at, what.size(), with);
 }
 
-// Why the reference compiler refuses a shader; empty where it does not. It knows storage blocks,
-// compute shaders and `precise` from GLSL 4.30 on only, not by the extensions that bring them to
-// 3.30, and gl_BaseInstanceARB from 4.50 on.
-std::string refusal(const std::string& suffix, std::string text) {
+// What the reference compiler is given of a shader. It knows storage blocks, compute shaders and
+// `precise` from GLSL 4.30 on only, not by the extensions that bring them to 3.30, and
+// gl_BaseInstanceARB from 4.50 on.
+std::string as_it_knows_it(std::string text) {
   replace_first(text, "#version 330", "#version 430");
   if (text.starts_with("#version 430")) replace_first(text, "gl_BaseInstanceARB", "0");
+  return text;
+}
+
+// Why the reference compiler refuses one of the shaders; empty where it does not. All in one go, as
+// starting it takes longer than compiling.
+std::string refusal(const Sources& sources) {
   const test::TemporaryFolder folder;
-  const auto file = folder.write("shader." + suffix, text);
-  const test::Result result =
-      test::run_command(fmt::format("{} '{}'", TRIPTYCH_GLSLANG, file.string()));
+  std::string command = TRIPTYCH_GLSLANG;
+  for (const auto& [suffix, text] : sources) {
+    const std::string name = fmt::format("{}.{}", command.size(), suffix);
+    command += fmt::format(" '{}'", folder.write(name, as_it_knows_it(text)).string());
+  }
+  const test::Result result = test::run_command(command);
   return result.code == 0 ? std::string() : result.output;
 }
 
@@ -125,7 +134,8 @@ TEST(GlShaderVersions, EveryShaderIsInTheVersionItNames) {
   for (const Candidate& candidate : egl_candidates()) {
     const Sources sources = sources_of(candidate, works);
     EXPECT_GT(sources.size(), 20U) << candidate.what;
-    for (const auto& [suffix, text] : sources) EXPECT_EQ(refusal(suffix, text), "") << text;
+    if (refusal(sources).empty()) continue;
+    for (const auto& source : sources) EXPECT_EQ(refusal({source}), "") << source.second;
   }
 }
 
