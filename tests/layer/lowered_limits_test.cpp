@@ -126,7 +126,8 @@ TEST_F(LoweredLimits, WithoutClockTimesAreOfTheWall) {
 TEST_F(LoweredLimits, UseBeyondALimitIsRefused) {
   EXPECT_THAT(layered.draw("noSuchLimit", volume).output, HasSubstr("no device matches vulkan:*"));
   const std::string unasked = layered.draw("maxImageDimension1D=128", volume).output;
-  EXPECT_THAT(unasked, HasSubstr("vkCreateImage returned ErrorUnknown"));
+  // vkCreateImage, or Device::createImage where Vulkan-Hpp is newer.
+  EXPECT_THAT(unasked, HasSubstr("reateImage returned ErrorUnknown"));
   EXPECT_THAT(layered.draw("maxPerStageResources=12", particles).output,
               HasSubstr("technique=tiles,viewport=64: failed: "));
 }
