@@ -14,6 +14,20 @@ uint count_bricks_visited = 0u;
 uint count_bricks_skipped = 0u;
 uint count_terminated = 0u;
 
+#if TRI_COUNT
+// technique::raycast_counters of the pixel. `saved`: samples of the lattice that were not taken.
+void store_counts(ivec2 pixel, bool hit, uint saved) {
+  int at = 8 * (pixel.y * u.viewport.x + pixel.x);
+  counters[at] = hit ? 1u : 0u;
+  counters[at + 1] = count_samples;
+  counters[at + 2] = count_nonzero;
+  counters[at + 3] = count_bricks_visited;
+  counters[at + 4] = count_bricks_skipped;
+  counters[at + 5] = count_terminated;
+  counters[at + 6] = saved;
+}
+#endif
+
 // What every sample needs of the parameters, loaded once per ray: a uniform named inside the loop is
 // loaded again for every sample by compilers that do not move loads out of loops.
 struct Grid {

@@ -173,14 +173,7 @@ vec4 raycast(ivec2 pixel) {
   }
 #if TRI_COUNT
   int total = tri_sample_count(ray.steps);
-  int at = 8 * (pixel.y * u.viewport.x + pixel.x);
-  counters[at] = total > 0 ? 1u : 0u;
-  counters[at + 1] = count_samples;
-  counters[at + 2] = count_nonzero;
-  counters[at + 3] = count_bricks_visited;
-  counters[at + 4] = count_bricks_skipped;
-  counters[at + 5] = count_terminated;
-  counters[at + 6] = uint(total) - count_samples;
+  store_counts(pixel, total > 0, uint(total) - count_samples);
 #endif
   return vec4(real4(m.light.colour, 1.0 - m.light.transmittance) + m.light.transmittance * u.background);
 }

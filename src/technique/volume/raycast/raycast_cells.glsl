@@ -283,14 +283,7 @@ vec4 raycast(ivec2 pixel) {
 #endif
   if (TRI_COUNT == 1 && light.transmittance < enough) count_terminated = 1u;
 #if TRI_COUNT
-  int at = 8 * (pixel.y * u.viewport.x + pixel.x);
-  counters[at] = ray.steps > 0.0 ? 1u : 0u;
-  counters[at + 1] = count_samples;
-  counters[at + 2] = count_nonzero;
-  counters[at + 3] = count_bricks_visited;
-  counters[at + 4] = count_bricks_skipped;
-  counters[at + 5] = count_terminated;
-  counters[at + 6] = 0u;
+  store_counts(pixel, ray.steps > 0.0, 0u);
 #endif
   return vec4(light.colour, 1.0 - light.transmittance) + light.transmittance * u.background;
 }
