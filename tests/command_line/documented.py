@@ -24,7 +24,7 @@ ELSEWHERE = {
     "ci/gate": "ci_test and CI", "ci/test": "CI", "ci/build": "ci_test", "ci/setup": "CI", "ci/lint": "CI",
     "ci/fresh": "needs root and a network", "ci/arm64": "needs root and a network",
     "ci/drivers/fetch": "needs a network", "ci/bench": "takes hours", "ci/cluster/submit": "cluster tests",
-    "ci/dashboard": "command_line.dashboard", "ci/publish": "analysis.publish", "analysis/analyze": "analysis.end_to_end",
+    "ci/dashboard": "command_line.dashboard", "ci/ratios": "command_line.ratios", "ci/publish": "analysis.publish", "analysis/analyze": "analysis.end_to_end",
     "apt-get": "examples_test",
     "ctest": "CI", "cmake": "CI", "git": "the program in it is run", "cat": "", "exit": "", "export": "",
 }

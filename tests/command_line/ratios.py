@@ -1,0 +1,62 @@
+"""ci/ratios tells the ratio that a scripted device has, of the best of each side, and says what it cannot tell."""
+
+import importlib.machinery
+import importlib.util
+import json
+import os
+import pathlib
+import subprocess
+import unittest
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "ci/ratios"
+
+
+def run(*arguments, factors, **environment):
+    environment = {**os.environ, "TRIPTYCH_DATA": "",
+                   "TRIPTYCH_NULL_SCRIPT": json.dumps({"base_ns": 1e5, "ns_per_sample": 0, "factors": factors})} | environment
+    return subprocess.run([SCRIPT, "--no-cost", "--device", "null:*", *arguments],
+                          env=environment, capture_output=True, text=True)
+
+
+def loaded():
+    loader = importlib.machinery.SourceFileLoader("ratios", str(SCRIPT))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("ratios", loader))
+    loader.exec_module(module)
+    return module
+
+
+class Ratios(unittest.TestCase):
+    def test_the_new_side_over_the_best_old_one(self):
+        done = run("tiles*, 10 spheres", "--rounds", "2", factors={"*tiles*": 3, "*point*": 6, "*quad*": 12})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("| new over old | `null:scripted` |\n|---|---|\n| tiles over sprites, 10 spheres | 0.50 (0.50–0.50) · – · ", done.stdout)
+
+    def test_data_that_are_not_there_are_told(self):
+        done = run("skip distance over bricks*", factors={})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr.count("no ct_bonsai_256x256x256_u8.nrrd below TRIPTYCH_DATA, left out"), 2)
+
+    def test_a_name_that_is_none(self):
+        done = run("tiels", factors={})
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no ratio is named so; there are: cells", done.stderr)
+
+    def test_only_what_keeps_the_error_stands_for_a_side(self):
+        module = loaded()
+        ratio = module.Ratio("r", {"suite": "volume", "data": "a:b"}, {"step": [1, 0.5]}, {"step": 2}, ("rmse", 0.1))
+        records = [{"device": "d", "factor_step": step, "time": time, "error": {"rmse": error}}
+                   for step, time, error in (("1", 1, 0.2), ("0.5", 4, 0.1), ("2", 3, 0.1))]
+        self.assertEqual(module.chosen_sides(ratio, records, ["d"]), [[{"step": "0.5"}], [{"step": "2"}]])
+        records[1]["error"] = {"rmse": 0.11}
+        self.assertEqual(module.chosen_sides(ratio, records, ["d"])[0], [])
+
+    def test_a_device_against_another(self):
+        module = loaded()
+        ratio = module.Ratio("r", {"suite": "volume", "data": "a:b"}, "opencl:pocl", None)
+        records = [{"device": device, "time": time} for device, time in (("opencl:pocl", 2.0), ("gl:x", 3.0))]
+        self.assertEqual(module.quotient(ratio, records, "gl:x", "time"), 1.5)
+        self.assertIsNone(module.quotient(ratio, records[1:], "gl:x", "time"))
+
+
+if __name__ == "__main__":
+    unittest.main()
