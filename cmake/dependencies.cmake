@@ -1,6 +1,5 @@
 # Every part that is not ours. All of it is in Debian 12 and 13; ci/packages.txt lists the packages.
 find_package(Threads REQUIRED)
-find_package(PkgConfig REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(glm REQUIRED)
@@ -13,4 +12,11 @@ find_package(CLI11 REQUIRED)
 # By Boost's own package file: CMake's FindBoost is gone from 3.30 on. Headers only.
 find_package(Boost 1.74 REQUIRED CONFIG)
 # Not by find_package: Debian's Imath package file asks for its Python binding as well.
-pkg_check_modules(openexr REQUIRED IMPORTED_TARGET OpenEXR)
+find_path(OPENEXR_HEADERS ImfHeader.h PATH_SUFFIXES OpenEXR REQUIRED)
+find_path(IMATH_HEADERS half.h PATH_SUFFIXES Imath REQUIRED)
+find_library(OPENEXR_LIBRARY OpenEXR REQUIRED)
+find_library(IEX_LIBRARY Iex REQUIRED)
+find_library(IMATH_LIBRARY Imath REQUIRED)
+add_library(openexr INTERFACE IMPORTED)
+target_include_directories(openexr INTERFACE ${OPENEXR_HEADERS} ${IMATH_HEADERS})
+target_link_libraries(openexr INTERFACE ${OPENEXR_LIBRARY} ${IEX_LIBRARY} ${IMATH_LIBRARY})

@@ -25,6 +25,8 @@ set(depends libegl1 libvulkan1 "pocl-opencl-icd | opencl-icd" "mesa-vulkan-drive
     "libegl-mesa0 | libegl-vendor" libgl1-mesa-dri)
 # The counting tool holds this Valgrind's own code, and asks the installed one for its version.
 if(TARGET triptych_counter)
+  execute_process(COMMAND valgrind --version OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCH "[0-9]+\\.[0-9]+" VALGRIND_VERSION "${printed}")
   list(APPEND depends "valgrind (>= 1:${VALGRIND_VERSION})" "valgrind (<< 1:${VALGRIND_VERSION}.99)")
 endif()
 # Gone from Mesa 25.1 on.
