@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "backends/gl/volume_data.hpp"
-#include "core/image.hpp"
+#include "technique/particles/particle_counts.hpp"
 #include "technique/particles/particle_parameters.hpp"
 
 namespace triptych::gl_backend {
@@ -18,9 +18,6 @@ constexpr GLuint binding_counters = 2;
 constexpr GLuint binding_spheres = 3;
 constexpr GLuint binding_colours = 4;
 constexpr GLuint binding_ids = 5;
-
-constexpr std::size_t counter_rows = 1024;
-constexpr std::size_t counters_per_row = 8;
 
 // Writes the bytes of a buffer that begin at `begin`.
 using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
@@ -125,48 +122,22 @@ void ParticleData::bind(const Api& gl) const {
 }
 
 ParticleCounters::ParticleCounters(const Api& gl)
-    : rows_(device_buffer(gl, sizeof(GLuint) * counter_rows * counters_per_row)) {}
+    : rows_(device_buffer(gl, technique::particle_counter_bytes)) {}
 
 void ParticleCounters::start(const Api& gl) const {
-  const std::vector<GLuint> zeros(counter_rows * counters_per_row);
+  const std::vector<std::byte> zeros(technique::particle_counter_bytes);
   gl.BindBuffer(GL_COPY_WRITE_BUFFER, rows_.get());
-  gl.BufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(zeros.size() * sizeof(GLuint)),
-                   zeros.data());
+  gl.BufferSubData(GL_COPY_WRITE_BUFFER, 0, technique::particle_counter_bytes, zeros.data());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_counters, rows_.get());
 }
 
-std::vector<std::uint64_t> ParticleCounters::sums(const Api& gl) const {
-  std::vector<GLuint> values(counter_rows * counters_per_row);
+std::vector<std::uint32_t> ParticleCounters::read(const Api& gl) const {
+  std::vector<std::uint32_t> rows(technique::particle_counter_bytes / sizeof(std::uint32_t));
   gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   gl.BindBuffer(GL_COPY_READ_BUFFER, rows_.get());
-  gl.GetBufferSubData(GL_COPY_READ_BUFFER, 0,
-                      static_cast<GLsizeiptr>(values.size() * sizeof(GLuint)), values.data());
+  gl.GetBufferSubData(GL_COPY_READ_BUFFER, 0, technique::particle_counter_bytes, rows.data());
   gl.check("glGetBufferSubData");
-  std::vector<std::uint64_t> sums(counters_per_row);
-  for (std::size_t i = 0; i < values.size(); ++i) sums[i % counters_per_row] += values[i];
-  return sums;
-}
-
-record::Counts common_counts(const technique::ParticleOptions& options, std::uint64_t cells,
-                             std::uint64_t particles, const std::vector<std::uint64_t>& sums,
-                             std::span<const std::uint32_t> ids) {
-  const auto sum = [&](Counted which) { return sums[static_cast<std::size_t>(which)]; };
-  const bool all = options.culling == technique::Culling::none;
-  const std::uint64_t submitted = all ? particles : sum(Counted::submitted);
-  std::vector<std::uint32_t> visible(ids.begin(), ids.end());
-  std::ranges::sort(visible);
-  visible.erase(std::ranges::unique(visible).begin(), visible.end());
-  const bool gap = !visible.empty() && visible.back() == core::Image::no_particle;
-  return {{"cells", cells},
-          {"cells_culled", all ? 0 : sum(Counted::cells_culled)},
-          {"particles_submitted", submitted},
-          {"particles_culled", particles - submitted},
-          {"sprites", sum(Counted::sprites)},
-          {"vertices", sum(Counted::vertices)},
-          {"fragments", sum(Counted::fragments)},
-          {"fragments_discarded", sum(Counted::discarded)},
-          {"fragments_kept", sum(Counted::fragments) - sum(Counted::discarded)},
-          {"visible_ids", visible.size() - (gap ? 1 : 0)}};
+  return rows;
 }
 
 }  // namespace triptych::gl_backend

@@ -1,5 +1,5 @@
 #pragma once
-#include <span>
+#include <cstdint>
 #include <vector>
 
 #include "backends/gl/objects.hpp"
@@ -45,29 +45,11 @@ class ParticleCounters {
   explicit ParticleCounters(const Api& gl);
   // Sets all to zero and makes them binding 2.
   void start(const Api& gl) const;
-  // Sums by TRI_COUNT_… number; the device has finished counting.
-  [[nodiscard]] std::vector<std::uint64_t> sums(const Api& gl) const;
+  // All rows; the device has finished counting.
+  [[nodiscard]] std::vector<std::uint32_t> read(const Api& gl) const;
 
  private:
   Buffer rows_;
 };
-
-// The numbers of the counters in parameters.glsl.
-enum class Counted : std::uint8_t {
-  sprites,
-  vertices,
-  fragments,
-  discarded,
-  bin_entries,
-  submitted,
-  cells_culled
-};
-
-// Those of technique::particle_counters that every technique tells, and visible_ids; `sums` as
-// from ParticleCounters.
-[[nodiscard]] record::Counts common_counts(const technique::ParticleOptions& options,
-                                           std::uint64_t cells, std::uint64_t particles,
-                                           const std::vector<std::uint64_t>& sums,
-                                           std::span<const std::uint32_t> ids);
 
 }  // namespace triptych::gl_backend

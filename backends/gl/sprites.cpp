@@ -11,6 +11,7 @@
 #include "backends/gl/particle_data.hpp"
 #include "backends/gl/particle_target.hpp"
 #include "technique/particles/arrangement.hpp"
+#include "technique/particles/particle_counts.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -132,8 +133,9 @@ class SpriteDrawing final : public Drawing {
   }
 
   [[nodiscard]] record::Counts counters(const Api& gl) const override {
-    return common_counts(options_, cells_, particles_, counting_->counters.sums(gl),
-                         target_.read(gl, near_).ids);
+    return technique::particle_counts(
+        {.culling = options_.culling, .cells = cells_, .particles = particles_},
+        counting_->counters.read(gl), read(gl));
   }
   [[nodiscard]] core::Image read(const Api& gl) const override { return target_.read(gl, near_); }
   [[nodiscard]] std::string kernel_hash() const override { return kernel_hash_; }

@@ -12,6 +12,7 @@
 #include "backends/gl/prepared.hpp"
 #include "backends/gl/techniques.hpp"
 #include "backends/gl/tile_buffers.hpp"
+#include "technique/particles/particle_counts.hpp"
 #include "technique/particles/tile_rounds.hpp"
 
 namespace triptych::gl_backend {
@@ -119,15 +120,11 @@ class TilesDrawing final : public Drawing {
   }
 
   [[nodiscard]] record::Counts counters(const Api& gl) const override {
-    const std::vector<std::uint64_t> sums = counting_->counters.sums(gl);
-    record::Counts counts =
-        common_counts(options_, cells_, particles_, sums, target_.read(gl, near_).ids);
-    // Fragments are what a rasterizer makes.
-    for (const char* name : {"fragments", "fragments_discarded", "fragments_kept"}) {
-      counts.erase(name);
-    }
-    counts.emplace("bin_entries", sums[static_cast<std::size_t>(Counted::bin_entries)]);
-    return counts;
+    return technique::particle_counts({.work = technique::Work::compute,
+                                       .culling = options_.culling,
+                                       .cells = cells_,
+                                       .particles = particles_},
+                                      counting_->counters.read(gl), read(gl));
   }
   [[nodiscard]] core::Image read(const Api& gl) const override { return target_.read(gl, near_); }
   [[nodiscard]] std::string kernel_hash() const override { return kernel_hash_; }

@@ -3,7 +3,8 @@
 #include <array>
 #include <chrono>
 #include <limits>
-#include <unordered_set>
+
+#include "technique/particles/particle_counts.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
@@ -90,10 +91,7 @@ record::Counts ParticleFrames::read_counters() {
   counts["cells"] = stages_.data().cell_count;
   counts["particles_culled"] = stages_.data().count - counts["particles_submitted"];
   counts["fragments_kept"] = counts["fragments"] - counts["fragments_discarded"];
-  const core::Image picture = image();
-  std::unordered_set<std::uint32_t> ids(picture.ids.begin(), picture.ids.end());
-  ids.erase(core::Image::no_particle);
-  counts["visible_ids"] = ids.size();
+  counts["visible_ids"] = technique::visible_ids(image());
   return counts;
 }
 

@@ -5,16 +5,13 @@
 #include <span>
 
 #include "technique/particles/margins.hpp"
+#include "technique/particles/particle_counts.hpp"
 #include "technique/particles/particle_parameters.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
 
 using enum vk::BufferUsageFlagBits;
-
-// parameters.glsl: rows of counters, and counters in a row.
-constexpr std::size_t counter_rows = 1024;
-constexpr std::size_t counter_columns = 8;
 
 Buffer upload_parameters(const Gpu& gpu, const measure::ParticleWork& work,
                          const technique::Arrangement& arrangement) {
@@ -111,7 +108,7 @@ ParticleData::ParticleData(const Gpu& gpu, const measure::ParticleWork& work,
       parameters_(upload_parameters(gpu, work, arrangement)),
       transfer_(make_buffer(gpu, std::as_bytes(std::span(work.scene.intensity_colours.entries)),
                             eUniformBuffer)),
-      counters_(gpu, counter_rows * counter_columns * sizeof(std::uint32_t),
+      counters_(gpu, technique::particle_counter_bytes,
                 eStorageBuffer | eTransferSrc | eTransferDst, Place::device),
       spheres_(upload_property(gpu, arrangement, technique::Property::sphere)),
       colours_(upload_property(gpu, arrangement, technique::Property::colour)),
@@ -144,24 +141,12 @@ void ParticleData::clear_counters(const vk::raii::CommandBuffer& commands) const
   barrier(commands);
 }
 
-std::uint64_t ParticleData::counter(ParticleCounter which) const {
-  std::vector<std::uint32_t> values(counter_rows * counter_columns);
-  download(gpu_, counters_, std::as_writable_bytes(std::span(values)));
-  std::uint64_t sum = 0;
-  for (std::size_t row = 0; row < counter_rows; ++row) {
-    sum += values[row * counter_columns + static_cast<std::size_t>(which)];
-  }
-  return sum;
-}
-
-record::Counts ParticleData::common_counts(technique::Culling culling) const {
-  const bool culls = culling != technique::Culling::none;
-  const std::uint64_t submitted = culls ? counter(ParticleCounter::submitted) : particles_;
-  return {{"cells", cells_},
-          {"cells_culled", culls ? counter(ParticleCounter::cells_culled) : 0},
-          {"particles_submitted", submitted},
-          {"particles_culled", particles_ - submitted},
-          {"sprites", counter(ParticleCounter::sprites)}};
+record::Counts ParticleData::counts(technique::Work work, technique::Culling culling,
+                                    const core::Image& picture) const {
+  std::vector<std::uint32_t> sums(technique::particle_counter_bytes / sizeof(std::uint32_t));
+  download(gpu_, counters_, std::as_writable_bytes(std::span(sums)));
+  return technique::particle_counts(
+      {.work = work, .culling = culling, .cells = cells_, .particles = particles_}, sums, picture);
 }
 
 }  // namespace triptych::vulkan_backend

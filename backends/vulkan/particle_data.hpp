@@ -8,6 +8,7 @@
 #include "backends/vulkan/memory.hpp"
 #include "backends/vulkan/pipeline.hpp"
 #include "measure/contract/backend.hpp"
+#include "technique/catalogue.hpp"
 #include "technique/particles/arrangement.hpp"
 
 namespace triptych::vulkan_backend {
@@ -46,17 +47,6 @@ struct ParticleConstants {
 [[nodiscard]] vk::Format colour_format(scene::ColourKind kind);
 [[nodiscard]] std::uint32_t colour_bytes(scene::ColourKind kind);
 
-// Numbers of the counters, as in parameters.glsl.
-enum class ParticleCounter : std::uint8_t {
-  sprites,
-  vertices,
-  fragments,
-  discarded,
-  bin_entries,
-  submitted,
-  cells_culled
-};
-
 // How shaders get at particles: as attributes of vertices, or in storage buffers.
 enum class Fetch : std::uint8_t { attributes, by_index };
 
@@ -80,9 +70,9 @@ class ParticleData {
   void look_from(const measure::ParticleWork& work) const;
 
   void clear_counters(const vk::raii::CommandBuffer& commands) const;
-  [[nodiscard]] std::uint64_t counter(ParticleCounter which) const;
-  // What every technique tells: cells, particles, sprites. Without culling all are submitted.
-  [[nodiscard]] record::Counts common_counts(technique::Culling culling) const;
+  // What a counting frame told; the device has finished it.
+  [[nodiscard]] record::Counts counts(technique::Work work, technique::Culling culling,
+                                      const core::Image& picture) const;
 
  private:
   const Gpu& gpu_;

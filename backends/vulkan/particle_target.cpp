@@ -1,6 +1,5 @@
 #include "backends/vulkan/particle_target.hpp"
 
-#include <algorithm>
 #include <array>
 #include <limits>
 #include <span>
@@ -85,14 +84,6 @@ void resolve_depth(core::Image& image, double near) {
     image.depth[i] = none ? std::numeric_limits<float>::infinity()
                           : static_cast<float>(near / static_cast<double>(image.depth[i]));
   }
-}
-
-std::uint64_t visible_ids(const core::Image& image) {
-  std::vector<std::uint32_t> ids = image.ids;
-  std::ranges::sort(ids);
-  const auto repeated = std::ranges::unique(ids);
-  ids.erase(repeated.begin(), repeated.end());
-  return ids.size() - (!ids.empty() && ids.back() == core::Image::no_particle ? 1 : 0);
 }
 
 ParticleTarget::ParticleTarget(const Gpu& gpu, const scene::ParticleScene& scene,

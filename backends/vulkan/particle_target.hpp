@@ -16,9 +16,6 @@ namespace triptych::vulkan_backend {
 // Depth as it was drawn, near/Z, to distance along the view axis; +inf where there is no particle.
 void resolve_depth(core::Image& image, double near);
 
-// How many different particles the picture shows.
-[[nodiscard]] std::uint64_t visible_ids(const core::Image& image);
-
 // What sprites are drawn into: colour, ids and reversed depth.
 class ParticleTarget {
  public:

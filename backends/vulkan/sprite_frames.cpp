@@ -192,17 +192,6 @@ void SpriteFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
   }
 }
 
-record::Counts SpriteFrames::read_counts() const {
-  record::Counts counts = data_.common_counts(options_.culling);
-  const std::uint64_t fragments = data_.counter(ParticleCounter::fragments);
-  const std::uint64_t discarded = data_.counter(ParticleCounter::discarded);
-  counts.emplace("vertices", data_.counter(ParticleCounter::vertices));
-  counts.emplace("fragments", fragments);
-  counts.emplace("fragments_discarded", discarded);
-  counts.emplace("fragments_kept", fragments - discarded);
-  return counts;
-}
-
 measure::Frame SpriteFrames::frame(measure::Purpose purpose) {
   return translated([&] {
     const bool counting = purpose == measure::Purpose::counters;
@@ -214,8 +203,7 @@ measure::Frame SpriteFrames::frame(measure::Purpose purpose) {
     }
     measure::Frame frame = frames_.submit(purpose);
     if (counting) {
-      frame.counts = read_counts();
-      frame.counts.emplace("visible_ids", visible_ids(target_.read(gpu_)));
+      frame.counts = data_.counts(technique::Work::draw, options_.culling, target_.read(gpu_));
     }
     instance_.check_validation();
     return frame;

@@ -73,7 +73,6 @@ class SpriteFrames final : public measure::Prepared {
   void draw_before(const measure::ParticleWork& work) const;
   void draw_run(const vk::raii::CommandBuffer& commands, bool instanced, ParticleRun run) const;
   void draw_again(const vk::raii::CommandBuffer& commands) const;
-  [[nodiscard]] record::Counts read_counts() const;
 
   const Gpu& gpu_;
   const Instance& instance_;

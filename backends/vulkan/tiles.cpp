@@ -218,10 +218,7 @@ measure::Frame TilesFrames::frame(measure::Purpose purpose) {
     }
     measure::Frame frame = frames_.submit(purpose);
     if (counting) {
-      frame.counts = data_.common_counts(options_.culling);
-      frame.counts.emplace("vertices", 0);
-      frame.counts.emplace("bin_entries", data_.counter(ParticleCounter::bin_entries));
-      frame.counts.emplace("visible_ids", visible_ids(target_.read(gpu_)));
+      frame.counts = data_.counts(technique::Work::compute, options_.culling, target_.read(gpu_));
     }
     instance_.check_validation();
     return frame;

@@ -1,0 +1,46 @@
+#pragma once
+// What a counting frame of GL or Vulkan tells, from what the shared shaders added up.
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+
+#include "core/image.hpp"
+#include "technique/catalogue.hpp"
+#include "technique/particles/particle_options.hpp"
+
+namespace triptych::technique {
+
+// The numbers TRI_COUNT_… of parameters.glsl.
+enum class ParticleCounter : std::uint8_t {
+  sprites,
+  vertices,
+  fragments,
+  discarded,
+  bin_entries,
+  submitted,
+  cells_culled
+};
+
+// The shaders' buffer: rows of so many sums each, 32 bits wide.
+inline constexpr std::size_t particle_counter_rows = 1024;
+inline constexpr std::size_t particle_counter_columns = 8;
+inline constexpr std::size_t particle_counter_bytes =
+    particle_counter_rows * particle_counter_columns * sizeof(std::uint32_t);
+
+// How many different particles the picture shows.
+[[nodiscard]] std::uint64_t visible_ids(const core::Image& picture);
+
+struct CountedFrame {
+  Work work = Work::draw;
+  Culling culling = Culling::none;  // with none nothing adds up what is submitted: it is all
+  std::uint64_t cells = 0;
+  std::uint64_t particles = 0;
+};
+// Those of `particle_counters` that such a frame has, and visible_ids. `sums`: all rows of the
+// buffer. Fragments are what a rasterizer makes, bin entries what compute makes.
+[[nodiscard]] std::map<std::string, std::uint64_t> particle_counts(
+    const CountedFrame& frame, std::span<const std::uint32_t> sums, const core::Image& picture);
+
+}  // namespace triptych::technique
