@@ -45,7 +45,7 @@ Texture transfer_texture(const Api& gl, const scene::TransferFunction& function)
 Buffer cell_buffer(const Api& gl, const measure::VolumeWork& work,
                    const std::vector<technique::Part>& parts) {
   const scene::VoxelGrid& grid = *work.scene.grid;
-  const std::size_t size = layers_of(work).room_for(parts);
+  const std::size_t size = technique::layers_of(work.scene, work.options).room_for(parts);
   Buffer buffer = device_buffer(gl, size);
   if (!parts.empty()) return buffer;
   fill_buffer(gl, buffer, size, [&](std::size_t begin, std::span<std::byte> out) {

@@ -36,25 +36,20 @@ technique::Room room_of(const Api& gl, const measure::VolumeWork& work) {
     depth /= 2;
     limit = "what GL_PROXY_TEXTURE_3D takes";
   }
-  return {layers_of(work).bytes * static_cast<std::uint64_t>(depth), limit};
+  return {technique::layers_of(work.scene, work.options).bytes * static_cast<std::uint64_t>(depth),
+          limit};
 }
 
 }  // namespace
-
-technique::Layers layers_of(const measure::VolumeWork& work) {
-  const scene::VoxelGrid& grid = *work.scene.grid;
-  return is_packed(work) ? technique::packed_layers(grid.size, grid.format)
-                         : technique::slice_layers(grid.size, grid.format);
-}
 
 bool holds_whole(const Api& gl, const std::array<int, 3>& size, scene::VoxelFormat format) {
   return std::ranges::max(size) <= gl.limit(GL_MAX_3D_TEXTURE_SIZE) && holds(gl, size, format);
 }
 
 technique::Cut cut_of(const Api& gl, std::string_view technique, const measure::VolumeWork& work) {
-  const technique::Cut cut =
-      technique::cut_into_parts(technique, work.scene, work.options, layers_of(work),
-                                technique::within_budget(room_of(gl, work), work.options));
+  const technique::Cut cut = technique::cut_into_parts(
+      technique, work.scene, work.options, technique::layers_of(work.scene, work.options),
+      technique::within_budget(room_of(gl, work), work.options));
   if (cut.parts.empty() || !technique::has_long_rays(work.scene)) return cut;
   return {.parts = {}, .reason = std::string(technique::long_rays_in_parts)};
 }
@@ -63,7 +58,7 @@ VolumeParts::VolumeParts(const Api& gl, const measure::VolumeWork& work,
                          const std::vector<technique::Part>& parts,
                          std::span<const std::int32_t> map)
     : grid_(work.scene.grid),
-      layers_(layers_of(work)),
+      layers_(technique::layers_of(work.scene, work.options)),
       passes_(technique::part_passes(parts, work.scene, work.options, map)),
       place_(technique::raycast_parameters(work.scene, work.options, 1).size()),
       moved_(gl.held.moved(technique::moved_bytes(passes_, layers_))) {}

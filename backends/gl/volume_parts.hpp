@@ -16,9 +16,6 @@ namespace triptych::gl_backend {
 [[nodiscard]] technique::Cut cut_of(const Api& gl, std::string_view technique,
                                     const measure::VolumeWork& work);
 
-// How the device holds cells: as slices of a texture, or by sampler packed.
-[[nodiscard]] technique::Layers layers_of(const measure::VolumeWork& work);
-
 // Whether one texture holds a volume.
 [[nodiscard]] bool holds_whole(const Api& gl, const std::array<int, 3>& size,
                                scene::VoxelFormat format);

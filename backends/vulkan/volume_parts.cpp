@@ -40,16 +40,10 @@ bool holds_whole(const Gpu& gpu, const std::array<int, 3>& size, scene::VoxelFor
   return slices.whole <= image_room(gpu, slices, format).bytes;
 }
 
-technique::Layers layers_of(const measure::VolumeWork& work) {
-  const scene::VoxelGrid& grid = *work.scene.grid;
-  return is_packed(work) ? technique::packed_layers(grid.size, grid.format)
-                         : technique::slice_layers(grid.size, grid.format);
-}
-
 technique::Cut cut_of(const Gpu& gpu, std::string_view technique, const measure::VolumeWork& work) {
-  const technique::Cut cut =
-      technique::cut_into_parts(technique, work.scene, work.options, layers_of(work),
-                                technique::within_budget(room_of(gpu, work), work.options));
+  const technique::Cut cut = technique::cut_into_parts(
+      technique, work.scene, work.options, technique::layers_of(work.scene, work.options),
+      technique::within_budget(room_of(gpu, work), work.options));
   if (cut.parts.empty()) return cut;
   if (technique::has_long_rays(work.scene)) {
     return {.parts = {}, .reason = std::string(technique::long_rays_in_parts)};
@@ -71,7 +65,7 @@ VolumeParts::VolumeParts(const Gpu& gpu, const measure::VolumeWork& work,
                          std::vector<std::byte> parameters)
     : gpu_(gpu),
       grid_(work.scene.grid),
-      layers_(layers_of(work)),
+      layers_(technique::layers_of(work.scene, work.options)),
       passes_(technique::part_passes(parts, work.scene, work.options, map)),
       parameters_(std::move(parameters)),
       moved_(gpu.held.moved(technique::moved_bytes(passes_, layers_))) {}

@@ -21,9 +21,6 @@ namespace triptych::vulkan_backend {
 [[nodiscard]] bool holds_whole(const Gpu& gpu, const std::array<int, 3>& size,
                                scene::VoxelFormat format);
 
-// How the device holds cells: as slices of an image, or by sampler packed.
-[[nodiscard]] technique::Layers layers_of(const measure::VolumeWork& work);
-
 // Moves part after part to where the shader reads it.
 class VolumeParts {
  public:

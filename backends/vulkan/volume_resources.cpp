@@ -42,8 +42,8 @@ Buffer make_cells(const Gpu& gpu, const measure::VolumeWork& work, int held) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   constexpr auto usage = vk::BufferUsageFlagBits::eUniformTexelBuffer;
   if (held > 0) {
-    return {gpu, layers_of(work).bytes_of(held), usage | vk::BufferUsageFlagBits::eTransferDst,
-            Place::device};
+    return {gpu, technique::layers_of(work.scene, work.options).bytes_of(held),
+            usage | vk::BufferUsageFlagBits::eTransferDst, Place::device};
   }
   return make_buffer(
       gpu, technique::packed_bytes(grid.size, grid.format),

@@ -70,7 +70,8 @@ std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWo
                                              "maxStorageBufferRange")) {
     return reason;
   }
-  return memory_reason(gpu, layers_of(work).room_for(cut.parts) + buffers.all());
+  return memory_reason(
+      gpu, technique::layers_of(work.scene, work.options).room_for(cut.parts) + buffers.all());
 }
 
 }  // namespace triptych::vulkan_backend

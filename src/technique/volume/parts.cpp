@@ -92,6 +92,12 @@ Layers packed_layers(const std::array<int, 3>& size, scene::VoxelFormat format) 
   return {.bytes = layer, .more = static_cast<int>(whole / layer) - size[2] - 1, .whole = whole};
 }
 
+Layers layers_of(const scene::VolumeScene& scene, const RaycastOptions& options) {
+  const scene::VoxelGrid& grid = *scene.grid;
+  return options.sampler == Sampler::packed ? packed_layers(grid.size, grid.format)
+                                            : slice_layers(grid.size, grid.format);
+}
+
 Room within_budget(Room room, const RaycastOptions& options) {
   if (options.budget == 0 || options.budget >= room.bytes) return room;
   return {options.budget, "the budget"};

@@ -47,6 +47,8 @@ struct Layers {
 [[nodiscard]] Layers slice_layers(const std::array<int, 3>& size, scene::VoxelFormat format);
 // Of Sampler::packed.
 [[nodiscard]] Layers packed_layers(const std::array<int, 3>& size, scene::VoxelFormat format);
+// Of a device that holds all others as slices of an image.
+[[nodiscard]] Layers layers_of(const scene::VolumeScene& scene, const RaycastOptions& options);
 
 // What the voxels of a device may take: its own limit, by its name, or less by the options' budget.
 struct Room {

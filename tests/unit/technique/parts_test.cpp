@@ -147,6 +147,17 @@ TEST(Layers, AreThoseOfTheCells) {
   }
 }
 
+TEST(Layers, AreThoseOfTheSampler) {
+  scene::VolumeScene scene;
+  scene.grid = std::make_shared<scene::VoxelGrid>(
+      scene::VoxelGrid{.format = scene::VoxelFormat::u16, .size = {7, 5, 9}});
+  const auto whole = [&](Sampler sampler) { return layers_of(scene, {.sampler = sampler}).whole; };
+  EXPECT_EQ(whole(Sampler::packed), packed_bytes({7, 5, 9}, scene::VoxelFormat::u16));
+  for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
+    EXPECT_EQ(whole(sampler), 2U * 7U * 5U * 9U);
+  }
+}
+
 TEST(Slices, LieAroundTheCells) {
   scene::VoxelGrid grid{.format = scene::VoxelFormat::u8, .size = {1, 1, 9}};
   grid.data.resize(9);
