@@ -8,4 +8,7 @@ namespace triptych::record {
 // second "<id>#2".
 [[nodiscard]] std::string numbered_id(std::string_view id, int number);
 
+// Of a device's id. Drivers that are one program behind several interfaces are one family.
+[[nodiscard]] std::string family_of(std::string_view device);
+
 }  // namespace triptych::record

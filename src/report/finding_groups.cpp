@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "core/text.hpp"
+#include "record/device_id.hpp"
 #include "record/factor_list.hpp"
 #include "record/hung.hpp"
 #include "record/not_tried.hpp"
@@ -206,7 +207,7 @@ class Grouping {
     }
     std::erase_if(wrong, [&](const std::string& device) {
       return right.contains(device) ||
-             judge::family_of(device) == judge::family_of(members.front()->device);
+             record::family_of(device) == record::family_of(members.front()->device);
     });
     return {wrong.begin(), wrong.end()};
   }
@@ -295,7 +296,7 @@ std::string FindingGroup::whose() const {
     std::vector<std::string> same;
     for (const std::string& each : devices) {
       const bool itself = each == first->device;  // of another version
-      const bool other = judge::family_of(each) != judge::family_of(first->device);
+      const bool other = record::family_of(each) != record::family_of(first->device);
       if (each.starts_with(api) && (itself || other)) {
         same.push_back(each + (itself ? " of another version" : ""));
       }

@@ -9,6 +9,7 @@
 #include "judge/gate/counters_fault.hpp"
 #include "judge/gate/open_counts.hpp"
 #include "judge/gate/run_view.hpp"
+#include "record/device_id.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -23,7 +24,7 @@ struct Range {
     for (const auto& [device, value] : stored) {
       least = std::min(least, value);
       most = std::max(most, value);
-      families.emplace(family_of(device), value);
+      families.emplace(record::family_of(device), value);
     }
   }
   // The end of the range that is nearer.

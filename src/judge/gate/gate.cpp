@@ -283,12 +283,6 @@ void tell_where_accepted(const RunView& view, std::vector<Finding>& findings) {
 
 }  // namespace
 
-std::string family_of(const std::string& device) {
-  std::string driver = device.substr(device.find(':') + 1);
-  driver = driver.substr(0, driver.find('#'));
-  return driver == "lavapipe" || driver.starts_with("llvmpipe") ? "llvmpipe" : driver;
-}
-
 void sort_findings(std::vector<Finding>& findings) {
   // What changed most is named first; what has no ratio comes by its name.
   const auto change = [](const Finding& finding) {

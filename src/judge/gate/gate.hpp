@@ -56,9 +56,6 @@ struct Finding {
   std::vector<std::string> accepted_on = {};
 };
 
-// Of a device's id. Drivers that are one program behind several interfaces are one family.
-[[nodiscard]] std::string family_of(const std::string& device);
-
 struct GateResult {
   std::string plan;
   std::string run;

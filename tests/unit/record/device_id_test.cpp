@@ -11,5 +11,12 @@ TEST(DeviceIdTest, TheSecondOfADriverIsNumberTwo) {
   EXPECT_EQ(numbered_id("opencl:pocl", 10), "opencl:pocl#10");
 }
 
+TEST(DeviceIdTest, DriversOfOneProgramAreOneFamily) {
+  EXPECT_EQ(family_of("vulkan:lavapipe"), "llvmpipe");
+  EXPECT_EQ(family_of("gl:llvmpipe-osmesa#2"), "llvmpipe");
+  EXPECT_EQ(family_of("gl:softpipe"), "softpipe");
+  EXPECT_EQ(family_of("opencl:pocl#2"), "pocl");
+}
+
 }  // namespace
 }  // namespace triptych::record
