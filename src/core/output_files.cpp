@@ -1,0 +1,56 @@
+#include "core/output_files.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+
+namespace triptych::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool are_one_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (!fs::exists(a, error) || !fs::exists(b, error)) {
+    return fs::weakly_canonical(fs::absolute(a), error) ==
+           fs::weakly_canonical(fs::absolute(b), error);
+  }
+  return fs::is_regular_file(a, error) && fs::equivalent(a, b, error);
+}
+
+}  // namespace
+
+void require_writable(const fs::path& folder) {
+  const fs::path where = folder.empty() ? fs::path(".") : folder;
+  std::error_code error;
+  fs::create_directories(where, error);
+  if (!error && ::access(where.c_str(), W_OK) != 0) error = {errno, std::generic_category()};
+  if (error) {
+    throw IoError(fmt::format("cannot write into {}: {}; choose another folder", where.string(),
+                              error.message()));
+  }
+}
+
+void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<NamedFile>& written) {
+  std::vector<NamedFile> taken = read;
+  for (const NamedFile& each : written) {
+    for (const auto& [name, file] : taken) {
+      if (each.file.empty() || file.empty() || !are_one_file(each.file, file)) continue;
+      throw InputError(
+          fmt::format("{} {} is the file of {}: choose another", each.name, each.file, name));
+    }
+    taken.push_back(each);
+  }
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  require_writable(file.parent_path());
+  write_file(text, file);
+}
+
+}  // namespace triptych::core
