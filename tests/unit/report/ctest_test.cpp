@@ -1,0 +1,85 @@
+// What CTest is told: which tests there are, and how a check went.
+
+#include <gmock/gmock.h>
+
+#include "core/temporary_folder.hpp"
+#include "report/ctest_answer.hpp"
+#include "report/ctest_list.hpp"
+
+namespace triptych::report {
+namespace {
+
+using judge::Check;
+using judge::Verdict;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(CTestList, NamesOfTestsHoldNothingThatAFileCannot) {
+  EXPECT_EQ(ctest_stem("volume", "volume/quick"), "volume.quick");
+  EXPECT_EQ(ctest_stem("volume", "my plan;1"), "volume.my_plan_1");
+}
+
+TEST(CTestList, AScoreWaitsForEveryDevice) {
+  record::Device a{.id = "gl:a", .api = "gl"};
+  record::Device b{.id = "gl:b", .api = "gl"};
+  const std::vector<PlanTests> plans{{.suite = "volume",
+                                      .plan = "volume/stress",
+                                      .stem = "volume.stress",
+                                      .store = "/s p;a/volume.stress.sqlite",
+                                      .checks = {Check::counters, Check::stress}}};
+  const std::string list = ctest_list("/bin/triptych", plans, std::vector{a, b});
+  EXPECT_THAT(list, HasSubstr("add_test([=[volume.stress.measure.gl:a]=] [=[/bin/triptych]=] "
+                              "[=[test-measure]=] [=[volume/stress]=] [=[--device]=] [=[gl:a]=] "
+                              "[=[--store]=] [=[/s p;a/volume.stress.sqlite]=])"));
+  const auto needs = [&](const std::string& test) {
+    const std::size_t at = list.find("set_tests_properties([=[" + test + "]=]");
+    const std::size_t begin = list.find("FIXTURES_REQUIRED", at);
+    return list.substr(begin, list.find('\n', begin) - begin);
+  };
+  EXPECT_THAT(needs("volume.stress.stress.gl:a"),
+              HasSubstr("[=[volume.stress.gl:a;volume.stress.gl:b]=]"));
+  EXPECT_THAT(needs("volume.stress.counters.gl:a"), HasSubstr("[=[volume.stress.gl:a]=]"));
+  EXPECT_THAT(list, Not(HasSubstr("agreement")));
+}
+
+class CTestAnswer : public testing::Test {
+ protected:
+  core::TemporaryFolder folder_;
+  record::Store store_{folder_.path() / "s", record::Store::Mode::append};
+  judge::GateResult result_{.plan = "volume/quick", .run = "r", .findings = {}};
+  void add(Verdict verdict, const std::string& configuration, Check check = Check::counters) {
+    result_.findings.push_back({.check = check,
+                                .verdict = verdict,
+                                .test = "volume.quick.counters.gl:a",
+                                .device = "gl:a",
+                                .configuration = configuration,
+                                .message = "because",
+                                .numbers = {{"ratio", 0.5}}});
+  }
+};
+
+TEST_F(CTestAnswer, WhatOnlyAdvisesHasJudgedNothing) {
+  add(Verdict::advisory, "step=1");
+  EXPECT_EQ(reason_to_skip(result_), "because");
+  add(Verdict::pass, "step=2");
+  EXPECT_EQ(reason_to_skip(result_), std::nullopt);
+}
+
+TEST_F(CTestAnswer, ACorrelationIsDecidedOfADevice) {
+  add(Verdict::advisory, "");
+  add(Verdict::pass, "", Check::correlation);
+  EXPECT_EQ(reason_to_skip(result_), std::nullopt);
+}
+
+TEST_F(CTestAnswer, TellsWhatIsNoPassAndTheNumbersOfTheWorst) {
+  add(Verdict::regression, "step=1");
+  add(Verdict::pass, "step=2");
+  const std::string text = ctest_answer(result_, store_, {});
+  EXPECT_THAT(text, HasSubstr("regression step=1: because\n"));
+  EXPECT_THAT(text, HasSubstr("name=\"ratio\">0.5</CTestMeasurement>\n"));
+  EXPECT_THAT(text, Not(HasSubstr("step=2")));
+  EXPECT_THAT(text, HasSubstr(result_.headline() + "\n"));
+}
+
+}  // namespace
+}  // namespace triptych::report
