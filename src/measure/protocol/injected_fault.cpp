@@ -88,6 +88,16 @@ bool has_levels(const std::string& configuration, const std::string& levels) {
 
 }  // namespace
 
+std::vector<InjectedFault> parse_faults(std::span<const std::string> faults) {
+  std::vector<InjectedFault> parsed;
+  for (const std::string& each : faults) {
+    const auto at = each.find('@');
+    parsed.push_back({.fault = each.substr(0, at),
+                      .only = at == std::string::npos ? std::string{} : each.substr(at + 1)});
+  }
+  return parsed;
+}
+
 std::vector<std::string> faults_for(std::span<const InjectedFault> all,
                                     const std::string& configuration, const std::string& device) {
   std::vector<std::string> faults;

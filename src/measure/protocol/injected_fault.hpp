@@ -21,6 +21,9 @@ struct InjectedFault {
   std::string only;
 };
 
+// "FAULT" or "FAULT@ONLY" each; whether there is such a fault is not asked (check_fault).
+[[nodiscard]] std::vector<InjectedFault> parse_faults(std::span<const std::string> faults);
+
 // The faults of those that are meant for a configuration on a device.
 [[nodiscard]] std::vector<std::string> faults_for(std::span<const InjectedFault> all,
                                                   const std::string& configuration,

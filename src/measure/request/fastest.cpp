@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
 
-#include "measure/plan/plan.hpp"
 #include "record/factor_list.hpp"
 
 namespace triptych::measure {
@@ -91,6 +91,18 @@ std::string praise(const Contestant& contestant, Ruler ruler) {
                      contestant.usually / 1e6, ruler == Ruler::device_clock ? "device" : "wall");
 }
 
+// Leaves those of the plan's techniques that may yet be the fastest.
+void keep_in_question(Plan& plan, const FastestAnswer& answer) {
+  std::set<std::string> techniques;
+  for (const Contestant& each : answer.contestants) {
+    if (each.amount <= 2 * answer.contestants.front().amount) {
+      techniques.insert(each.record->technique);
+    }
+  }
+  std::erase_if(plan.configurations,
+                [&](const auto& each) { return !techniques.contains(each.at("technique")); });
+}
+
 }  // namespace
 
 std::vector<FastestAnswer> answer_fastest(const std::vector<Record>& records, const Suite& suite,
@@ -111,6 +123,20 @@ std::vector<FastestAnswer> answer_fastest(const std::vector<Record>& records, co
     answers.back().scene = key.second;
   }
   return answers;
+}
+
+FastestTried try_for_fastest(Plan plan, const Suite& suite,
+                             const std::function<std::vector<record::Record>(const Plan&)>& trial) {
+  FastestTried tried{.records = trial(plan), .answers = {}};
+  const auto answer = [&] { tried.answers = answer_fastest(tried.records, suite, plan.automatic); };
+  answer();
+  if (tried.answers.empty() || tried.answers.front().contestants.empty()) return tried;
+  keep_in_question(plan, tried.answers.front());
+  if (plan.configurations.size() > 1) {
+    std::ranges::move(trial(plan), std::back_inserter(tried.records));
+    answer();
+  }
+  return tried;
 }
 
 std::string describe(const FastestAnswer& answer, const std::set<std::string>& chosen) {

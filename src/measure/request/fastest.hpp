@@ -2,11 +2,12 @@
 // `technique: auto`: every technique is measured, and of each scene and device the fastest is told
 // with the numbers that say so. The choice is made of records alone: what repeats in them repeats.
 
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "measure/contract/suite.hpp"
+#include "measure/plan/plan.hpp"
 #include "record/record.hpp"
 
 namespace triptych::measure {
@@ -34,6 +35,18 @@ struct FastestAnswer {
 [[nodiscard]] std::vector<FastestAnswer> answer_fastest(const std::vector<record::Record>& records,
                                                         const Suite& suite,
                                                         const std::set<std::string>& chosen);
+
+// Of a plan's one scene on one device, by a short trial of all and one more of those that may yet
+// turn out to be the fastest: what disturbs a trial may double a time. No answer, or one without
+// contestants: nothing could be told. The answers point into the records.
+struct FastestTried {
+  std::vector<record::Record> records;
+  std::vector<FastestAnswer> answers;
+};
+// `trial`: measures the plan, and returns its records.
+[[nodiscard]] FastestTried try_for_fastest(
+    Plan plan, const Suite& suite,
+    const std::function<std::vector<record::Record>(const Plan&)>& trial);
 
 // One line of text: the choice, and by how much it beats each other one. One whose fastest frame is
 // below the usual one of the choice is as fast.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -243,6 +244,42 @@ std::array<RunResult, 2> run_sides(const SidesRun& sides, record::Store& store,
     results[i] = PlanRun(contexts[i], {parts[i].device}, on_progress).measure_all();
   }
   return results;
+}
+
+std::string describe(const RunResult& result, const std::string& plan, const std::string& store) {
+  std::string text = fmt::format(
+      "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it ours\n", plan,
+      result.run, store, result.measured, result.skipped, result.failed, result.wall_ns / 1e9,
+      result.devices_ns > 0 ? 100 * result.overhead_ns / result.devices_ns : 0.0);
+  if (result.there_before > 0) {
+    text += fmt::format("{} of them were there before\n", result.there_before);
+  }
+  if (result.taken_over > 0) {
+    text += fmt::format(
+        "{} of them took over another configuration's frames, which their scene cannot tell "
+        "apart; --measure-every measures them too\n",
+        result.taken_over);
+  }
+  return text;
+}
+
+std::vector<InjectedFault> faults_that_hit_nothing(std::span<const PlannedRun> runs,
+                                                   const std::vector<std::string>& devices) {
+  const auto hits = [&](const InjectedFault& fault, const PlannedRun& run) {
+    return std::ranges::any_of(run.plan.configurations, [&](const Configuration& each) {
+      const std::string key = configuration_key(run.suite, each);
+      return std::ranges::any_of(devices, [&](const std::string& device) {
+        return !faults_for({&fault, 1}, key, device).empty();
+      });
+    });
+  };
+  std::vector<InjectedFault> missing;
+  if (runs.empty()) return missing;
+  std::ranges::copy_if(
+      runs.front().options.faults, std::back_inserter(missing), [&](const InjectedFault& fault) {
+        return std::ranges::none_of(runs, [&](const PlannedRun& run) { return hits(fault, run); });
+      });
+  return missing;
 }
 
 RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices, const Suite& suite,

@@ -63,6 +63,10 @@ struct RunResult {
   double overhead_ns = 0;  // of devices_ns, what was neither opening devices, preparing nor frames
 };
 
+// In a few lines: the plan's run in the store's file, and how it went.
+[[nodiscard]] std::string describe(const RunResult& result, const std::string& plan,
+                                   const std::string& store);
+
 // One plan of those that are measured together.
 struct PlannedRun {
   const Plan& plan;
@@ -80,6 +84,11 @@ struct PlannedRun {
 [[nodiscard]] std::vector<RunResult> run_plans(
     std::span<const PlannedRun> runs, const std::vector<std::string>& devices, record::Store& store,
     const std::function<void(const Progress&)>& on_progress);
+
+// Faults of these runs that are meant for none of their configurations on these devices: who
+// injects one and sees a pass would think that it was not caught.
+[[nodiscard]] std::vector<InjectedFault> faults_that_hit_nothing(
+    std::span<const PlannedRun> runs, const std::vector<std::string>& devices);
 
 // A plan on two sides, each into a run of its own.
 struct SidesRun {

@@ -74,6 +74,17 @@ std::string_view name_in(std::string_view entry) {
   return entry.substr(0, entry.find('='));
 }
 
+// Whether the text goes on with NAME=: a comma before it ends the value before.
+bool begins_a_variable(std::string_view text) {
+  const auto letter = [](char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
+  };
+  if (text.empty() || !letter(text.front())) return false;
+  const auto* end = std::ranges::find_if_not(
+      text, [&](char c) { return letter(c) || std::isdigit(static_cast<unsigned char>(c)); });
+  return end != text.end() && *end == '=';
+}
+
 }  // namespace
 
 std::span<const EnvironmentDefault> environment_defaults() {
@@ -115,6 +126,22 @@ std::vector<std::string> worker_environment(std::string_view device_id, const Ca
     result.push_back(with_cache(fmt::format("{}={}", each.name, each.value), cache));
   }
   return result;
+}
+
+std::vector<std::string> parse_environment(std::string_view text, const std::string& where) {
+  std::vector<std::string> environment;
+  for (std::string_view rest = text;;) {
+    if (!begins_a_variable(rest)) {
+      throw core::InputError(fmt::format("{}: expected NAME=VALUE, got '{}'", where, rest));
+    }
+    std::size_t end = rest.find(',');
+    while (end != std::string_view::npos && !begins_a_variable(rest.substr(end + 1))) {
+      end = rest.find(',', end + 1);
+    }
+    environment.emplace_back(rest.substr(0, end));
+    if (end == std::string_view::npos) return environment;
+    rest.remove_prefix(end + 1);
+  }
 }
 
 std::optional<std::string> forbids_measuring() {

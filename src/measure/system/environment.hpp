@@ -44,6 +44,11 @@ class CacheFolder {
     std::string_view device_id, const CacheFolder& cache,
     std::span<const std::string> overrides = {});
 
+// "NAME=VALUE,…" → each; a value may hold commas that no NAME= follows. Throws core::InputError
+// that begins with `where`.
+[[nodiscard]] std::vector<std::string> parse_environment(std::string_view text,
+                                                         const std::string& where);
+
 // Why nothing may be measured in this process's environment; nullopt: it may. (LP_PERF turns off
 // parts of llvmpipe's work: what is timed would not be what is drawn.)
 [[nodiscard]] std::optional<std::string> forbids_measuring();

@@ -103,5 +103,31 @@ TEST_F(FastestTest, NamesWhatTheDeviceCannotDraw) {
                                 "raycast_fragment"));
 }
 
+TEST_F(FastestTest, WhatMayYetBeTheFastestIsTriedAgain) {
+  const Plan plan = default_plan(suite_, {{"technique", {"auto"}}});
+  ASSERT_EQ(plan.configurations.size(), 2U);
+  std::vector<std::size_t> tried;
+  const auto with = [&](double second) {
+    tried.clear();
+    return try_for_fastest(plan, suite_, [&](const Plan& trial) {
+      records_.clear();
+      for (const Configuration& each : trial.configurations) {
+        const bool first = each.at("technique") == "raycast";
+        // Disturbed in the first trial.
+        add(each.at("technique"), {first ? (tried.empty() ? 1.5e6 : 0.9e6) : second}).technique =
+            each.at("technique");
+      }
+      tried.push_back(trial.configurations.size());
+      return records_;
+    });
+  };
+  const FastestTried near = with(1e6);
+  EXPECT_EQ(tried, (std::vector<std::size_t>{2, 2}));
+  EXPECT_EQ(near.answers.at(0).contestants.at(0).record->technique, "raycast");
+  const FastestTried far = with(9e6);
+  EXPECT_EQ(tried, (std::vector<std::size_t>{2}));
+  EXPECT_EQ(far.answers.at(0).contestants.at(0).record, far.records.data());
+}
+
 }  // namespace
 }  // namespace triptych::measure

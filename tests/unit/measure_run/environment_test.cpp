@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "core/error.hpp"
 #include "tests/unit/measure_run/scratch.hpp"
 
 namespace triptych::measure {
@@ -13,6 +14,16 @@ using ::testing::Contains;
 using ::testing::Each;
 using ::testing::Not;
 using ::testing::StartsWith;
+
+TEST(ParseEnvironment, AValueMayHoldCommas) {
+  using testing::ElementsAre;
+  EXPECT_THAT(parse_environment("A=1", "--a"), ElementsAre("A=1"));
+  EXPECT_THAT(parse_environment("A=1,2,B_3=,C=x=y,z", "--a"),
+              ElementsAre("A=1,2", "B_3=", "C=x=y,z"));
+  for (const char* text : {"", "A", "1=2", ",A=1"}) {
+    EXPECT_THROW(static_cast<void>(parse_environment(text, "--a")), core::InputError) << text;
+  }
+}
 
 TEST(WorkerEnvironment, GivesPoclItsDefaultsAndNobodyElse) {
   const ScratchFolder scratch;

@@ -24,6 +24,15 @@ TEST(InjectedFault, PutsTheNamedFaultIntoTheOptions) {
   EXPECT_EQ(injected("coarse_filter").fault, Fault::coarse_filter);
 }
 
+TEST(InjectedFault, IsReadWithWhatItIsMeantFor) {
+  const std::vector<std::string> texts{"crash", "slowdown:1@step=2", "hang@a@b"};
+  const std::vector<InjectedFault> faults = parse_faults(texts);
+  ASSERT_EQ(faults.size(), 3U);
+  EXPECT_EQ(faults[0].fault + "|" + faults[0].only, "crash|");
+  EXPECT_EQ(faults[1].fault + "|" + faults[1].only, "slowdown:1|step=2");
+  EXPECT_EQ(faults[2].fault + "|" + faults[2].only, "hang|a@b");
+}
+
 TEST(InjectedFault, ASlowdownIsEveryNthRowTwice) {
   EXPECT_EQ(injected("slowdown:20").extra_work_stride, 5);
   EXPECT_EQ(injected("slowdown:3").extra_work_stride, 33);

@@ -1,0 +1,137 @@
+#include "measure/worker/listing.hpp"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "measure/system/environment.hpp"
+#include "measure/worker/own_program.hpp"
+#include "measure/worker/wire.hpp"
+#include "measure/worker/worker_link.hpp"
+
+namespace triptych::measure {
+namespace {
+
+constexpr std::chrono::seconds listing_limit{30};
+constexpr std::chrono::seconds greeting_limit{
+    120};  // opening may compile; calibrating draws frames
+
+core::Json as_json(const Listing& listing) {
+  core::Json broken = core::Json::array();
+  for (const Broken& each : listing.broken) {
+    broken.push_back({{"what", each.what}, {"reason", each.reason}});
+  }
+  return {{"devices", listing.devices}, {"broken", broken}};
+}
+
+Listing from_json(const core::Json& json) {
+  Listing listing{.devices = json.at("devices"), .broken = {}};
+  for (const core::Json& each : json.at("broken")) {
+    listing.broken.push_back({.what = each.at("what"), .reason = each.at("reason")});
+  }
+  return listing;
+}
+
+// Starts this program as `command`, says `request` and returns its one answer.
+WorkerLink::Reply ask_once(const std::vector<std::string>& command, const std::string& device_id,
+                           const Message& request, std::chrono::seconds limit) {
+  InterruptGuard interrupts;
+  const CacheFolder cache(device_id);
+  WorkerLink link(command, worker_environment(device_id, cache), interrupts);
+  WorkerLink::Reply reply = link.ask(request, limit);
+  if (std::holds_alternative<Message>(reply)) link.finish();
+  return reply;
+}
+
+std::string reason_of(const WorkerLink::Reply& reply) {
+  if (const auto* died = std::get_if<WorkerLink::Died>(&reply)) return died->reason;
+  if (const auto* late = std::get_if<WorkerLink::Late>(&reply)) return late->reason;
+  return "an answer that makes no sense";
+}
+
+Listing list_one(const std::string& api) {
+  const WorkerLink::Reply reply =
+      ask_once({own_program(), "list-api", api}, api + ":listing",
+               {.json = core::Json::object(), .binary = {}}, listing_limit);
+  if (const auto* answer = std::get_if<Message>(&reply)) return from_json(answer->json);
+  return {.devices = {}, .broken = {{.what = api, .reason = reason_of(reply)}}};
+}
+
+// Says why no device of the listing is one that `glob` asks for.
+[[noreturn]] void refuse_devices(const Listing& listing, std::string_view glob) {
+  if (listing.devices.empty()) {
+    throw core::NotSupported(
+        "no device at all: no OpenCL, Vulkan or OpenGL driver answers; ci/setup installs software "
+        "drivers, `triptych devices` says what each loader found");
+  }
+  std::string known;
+  for (const record::Device& device : listing.devices) known += " " + device.id;
+  for (const Broken& each : listing.broken) {
+    known += fmt::format("; {}: {}", each.what, each.reason);
+  }
+  throw core::NotSupported(fmt::format("no device matches {}; there are:{}", glob, known));
+}
+
+}  // namespace
+
+Listing list_devices(const std::vector<std::string>& apis) {
+  Listing all;
+  for (const std::string& api : apis) {
+    Listing one = list_one(api);
+    std::ranges::move(one.devices, std::back_inserter(all.devices));
+    std::ranges::move(one.broken, std::back_inserter(all.broken));
+  }
+  return all;
+}
+
+std::vector<std::string> choose_devices(const Listing& listing,
+                                        const std::vector<std::string>& globs) {
+  const std::vector<std::string> asked = globs.empty() ? std::vector<std::string>{"*"} : globs;
+  const auto matches = [](const std::string& glob, const record::Device& device) {
+    return ::fnmatch(glob.c_str(), device.id.c_str(), 0) == 0;
+  };
+  for (const std::string& glob : asked) {
+    const auto meant = [&](const record::Device& device) { return matches(glob, device); };
+    if (std::ranges::none_of(listing.devices, meant)) refuse_devices(listing, glob);
+  }
+  std::vector<std::string> chosen;
+  for (const record::Device& device : listing.devices) {
+    const auto takes = [&](const std::string& glob) { return matches(glob, device); };
+    if (std::ranges::any_of(asked, takes)) chosen.push_back(device.id);
+  }
+  return chosen;
+}
+
+std::string choose_device(const Listing& listing, std::string_view option,
+                          const std::string& glob) {
+  const std::vector<std::string> devices = choose_devices(listing, {glob});
+  if (devices.size() == 1) return devices.front();
+  throw core::InputError(
+      fmt::format("{} {} matches {} devices; name one", option, glob, devices.size()));
+}
+
+Greeting greet(const record::Device& device, const std::string& suite) {
+  std::vector<std::string> command = worker_command();
+  command.push_back(device.id);
+  const Message start =
+      to_message(Start{.suite = suite, .kinds = {"compute", "draw"}, .clocks = {}});
+  const WorkerLink::Reply reply = ask_once(command, device.id, start, greeting_limit);
+  if (const auto* answer = std::get_if<Message>(&reply)) {
+    if (const auto hello = as_hello(*answer)) return {hello->device, hello->clocks, {}};
+    if (const auto refused = as_refused(*answer)) return {device, {}, refused->reason};
+  }
+  return {device, {}, reason_of(reply)};
+}
+
+void answer_listing(const Backend& backend) {
+  // To answer and leave before the question was put would close the pipe on the one who asks.
+  static_cast<void>(receive(Process::child_request_fd));
+  send(Process::child_answer_fd, {.json = as_json(backend.list()), .binary = {}});
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,36 @@
+#pragma once
+// Which devices are here. Every API is asked in a process of its own (own_program.hpp), so that a
+// driver that crashes or hangs while it is being listed costs only itself.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/contract/backend.hpp"
+
+namespace triptych::measure {
+
+[[nodiscard]] Listing list_devices(const std::vector<std::string>& apis);
+
+// Ids of the devices that match any of the globs (all for none), in listing order. Throws
+// core::NotSupported naming what is there when a glob matches nothing.
+[[nodiscard]] std::vector<std::string> choose_devices(const Listing& listing,
+                                                      const std::vector<std::string>& globs);
+
+// The one device that the glob matches, which an option asks for. Throws core::NotSupported as
+// above, core::InputError where there are several.
+[[nodiscard]] std::string choose_device(const Listing& listing, std::string_view option,
+                                        const std::string& glob);
+
+// What a device says of itself once it is open; its clocks are calibrated on the suite's work.
+struct Greeting {
+  record::Device device;
+  std::vector<record::ClockTrust> clocks;
+  std::string refused;  // why it cannot be used; empty when it can
+};
+[[nodiscard]] Greeting greet(const record::Device& device, const std::string& suite);
+
+// What the process started for one API does: waits to be asked, then sends its listing.
+void answer_listing(const Backend& backend);
+
+}  // namespace triptych::measure

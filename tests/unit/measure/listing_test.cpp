@@ -1,0 +1,52 @@
+#include "measure/worker/listing.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Listing some_listing() {
+  Listing listing;
+  for (const char* id : {"opencl:pocl", "gl:llvmpipe", "gl:softpipe"}) {
+    listing.devices.push_back({.id = id});
+  }
+  listing.broken.push_back({.what = "Vulkan", .reason = "no loader"});
+  return listing;
+}
+
+std::string refusal(const Listing& listing, const std::string& glob) {
+  try {
+    static_cast<void>(choose_devices(listing, {"gl:*", glob}));
+  } catch (const core::NotSupported& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(ChooseDevices, InTheOrderOfTheListing) {
+  EXPECT_EQ(choose_devices(some_listing(), {}).size(), 3U);
+  EXPECT_THAT(choose_devices(some_listing(), {"*softpipe", "opencl:*", "gl:s*"}),
+              ElementsAre("opencl:pocl", "gl:softpipe"));
+}
+
+TEST(ChooseDevices, EachGlobHasToMeanOne) {
+  EXPECT_EQ(
+      refusal(some_listing(), "vulkan:*"),
+      "no device matches vulkan:*; there are: opencl:pocl gl:llvmpipe gl:softpipe; Vulkan: no "
+      "loader");
+  EXPECT_THAT(refusal({}, "*"), HasSubstr("no device at all"));
+}
+
+TEST(ChooseDevice, IsOne) {
+  EXPECT_EQ(choose_device(some_listing(), "--against", "gl:s*"), "gl:softpipe");
+  EXPECT_THROW(static_cast<void>(choose_device(some_listing(), "--against", "gl:*")),
+               core::InputError);
+}
+
+}  // namespace
+}  // namespace triptych::measure
