@@ -3,13 +3,15 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
-#include "measure/plan/plan.hpp"
-#include "measure/run/runner.hpp"
+#include "core/json.hpp"
+#include "measure/plan/plan_choice.hpp"
 #include "record/hung.hpp"
 
 namespace triptych::app {
@@ -19,35 +21,40 @@ struct Commands {
   CLI::App& program;
   std::function<core::ExitCode()> chosen;
 
-  // Adds a command whose work is `run`.
-  CLI::App* add(const std::string& name, const std::string& summary,
+  CLI::App& add(const std::string& name, const std::string& summary,
                 std::function<core::ExitCode()> run);
-};
 
-// What is taken of a plan.
-struct PlanChoice {
-  std::vector<std::string> set;  // "factor=a,b"
-  std::string shard;             // "i/n"
-
-  void add_to(CLI::App& command);
-  // Both throw core::InputError.
-  [[nodiscard]] measure::Plan load(const std::string& plan,
-                                   const measure::FindSuite& find_suite) const;
-  [[nodiscard]] measure::Shard shard_chosen() const;
-};
-
-struct PlanArguments {
-  std::string plan;
-  PlanChoice choice;
-
-  void add_to(CLI::App& command);
-  [[nodiscard]] measure::Plan load(const measure::FindSuite& find_suite) const {
-    return choice.load(plan, find_suite);
+  // A command whose options write into the arguments that `run` is called with.
+  template <typename Arguments>
+  struct Added {
+    CLI::App& command;
+    Arguments& arguments;
+  };
+  template <typename Arguments>
+  Added<Arguments> add(const std::string& name, const std::string& summary,
+                       core::ExitCode (*run)(const Arguments&), Arguments standard = {}) {
+    auto kept = std::make_shared<Arguments>(std::move(standard));
+    return {add(name, summary, [run, kept] { return run(*kept); }), *kept};
   }
 };
 
+// --set and --shard.
+using measure::PlanChoice;
+void add_choice_options(CLI::App& command, PlanChoice& choice);
+
+// PLAN, of which one is required.
+template <typename Plans>
+void add_plan_option(CLI::App& command, Plans& plans) {
+  command.add_option("PLAN", plans, "A YAML file, or SUITE/PLAN such as volume/quick")->required();
+}
+
+inline constexpr const char* standard_store = "triptych.sqlite";
+
 // The folder of the baselines; one without a name would be the folder the program is started in.
 void add_baselines_option(CLI::App& command, std::string& folder);
+
+// --device, of what is already measured.
+void add_devices_option(CLI::App& command, std::vector<std::string>& globs);
 
 // --inject FAULT[@GLOB], repeatable, and its former name --plant, which help does not list.
 void add_inject_option(CLI::App& command, std::vector<std::string>& faults,
@@ -57,13 +64,8 @@ void add_inject_option(CLI::App& command, std::vector<std::string>& faults,
 inline constexpr int standard_limit_s = record::standard_limit.count();
 void add_limit_option(CLI::App& command, int& seconds, const std::string& what);
 
-// "factor=a,b" → {factor, {a, b}}, each value as record::escaped spells it or plainly; throws
-// core::InputError.
-[[nodiscard]] measure::Overrides parse_overrides(const std::vector<std::string>& set);
-
-// "FAULT" or "FAULT@GLOB".
-[[nodiscard]] std::vector<measure::InjectedFault> parse_faults(
-    const std::vector<std::string>& faults);
+// On standard output.
+void print(const core::Json& json, int indent = 2);
 
 void add_devices_command(Commands& commands);
 void add_list_command(Commands& commands);

@@ -3,18 +3,16 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <memory>
 #include <set>
 
 #include "app/comparing.hpp"
 #include "app/judging.hpp"
-#include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "comparison/side_by_side.hpp"
 #include "comparison/store_diff.hpp"
-#include "core/json.hpp"
-#include "core/json_text.hpp"
 #include "core/quoting.hpp"
+#include "measure/system/environment.hpp"
+#include "measure/worker/own_program.hpp"
 
 namespace triptych::app {
 namespace {
@@ -41,13 +39,14 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
   }
   if (side.device.size() < text.size()) {
     const std::string_view after = std::string_view(text).substr(side.device.size() + 1);
-    side.environment = parse_environment(after, where + ": after the device");
+    side.environment = measure::parse_environment(after, where + ": after the device");
   }
   if (!program.empty() && ::access(program.c_str(), X_OK) != 0) {
     throw core::InputError(fmt::format("{}-program {}: no program to run", option, program));
   }
-  side.command = {program.empty() ? own_program() : std::filesystem::absolute(program).string(),
-                  "worker", "--device"};
+  side.command = program.empty()
+                     ? measure::worker_command()
+                     : measure::worker_command(std::filesystem::absolute(program).string());
   return side;
 }
 
@@ -73,7 +72,7 @@ core::ExitCode show_apis(const CompareArguments& arguments) {
   if (json.empty()) {
     throw core::NotSupported(comparing.store + ": no two devices measured the same configuration");
   }
-  if (arguments.json) fmt::print("{}\n", core::json_text(json, 2));
+  if (arguments.json) print(json);
   return core::ExitCode::pass;
 }
 
@@ -86,12 +85,14 @@ core::ExitCode compare(const CompareArguments& arguments) {
   comparing.a = parse_side("--a", arguments.a, arguments.a_program);
   comparing.b = parse_side("--b", arguments.b, arguments.b_program);
   comparing.times = !arguments.no_times;
-  comparing.sides = fmt::format("--a {} --b {}", core::shell_quoted(arguments.a),
-                                core::shell_quoted(arguments.b));
-  if (!arguments.a_program.empty())
-    comparing.sides += " --a-program " + core::shell_quoted(arguments.a_program);
-  if (!arguments.b_program.empty())
-    comparing.sides += " --b-program " + core::shell_quoted(arguments.b_program);
+  for (const auto& [option, value] : {std::pair{"--a", arguments.a},
+                                      {"--b", arguments.b},
+                                      {"--a-program", arguments.a_program},
+                                      {"--b-program", arguments.b_program}}) {
+    if (value.empty()) continue;
+    const char* const space = comparing.sides.empty() ? "" : " ";
+    comparing.sides += fmt::format("{}{} {}", space, option, core::shell_quoted(value));
+  }
   return compare_and_tell({comparing}, arguments.json);
 }
 
@@ -106,61 +107,57 @@ core::ExitCode diff(const DiffArguments& arguments) {
   const Registry registry = make_registry();
   const record::Store a = open_to_judge(arguments.a);
   record::Store b = open_to_judge(arguments.b);
-  Truths truths(registry, b);
-  const comparison::StoreDiff found =
-      comparison::diff_stores(a, b, arguments.devices, known_truth(truths));
-  fmt::print("{}", arguments.json ? core::json_text(comparison::to_json(found), 2) + "\n"
-                                  : comparison::to_text(found));
+  measure::Truths truths(registry.find_suite(), b);
+  const comparison::StoreDiff found = comparison::diff_stores(a, b, arguments.devices, truths);
+  if (arguments.json) {
+    print(comparison::to_json(found));
+  } else {
+    fmt::print("{}", comparison::to_text(found));
+  }
   return found.exit_code();
 }
 
 void add_diff_command(Commands& commands) {
-  auto arguments = std::make_shared<DiffArguments>();
-  CLI::App* command =
-      commands.add("diff", "Say what differs between two stores, of a driver and the next, say",
-                   [arguments] { return diff(*arguments); });
-  command->add_option("OLD", arguments->a, "Store of a run or a validation")->required();
-  command->add_option("NEW", arguments->b, "Store of the same plans")->required();
-  command->add_option("--device", arguments->devices, "Glob: only these (repeatable)");
-  command->add_flag("--json", arguments->json, "Print everything as JSON");
+  auto [command, arguments] = commands.add(
+      "diff", "Say what differs between two stores, of a driver and the next, say", diff);
+  command.add_option("OLD", arguments.a, "Store of a run or a validation")->required();
+  command.add_option("NEW", arguments.b, "Store of the same plans")->required();
+  add_devices_option(command, arguments.devices);
+  command.add_flag("--json", arguments.json, "Print everything as JSON");
 }
 
 }  // namespace
 
 void add_compare_commands(Commands& commands) {
   add_diff_command(commands);
-  auto arguments = std::make_shared<CompareArguments>();
-  Comparing& comparing = arguments->comparing;
-  CLI::App* command =
-      commands.add("compare", "Say what differs between two devices, drivers or builds, times last",
-                   [arguments] { return compare(*arguments); });
-  command->add_option(
+  auto [command, arguments] = commands.add(
+      "compare", "Say what differs between two devices, drivers or builds, times last", compare);
+  Comparing& comparing = arguments.comparing;
+  command.add_option(
       "PLAN", comparing.plans,
       fmt::format("YAML files, or SUITE/PLAN (default: {})", fmt::join(main_job, " ")));
-  comparing.choice.add_to(*command);
+  add_choice_options(command, comparing.choice);
   constexpr const char* side = "DEVICE[,NAME=VALUE]…: with variables set for this side alone";
-  command->add_option("--a", arguments->a, side);
-  command->add_option("--b", arguments->b, side);
-  command->add_option("--a-program", arguments->a_program,
-                      "Another build of triptych to measure a");
-  command->add_option("--b-program", arguments->b_program,
-                      "Another build of triptych to measure b");
-  command->add_flag("--no-times", arguments->no_times, "Only what repeats");
-  command->add_flag("--apis", arguments->apis,
-                    "Show what --store holds, technique by technique and device beside device");
+  command.add_option("--a", arguments.a, side);
+  command.add_option("--b", arguments.b, side);
+  command.add_option("--a-program", arguments.a_program, "Another build of triptych to measure a");
+  command.add_option("--b-program", arguments.b_program, "Another build of triptych to measure b");
+  command.add_flag("--no-times", arguments.no_times, "Only what repeats");
+  command.add_flag("--apis", arguments.apis,
+                   "Show what --store holds, technique by technique and device beside device");
   command
-      ->add_option("--budget", comparing.budget_s,
-                   "Seconds after which no doubt about a time is followed any further (default: "
-                   "none)")
+      .add_option("--budget", comparing.budget_s,
+                  "Seconds after which no doubt about a time is followed any further (default: "
+                  "none)")
       ->check(CLI::Range(1, 1000000));
-  add_limit_option(*command, comparing.limit_s, "one answer");
-  command->add_option("--store", comparing.store,
-                      "SQLite file that keeps both runs (default: nothing is kept)");
-  command->add_option("--seed", comparing.seed, "Of the order in which times are taken")
+  add_limit_option(command, comparing.limit_s, "one answer");
+  command.add_option("--store", comparing.store,
+                     "SQLite file that keeps both runs (default: nothing is kept)");
+  command.add_option("--seed", comparing.seed, "Of the order in which times are taken")
       ->capture_default_str();
-  add_inject_option(*command, comparing.faults,
+  add_inject_option(command, comparing.faults,
                     "Inject a fault into side b, to prove that it is found; as for run");
-  command->add_flag("--json", arguments->json, "Print everything as JSON");
+  command.add_flag("--json", arguments.json, "Print everything as JSON");
 }
 
 }  // namespace triptych::app

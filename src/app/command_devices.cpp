@@ -1,16 +1,15 @@
 #include <fmt/format.h>
 
-#include <memory>
 #include <utility>
 
 #include "app/arguments.hpp"
-#include "app/listing.hpp"
 #include "app/registry.hpp"
-#include "core/json.hpp"
-#include "core/json_text.hpp"
+#include "measure/worker/listing.hpp"
 
 namespace triptych::app {
 namespace {
+
+using measure::Greeting;
 
 void print_text(const std::vector<Greeting>& greeted, const std::vector<measure::Broken>& broken) {
   for (const Greeting& each : greeted) {
@@ -47,15 +46,16 @@ void print_json(const std::vector<Greeting>& greeted, const std::vector<measure:
   for (const measure::Broken& each : broken) {
     json["broken"].push_back({{"what", each.what}, {"reason", each.reason}});
   }
-  fmt::print("{}\n", core::json_text(json, 2));
+  print(json);
 }
 
-core::ExitCode devices(bool json) {
+core::ExitCode devices(const bool& json) {
   const Registry registry = make_registry();
-  const measure::Listing listing = list_devices(registry);
+  const measure::Listing listing = registry.devices();
   const std::string suite(registry.suites.front()->name());
   std::vector<Greeting> greeted;
-  for (const record::Device& device : listing.devices) greeted.push_back(greet(device, suite));
+  for (const record::Device& device : listing.devices)
+    greeted.push_back(measure::greet(device, suite));
   if (json) {
     print_json(greeted, listing.broken);
   } else {
@@ -67,11 +67,9 @@ core::ExitCode devices(bool json) {
 }  // namespace
 
 void add_devices_command(Commands& commands) {
-  auto json = std::make_shared<bool>(false);
-  CLI::App* command =
-      commands.add("devices", "List what is here, what it can do and whose clocks are trusted",
-                   [json] { return devices(*json); });
-  command->add_flag("--json", *json, "For machines");
+  auto [command, json] = commands.add(
+      "devices", "List what is here, what it can do and whose clocks are trusted", devices);
+  command.add_flag("--json", json, "For machines");
 }
 
 }  // namespace triptych::app

@@ -123,11 +123,11 @@ std::string completion(const CLI::App& program) {
 
 void add(Commands& commands, const std::string& name, const std::string& summary,
          std::string (*text)(const CLI::App&)) {
-  CLI::App* command = commands.add(name, summary, [&program = commands.program, text] {
+  CLI::App& command = commands.add(name, summary, [&program = commands.program, text] {
     fmt::print("{}", text(program));
     return core::ExitCode::pass;
   });
-  command->group("");  // not shown: the build calls it
+  command.group("");  // not shown: the build calls it
 }
 
 }  // namespace

@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "app/arguments.hpp"
-#include "app/paths.hpp"
+#include "app/judging.hpp"
 #include "app/saying.hpp"
 #include "app/version.hpp"
-#include "core/json_text.hpp"
+#include "core/output_files.hpp"
 #include "record/store.hpp"
 #include "report/export_tables.hpp"
 
@@ -29,14 +28,14 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
   }
   std::vector<const record::Store*> all(stores.size());
   std::ranges::transform(stores, all.begin(), [](const record::Store& each) { return &each; });
-  require_writable(arguments.out);
+  core::require_writable(arguments.out);
   const report::ExportedRows rows = report::export_tables(
       all, {.plan = arguments.plan,
             .folder = arguments.out,
             .made_by = "triptych " + version(),
             .begins = [](const record::Run& run) { say("{} of {}\n", run.id, run.plan); }});
   if (arguments.json) {
-    fmt::print("{}\n", core::json_text({{"folder", arguments.out}, {"rows", rows}}, 1));
+    print({{"folder", arguments.out}, {"rows", rows}}, 1);
     return core::ExitCode::pass;
   }
   for (const auto& [table, count] : rows)
@@ -48,15 +47,13 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
 }  // namespace
 
 void add_export_command(Commands& commands) {
-  auto arguments = std::make_shared<ExportArguments>();
-  CLI::App* command =
-      commands.add("export", "Tidy tables of stores, as CSV with a dictionary of their columns",
-                   [arguments] { return write_tables(*arguments); });
-  command->add_option("STORE", arguments->stores, "SQLite files")->required();
-  command->add_option("--out", arguments->out, "Folder for the tables")->required();
-  command->add_option("--plan", arguments->plan,
-                      "SUITE/PLAN as it was run (default: all in the stores)");
-  command->add_flag("--json", arguments->json, "Print what was written as JSON");
+  auto [command, arguments] = commands.add(
+      "export", "Tidy tables of stores, as CSV with a dictionary of their columns", write_tables);
+  command.add_option("STORE", arguments.stores, "SQLite files")->required();
+  command.add_option("--out", arguments.out, "Folder for the tables")->required();
+  command.add_option("--plan", arguments.plan,
+                     "SUITE/PLAN as it was run (default: all in the stores)");
+  command.add_flag("--json", arguments.json, "Print what was written as JSON");
 }
 
 }  // namespace triptych::app

@@ -2,21 +2,20 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "app/comparing.hpp"
 #include "app/judging.hpp"
-#include "app/listing.hpp"
 #include "app/measuring.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/saying.hpp"
-#include "app/truth.hpp"
 #include "core/foreign_error.hpp"
+#include "core/output_files.hpp"
 #include "core/quoting.hpp"
 #include "judge/gate/gate.hpp"
 #include "measure/plan/plan.hpp"
 #include "measure/system/stopwatch.hpp"
+#include "measure/worker/listing.hpp"
 
 namespace triptych::app {
 namespace {
@@ -24,7 +23,7 @@ namespace {
 struct GateArguments {
   std::vector<std::string> plans;  // as they were typed
   PlanChoice choice;
-  std::string store = "triptych.sqlite";
+  std::string store = standard_store;
   std::string baselines = default_baselines().string();
   std::vector<std::string> checks;
   std::vector<std::string> without;
@@ -44,7 +43,7 @@ struct GateArguments {
 struct AcceptArguments {
   std::vector<std::string> plans;  // as they were typed
   PlanChoice choice;
-  std::string store = "triptych.sqlite";
+  std::string store = standard_store;
   std::string baselines = default_baselines().string();
   std::string reason;
   std::string only;
@@ -77,7 +76,7 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
 }
 
 judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan& judged,
-                               const Registry& registry, Truths& truths) {
+                               const Registry& registry, measure::Truths& truths) {
   judge::GateRequest request = request_of(truths, judged.plan, registry.suite(judged.plan.suite));
   request.devices = arguments.devices;
   request.required_devices = arguments.required;
@@ -90,7 +89,7 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
 // Nothing is stored and nothing is held against what is: each device against itself by the base.
 core::ExitCode judge_by_base(const GateArguments& arguments) {
   std::vector<Comparing> comparisons = against_base(
-      arguments.base, choose_devices(list_devices(make_registry()), arguments.devices));
+      arguments.base, measure::choose_devices(make_registry().devices(), arguments.devices));
   for (Comparing& each : comparisons) {
     each.plans = arguments.plans;
     each.choice = arguments.choice;
@@ -107,15 +106,17 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
   if (arguments.measure) {
     std::vector<std::string> typed;
     for (const JudgedPlan& each : plans) typed.push_back(each.typed);
-    measure_plans({.plans = typed,
-                   .choice = arguments.choice,
-                   .devices = arguments.devices,
-                   .store = arguments.store,
-                   .faults = arguments.faults,
-                   .brief = !arguments.times});
+    measure_resumably({.plans = typed,
+                       .choice = arguments.choice,
+                       .devices = arguments.devices,
+                       .store = arguments.store,
+                       .faults = arguments.faults,
+                       .brief = !arguments.times,
+                       .statistics = true,
+                       .told_to = stderr});
   }
   record::Store store = open_to_judge(arguments.store);
-  Truths truths(registry, store);
+  measure::Truths truths(registry.find_suite(), store);
   std::vector<judge::GateResult> results;
   for (const JudgedPlan& each : plans) {
     const judge::GateRequest request = request_for(arguments, each, registry, truths);
@@ -133,9 +134,10 @@ void refuse_bad_files(const GateArguments& arguments) {
   if (!arguments.faults.empty() && !arguments.measure && arguments.base.empty()) {
     throw core::InputError("--inject needs --measure or --base: it goes into what is measured");
   }
-  std::vector<NamedFile> read{{"--store", arguments.store}};
+  std::vector<core::NamedFile> read{{"--store", arguments.store}};
   for (const std::string& plan : arguments.plans) read.push_back({"PLAN", plan});
-  refuse_overwriting(read, {{"--junit", arguments.junit}, {"--markdown", arguments.markdown}});
+  core::refuse_overwriting(read,
+                           {{"--junit", arguments.junit}, {"--markdown", arguments.markdown}});
 }
 
 // For `git bisect run`: what is no verdict on a commit is skipped by it.
@@ -154,7 +156,7 @@ core::ExitCode gate(const GateArguments& arguments) {
 }
 
 void accept_one(const AcceptArguments& arguments, const std::string& typed, record::Store& store,
-                Truths& truths) {
+                measure::Truths& truths) {
   const std::string plan = measure::plan_name(typed);
   const judge::GateRequest judged = request_of(truths, plan);
   const judge::AcceptRequest request{
@@ -162,7 +164,7 @@ void accept_one(const AcceptArguments& arguments, const std::string& typed, reco
       .argument = typed,
       .reason = arguments.reason,
       .only = arguments.only,
-      .date = today(),
+      .date = judged.today,
       .drop = arguments.drop,
       .truth = [&](const record::Record& record) { return truths.of(record).truth; },
       .data_hash = judged.data_hash,
@@ -178,72 +180,69 @@ void accept_one(const AcceptArguments& arguments, const std::string& typed, reco
 core::ExitCode accept(const AcceptArguments& arguments) {
   const Registry registry = make_registry();
   record::Store store = open_to_judge(arguments.store);
-  Truths truths(registry, store);
+  measure::Truths truths(registry.find_suite(), store);
   for (const std::string& typed : arguments.plans) accept_one(arguments, typed, store, truths);
   return core::ExitCode::pass;
 }
 
 void add_accept_command(Commands& commands) {
-  auto arguments = std::make_shared<AcceptArguments>();
-  CLI::App* command = commands.add("accept", "Make the latest runs of plans the baselines",
-                                   [arguments] { return accept(*arguments); });
-  command->add_option("PLAN", arguments->plans, "SUITE/PLAN or the YAML file, as it was run")
+  auto [command, arguments] =
+      commands.add("accept", "Make the latest runs of plans the baselines", accept);
+  command.add_option("PLAN", arguments.plans, "SUITE/PLAN or the YAML file, as it was run")
       ->required();
-  command->add_option("--reason", arguments->reason, "Why; kept in history.json")->required();
-  command->add_option("--only", arguments->only, "Glob over configurations");
-  command->add_flag("--drop", arguments->drop,
-                    "Drop stored configurations that the run has no record of, and files that are "
-                    "not as they were accepted; with --only what a device skips now");
-  command->add_option("--store", arguments->store)->capture_default_str();
-  add_baselines_option(*command, arguments->baselines);
+  command.add_option("--reason", arguments.reason, "Why; kept in history.json")->required();
+  command.add_option("--only", arguments.only, "Glob over configurations");
+  command.add_flag("--drop", arguments.drop,
+                   "Drop stored configurations that the run has no record of, and files that are "
+                   "not as they were accepted; with --only what a device skips now");
+  command.add_option("--store", arguments.store)->capture_default_str();
+  add_baselines_option(command, arguments.baselines);
 }
 
 }  // namespace
 
 void add_gate_commands(Commands& commands) {
-  auto arguments = std::make_shared<GateArguments>();
-  CLI::App* command =
-      commands.add("gate", "Judge the latest runs of plans, or measure and judge them",
-                   [arguments] { return gate(*arguments); });
-  command->add_option("PLAN", arguments->plans,
-                      fmt::format("SUITE/PLAN or the YAML file, as it was run (default: {})",
-                                  fmt::join(main_job, " ")));
-  arguments->choice.add_to(*command);
-  command->add_flag("--measure", arguments->measure, "Measure first, into new runs");
-  command->add_option("--store", arguments->store)->capture_default_str();
-  add_baselines_option(*command, arguments->baselines);
+  auto [command, arguments] =
+      commands.add("gate", "Judge the latest runs of plans, or measure and judge them", gate);
+  command.add_option("PLAN", arguments.plans,
+                     fmt::format("SUITE/PLAN or the YAML file, as it was run (default: {})",
+                                 fmt::join(main_job, " ")));
+  add_choice_options(command, arguments.choice);
+  command.add_flag("--measure", arguments.measure, "Measure first, into new runs");
+  command.add_option("--store", arguments.store)->capture_default_str();
+  add_baselines_option(command, arguments.baselines);
   command
-      ->add_option("--check", arguments->checks,
-                   "image,counters,statistics,cost,memory,timing,correlation,accuracy,stress "
-                   "(default: those of the plan)")
+      .add_option("--check", arguments.checks,
+                  "image,counters,statistics,cost,memory,timing,correlation,accuracy,stress "
+                  "(default: those of the plan)")
       ->delimiter(',');
   command
-      ->add_option("--without", arguments->without,
-                   "Leave these checks out; cost: plans that count instructions, too")
+      .add_option("--without", arguments.without,
+                  "Leave these checks out; cost: plans that count instructions, too")
       ->delimiter(',');
-  command->add_option("--device", arguments->devices, "Glob: only these (repeatable)");
-  command->add_option("--require", arguments->required,
-                      "Glob: a device that must have measured something (repeatable)");
-  command->add_flag("--times", arguments->times,
-                    "Times decide: for a machine that is kept for measuring; else they advise");
-  CLI::Option* base = command->add_option(
-      "--base", arguments->base,
+  add_devices_option(command, arguments.devices);
+  command.add_option("--require", arguments.required,
+                     "Glob: a device that must have measured something (repeatable)");
+  command.add_flag("--times", arguments.times,
+                   "Times decide: for a machine that is kept for measuring; else they advise");
+  CLI::Option* base = command.add_option(
+      "--base", arguments.base,
       "Another build of triptych, or NAME=VALUE,… of another driver: measure each device by it and "
       "as it is now, and judge what differs, as compare does");
-  command->add_option(
-      "--out", arguments->out,
+  command.add_option(
+      "--out", arguments.out,
       "Folder for report.html, gate.log, summary.md, benchmark.json and JUnit XML of "
       "each plan");
-  command->add_option("--junit", arguments->junit, "Write JUnit XML of all plans");
-  command->add_option("--markdown", arguments->markdown, "Write a Markdown summary");
-  command->add_flag("--json", arguments->json, "Print every finding as JSON");
-  command->add_flag("--bisect", arguments->bisect,
-                    "For `git bisect run`: 125 where nothing could be judged, instead of 2 or 3");
+  command.add_option("--junit", arguments.junit, "Write JUnit XML of all plans");
+  command.add_option("--markdown", arguments.markdown, "Write a Markdown summary");
+  command.add_flag("--json", arguments.json, "Print every finding as JSON");
+  command.add_flag("--bisect", arguments.bisect,
+                   "For `git bisect run`: 125 where nothing could be judged, instead of 2 or 3");
   for (const char* other : {"--measure", "--store", "--baselines", "--check", "--without",
                             "--require", "--out", "--junit", "--markdown"}) {
     base->excludes(other);
   }
-  add_inject_option(*command, arguments->faults, "As of run, with --measure or --base");
+  add_inject_option(command, arguments.faults, "As of run, with --measure or --base");
   add_accept_command(commands);
 }
 

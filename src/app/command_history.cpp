@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 
 #include "app/arguments.hpp"
 #include "app/judging.hpp"
-#include "app/paths.hpp"
 #include "app/registry.hpp"
-#include "app/truth.hpp"
 #include "comparison/history.hpp"
-#include "core/json.hpp"
-#include "core/json_text.hpp"
+#include "core/output_files.hpp"
 #include "report/history_page.hpp"
 
 namespace triptych::app {
@@ -27,10 +23,10 @@ struct HistoryArguments {
 
 core::ExitCode history(const HistoryArguments& arguments) {
   if (!arguments.out.empty()) {
-    std::vector<NamedFile> read;
+    std::vector<core::NamedFile> read;
     for (const std::string& store : arguments.stores) read.push_back({"STORE", store});
-    refuse_overwriting(read, {{"--out", arguments.out}});
-    require_writable(std::filesystem::path(arguments.out).parent_path());
+    core::refuse_overwriting(read, {{"--out", arguments.out}});
+    core::require_writable(std::filesystem::path(arguments.out).parent_path());
   }
   const Registry registry = make_registry();
   std::vector<record::Store> stores;
@@ -42,16 +38,19 @@ core::ExitCode history(const HistoryArguments& arguments) {
   }
   comparison::HistoryBuilder builder(arguments.devices);
   for (record::Store* store : comparison::in_order(given)) {
-    Truths truths(registry, *store);
-    builder.add(*store, known_truth(truths));
+    measure::Truths truths(registry.find_suite(), *store);
+    builder.add(*store, truths);
   }
   if (builder.devices().empty()) {
     throw core::NotSupported("the stores hold no run of such a device: see `triptych devices`");
   }
   const core::Json json = comparison::to_json(builder.devices());
-  if (!arguments.out.empty()) write_text(arguments.out, report::history_page(json));
-  fmt::print("{}", arguments.json ? core::json_text(json, 2) + "\n"
-                                  : comparison::to_text(builder.devices()));
+  if (!arguments.out.empty()) core::write_text(arguments.out, report::history_page(json));
+  if (arguments.json) {
+    print(json);
+  } else {
+    fmt::print("{}", comparison::to_text(builder.devices()));
+  }
   if (!arguments.out.empty()) fmt::print("{}\n", arguments.out);
   return core::ExitCode::pass;
 }
@@ -59,15 +58,14 @@ core::ExitCode history(const HistoryArguments& arguments) {
 }  // namespace
 
 void add_history_command(Commands& commands) {
-  auto arguments = std::make_shared<HistoryArguments>();
-  CLI::App* command = commands.add(
+  auto [command, arguments] = commands.add(
       "history", "Cost, time and changes over stores of many days, and the first that was worse",
-      [arguments] { return history(*arguments); });
-  command->add_option("STORE", arguments->stores, "Stores of the same plans, in any order")
+      history);
+  command.add_option("STORE", arguments.stores, "Stores of the same plans, in any order")
       ->required();
-  command->add_option("--device", arguments->devices, "Glob: only these (repeatable)");
-  command->add_option("--out", arguments->out, "Also write a page, such as history.html");
-  command->add_flag("--json", arguments->json, "Print everything as JSON");
+  add_devices_option(command, arguments.devices);
+  command.add_option("--out", arguments.out, "Also write a page, such as history.html");
+  command.add_flag("--json", arguments.json, "Print everything as JSON");
 }
 
 }  // namespace triptych::app

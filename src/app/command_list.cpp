@@ -10,14 +10,13 @@
 #include "app/arguments.hpp"
 #include "app/registry.hpp"
 #include "app/saying.hpp"
-#include "core/json.hpp"
-#include "core/json_text.hpp"
 
 namespace triptych::app {
 namespace {
 
 struct ListArguments {
-  PlanArguments plan;
+  std::string plan;  // or a suite
+  PlanChoice choice;
   bool json = false;
 };
 
@@ -66,7 +65,7 @@ std::vector<CountedPlan> plans_of(const measure::Suite& suite, const Registry& r
   return plans;
 }
 
-void print(const measure::Suite& suite, const std::vector<CountedPlan>& plans) {
+void print_text(const measure::Suite& suite, const std::vector<CountedPlan>& plans) {
   fmt::print("factors of {}\n", suite.name());
   for (const measure::Factor& factor : suite.factors()) print_factor(factor);
   if (!suite.generators().empty()) fmt::print("generated data\n");
@@ -99,9 +98,9 @@ core::Json json_of(const measure::Suite& suite, const std::vector<CountedPlan>& 
 core::ExitCode list_suite(const measure::Suite& suite, const Registry& registry, bool as_json) {
   const std::vector<CountedPlan> plans = plans_of(suite, registry);
   if (as_json) {
-    fmt::print("{}\n", core::json_text(json_of(suite, plans), 2));
+    print(json_of(suite, plans));
   } else {
-    print(suite, plans);
+    print_text(suite, plans);
   }
   return core::ExitCode::pass;
 }
@@ -109,24 +108,23 @@ core::ExitCode list_suite(const measure::Suite& suite, const Registry& registry,
 core::ExitCode print_json(const measure::Plan& plan) {
   core::Json configurations = core::Json::array();
   for (const measure::Configuration& each : plan.configurations) configurations.push_back(each);
-  fmt::print("{}\n", core::json_text({{"plan", plan.name},
-                                      {"suite", plan.suite},
-                                      {"varied", plan.varied},
-                                      {"configurations", configurations}},
-                                     2));
+  print({{"plan", plan.name},
+         {"suite", plan.suite},
+         {"varied", plan.varied},
+         {"configurations", configurations}});
   return core::ExitCode::pass;
 }
 
 core::ExitCode list_plan(const ListArguments& arguments, const Registry& registry) {
-  const auto& [name, choice] = arguments.plan;
-  if (arguments.json) return print_json(arguments.plan.load(registry.find_suite()));
+  const auto& [name, choice, as_json] = arguments;
+  if (as_json) return print_json(choice.load(name, registry.find_suite()));
   std::size_t count = 0;
-  const measure::Plan plan = measure::list_plan(
-      name, parse_overrides(choice.set), registry.find_suite(), choice.shard_chosen(),
-      [&](const measure::Suite& suite, const measure::Configuration& each) {
-        fmt::print("{}\n", measure::configuration_key(suite, each));
-        ++count;
-      });
+  const measure::Plan plan =
+      measure::list_plan(name, choice.overrides(), registry.find_suite(), choice.part(),
+                         [&](const measure::Suite& suite, const measure::Configuration& each) {
+                           fmt::print("{}\n", measure::configuration_key(suite, each));
+                           ++count;
+                         });
   say("{}: {} configurations\n", plan.name, count);
   return core::ExitCode::pass;
 }
@@ -134,7 +132,7 @@ core::ExitCode list_plan(const ListArguments& arguments, const Registry& registr
 core::ExitCode list(const ListArguments& arguments) {
   const Registry registry = make_registry();
   const auto suite =
-      std::ranges::find(registry.suites, arguments.plan.plan,
+      std::ranges::find(registry.suites, arguments.plan,
                         [](const auto& each) -> std::string { return std::string(each->name()); });
   return suite == registry.suites.end() ? list_plan(arguments, registry)
                                         : list_suite(**suite, registry, arguments.json);
@@ -143,12 +141,12 @@ core::ExitCode list(const ListArguments& arguments) {
 }  // namespace
 
 void add_list_command(Commands& commands) {
-  auto arguments = std::make_shared<ListArguments>();
-  CLI::App* command = commands.add(
+  auto [command, arguments] = commands.add(
       "list", "Print the configurations of a plan; of a suite its factors, generators and plans",
-      [arguments] { return list(*arguments); });
-  arguments->plan.add_to(*command);
-  command->add_flag("--json", arguments->json, "Print every factor of every configuration as JSON");
+      list);
+  add_plan_option(command, arguments.plan);
+  add_choice_options(command, arguments.choice);
+  command.add_flag("--json", arguments.json, "Print every factor of every configuration as JSON");
 }
 
 }  // namespace triptych::app

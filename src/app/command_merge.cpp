@@ -1,17 +1,15 @@
 // merge: what a farm measured, as if one machine had.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "app/arguments.hpp"
-#include "app/paths.hpp"
 #include "app/saying.hpp"
+#include "core/output_files.hpp"
 #include "record/merge/merge.hpp"
 
 namespace triptych::app {
@@ -22,26 +20,6 @@ struct MergeArguments {
   std::string out;
   bool check = false;
   std::vector<std::string> plans;  // that each store has to hold
-};
-
-// On a terminal, now and then.
-class Counting {
- public:
-  void operator()(std::uint64_t records) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!terminal_ || now - last_ < std::chrono::milliseconds(200)) return;
-    last_ = now;
-    say("\r\033[K{} records", records);
-    shown_ = true;
-  }
-  void end() const {
-    if (shown_) say("\r\033[K");
-  }
-
- private:
-  bool terminal_ = ::isatty(STDERR_FILENO) == 1;
-  bool shown_ = false;
-  std::chrono::steady_clock::time_point last_;
 };
 
 void tell_left_out(const record::RecordCounts& counts) {
@@ -101,12 +79,18 @@ core::ExitCode check(const MergeArguments& arguments) {
 core::ExitCode merge(const MergeArguments& arguments) {
   if (arguments.check) return check(arguments);
   if (arguments.out.empty()) throw core::InputError("--out is required: the store to be written");
-  require_writable(std::filesystem::path(arguments.out).parent_path());
-  Counting counting;
-  const record::MergeResult result =
-      record::merge_stores({arguments.stores.begin(), arguments.stores.end()}, arguments.out,
-                           [&](std::uint64_t records) { counting(records); });
-  counting.end();
+  core::require_writable(std::filesystem::path(arguments.out).parent_path());
+  // On a terminal, now and then.
+  const auto count = [last =
+                          std::chrono::steady_clock::time_point()](std::uint64_t records) mutable {
+    const auto now = std::chrono::steady_clock::now();
+    if (!watched() || now - last < std::chrono::milliseconds(200)) return;
+    last = now;
+    show("{} records", records);
+  };
+  const record::MergeResult result = record::merge_stores(
+      {arguments.stores.begin(), arguments.stores.end()}, arguments.out, count);
+  clear_line();
   for (const record::MergeResult::Plan& each : result.plans) tell(each, arguments.out);
   if (result.older_runs > 0) {
     fmt::print("{} older runs were left out: of each plan a store gives its latest\n",
@@ -118,20 +102,19 @@ core::ExitCode merge(const MergeArguments& arguments) {
 }  // namespace
 
 void add_merge_command(Commands& commands) {
-  auto arguments = std::make_shared<MergeArguments>();
-  CLI::App* command = commands.add("merge", "Make one store of several: shards, hosts, devices",
-                                   [arguments] { return merge(*arguments); });
-  command->add_option("STORE", arguments->stores, "What `triptych run` wrote")->required();
+  auto [command, arguments] =
+      commands.add("merge", "Make one store of several: shards, hosts, devices", merge);
+  command.add_option("STORE", arguments.stores, "What `triptych run` wrote")->required();
   CLI::Option* out =
-      command->add_option("--out", arguments->out, "Store to be written; none may be there");
+      command.add_option("--out", arguments.out, "Store to be written; none may be there");
   CLI::Option* check =
       command
-          ->add_flag("--check", arguments->check,
-                     "Merge nothing: name the stores that are not complete, and end with 2 for one")
+          .add_flag("--check", arguments.check,
+                    "Merge nothing: name the stores that are not complete, and end with 2 for one")
           ->excludes(out);
   command
-      ->add_option("--plan", arguments->plans,
-                   "A plan of which each store has to hold a run (repeatable)")
+      .add_option("--plan", arguments.plans,
+                  "A plan of which each store has to hold a run (repeatable)")
       ->needs(check);
 }
 

@@ -1,37 +1,36 @@
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "app/arguments.hpp"
 #include "app/judging.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
-#include "app/truth.hpp"
+#include "core/output_files.hpp"
 #include "report/benchmark_json.hpp"
 
 namespace triptych::app {
 namespace {
 
 struct ReportArguments {
-  std::string store = "triptych.sqlite";
+  std::string store = standard_store;
   std::string baselines = default_baselines().string();
   std::string out = "report.html";
   std::string benchmark_json;
 };
 
 core::ExitCode write_report(const ReportArguments& arguments) {
-  refuse_overwriting({{"--store", arguments.store}},
-                     {{"--out", arguments.out}, {"--benchmark-json", arguments.benchmark_json}});
+  core::refuse_overwriting(
+      {{"--store", arguments.store}},
+      {{"--out", arguments.out}, {"--benchmark-json", arguments.benchmark_json}});
   const Registry registry = make_registry();
-  require_writable(std::filesystem::path(arguments.out).parent_path());
+  core::require_writable(std::filesystem::path(arguments.out).parent_path());
   record::Store store = open_to_judge(arguments.store);
-  Truths truths(registry, store);
+  measure::Truths truths(registry.find_suite(), store);
   if (store.runs().empty()) {
     throw core::NotSupported(arguments.store + " holds no run: measure first with `triptych run`");
   }
-  write_text(arguments.out, page_of(store, truths, arguments.baselines));
+  core::write_text(arguments.out, page_of(store, truths, arguments.baselines));
   if (!arguments.benchmark_json.empty()) {
-    write_text(arguments.benchmark_json, report::benchmark_json(store, latest_runs(store)));
+    core::write_text(arguments.benchmark_json, report::benchmark_json(store, latest_runs(store)));
   }
   fmt::print("{}\n", arguments.out);
   return core::ExitCode::pass;
@@ -40,14 +39,13 @@ core::ExitCode write_report(const ReportArguments& arguments) {
 }  // namespace
 
 void add_report_command(Commands& commands) {
-  auto arguments = std::make_shared<ReportArguments>();
-  CLI::App* command = commands.add("report", "Write one self-contained HTML page about a store",
-                                   [arguments] { return write_report(*arguments); });
-  command->add_option("--store", arguments->store)->capture_default_str();
-  command->add_option("--out", arguments->out)->capture_default_str();
-  add_baselines_option(*command, arguments->baselines);
-  command->add_option("--benchmark-json", arguments->benchmark_json,
-                      "Also write Google Benchmark's JSON of all its plans' latest runs");
+  auto [command, arguments] =
+      commands.add("report", "Write one self-contained HTML page about a store", write_report);
+  command.add_option("--store", arguments.store)->capture_default_str();
+  command.add_option("--out", arguments.out)->capture_default_str();
+  add_baselines_option(command, arguments.baselines);
+  command.add_option("--benchmark-json", arguments.benchmark_json,
+                     "Also write Google Benchmark's JSON of all its plans' latest runs");
 }
 
 }  // namespace triptych::app

@@ -1,6 +1,5 @@
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/saying.hpp"
+#include "core/output_files.hpp"
 #include "judge/gate/flakes.hpp"
 #include "measure/run/runner.hpp"
 #include "measure/system/stopwatch.hpp"
@@ -51,13 +51,15 @@ Measuring measuring_of(const ValidateArguments& arguments, const std::string& fi
           .store = file,
           .resume = arguments.resume,
           .jobs = arguments.jobs,
-          .untimed = true};
+          .untimed = true,
+          .statistics = true,
+          .told_to = stderr};
 }
 
 // What a run that was interrupted has measured is judged like all else: false.
 bool measured_to_its_end(const Measuring& measuring) {
   try {
-    measure_plans(measuring);
+    measure_resumably(measuring);
     return true;
   } catch (const measure::Interrupted& interrupted) {
     say("triptych: {}\n", interrupted.what());
@@ -85,7 +87,7 @@ class Validation {
         before_(before),
         registry_(make_registry()),
         store_(open_to_judge(file)),
-        truths_(registry_, store_),
+        truths_(registry_.find_suite(), store_),
         known_(std::move(known)) {}
 
   void judge_all() {
@@ -113,7 +115,7 @@ class Validation {
 
   core::ExitCode tell(double seconds) {
     if (!arguments_.write_expect.empty()) {
-      write_text(arguments_.write_expect, judge::expected_text(judge::as_expected(results_)));
+      core::write_text(arguments_.write_expect, judge::expected_text(judge::as_expected(results_)));
     }
     return tell_verdict(store_, truths_, arguments_.baselines, results_, seconds,
                         {.folder = arguments_.out,
@@ -148,20 +150,20 @@ class Validation {
   const std::set<std::string>& before_;
   Registry registry_;
   record::Store store_;
-  Truths truths_;
+  measure::Truths truths_;
   std::optional<std::vector<judge::Waiver>> known_;
   std::vector<judge::GateResult> results_;
 };
 
 core::ExitCode validate(const ValidateArguments& arguments) {
   const measure::Stopwatch since;
-  refuse_overwriting({{"--expect", arguments.expect}},
-                     {{"--junit", arguments.junit},
-                      {"--json", arguments.json},
-                      {"--write-expect", arguments.write_expect}});
+  core::refuse_overwriting({{"--expect", arguments.expect}},
+                           {{"--junit", arguments.junit},
+                            {"--json", arguments.json},
+                            {"--write-expect", arguments.write_expect}});
   std::optional<std::vector<judge::Waiver>> known;
   if (!arguments.expect.empty()) known = judge::read_expected(arguments.expect);
-  require_writable(arguments.out);
+  core::require_writable(arguments.out);
   const std::string file = (std::filesystem::path(arguments.out) / "validation.sqlite").string();
   const std::set<std::string> before = runs_before(arguments, file);
   const bool whole = measured_to_its_end(measuring_of(arguments, file));
@@ -174,33 +176,30 @@ core::ExitCode validate(const ValidateArguments& arguments) {
 }  // namespace
 
 void add_validate_command(Commands& commands) {
-  auto arguments = std::make_shared<ValidateArguments>();
-  CLI::App* command =
-      commands.add("validate", "Everything a new driver must pass: pictures, work, hostile scenes",
-                   [arguments] { return validate(*arguments); });
-  command->add_option("--device", arguments->devices, "Glob over device ids (repeatable)")
+  auto [command, arguments] = commands.add(
+      "validate", "Everything a new driver must pass: pictures, work, hostile scenes", validate);
+  command.add_option("--device", arguments.devices, "Glob over device ids (repeatable)")
       ->required();
   command
-      ->add_option("--out", arguments->out,
-                   "Folder for the store and what the gate writes for a CI")
+      .add_option("--out", arguments.out, "Folder for the store and what the gate writes for a CI")
       ->capture_default_str();
-  command->add_option("--junit", arguments->junit, "Write JUnit XML of all plans");
-  command->add_option("--json", arguments->json, "Write every finding as JSON; -: print it");
-  command->add_flag(
-      "--resume", arguments->resume,
+  command.add_option("--junit", arguments.junit, "Write JUnit XML of all plans");
+  command.add_option("--json", arguments.json, "Write every finding as JSON; -: print it");
+  command.add_flag(
+      "--resume", arguments.resume,
       "Go on with what is in the folder's store, after a kill or a crash of the machine");
   command
-      ->add_option("--jobs", arguments->jobs,
-                   "Workers at once, of one device too (default: one of each device)")
+      .add_option("--jobs", arguments.jobs,
+                  "Workers at once, of one device too (default: one of each device)")
       ->check(CLI::Range(1, 64));
-  command->add_option("--shard", arguments->choice.shard,
-                      "i/n: only the i-th of n parts of each plan");
-  command->add_option("--expect", arguments->expect,
-                      "What is known to fail, flake or be skipped, as --write-expect leaves it: "
-                      "known failures are waived, all else has to pass");
-  command->add_option("--write-expect", arguments->write_expect,
-                      "Write what failed, flaked or was skipped, for the next --expect");
-  add_baselines_option(*command, arguments->baselines);
+  command.add_option("--shard", arguments.choice.shard,
+                     "i/n: only the i-th of n parts of each plan");
+  command.add_option("--expect", arguments.expect,
+                     "What is known to fail, flake or be skipped, as --write-expect leaves it: "
+                     "known failures are waived, all else has to pass");
+  command.add_option("--write-expect", arguments.write_expect,
+                     "Write what failed, flaked or was skipped, for the next --expect");
+  add_baselines_option(command, arguments.baselines);
 }
 
 }  // namespace triptych::app

@@ -4,47 +4,30 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <optional>
 
-#include "app/judging.hpp"
-#include "app/loading.hpp"
-#include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/saying.hpp"
-#include "app/truth.hpp"
 #include "comparison/comparison.hpp"
 #include "comparison/text.hpp"
 #include "core/exit_code.hpp"
-#include "core/json.hpp"
-#include "core/json_text.hpp"
+#include "core/output_files.hpp"
 #include "core/quoting.hpp"
 #include "core/temporary_folder.hpp"
 #include "measure/protocol/injected_fault.hpp"
+#include "measure/system/environment.hpp"
+#include "measure/worker/own_program.hpp"
 
 namespace triptych::app {
 namespace {
 
-// Whether the text goes on with NAME=: a comma before it ends the value before.
-bool begins_a_variable(std::string_view text) {
-  const auto letter = [](char c) {
-    return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
-  };
-  if (text.empty() || !letter(text.front())) return false;
-  const auto* end = std::ranges::find_if_not(
-      text, [&](char c) { return letter(c) || std::isdigit(static_cast<unsigned char>(c)); });
-  return end != text.end() && *end == '=';
-}
+namespace fs = std::filesystem;
 
-// A line that rewrites itself on a terminal, a line per step elsewhere.
-void show(const comparison::ComparisonProgress& progress) {
+void tell_progress(const comparison::ComparisonProgress& progress) {
   if (progress.loading) return show_loading(*progress.loading);
-  static const bool terminal = ::isatty(STDERR_FILENO) == 1;
-  if (terminal) say("\r\033[K");
-  say("{}/{} {}: {}, left at most {} s", progress.done, progress.total, progress.stage,
-      progress.configuration, progress.left.count());
-  if (!terminal) say("\n");
+  show("{}/{} {}: {}, left at most {} s", progress.done, progress.total, progress.stage,
+       progress.configuration, progress.left.count());
 }
 
 comparison::ComparisonCommand command_of(const Comparing& comparing, const std::string& typed,
@@ -54,7 +37,7 @@ comparison::ComparisonCommand command_of(const Comparing& comparing, const std::
   for (const std::string& each : comparing.faults)
     command.sides += " --inject " + core::shell_quoted(each);
   // What the command line set to one value is no longer varied, but must be said again.
-  for (const auto& [factor, values] : parse_overrides(comparing.choice.set)) {
+  for (const auto& [factor, values] : comparing.choice.overrides()) {
     if (std::ranges::find(command.varied, factor) == command.varied.end()) {
       command.varied.push_back(factor);
     }
@@ -73,7 +56,7 @@ class Comparer {
       : registry_(registry),
         store_(store.empty() ? (folder_.emplace().path() / "compared.sqlite").string() : store,
                record::Store::Mode::append),
-        truths_(registry, store_) {
+        truths_(registry.find_suite(), store_) {
     store_.require_whole();  // truths come from it
   }
 
@@ -82,7 +65,7 @@ class Comparer {
         .plan = comparing.choice.load(typed, registry_.find_suite()),
         .a = comparing.a,
         .b = comparing.b,
-        .faults = parse_faults(comparing.faults),
+        .faults = measure::parse_faults(comparing.faults),
         .limit = std::chrono::seconds(comparing.limit_s),
         .seed = comparing.seed,
         .times = comparing.times,
@@ -90,8 +73,8 @@ class Comparer {
     for (const measure::InjectedFault& each : options.faults) measure::check_fault(each.fault);
     if (comparing.budget_s > 0) options.budget = std::chrono::seconds(comparing.budget_s);
     comparison::ComparisonResult result = comparison::compare(
-        options, registry_.suite(options.plan.suite), store_, known_truth(truths_), show);
-    if (::isatty(STDERR_FILENO) == 1) say("\r\033[K");
+        options, registry_.suite(options.plan.suite), store_, truths_, tell_progress);
+    clear_line();
     return {std::move(result), command_of(comparing, typed, options.plan)};
   }
 
@@ -99,15 +82,14 @@ class Comparer {
   const Registry& registry_;
   std::optional<core::TemporaryFolder> folder_;
   record::Store store_;
-  Truths truths_;
+  measure::Truths truths_;
 };
 
 void tell(const std::vector<Told>& all, bool json) {
   if (json) {
     core::Json found = core::Json::array();
     for (const Told& each : all) found.push_back(to_json(each.result, each.command));
-    fmt::print("{}\n", core::json_text(found.size() == 1 ? found.front() : found, 2));
-    return;
+    return print(found.size() == 1 ? found.front() : found);
   }
   for (const Told& each : all) fmt::print("{}\n", to_text(each.result, each.command));
   if (all.size() == 1) return;
@@ -127,9 +109,7 @@ core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool 
   std::vector<Told> all;
   core::ExitCode code = core::ExitCode::pass;
   for (const Comparing& each : comparisons) {
-    if (!each.store.empty()) {
-      require_writable(std::filesystem::path(each.store).parent_path());
-    }
+    if (!each.store.empty()) core::require_writable(fs::path(each.store).parent_path());
     Comparer comparer(registry, each.store);
     for (const std::string& typed : each.plans.empty() ? main_job : each.plans) {
       try {
@@ -146,14 +126,14 @@ core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool 
 
 std::vector<Comparing> against_base(const std::string& base,
                                     const std::vector<std::string>& devices) {
-  const bool program = ::access(base.c_str(), X_OK) == 0 && std::filesystem::is_regular_file(base);
-  const std::vector<std::string> own{own_program(), "worker", "--device"};
+  const bool program = ::access(base.c_str(), X_OK) == 0 && fs::is_regular_file(base);
+  const std::vector<std::string> own = measure::worker_command();
   std::vector<std::string> command = own;
   std::vector<std::string> environment;
   if (program) {
-    command.front() = std::filesystem::absolute(base).string();
+    command = measure::worker_command(fs::absolute(base).string());
   } else {
-    environment = parse_environment(base, "--base " + base);
+    environment = measure::parse_environment(base, "--base " + base);
   }
   std::vector<Comparing> comparisons;
   for (const std::string& device : devices) {
@@ -165,22 +145,6 @@ std::vector<Comparing> against_base(const std::string& base,
         {.plans = {}, .a = {device, command, environment}, .b = {device, own}, .sides = sides});
   }
   return comparisons;
-}
-
-std::vector<std::string> parse_environment(std::string_view text, const std::string& where) {
-  std::vector<std::string> environment;
-  for (std::string_view rest = text;;) {
-    if (!begins_a_variable(rest)) {
-      throw core::InputError(fmt::format("{}: expected NAME=VALUE, got '{}'", where, rest));
-    }
-    std::size_t end = rest.find(',');
-    while (end != std::string_view::npos && !begins_a_variable(rest.substr(end + 1))) {
-      end = rest.find(',', end + 1);
-    }
-    environment.emplace_back(rest.substr(0, end));
-    if (end == std::string_view::npos) return environment;
-    rest.remove_prefix(end + 1);
-  }
 }
 
 }  // namespace triptych::app

@@ -35,9 +35,4 @@ struct Comparing {
 [[nodiscard]] std::vector<Comparing> against_base(const std::string& base,
                                                   const std::vector<std::string>& devices);
 
-// "NAME=VALUE,…" → each; a value may hold commas that no NAME= follows. Throws core::InputError
-// that begins with `where`.
-[[nodiscard]] std::vector<std::string> parse_environment(std::string_view text,
-                                                         const std::string& where);
-
 }  // namespace triptych::app

@@ -1,15 +1,18 @@
 #include "app/judging.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <ctime>
 #include <map>
 #include <utility>
 
 #include "app/paths.hpp"
 #include "core/foreign_error.hpp"
+#include "core/output_files.hpp"
 #include "core/quoting.hpp"
 #include "measure/plan/plan.hpp"
 #include "record/factor_list.hpp"
@@ -31,6 +34,14 @@ report::ScreenOptions screen() {
 }
 
 }  // namespace
+
+void require_store(const std::filesystem::path& file) {
+  // Without a name it is refused when it is opened.
+  if (file.empty() || std::filesystem::exists(file)) return;
+  throw core::NotSupported(
+      fmt::format("there is no store {}: measure first with `triptych run PLAN --store {}`",
+                  file.string(), core::shell_quoted(file.string())));
+}
 
 record::Store open_to_judge(const std::string& file) {
   require_store(file);
@@ -65,7 +76,22 @@ judge::GateResult judge_named(const record::Store& store, const std::string& run
   });
 }
 
-judge::GateRequest request_of(Truths& truths, const measure::Plan& plan,
+judge::GateRequest request_of(measure::Truths& truths, const std::string& plan) {
+  using record::Record;
+  return {
+      .plan = plan,
+      .checks = {},
+      .devices = {},
+      .required_devices = {},
+      .truth = [&truths](const Record& record) { return truths.of(record); },
+      .limit = [&truths](const Record& record) { return truths.limit_of(record); },
+      .expectations = [&truths](const Record& record) { return truths.expectations_of(record); },
+      .open_counts = [&truths](const Record& record) { return truths.open_counts_of(record); },
+      .today = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))),
+      .data_hash = [&truths](const Record& record) { return truths.data_hash_of(record); }};
+}
+
+judge::GateRequest request_of(measure::Truths& truths, const measure::Plan& plan,
                               const measure::Suite& suite) {
   judge::GateRequest request = request_of(truths, plan.name);
   request.argument = plan.argument;
@@ -80,8 +106,8 @@ judge::GateRequest request_of(Truths& truths, const measure::Plan& plan,
   return request;
 }
 
-std::string page_of(const record::Store& store, Truths& truths, const std::string& baselines,
-                    const std::vector<judge::GateResult>& judged) {
+std::string page_of(const record::Store& store, measure::Truths& truths,
+                    const std::string& baselines, const std::vector<judge::GateResult>& judged) {
   report::PageRequest request{
       .plans = {}, .truth = [&](const record::Record& record) { return truths.of(record); }};
   for (const record::Run& run : latest_runs(store)) {
@@ -96,15 +122,15 @@ std::string page_of(const record::Store& store, Truths& truths, const std::strin
   return core::naming(store.file().string(), [&] { return report::page(store, request); });
 }
 
-core::ExitCode tell_verdict(const record::Store& store, Truths& truths,
+core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
                             const std::string& baselines,
                             const std::vector<judge::GateResult>& results, double seconds,
                             const VerdictFiles& files) {
-  if (!files.junit.empty()) write_text(files.junit, report::junit(results));
-  if (!files.markdown.empty()) write_text(files.markdown, report::markdown(results));
+  if (!files.junit.empty()) core::write_text(files.junit, report::junit(results));
+  if (!files.markdown.empty()) core::write_text(files.markdown, report::markdown(results));
   std::vector<std::string> written;
   if (!files.folder.empty()) {
-    require_writable(files.folder);
+    core::require_writable(files.folder);
     written =
         report::write_folder(files.folder, results, page_of(store, truths, baselines, results),
                              report::benchmark_json(store, latest_runs(store)));
@@ -112,7 +138,7 @@ core::ExitCode tell_verdict(const record::Store& store, Truths& truths,
   if (files.json == "-") {
     fmt::print("{}", report::json(results));
   } else {
-    if (!files.json.empty()) write_text(files.json, report::json(results));
+    if (!files.json.empty()) core::write_text(files.json, report::json(results));
     fmt::print("{}", report::last_screen(results, seconds, written, screen()));
   }
   return report::overview(results).code;

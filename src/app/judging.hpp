@@ -4,12 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "app/truth.hpp"
 #include "judge/gate/gate.hpp"
 #include "measure/plan/plan.hpp"
+#include "measure/truth/truths.hpp"
 #include "record/store.hpp"
 
 namespace triptych::app {
+
+// Throws core::NotSupported saying how to measure when there is no such store.
+void require_store(const std::filesystem::path& file);
 
 // The store to judge from: to append to, so that truths are kept for the next time, else, where it
 // is read-only, to read. Throws NotSupported when there is none, and as record::Store does.
@@ -26,8 +29,11 @@ namespace triptych::app {
                                             const std::string& baselines,
                                             const judge::GateRequest& request);
 
-// What is asked of a plan as it is now, beside request_of(): which configurations it has.
-[[nodiscard]] judge::GateRequest request_of(Truths& truths, const measure::Plan& plan,
+// A request to judge a plan on all devices by every check that is made for it, with these truths,
+// today.
+[[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const std::string& plan);
+// The same of a plan as it is now: which configurations it has.
+[[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const measure::Plan& plan,
                                             const measure::Suite& suite);
 
 // Where a verdict is written; empty: not there.
@@ -40,14 +46,14 @@ struct VerdictFiles {
 
 // Writes the files and prints the last screen, which names those of the folder; `seconds`: that all
 // took. The exit code that counts over all.
-core::ExitCode tell_verdict(const record::Store& store, Truths& truths,
+core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
                             const std::string& baselines,
                             const std::vector<judge::GateResult>& results, double seconds,
                             const VerdictFiles& files);
 
 // The report on the latest run of each plan in a store, which holds one. `judged`: whose commands
 // it repeats.
-[[nodiscard]] std::string page_of(const record::Store& store, Truths& truths,
+[[nodiscard]] std::string page_of(const record::Store& store, measure::Truths& truths,
                                   const std::string& baselines,
                                   const std::vector<judge::GateResult>& judged = {});
 

@@ -15,9 +15,10 @@
 #include "core/foreign_error.hpp"
 #include "measure/plan/plan_values.hpp"
 
+namespace triptych {
 namespace {
 
-using triptych::core::ExitCode;
+using core::ExitCode;
 
 constexpr const char* footer =
     "Exit codes: 0 pass, 1 regression, 2 could not judge, 3 usage or I/O, 77 skipped (tests).\n"
@@ -31,8 +32,8 @@ void refuse_unknown_command(const CLI::App& program, std::string_view name) {
     if (command->get_name() == name) return;
     if (!command->get_group().empty()) known.push_back(command->get_name());
   }
-  throw triptych::core::InputError(
-      fmt::format("unknown command '{}'{}", name, triptych::measure::suggestion(name, known)));
+  throw core::InputError(
+      fmt::format("unknown command '{}'{}", name, measure::suggestion(name, known)));
 }
 
 // What follows an option's value is the next argument, however often the option may be given:
@@ -50,24 +51,18 @@ ExitCode run(int argc, char** argv) {
       "Cross-API portability tests: the same scenes through OpenCL, Vulkan and OpenGL, "
       "judged against the truth and against stored baselines",
       "triptych"};
-  program.set_version_flag("--version", "triptych " + triptych::app::version());
+  program.set_version_flag("--version", "triptych " + app::version());
   program.require_subcommand(1);
   program.footer(footer);
-  triptych::app::Commands commands{.program = program, .chosen = {}};
-  triptych::app::add_devices_command(commands);
-  triptych::app::add_list_command(commands);
-  triptych::app::add_run_commands(commands);
-  triptych::app::add_render_command(commands);
-  triptych::app::add_reduce_command(commands);
-  triptych::app::add_gate_commands(commands);
-  triptych::app::add_compare_commands(commands);
-  triptych::app::add_report_command(commands);
-  triptych::app::add_merge_command(commands);
-  triptych::app::add_history_command(commands);
-  triptych::app::add_validate_command(commands);
-  triptych::app::add_export_command(commands);
-  triptych::app::add_test_commands(commands);
-  triptych::app::add_document_commands(commands);
+  app::Commands commands{.program = program, .chosen = {}};
+  for (const auto add :
+       {app::add_devices_command, app::add_list_command, app::add_run_commands,
+        app::add_render_command, app::add_reduce_command, app::add_gate_commands,
+        app::add_compare_commands, app::add_report_command, app::add_merge_command,
+        app::add_history_command, app::add_validate_command, app::add_export_command,
+        app::add_test_commands, app::add_document_commands}) {
+    add(commands);
+  }
   give_options_one_value(program);
   if (argc > 1) refuse_unknown_command(program, argv[1]);
   try {
@@ -77,7 +72,7 @@ ExitCode run(int argc, char** argv) {
       program.exit(error);
       return ExitCode::pass;
     }
-    triptych::app::say("triptych: {}\nRun with --help for more information.\n", error.what());
+    app::say("triptych: {}\nRun with --help for more information.\n", error.what());
     return ExitCode::usage;
   }
   return commands.chosen();
@@ -85,12 +80,12 @@ ExitCode run(int argc, char** argv) {
 
 ExitCode run_and_catch(int argc, char** argv) {
   try {
-    return triptych::core::naming({}, [&] { return run(argc, argv); });
-  } catch (const triptych::core::NotSupported& error) {
-    triptych::app::say("triptych: {}\n", error.what());
+    return core::naming({}, [&] { return run(argc, argv); });
+  } catch (const core::NotSupported& error) {
+    app::say("triptych: {}\n", error.what());
     return ExitCode::cannot_judge;
   } catch (const std::exception& error) {
-    triptych::app::say("triptych: {}\n", error.what());
+    app::say("triptych: {}\n", error.what());
     return ExitCode::usage;
   }
 }
@@ -103,8 +98,9 @@ bool output_is_written() {
 }
 
 }  // namespace
+}  // namespace triptych
 
 int main(int argc, char** argv) {
-  const ExitCode code = run_and_catch(argc, argv);
-  return static_cast<int>(output_is_written() ? code : ExitCode::usage);
+  const auto code = triptych::run_and_catch(argc, argv);
+  return static_cast<int>(triptych::output_is_written() ? code : triptych::ExitCode::usage);
 }

@@ -1,12 +1,7 @@
 #include "app/one_frame.hpp"
 
-#include <fmt/format.h>
-
-#include <system_error>
-
-#include "app/listing.hpp"
-#include "app/paths.hpp"
-#include "record/bad_input.hpp"
+#include "core/output_files.hpp"
+#include "measure/worker/listing.hpp"
 
 namespace triptych::app {
 
@@ -19,7 +14,7 @@ void FrameArguments::add_to(CLI::App& command) {
 
 OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments) {
   measure::SuiteWithTruth& suite = registry.suite(arguments.suite);
-  measure::Plan plan = measure::default_plan(suite, parse_overrides(arguments.set));
+  measure::Plan plan = measure::default_plan(suite, PlanChoice{.set = arguments.set}.overrides());
   std::vector<std::string> several = plan.varied;
   if (arguments.chooses) {
     std::erase_if(several, [&](const auto& factor) { return plan.automatic.contains(factor); });
@@ -27,24 +22,12 @@ OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments)
   if (!several.empty()) {
     throw core::InputError("one configuration is drawn: give each factor one value");
   }
-  require_writable(arguments.out);
+  core::require_writable(arguments.out);
   if (const std::string reason = suite.missing_data(plan.configurations.front()); !reason.empty()) {
     throw core::InputError(reason);
   }
-  return {suite, std::move(plan), choose_device(registry, "--device", arguments.device)};
-}
-
-void require_drawable(const record::Record& record) {
-  if (record.outcome != record::Outcome::skipped) return;
-  if (record::has_bad_input(record)) throw core::InputError(record.reason);
-  throw core::NotSupported(record.reason);
-}
-
-void ScratchFile::remove() const {
-  std::error_code ignored;
-  for (const char* suffix : {"", "-wal", "-shm"}) {
-    std::filesystem::remove(path_.string() + suffix, ignored);
-  }
+  return {suite, std::move(plan),
+          measure::choose_device(registry.devices(), "--device", arguments.device)};
 }
 
 }  // namespace triptych::app

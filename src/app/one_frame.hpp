@@ -1,7 +1,6 @@
 #pragma once
 // What commands share that draw one configuration on one device.
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,11 +10,11 @@
 namespace triptych::app {
 
 struct FrameArguments {
-  std::string suite;
-  std::string device;
-  std::vector<std::string> set;
-  std::string out;
-  std::vector<std::string> faults;
+  std::string suite = {};
+  std::string device = {};
+  std::vector<std::string> set = {};
+  std::string out = {};
+  std::vector<std::string> faults = {};
 
   bool chooses = false;  // "auto" may stand for several techniques
 
@@ -31,23 +30,5 @@ struct OneFrame {
 // Throws core::InputError where it is not one configuration with its data on one device, IoError
 // where its folder cannot be written.
 [[nodiscard]] OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments);
-
-// Throws what a record says that holds no frame: NotSupported where the device cannot draw it,
-// InputError where it is no input.
-void require_drawable(const record::Record& record);
-
-// The store of a run that nobody wants to keep; gone when it goes.
-class ScratchFile {
- public:
-  explicit ScratchFile(std::filesystem::path path) : path_(std::move(path)) { remove(); }
-  ~ScratchFile() { remove(); }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  void remove() const;
-  std::filesystem::path path_;
-};
 
 }  // namespace triptych::app

@@ -2,12 +2,13 @@
 // Every backend and every suite of this build.
 
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "measure/contract/backend.hpp"
 #include "measure/contract/suite.hpp"
-#include "measure/plan/plan.hpp"
+#include "measure/truth/truths.hpp"
 
 namespace triptych::app {
 
@@ -18,7 +19,9 @@ struct Registry {
   // Both throw core::InputError naming those there are.
   [[nodiscard]] measure::SuiteWithTruth& suite(std::string_view name) const;
   [[nodiscard]] const measure::Backend& backend(std::string_view api) const;
-  [[nodiscard]] measure::FindSuite find_suite() const;
+  [[nodiscard]] measure::FindSuiteWithTruth find_suite() const;
+  // The devices of this machine.
+  [[nodiscard]] measure::Listing devices() const;
 };
 
 [[nodiscard]] Registry make_registry();

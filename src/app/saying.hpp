@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/quoting.hpp"
+#include "measure/contract/loading.hpp"
 
 namespace triptych::app {
 
@@ -35,5 +36,20 @@ void say(fmt::format_string<Args...> format, Args&&... args) {
       all);
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
+
+// Whether a terminal shows it.
+[[nodiscard]] bool watched();
+// Of a terminal, what show() left there.
+void clear_line();
+
+// Progress: a line that rewrites itself on a terminal, a line per step elsewhere.
+template <typename... Args>
+void show(fmt::format_string<Args...> format, Args&&... args) {
+  clear_line();
+  say(format, std::forward<Args>(args)...);
+  if (!watched()) say("\n");
+}
+// Gone at the end.
+void show_loading(const measure::Loading& loading);
 
 }  // namespace triptych::app

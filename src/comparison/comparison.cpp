@@ -68,7 +68,7 @@ Compared compared_by(const ConfigurationDiff& diff, const measure::Configuration
 }  // namespace
 
 ComparisonResult compare(const ComparisonOptions& options, const measure::Suite& suite,
-                         record::Store& store, const KnownTruth& truth, const Tell& tell) {
+                         record::Store& store, measure::Truths& truths, const Tell& tell) {
   const measure::Stopwatch stopwatch;
   measure::SidesRun sides{options.plan,
                           suite,
@@ -83,7 +83,7 @@ ComparisonResult compare(const ComparisonOptions& options, const measure::Suite&
   const RunSide b = side_of(store, runs[1]);
   const bool same_setup =
       options.a.environment == options.b.environment && options.a.command == options.b.command;
-  RunDiff diff = diff_runs(a, b, truth, same_setup);
+  RunDiff diff = diff_runs(a, b, truths, same_setup);
   ComparisonResult result{.a = a.device,
                           .b = b.device,
                           .timed = options.times && options.plan.timed(),

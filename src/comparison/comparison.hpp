@@ -80,6 +80,6 @@ using Tell = std::function<void(const ComparisonProgress&)>;
 // Both sides' runs go into the store. Throws as measure::run_sides and measure::Interleaved do.
 [[nodiscard]] ComparisonResult compare(const ComparisonOptions& options,
                                        const measure::Suite& suite, record::Store& store,
-                                       const KnownTruth& truth, const Tell& tell);
+                                       measure::Truths& truths, const Tell& tell);
 
 }  // namespace triptych::comparison

@@ -108,9 +108,9 @@ HistoryBuilder::Points HistoryBuilder::points_of(const record::Store& store) con
   return points;
 }
 
-void HistoryBuilder::add_changes(const record::Store& store, const KnownTruth& truth,
+void HistoryBuilder::add_changes(const record::Store& store, measure::Truths& truths,
                                  Points& points) const {
-  for (const DeviceChange& change : diff_stores(*before_, store, devices_, truth).devices) {
+  for (const DeviceChange& change : diff_stores(*before_, store, devices_, truths).devices) {
     const DifferenceGroups groups = groups_of(change);
     HistoryPoint& point = points[change.b.id];
     point.changes = groups.empty() ? std::string() : groups.text();
@@ -118,7 +118,7 @@ void HistoryBuilder::add_changes(const record::Store& store, const KnownTruth& t
   }
 }
 
-void HistoryBuilder::add(const record::Store& store, const KnownTruth& truth) {
+void HistoryBuilder::add(const record::Store& store, measure::Truths& truths) {
   auto measured = by_device(store);
   Points points = points_of(store);
   for (auto& [id, point] : points) {
@@ -134,7 +134,7 @@ void HistoryBuilder::add(const record::Store& store, const KnownTruth& truth) {
       point.time = chained(known.back().time, ratio(there->second, here->second, &Measured::time));
     }
   }
-  if (before_ != nullptr) add_changes(store, truth, points);
+  if (before_ != nullptr) add_changes(store, truths, points);
   for (auto& [id, point] : points) of(id).points.push_back(std::move(point));
   before_ = &store;
   measured_ = std::move(measured);

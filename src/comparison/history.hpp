@@ -49,9 +49,9 @@ class HistoryBuilder {
  public:
   explicit HistoryBuilder(std::vector<std::string> devices) : devices_(std::move(devices)) {}
 
-  // The next store, which must live until the one behind it is added; `truth`: of its records and
+  // The next store, which must live until the one behind it is added; `truths`: of its records and
   // of the one before.
-  void add(const record::Store& store, const KnownTruth& truth);
+  void add(const record::Store& store, measure::Truths& truths);
   [[nodiscard]] const std::vector<DeviceHistory>& devices() const { return history_; }
 
  private:
@@ -59,7 +59,7 @@ class HistoryBuilder {
   [[nodiscard]] Points points_of(const record::Store& store) const;
   DeviceHistory& of(const std::string& device);
 
-  void add_changes(const record::Store& store, const KnownTruth& truth, Points& points) const;
+  void add_changes(const record::Store& store, measure::Truths& truths, Points& points) const;
 
   std::vector<std::string> devices_;
   std::vector<DeviceHistory> history_;

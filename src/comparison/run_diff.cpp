@@ -12,14 +12,17 @@ namespace {
 
 class Differ {
  public:
-  Differ(const RunSide& a, const RunSide& b, const KnownTruth& truth, bool same_setup)
-      : a_(a), b_(b), truth_(truth), same_setup_(same_setup) {}
+  Differ(const RunSide& a, const RunSide& b, measure::Truths& truths, bool same_setup)
+      : a_(a), b_(b), truths_(truths), same_setup_(same_setup) {}
 
   [[nodiscard]] ConfigurationDiff both(const record::Record& a, const record::Record& b) const {
     const core::Image image_a = picture(a_, a);
     const core::Image image_b = picture(b_, b);
-    ComparedSide side_a{a, a_.device, image_a, nullptr, {}, truth_.open_counts};
-    ComparedSide side_b{b, b_.device, image_b, nullptr, {}, truth_.open_counts};
+    const judge::FindOpenCounts open_counts = [this](const record::Record& record) {
+      return truths_.open_counts_of(record);
+    };
+    ComparedSide side_a{a, a_.device, image_a, nullptr, {}, open_counts};
+    ComparedSide side_b{b, b_.device, image_b, nullptr, {}, open_counts};
     find_truth(side_a);
     find_truth(side_b);
     Comparison found = find_differences(side_a, side_b, same_setup_);
@@ -56,7 +59,7 @@ class Differ {
   void find_truth(ComparedSide& side) const {
     if (side.record.image.empty()) return;
     try {
-      side.truth = &truth_.picture(side.record);
+      side.truth = &truths_.of(side.record);
     } catch (const core::Error& error) {
       side.no_truth = error.what();
     }
@@ -64,7 +67,7 @@ class Differ {
 
   const RunSide& a_;
   const RunSide& b_;
-  const KnownTruth& truth_;
+  measure::Truths& truths_;
   bool same_setup_;
 };
 
@@ -83,8 +86,8 @@ std::string range_of(const std::pair<double, double>& ratios) {
 
 }  // namespace
 
-RunDiff diff_runs(const RunSide& a, const RunSide& b, const KnownTruth& truth, bool same_setup) {
-  const Differ differ(a, b, truth, same_setup);
+RunDiff diff_runs(const RunSide& a, const RunSide& b, measure::Truths& truths, bool same_setup) {
+  const Differ differ(a, b, truths, same_setup);
   RunDiff diff{.device = find_differences(a.device, b.device), .configurations = {}};
   std::map<std::string, record::Record> of_b;
   for (record::Record& record : records_of(b)) {

@@ -2,7 +2,6 @@
 // Two runs of one plan, configuration by configuration: what differs besides time.
 
 #include <array>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,17 +10,10 @@
 
 #include "comparison/differences.hpp"
 #include "judge/baselines/work.hpp"
-#include "judge/gate/open_counts.hpp"
+#include "measure/truth/truths.hpp"
 #include "record/store.hpp"
 
 namespace triptych::comparison {
-
-// What is right of a record: the truth with its bound, for as long as the comparison takes, which
-// throws core::Error where there is none; and what rounding leaves open of its counters.
-struct KnownTruth {
-  std::function<const judge::TruthPair&(const record::Record&)> picture;
-  judge::FindOpenCounts open_counts = {};
-};
 
 // One device of one run.
 struct RunSide {
@@ -46,7 +38,7 @@ struct RunDiff {
 };
 
 // `same_setup`: as find_differences.
-[[nodiscard]] RunDiff diff_runs(const RunSide& a, const RunSide& b, const KnownTruth& truth,
+[[nodiscard]] RunDiff diff_runs(const RunSide& a, const RunSide& b, measure::Truths& truths,
                                 bool same_setup);
 
 // Differences of one kind about one thing, told once.

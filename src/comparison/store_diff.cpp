@@ -53,8 +53,8 @@ void add_new(const std::vector<Difference>& more, std::vector<Difference>& diffe
 class Diffing {
  public:
   Diffing(const record::Store& a, const record::Store& b, const std::vector<std::string>& devices,
-          const KnownTruth& truth)
-      : a_(a), b_(b), globs_(devices), truth_(truth) {}
+          measure::Truths& truths)
+      : a_(a), b_(b), globs_(devices), truths_(truths) {}
 
   void add_plan(const std::string& plan, const std::string& run_a, const std::string& run_b) {
     const auto of_a = devices_of(a_, run_a, globs_);
@@ -65,7 +65,7 @@ class Diffing {
       if (found == of_b.end()) continue;
       const RunSide a{a_, run_a, device};
       const RunSide b{b_, run_b, found->second};
-      add_device(plan, a, b, diff_runs(a, b, truth_, true));
+      add_device(plan, a, b, diff_runs(a, b, truths_, true));
     }
   }
 
@@ -104,7 +104,7 @@ class Diffing {
   const record::Store& a_;
   const record::Store& b_;
   const std::vector<std::string>& globs_;
-  const KnownTruth& truth_;
+  measure::Truths& truths_;
   std::map<std::string, DeviceChange> changes_;  // by device
   std::set<std::string> only_one_;
 };
@@ -148,8 +148,8 @@ core::ExitCode StoreDiff::exit_code() const {
 }
 
 StoreDiff diff_stores(const record::Store& a, const record::Store& b,
-                      const std::vector<std::string>& devices, const KnownTruth& truth) {
-  Diffing diffing(a, b, devices, truth);
+                      const std::vector<std::string>& devices, measure::Truths& truths) {
+  Diffing diffing(a, b, devices, truths);
   diffing.add_plans();
   return std::move(diffing).diff();
 }

@@ -33,10 +33,10 @@ struct StoreDiff {
 };
 
 // The latest run of each plan in either, of the devices that match one of the globs, of all without
-// any. `truth`: of records of both. Throws as record::Store does.
+// any. `truths`: of records of both. Throws as record::Store does.
 [[nodiscard]] StoreDiff diff_stores(const record::Store& a, const record::Store& b,
                                     const std::vector<std::string>& devices,
-                                    const KnownTruth& truth);
+                                    measure::Truths& truths);
 
 // Each device with both versions, then its differences by kind, worst first, then the verdict.
 [[nodiscard]] std::string to_text(const StoreDiff& diff);

@@ -62,8 +62,8 @@ class ParticleSuite final : public measure::SuiteWithTruth {
     return plain_work(configuration, std::get<measure::ParticleWork>(work.scene));
   }
   measure::Work calibration(technique::Work kind) override;
-  measure::Truth truth(const Configuration& configuration,
-                       const std::map<std::string, double>& precision) override;
+  accuracy::TruthPair truth(const Configuration& configuration,
+                            const std::map<std::string, double>& precision) override;
   std::string truth_key(const Configuration& configuration,
                         const std::map<std::string, double>& precision) override;
   nlohmann::json describe(const Configuration& configuration) override;
@@ -198,12 +198,12 @@ measure::Work ParticleSuite::calibration(technique::Work kind) {
           .scene = std::move(work)};
 }
 
-measure::Truth ParticleSuite::truth(const Configuration& configuration,
-                                    const std::map<std::string, double>& precision) {
+accuracy::TruthPair ParticleSuite::truth(const Configuration& configuration,
+                                         const std::map<std::string, double>& precision) {
   const scene::ParticleScene pictured = scene(configuration);
   const reference::SphereTruth truth =
       reference::render_spheres(pictured, model_of(pictured, configuration, precision));
-  return {.image = truth.image(), .bound = truth.bound_image()};
+  return {.truth = truth.image(), .bound = truth.bound_image()};
 }
 
 std::string ParticleSuite::truth_key(const Configuration& configuration,

@@ -53,8 +53,8 @@ class VolumeSuite final : public measure::SuiteWithTruth {
     return plain_work(configuration, std::get<measure::VolumeWork>(work.scene));
   }
   measure::Work calibration(technique::Work kind) override;
-  measure::Truth truth(const Configuration& configuration,
-                       const std::map<std::string, double>& precision) override;
+  accuracy::TruthPair truth(const Configuration& configuration,
+                            const std::map<std::string, double>& precision) override;
   std::string truth_key(const Configuration& configuration,
                         const std::map<std::string, double>& precision) override;
   nlohmann::json describe(const Configuration& configuration) override;
@@ -274,11 +274,11 @@ VolumeSuite::Judged VolumeSuite::judged(const Configuration& configuration,
   return {std::move(pictured), model};
 }
 
-measure::Truth VolumeSuite::truth(const Configuration& configuration,
-                                  const std::map<std::string, double>& precision) {
+accuracy::TruthPair VolumeSuite::truth(const Configuration& configuration,
+                                       const std::map<std::string, double>& precision) {
   const auto [pictured, model] = judged(configuration, precision);
   const reference::Truth truth = reference::render_volume(pictured, model);
-  return {.image = truth.image(), .bound = truth.bound_image()};
+  return {.truth = truth.image(), .bound = truth.bound_image()};
 }
 
 std::map<std::string, double> VolumeSuite::open_counts(

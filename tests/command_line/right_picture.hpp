@@ -22,7 +22,7 @@ inline std::filesystem::path right_picture(const Program& program,
                           {"viewport", {"16"}}},
                          [&](std::string_view) -> measure::Suite& { return *suite; });
   const auto file = program.folder() / "right.exr";
-  core::write_exr(suite->truth(plan.configurations.at(0), {}).image, file);
+  core::write_exr(suite->truth(plan.configurations.at(0), {}).truth, file);
   return file;
 }
 

@@ -59,7 +59,7 @@ TEST_F(Validate, WhatFailsOnceIsAFlakeAndIsTold) {
       {.index = 1, .count = 400});
   ASSERT_EQ(plan.configurations.size(), 1U);
   const measure::Configuration& only = plan.configurations.front();
-  core::write_exr(suite->truth(only, {}).image, program.folder() / "right.exr");
+  core::write_exr(suite->truth(only, {}).truth, program.folder() / "right.exr");
   const std::string glob =
       fmt::format("technique={},data={},*", only.at("technique"), only.at("data"));
   const std::string script = fmt::format(

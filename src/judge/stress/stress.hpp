@@ -6,16 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "core/image.hpp"
+#include "accuracy/truth_pair.hpp"
 #include "record/expectation.hpp"
 #include "record/store.hpp"
 
 namespace triptych::judge {
 
-struct TruthPair {
-  core::Image truth;
-  core::Image bound;  // per pixel, same value in all channels
-};
+using accuracy::TruthPair;
 using FindTruth = std::function<TruthPair(const record::Record&)>;
 using FindExpectations = std::function<std::vector<record::Expectation>(const record::Record&)>;
 

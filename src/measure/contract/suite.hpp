@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "accuracy/truth_pair.hpp"
 #include "core/image.hpp"
 #include "measure/contract/backend.hpp"
 #include "measure/contract/loading.hpp"
@@ -102,13 +103,6 @@ class Suite {
   OnLoading on_loading_;
 };
 
-// The right picture of a configuration and, per pixel in all four channels, how far a device's may
-// be from it.
-struct Truth {
-  core::Image image;
-  core::Image bound;
-};
-
 // What the pictures of a scene tend to as its sampling is refined: errors against it are what
 // sampling costs, beside all else.
 struct Limit {
@@ -120,8 +114,8 @@ struct Limit {
 class SuiteWithTruth : public Suite {
  public:
   // `precision`: what Record::precision tells of the device's path. Throws as Suite::work does.
-  [[nodiscard]] virtual Truth truth(const Configuration& configuration,
-                                    const std::map<std::string, double>& precision) = 0;
+  [[nodiscard]] virtual accuracy::TruthPair truth(
+      const Configuration& configuration, const std::map<std::string, double>& precision) = 0;
   // What another program needs to draw the same frame: "viewport", "camera" and the scene, as in
   // the `frame.json` of `triptych render`.
   [[nodiscard]] virtual nlohmann::json describe(const Configuration& configuration) = 0;

@@ -57,11 +57,11 @@ std::string text_of_step(double step) {
 // The candidates of a plan's scenes.
 class Search {
  public:
-  Search(SuiteWithTruth& suite, const RequestedError& request, const RequestPictures& pictures,
+  Search(SuiteWithTruth& suite, const RequestedError& request, Truths& truths,
          const std::function<void(const std::string&)>& tell)
       : suite_(suite),
         request_(request),
-        pictures_(pictures),
+        truths_(truths),
         tell_(tell),
         limits_{factor_of(suite, "step").minimum, factor_of(suite, "step").maximum},
         step_error_(accuracy::step_share * request.error) {}
@@ -69,7 +69,7 @@ class Search {
   // Its candidates, or why there are none.
   void add(const Configuration& scene, ErrorRequest& result) {
     const std::string name = scene_of(suite_, scene);
-    const accuracy::LimitPicture* limit = pictures_.limit(record_of(scene));
+    const accuracy::LimitPicture* limit = truths_.limit_of(record_of(scene));
     if (limit == nullptr) {
       result.out_of_reach.push_back(name + ": has no limit that an error could be told from");
       return;
@@ -141,7 +141,7 @@ class Search {
     if (candidate.at("quadrature") == "cells") limits.longest = std::min(limits.longest, 1.0);
     const accuracy::StepError guess = accuracy::longest_step(step_error_, limits, [&](double step) {
       candidate["step"] = text_of_step(step);
-      return error(limit_of_few_pixels_, suite_.truth(candidate, {}).image);
+      return error(limit_of_few_pixels_, suite_.truth(candidate, {}).truth);
     });
     // Few pixels tell little of many; but an error far beyond the request is beyond it on all.
     constexpr double far = 4;
@@ -150,7 +150,7 @@ class Search {
     const accuracy::StepError found =
         accuracy::shortened_step(guess.step, step_error_, limits, [&](double step) {
           candidate["step"] = text_of_step(step);
-          return error(limit, pictures_.truth(record_of(candidate)));
+          return error(limit, truths_.of(record_of(candidate)).truth);
         });
     return {found.step, found.error, viewport};
   }
@@ -173,7 +173,7 @@ class Search {
 
   SuiteWithTruth& suite_;
   RequestedError request_;
-  const RequestPictures& pictures_;
+  Truths& truths_;
   const std::function<void(const std::string&)>& tell_;
   accuracy::StepLimits limits_;
   double step_error_;
@@ -206,8 +206,7 @@ ErrorAnswer answer_of(const Group& group, const RequestedError& request) {
 }  // namespace
 
 ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite, const RequestedError& request,
-                           const RequestPictures& pictures,
-                           const std::function<void(const std::string&)>& tell) {
+                           Truths& truths, const std::function<void(const std::string&)>& tell) {
   if (plan.counted()) {
     throw core::InputError(fmt::format(
         "--error asks for the fastest, and {} counts instructions in place of times", plan.name));
@@ -217,7 +216,7 @@ ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite, const Reques
   result.plan.name = fmt::format("{} within {}", plan.name, text_of(request));
   result.plan.configurations.clear();
   result.plan.varied.assign(chosen_factors.begin(), chosen_factors.end());
-  Search search(suite, request, pictures, tell);
+  Search search(suite, request, truths, tell);
   std::set<std::string> seen;
   for (Configuration scene : plan.configurations) {
     scene["adapt"] = "0";
@@ -234,15 +233,15 @@ ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite, const Reques
 
 std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records,
                                       const Suite& suite, const RequestedError& request,
-                                      const RequestPictures& pictures) {
+                                      Truths& truths) {
   std::map<std::pair<std::string, std::string>, Group> groups;
   for (const record::Record& record : records) {
     if (record.outcome == record::Outcome::skipped) continue;
     Group& group = groups[{record.device, scene_of(suite, record.factors)}];
     if (record.outcome != record::Outcome::measured || record.image.empty()) continue;
-    const accuracy::LimitPicture* limit = pictures.limit(record);
+    const accuracy::LimitPicture* limit = truths.limit_of(record);
     if (limit == nullptr) continue;
-    const auto errors = accuracy::errors_against(limit->image, pictures.drawn(record));
+    const auto errors = accuracy::errors_against(limit->image, truths.picture_of(record));
     if (!std::isfinite(errors.of(request.metric))) continue;
     const auto summary = record::summarise(record.time_ns());
     group.cases.push_back(

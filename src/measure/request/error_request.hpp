@@ -6,20 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/cases.hpp"
 #include "accuracy/requested_error.hpp"
 #include "measure/plan/plan.hpp"
+#include "measure/truth/truths.hpp"
 #include "record/record.hpp"
 
 namespace triptych::measure {
-
-// Pictures by record: its suite, scene and factors say which; drawn once and kept by the caller.
-struct RequestPictures {
-  // nullptr where the scene has none.
-  std::function<const accuracy::LimitPicture*(const record::Record&)> limit;
-  std::function<core::Image(const record::Record&)> truth;  // on the record's sample lattice
-  std::function<core::Image(const record::Record&)> drawn;  // by the record's device
-};
 
 struct ErrorRequest {
   Plan plan;  // of the scenes that may be kept
@@ -36,8 +28,7 @@ struct ErrorRequest {
 // is looked for on a picture of few pixels (accuracy::search_size), and shortened until the whole
 // picture keeps it. Throws InputError for a suite without such factors.
 [[nodiscard]] ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite,
-                                         const accuracy::RequestedError& request,
-                                         const RequestPictures& pictures,
+                                         const accuracy::RequestedError& request, Truths& truths,
                                          const std::function<void(const std::string&)>& tell);
 
 // Per scene and device the fastest record whose picture keeps the error.
@@ -54,7 +45,7 @@ struct ErrorAnswer {
 [[nodiscard]] std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records,
                                                     const Suite& suite,
                                                     const accuracy::RequestedError& request,
-                                                    const RequestPictures& pictures);
+                                                    Truths& truths);
 
 // One line of text.
 [[nodiscard]] std::string describe(const ErrorAnswer& answer,

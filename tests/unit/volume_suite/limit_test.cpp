@@ -47,8 +47,8 @@ TEST(Limit, IsNotWhatACoarseStepGives) {
   const auto suite = make_suite({});
   measure::Configuration ramp = configuration_of(*suite, "analytic:v2_ramp:16");
   ramp["step"] = "2";
-  const measure::Truth truth = suite->truth(ramp, {});
-  EXPECT_GT(largest_difference(suite->limit(ramp).image, truth.image), 1e-3);
+  const accuracy::TruthPair truth = suite->truth(ramp, {});
+  EXPECT_GT(largest_difference(suite->limit(ramp).image, truth.truth), 1e-3);
 }
 
 TEST(Limit, DoesNotDependOnStepOrStorage) {

@@ -40,18 +40,18 @@ measure::Configuration configuration(const std::string& data) {
   return result;
 }
 
-measure::Truth truth_of(const std::string& data) {
+accuracy::TruthPair truth_of(const std::string& data) {
   return make_suite({})->truth(configuration(data), {{"filter_weight_error", 0}});
 }
 
 // Largest difference over the larger bound, of a picture and one that is read at other places.
-double largest_ratio(const measure::Truth& truth, bool flip_x, bool flip_y) {
+double largest_ratio(const accuracy::TruthPair& truth, bool flip_x, bool flip_y) {
   double largest = 0;
-  for (int y = 0; y < truth.image.height; ++y) {
-    for (int x = 0; x < truth.image.width; ++x) {
-      const auto here = truth.image.pixel(x, y);
-      const auto there = truth.image.pixel(flip_x ? truth.image.width - 1 - x : x,
-                                           flip_y ? truth.image.height - 1 - y : y);
+  for (int y = 0; y < truth.truth.height; ++y) {
+    for (int x = 0; x < truth.truth.width; ++x) {
+      const auto here = truth.truth.pixel(x, y);
+      const auto there = truth.truth.pixel(flip_x ? truth.truth.width - 1 - x : x,
+                                           flip_y ? truth.truth.height - 1 - y : y);
       const double bound = static_cast<double>(truth.bound.pixel(x, y)[0]);
       for (std::size_t c = 0; c < 4; ++c) {
         largest = std::max(largest, static_cast<double>(std::abs(here[c] - there[c])) / bound);
@@ -115,20 +115,20 @@ TEST(Stress, UnknownNamesAreRefusedWithWhatThereIs) {
 
 // Which way up and which hand: every flip is far outside the bound.
 TEST(Stress, TheAsymmetricSceneTellsEveryFlip) {
-  const measure::Truth truth = truth_of("stress:asymmetric");
+  const accuracy::TruthPair truth = truth_of("stress:asymmetric");
   EXPECT_GT(largest_ratio(truth, true, false), 100);
   EXPECT_GT(largest_ratio(truth, false, true), 100);
   EXPECT_GT(largest_ratio(truth, true, true), 100);
 }
 
 TEST(Stress, MirroredOctantsHaveMirroredTruths) {
-  const measure::Truth first = truth_of("stress:octant:ppp");
-  const measure::Truth mirrored = truth_of("stress:octant:pmp");
+  const accuracy::TruthPair first = truth_of("stress:octant:ppp");
+  const accuracy::TruthPair mirrored = truth_of("stress:octant:pmp");
   double largest = 0;
-  for (int y = 0; y < first.image.height; ++y) {
-    for (int x = 0; x < first.image.width; ++x) {
-      const auto a = first.image.pixel(x, y);
-      const auto b = mirrored.image.pixel(first.image.width - 1 - x, y);
+  for (int y = 0; y < first.truth.height; ++y) {
+    for (int x = 0; x < first.truth.width; ++x) {
+      const auto a = first.truth.pixel(x, y);
+      const auto b = mirrored.truth.pixel(first.truth.width - 1 - x, y);
       for (std::size_t c = 0; c < 4; ++c) {
         largest =
             std::max(largest, std::abs(static_cast<double>(a[c]) - static_cast<double>(b[c])));
@@ -142,9 +142,9 @@ TEST(Stress, MirroredOctantsHaveMirroredTruths) {
 // 1 − (1 − 2⁻²⁰)^n for a ray of n samples, n known from its chord.
 TEST(Stress, FaintSamplesAddUpToTheirClosedForm) {
   const StressScene scene = stress_scene(*stress_data("stress:faint"));
-  const measure::Truth truth = truth_of("stress:faint");
+  const accuracy::TruthPair truth = truth_of("stress:faint");
   // The scene's background is opaque: the colour tells what is covered.
-  const double covered = (static_cast<double>(truth.image.pixel(1, 1)[0]) - 0.25) / (0.875 - 0.25);
+  const double covered = (static_cast<double>(truth.truth.pixel(1, 1)[0]) - 0.25) / (0.875 - 0.25);
   const double samples = std::log1p(-covered) / std::log1p(-0x1.0p-20);
   EXPECT_NEAR(samples, 3.9 / scene.step_voxels, 0.05 / scene.step_voxels);
 }
@@ -159,13 +159,13 @@ TEST(Stress, EveryCaseShowsSomething) {
       return one != nullptr && one->rgba == scene.background;
     });
     if (is_empty) continue;
-    const measure::Truth truth = truth_of(data);
+    const accuracy::TruthPair truth = truth_of(data);
     double largest = 0;
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) {
         const double bound = static_cast<double>(truth.bound.pixel(x, y)[0]);
         for (std::size_t c = 0; c < 3; ++c) {
-          const double difference = static_cast<double>(truth.image.pixel(x, y)[c]) -
+          const double difference = static_cast<double>(truth.truth.pixel(x, y)[c]) -
                                     static_cast<double>(scene.background[c]);
           largest = std::max(largest, std::abs(difference) / bound);
         }

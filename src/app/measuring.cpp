@@ -1,0 +1,181 @@
+#include "app/measuring.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/registry.hpp"
+#include "app/saying.hpp"
+#include "core/output_files.hpp"
+#include "measure/request/error_request.hpp"
+#include "measure/request/fastest.hpp"
+#include "measure/worker/listing.hpp"
+#include "measure/worker/own_program.hpp"
+
+namespace triptych::app {
+namespace {
+
+std::string outcome_text(const record::Record& record) {
+  if (record.outcome != record::Outcome::measured) {
+    return fmt::format("{}: {}", record::name_of(record.outcome), record.reason);
+  }
+  if (!record.same_as.empty()) {
+    return fmt::format("the same as {} ({})", record.same_as, record.reason);
+  }
+  const auto summary = record::summarise(record.time_ns());
+  return summary ? fmt::format("{:.3f} ms ({})", summary->median / 1e6, record.clock())
+                 : "measured";
+}
+
+// On a terminal with the time left, elsewhere of configurations that are done.
+void tell_progress(const measure::Progress& progress) {
+  if (progress.loading) return show_loading(*progress.loading);
+  const std::string what = progress.record != nullptr ? outcome_text(*progress.record) : "";
+  if (watched()) {
+    show("{}/{} {} {} {} left {} s", progress.done, progress.total, progress.device,
+         progress.configuration, what, progress.left.count());
+    if (progress.done == progress.total) say("\n");
+  } else if (progress.record != nullptr) {
+    show("{}/{} {} {}: {}", progress.done, progress.total, progress.device, progress.configuration,
+         what);
+  }
+}
+
+// A factor belongs to one suite, an error to its scenes.
+void refuse_for_several(const Measuring& measuring) {
+  if (measuring.plans.size() < 2) return;
+  if (!measuring.choice.set.empty()) {
+    throw core::InputError("--set changes one plan: give it alone, or a YAML file for each");
+  }
+  if (measuring.error) throw core::InputError("--error asks of one plan: give it alone");
+}
+
+std::vector<measure::Plan> load_plans(const Measuring& measuring, const Registry& registry) {
+  refuse_for_several(measuring);
+  std::vector<measure::Plan> plans;
+  for (const std::string& name : measuring.plans) {
+    measure::Plan plan = measuring.choice.load(name, registry.find_suite());
+    if (std::ranges::find(plans, plan.name, &measure::Plan::name) != plans.end()) {
+      throw core::InputError(
+          fmt::format("two plans are called {}: a plan's runs are known by its name", plan.name));
+    }
+    const bool chooses = measuring.chooses && !plan.automatic.empty();
+    if (chooses && measuring.untimed && !plan.counted()) {
+      throw core::InputError(
+          fmt::format("{}: auto is chosen by time, of which --untimed tells none", plan.name));
+    }
+    if ((measuring.timed || chooses) && !plan.counted()) {
+      plan.checks.insert(record::Check::timing);
+    }
+    plans.push_back(std::move(plan));
+  }
+  return plans;
+}
+
+measure::RunOptions options_of(const Measuring& measuring) {
+  measure::Protocol protocol = measuring.brief ? measure::brief_protocol : measure::Protocol{};
+  protocol.timed = !measuring.untimed;
+  protocol.statistics = protocol.timed || measuring.statistics;
+  protocol.measure_every = measuring.measure_every;
+  std::vector<std::string> more;
+  if (measuring.memory) more = {"--memory", fmt::to_string(*measuring.memory)};
+  return {.protocol = protocol,
+          .limit = std::chrono::seconds(measuring.limit_s),
+          .resume = measuring.resume,
+          .again = measuring.again,
+          .faults = measure::parse_faults(measuring.faults),
+          .jobs = measuring.jobs,
+          .worker_command = measure::worker_command(measure::own_program(), more)};
+}
+
+// Where and with what plans are measured.
+struct Bench {
+  const Measuring& measuring;
+  const Registry& registry;
+  std::vector<std::string> devices;
+  record::Store& store;
+};
+
+std::vector<measure::RunResult> measure_on(const Bench& bench,
+                                           const std::vector<measure::Plan>& plans) {
+  const measure::RunOptions options = options_of(bench.measuring);
+  std::vector<measure::PlannedRun> runs;
+  runs.reserve(plans.size());
+  for (const measure::Plan& plan : plans) {
+    runs.push_back({plan, bench.registry.suite(plan.suite), options});
+  }
+  std::vector<measure::RunResult> results =
+      measure::run_plans(runs, bench.devices, bench.store, tell_progress);
+  for (const auto& [fault, only] : measure::faults_that_hit_nothing(runs, bench.devices)) {
+    say("triptych: --inject {}@{} hits nothing: no configuration or device is called so; `triptych "
+        "list PLAN` tells their names, which leave defaults out\n",
+        fault, only);
+  }
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    fmt::print(bench.measuring.told_to, "{}",
+               describe(results[i], plans[i].name, bench.measuring.store));
+  }
+  return results;
+}
+
+// What keeps the requested error, and of it the fastest per scene and device.
+Measured measure_within_error(const Bench& bench, const measure::Plan& plan) {
+  const auto wanted = accuracy::parse_requested_error(*bench.measuring.error);
+  measure::SuiteWithTruth& suite = bench.registry.suite(plan.suite);
+  measure::Truths truths(bench.registry.find_suite(), bench.store);
+  const measure::ErrorRequest request = measure::request_error(
+      plan, suite, wanted, truths, [](const std::string& what) { say("{}\n", what); });
+  Measured measured{.error_kept = request.out_of_reach.empty()};
+  std::vector<record::Record> records;
+  if (!request.plan.configurations.empty()) {
+    measured.results = measure_on(bench, {request.plan});
+    records = bench.store.records(measured.results.front().run);
+  }
+  for (const measure::ErrorAnswer& answer : measure::answer_error(records, suite, wanted, truths)) {
+    fmt::print("{}\n", describe(answer, wanted));
+    measured.error_kept = measured.error_kept && answer.record != nullptr;
+  }
+  for (const std::string& scene : request.out_of_reach) fmt::print("{}\n", scene);
+  return measured;
+}
+
+void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::string& run) {
+  if (plan.automatic.empty()) return;
+  const std::vector<record::Record> records = bench.store.records(run);
+  for (const measure::FastestAnswer& answer :
+       measure::answer_fastest(records, bench.registry.suite(plan.suite), plan.automatic)) {
+    fmt::print("{}\n", describe(answer, plan.automatic));
+  }
+}
+
+}  // namespace
+
+Measured measure_and_tell(const Measuring& measuring) {
+  const Registry registry = make_registry();
+  const std::vector<measure::Plan> plans = load_plans(measuring, registry);
+  const std::vector<std::string> devices =
+      measure::choose_devices(registry.devices(), measuring.devices);
+  core::require_writable(std::filesystem::path(measuring.store).parent_path());
+  record::Store store(measuring.store, record::Store::Mode::append);
+  const Bench bench{measuring, registry, devices, store};
+  if (measuring.error) return measure_within_error(bench, plans.front());
+  Measured measured{.results = measure_on(bench, plans)};
+  for (std::size_t i = 0; measuring.chooses && i < plans.size(); ++i) {
+    tell_the_fastest(bench, plans[i], measured.results[i].run);
+  }
+  measured.scored = std::ranges::any_of(
+      plans, [](const measure::Plan& plan) { return plan.checks.contains(record::Check::stress); });
+  return measured;
+}
+
+Measured measure_resumably(const Measuring& measuring) {
+  try {
+    return measure_and_tell(measuring);
+  } catch (const measure::Interrupted& interrupted) {
+    throw measure::Interrupted(interrupted.signal(),
+                               "interrupted; what was measured is in the store, --resume goes on");
+  }
+}
+
+}  // namespace triptych::app

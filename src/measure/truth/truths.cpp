@@ -1,0 +1,110 @@
+#include "measure/truth/truths.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "record/data_factors.hpp"
+
+namespace triptych::measure {
+namespace {
+
+// Every record with this text has the same truth and bound; cheaper than Suite::truth_key, which
+// loads the data to know that it has not changed.
+std::string memory_key(const record::Record& record) {
+  std::string key = record.suite + " " + record.scene;
+  for (const char* factor : {"ert", "adapt", "voxel", "precision", "ray"}) {
+    const auto found = record.factors.find(factor);
+    if (found != record.factors.end()) key += " " + found->second;
+  }
+  for (const auto& [name, value] : record.precision) key += fmt::format(" {}={}", name, value);
+  return key;
+}
+
+// The value of the key, made where there is none.
+template <typename Value, typename Make>
+const Value& known_or_made(std::map<std::string, Value>& known, const std::string& key,
+                           const Make& make) {
+  const auto found = known.find(key);
+  return found != known.end() ? found->second : known.emplace(key, make()).first->second;
+}
+
+}  // namespace
+
+const accuracy::TruthPair& Truths::of(const record::Record& record) {
+  return known_or_made(known_, memory_key(record), [&] { return find_or_render(record); });
+}
+
+const std::map<std::string, double>& Truths::open_counts_of(const record::Record& record) {
+  std::string key = memory_key(record);
+  for (const char* factor : {"skip", "culling"}) {
+    const auto found = record.factors.find(factor);
+    if (found != record.factors.end()) key += " " + found->second;
+  }
+  return known_or_made(open_counts_, key, [&] {
+    return suite_(record.suite).open_counts(record.factors, record.precision);
+  });
+}
+
+std::string Truths::data_hash_of(const record::Record& record) {
+  std::string key = record.suite;
+  for (const auto& [factor, level] : record.factors) {
+    if (record::decides_data(factor)) key += " " + factor + "=" + level;
+  }
+  return known_or_made(data_hashes_, key, [&]() -> std::string {
+    try {
+      return suite_(record.suite).data_hash(record.factors);
+    } catch (const core::Error&) {
+      return {};  // whoever wants the truth is told why there are none
+    }
+  });
+}
+
+accuracy::TruthPair Truths::kept(const std::string& scene, const std::string& version,
+                                 const std::function<accuracy::TruthPair()>& render) {
+  if (const auto stored = store_.truth(scene, version)) {
+    const std::string name = fmt::format("{}: truth of {}", store_.file().string(), scene);
+    return {.truth = core::decode_exr(stored->image, name),
+            .bound = core::decode_exr(stored->bound, name)};
+  }
+  accuracy::TruthPair rendered = render();
+  try {
+    store_.set_truth({.scene = scene,
+                      .version = version,
+                      .image = core::encode_exr(rendered.truth),
+                      .bound = core::encode_exr(rendered.bound)});
+  } catch (const core::IoError&) {
+    // One that cannot be kept – the store is read-only, the disk full – is as true.
+  }
+  return rendered;
+}
+
+accuracy::TruthPair Truths::find_or_render(const record::Record& record) {
+  SuiteWithTruth& suite = suite_(record.suite);
+  return kept(record.scene, suite.truth_key(record.factors, record.precision),
+              [&] { return suite.truth(record.factors, record.precision); });
+}
+
+const accuracy::LimitPicture* Truths::limit_of(const record::Record& record) {
+  const std::string key = suite_(record.suite).limit_key(record.factors);
+  if (key.empty()) return nullptr;
+  return &known_or_made(limits_, key, [&] { return find_or_render_limit(record, key); });
+}
+
+accuracy::LimitPicture Truths::find_or_render_limit(const record::Record& record,
+                                                    const std::string& key) {
+  SuiteWithTruth& suite = suite_(record.suite);
+  // Among the truths: a scene's name of its own, and its uncertainty for a bound.
+  accuracy::TruthPair pair = kept("limit of " + record.suite, key, [&]() -> accuracy::TruthPair {
+    Limit limit = suite.limit(record.factors);
+    return {std::move(limit.image), std::move(limit.uncertainty)};
+  });
+  return {.key = key,
+          .image = std::move(pair.truth),
+          .uncertainty = std::move(pair.bound),
+          .closed_form = suite.closed_form(record.factors)};
+}
+
+}  // namespace triptych::measure

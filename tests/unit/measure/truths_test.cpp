@@ -1,0 +1,117 @@
+// Truths are rendered once, for a command and for those that follow.
+
+#include "measure/truth/truths.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/temporary_folder.hpp"
+
+namespace triptych::measure {
+namespace {
+
+// Of one picture, in which the step is seen.
+class TruthfulSuite final : public SuiteWithTruth {
+ public:
+  int rendered = 0;
+  bool has_data = true;
+
+  std::string_view name() const override { return "truthful"; }
+  const std::vector<Factor>& factors() const override { return factors_; }
+  void check(const Factor&, std::string_view) const override {}
+  std::vector<std::string_view> plan_names() const override { return {}; }
+  std::string_view plan_text(std::string_view) const override { return {}; }
+  std::string missing_data(const Configuration&) const override { return {}; }
+  Work work(Configuration&, const Device&) override { return {}; }
+  Work calibration(technique::Work) override { return {}; }
+  accuracy::TruthPair truth(const Configuration& configuration,
+                            const std::map<std::string, double>&) override {
+    ++rendered;
+    accuracy::TruthPair pair{core::Image(2, 2), core::Image(2, 2)};
+    pair.truth.rgba[0] = std::stof(configuration.at("step"));
+    pair.bound.rgba[0] = 0.25F;
+    return pair;
+  }
+  nlohmann::json describe(const Configuration&) override { return {}; }
+  std::string truth_key(const Configuration& configuration,
+                        const std::map<std::string, double>&) override {
+    return configuration.at("step");
+  }
+  std::string limit_key(const Configuration& configuration) override {
+    return configuration.at("step") == "2" ? "" : "limit";
+  }
+  Limit limit(const Configuration&) override {
+    ++rendered;
+    return {core::Image(3, 3), core::Image(3, 3)};
+  }
+  std::string data_hash(const Configuration&) override {
+    if (!has_data) throw core::InputError("gone");
+    return "hash";
+  }
+
+ private:
+  std::vector<Factor> factors_;
+};
+
+record::Record record_with(const std::string& step) {
+  record::Record record;
+  record.suite = "truthful";
+  record.scene = "step=" + step;
+  record.factors = {{"step", step}};
+  return record;
+}
+
+class TruthsTest : public testing::Test {
+ protected:
+  [[nodiscard]] Truths truths(record::Store& store) {
+    return {[this](std::string_view) -> SuiteWithTruth& { return suite_; }, store};
+  }
+  [[nodiscard]] record::Store store(record::Store::Mode mode = record::Store::Mode::append) const {
+    return {folder_.path() / "store", mode};
+  }
+
+  core::TemporaryFolder folder_;
+  TruthfulSuite suite_;
+};
+
+TEST_F(TruthsTest, AreRenderedOnceAndKeptForTheNext) {
+  record::Store first = store();
+  Truths fresh = truths(first);
+  const accuracy::TruthPair* pair = &fresh.of(record_with("1"));
+  EXPECT_EQ(pair->truth.rgba[0], 1);
+  EXPECT_EQ(fresh.of(record_with("0.5")).truth.rgba[0], 0.5F);
+  EXPECT_EQ(&fresh.of(record_with("1")), pair);
+  EXPECT_EQ(suite_.rendered, 2);
+  record::Store second = store();
+  EXPECT_EQ(truths(second).of(record_with("1")).bound.rgba[0], 0.25F);
+  EXPECT_EQ(suite_.rendered, 2);
+}
+
+TEST_F(TruthsTest, AreAsTrueWhereTheyCannotBeKept) {
+  static_cast<void>(store());
+  record::Store read = store(record::Store::Mode::read);
+  EXPECT_EQ(truths(read).of(record_with("1")).truth.rgba[0], 1);
+}
+
+TEST_F(TruthsTest, LimitsAreKeptBesideThem) {
+  record::Store first = store();
+  Truths fresh = truths(first);
+  EXPECT_EQ(fresh.limit_of(record_with("2")), nullptr);
+  const accuracy::LimitPicture* limit = fresh.limit_of(record_with("1"));
+  ASSERT_NE(limit, nullptr);
+  EXPECT_EQ(limit->image.width, 3);
+  EXPECT_EQ(fresh.limit_of(record_with("0.5")), limit);
+  EXPECT_EQ(truths(first).limit_of(record_with("1"))->key, "limit");
+  EXPECT_EQ(suite_.rendered, 1);
+}
+
+TEST_F(TruthsTest, NoDataHaveNoHash) {
+  record::Store first = store();
+  suite_.has_data = false;
+  EXPECT_EQ(truths(first).data_hash_of(record_with("1")), "");
+  suite_.has_data = true;
+  EXPECT_EQ(truths(first).data_hash_of(record_with("1")), "hash");
+}
+
+}  // namespace
+}  // namespace triptych::measure
