@@ -138,7 +138,7 @@ class GlDevice final : public measure::Device {
   measure::Rasterizer rasterizer_;
   // By voxel format; 1, the worst there is, where it cannot be probed.
   std::uint64_t most_texels_ = 0;
-  std::array<double, 3> filter_error_{1, 1, 1};
+  std::array<double, 4> filter_error_{1, 1, 1, 1};
 };
 
 }  // namespace

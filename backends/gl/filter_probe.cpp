@@ -10,6 +10,7 @@
 #include "backends/gl/program.hpp"
 #include "backends/gl/volume_data.hpp"
 #include "core/random.hpp"
+#include "scene/half.hpp"
 
 namespace triptych::gl_backend {
 namespace {
@@ -34,8 +35,11 @@ scene::VoxelGrid random_bits(scene::VoxelFormat format, core::Random& random) {
   for (std::size_t at = 0; at < grid.data.size(); at += bytes) {
     if (random.uniform() < 0.5) continue;
     constexpr float one = 1;
+    static const scene::Half half_one = scene::to_half(1);
     if (format == scene::VoxelFormat::f32) {
       std::memcpy(&grid.data[at], &one, sizeof one);
+    } else if (format == scene::VoxelFormat::f16) {
+      std::memcpy(&grid.data[at], &half_one, sizeof half_one);
     } else {
       std::fill_n(grid.data.begin() + static_cast<std::ptrdiff_t>(at), bytes, std::byte{0xFF});
     }

@@ -93,6 +93,8 @@ TexelFormat texel_format(scene::VoxelFormat format) {
       return {GL_R8, GL_UNSIGNED_BYTE};
     case scene::VoxelFormat::u16:
       return {GL_R16, GL_UNSIGNED_SHORT};
+    case scene::VoxelFormat::f16:
+      return {GL_R16F, GL_HALF_FLOAT};
     case scene::VoxelFormat::f32:
       break;
   }

@@ -149,7 +149,7 @@ Constants constants_of(const measure::VolumeWork& work) {
   return {
       .manual_sampler = work.options.sampler == technique::Sampler::manual,
       .packed = is_packed(work),
-      .voxel_bits = static_cast<int>(8 * scene::bytes_of(work.scene.grid->format)),
+      .voxel_bits = technique::voxel_bits(work.scene.grid->format),
       .shading = work.scene.shading.enabled,
       .count = false,
       .speed_of_light = false,

@@ -67,9 +67,10 @@ TRI_FN float4 cubic_of_cell(__constant Parameters* u, TRI_VOLUME volume, int3 ce
   int far_row = near_row + 1;
 #endif
   TRI_VOLUME first = volume + (cell.x + 1 + slice * held_layer(u, cell.z + 1));
-  TRI_VOXEL4 low = (TRI_VOXEL4)(vload2(0, first + row * near_row), vload2(0, first + row * far_row));
-  TRI_VOXEL4 high = (TRI_VOXEL4)(vload2(0, first + slice + row * near_row),
-                                 vload2(0, first + slice + row * far_row));
+  TRI_VOXEL4 low =
+      (TRI_VOXEL4)(TRI_LOAD2(first + row * near_row), TRI_LOAD2(first + row * far_row));
+  TRI_VOXEL4 high = (TRI_VOXEL4)(TRI_LOAD2(first + slice + row * near_row),
+                                 TRI_LOAD2(first + slice + row * far_row));
   float4 v0 = (float4)(convert_float4(low).xz, convert_float4(high).xz);
   float4 v1 = (float4)(convert_float4(low).yw, convert_float4(high).yw);
   float4 x0 = v0 + a.x * (v1 - v0);  // along x: constant terms for the four edges, …

@@ -13,6 +13,7 @@
 #include "backends/opencl/volume_data.hpp"
 #include "backends/opencl/volume_parts.hpp"
 #include "core/error.hpp"
+#include "technique/volume/filter_bound.hpp"
 #include "technique/volume/raycast_buffers.hpp"
 
 namespace triptych::opencl_backend {
@@ -57,6 +58,7 @@ class Device final : public measure::Device {
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
 
  private:
+  [[nodiscard]] std::optional<std::string> half_defect(scene::VoxelFormat format) const;
   [[nodiscard]] std::optional<std::string> image_defect(const scene::VoxelGrid& grid) const;
   [[nodiscard]] std::optional<std::string> size_defect(std::string_view technique,
                                                        const measure::VolumeWork& work) const;
@@ -70,6 +72,18 @@ class Device final : public measure::Device {
   VolumeCache volumes_;
 };
 
+// PoCL 3.1 lists images of half floats, and without cl_khr_fp16 reads no values from them.
+std::optional<std::string> Device::half_defect(scene::VoxelFormat format) const {
+  if (format != scene::VoxelFormat::f16) return std::nullopt;
+  const double error = filter_weight_error({format, Sampler::hardware});
+  const double allowed = technique::allowed_filter_error(technique::least_weight_bits, format);
+  if (error <= allowed) return std::nullopt;
+  return fmt::format(
+      "sampler hardware: images of half floats are read wrong by {:.3g} of 1, a filter may be by "
+      "{:.3g}",
+      error, allowed);
+}
+
 // Why the sampler's hardware cannot hold the grid.
 std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) const {
   return checked([&]() -> std::optional<std::string> {
@@ -81,6 +95,7 @@ std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) co
       return fmt::format("sampler hardware: no 3D image format for voxel {}",
                          scene::name_of(grid.format));
     }
+    if (auto defect = half_defect(grid.format)) return defect;
     const std::array<std::size_t, 3> limits{device.getInfo<CL_DEVICE_IMAGE3D_MAX_WIDTH>(),
                                             device.getInfo<CL_DEVICE_IMAGE3D_MAX_HEIGHT>(),
                                             device.getInfo<CL_DEVICE_IMAGE3D_MAX_DEPTH>()};

@@ -8,6 +8,7 @@
 
 #include "backends/opencl/volume_data.hpp"
 #include "core/random.hpp"
+#include "scene/half.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
@@ -55,6 +56,8 @@ scene::VoxelGrid pattern_of(const Bits& bits, scene::VoxelFormat format) {
       return make_pattern(bits, format, std::uint16_t{65535});
     case scene::VoxelFormat::f32:
       return make_pattern(bits, format, 1.0F);
+    case scene::VoxelFormat::f16:
+      return make_pattern(bits, format, scene::to_half(1));
   }
   return {};
 }

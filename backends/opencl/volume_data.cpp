@@ -25,6 +25,8 @@ cl_channel_type channel_type(scene::VoxelFormat voxel) {
       return CL_UNORM_INT16;
     case scene::VoxelFormat::f32:
       return CL_FLOAT;
+    case scene::VoxelFormat::f16:
+      return CL_HALF_FLOAT;
   }
   return CL_FLOAT;
 }

@@ -49,7 +49,8 @@ Device::Device(std::unique_ptr<const Instance> instance, Candidate candidate)
       gpu_(open_gpu(candidate.physical)),
       filter_errors_{probe_filter(gpu_, scene::VoxelFormat::u8),
                      probe_filter(gpu_, scene::VoxelFormat::u16),
-                     probe_filter(gpu_, scene::VoxelFormat::f32)} {
+                     probe_filter(gpu_, scene::VoxelFormat::f32),
+                     probe_filter(gpu_, scene::VoxelFormat::f16)} {
   instance_->check_validation();
 }
 

@@ -30,7 +30,7 @@ class Device final : public measure::Device {
   std::unique_ptr<const Instance> instance_;
   record::Device info_;
   Gpu gpu_;
-  std::array<std::optional<double>, 3> filter_errors_;  // by VoxelFormat
+  std::array<std::optional<double>, 4> filter_errors_;  // by VoxelFormat
 };
 
 }  // namespace triptych::vulkan_backend

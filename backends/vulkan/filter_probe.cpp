@@ -11,6 +11,7 @@
 #include "backends/vulkan/pipeline.hpp"
 #include "backends/vulkan/volume_resources.hpp"
 #include "core/random.hpp"
+#include "scene/half.hpp"
 #include "technique/volume/filter_bound.hpp"
 
 namespace triptych::vulkan_backend {
@@ -44,6 +45,9 @@ scene::VoxelGrid random_voxels(scene::VoxelFormat format) {
       break;
     case scene::VoxelFormat::f32:
       fill(1.0F);
+      break;
+    case scene::VoxelFormat::f16:
+      fill(scene::to_half(1));
       break;
   }
   return grid;

@@ -93,6 +93,8 @@ vk::Format texture_format(scene::VoxelFormat format) {
       return vk::Format::eR16Unorm;
     case scene::VoxelFormat::f32:
       return vk::Format::eR32Sfloat;
+    case scene::VoxelFormat::f16:
+      return vk::Format::eR16Sfloat;
   }
   return vk::Format::eUndefined;
 }
@@ -246,7 +248,7 @@ Constants constants_of(const measure::VolumeWork& work) {
           .preintegrated = technique::preintegration_form(work.scene),
           .leaps = work.options.skip == technique::Skip::distance ? 1 : 0,
           .adapt = work.options.adapt > 0 ? 1 : 0,
-          .voxel_bits = static_cast<std::int32_t>(8 * scene::bytes_of(work.scene.grid->format))};
+          .voxel_bits = technique::voxel_bits(work.scene.grid->format)};
 }
 
 std::string_view raycast_spirv(std::string_view shader, const measure::VolumeWork& work, Pass pass,

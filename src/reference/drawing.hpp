@@ -13,6 +13,7 @@
 #include "reference/composite.hpp"
 #include "reference/rows.hpp"
 #include "reference/volume.hpp"
+#include "scene/half.hpp"
 #include "scene/volume_scene.hpp"
 
 namespace triptych::reference {
@@ -41,6 +42,8 @@ auto with_stored_type(scene::VoxelFormat format, Function&& function) {
       return function(std::uint8_t{});
     case scene::VoxelFormat::u16:
       return function(std::uint16_t{});
+    case scene::VoxelFormat::f16:
+      return function(scene::Half{});
     case scene::VoxelFormat::f32:
       break;
   }

@@ -17,6 +17,7 @@ Field<Stored>::Field(const scene::VoxelGrid& grid, const ErrorModel& model)
       scale_(grid.scale),
       offset_(grid.offset),
       value_error_(model.value_error),
+      voxel_rounding_(model.voxel_rounding),
       filter_weight_error_(model.filter_weight_error),
       exact_(model.position_error_voxels == 0 && model.filter_weight_error == 0) {
   if (exact_) return;
@@ -164,19 +165,32 @@ double Field<Stored>::error_of(const Read& read, const glm::dvec3& e) const {
 
 template <typename Stored>
 Bounded Field<Stored>::at(const glm::dvec3& p, const glm::dvec3& e) const {
-  if (exact_) return {at(p), value_error_};
+  if (exact_) {
+    const double value = at(p);
+    return {value, value_error_ + voxel_rounding_ * std::abs(value)};
+  }
   const Read here = read(p, e);
-  return {here.stored * scale_ + offset_, error_of(here, e) * std::abs(scale_) + value_error_};
+  const double value = here.stored * scale_ + offset_;
+  const double error = error_of(here, e) * std::abs(scale_);
+  return {value, error + voxel_rounding_ * (std::abs(value) + error) + value_error_};
 }
 
 template <typename Stored>
 Bounded Field<Stored>::difference(const glm::dvec3& a, const glm::dvec3& b,
                                   const glm::dvec3& shared_error, double own_error) const {
-  if (exact_) return {at(a) - at(b), 2.0 * value_error_};
+  if (exact_) {
+    const double above = at(a);
+    const double below = at(b);
+    return {above - below,
+            2.0 * value_error_ + voxel_rounding_ * (std::abs(above) + std::abs(below))};
+  }
   const glm::dvec3 e = shared_error + own_error;
   const Read above = read(a, e);
   const Read below = read(b, e);
-  double error = error_of(above, e) + error_of(below, e);
+  const double each = error_of(above, e) + error_of(below, e);
+  const double rounded = std::abs(above.stored * scale_ + offset_) +
+                         std::abs(below.stored * scale_ + offset_) + each * std::abs(scale_);
+  double error = each;
   if (above.local && below.local) {
     const glm::dvec3 bend = glm::max(above.slopes.hi - below.slopes.lo,  //
                                      below.slopes.hi - above.slopes.lo);
@@ -186,11 +200,13 @@ Bounded Field<Stored>::difference(const glm::dvec3& a, const glm::dvec3& b,
                             filter_weight_error_ * (above.slopes.spread + below.slopes.spread);
     error = std::min(error, together);
   }
-  return {(above.stored - below.stored) * scale_, error * std::abs(scale_) + 2.0 * value_error_};
+  return {(above.stored - below.stored) * scale_,
+          error * std::abs(scale_) + voxel_rounding_ * rounded + 2.0 * value_error_};
 }
 
 template class Field<std::uint8_t>;
 template class Field<std::uint16_t>;
 template class Field<float>;
+template class Field<scene::Half>;
 
 }  // namespace triptych::reference

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "reference/volume.hpp"
+#include "scene/half.hpp"
 #include "scene/volume.hpp"
 
 namespace triptych::reference {
@@ -17,8 +18,9 @@ struct Bounded {
   double error = 0;
 };
 
-// Reads the grid in place; Stored is what one voxel of it is: std::uint8_t, std::uint16_t or float.
-// Interpolates stored values, which are exact, and maps the result. Positions in voxels.
+// Reads the grid in place; Stored is what one voxel of it is: std::uint8_t, std::uint16_t, float or
+// scene::Half. Interpolates stored values, which are exact, and maps the result. Positions in
+// voxels.
 template <typename Stored>
 class Field {
  public:
@@ -29,7 +31,9 @@ class Field {
 
   // The error is Σ over axes of (largest difference of neighbours in any cell that a device may
   // read instead) × position error, for a trilinear field is Lipschitz with just these constants;
-  // plus filter_weight_error × spread of the eight voxels, plus value_error.
+  // plus filter_weight_error × spread of the eight voxels, plus value_error. Voxels that are each
+  // off by a share of themselves move what weights of at least 0 make of them by at most that share
+  // of it: plus voxel_rounding × (value + all that is above but value_error).
   [[nodiscard]] Bounded at(const glm::dvec3& p, const glm::dvec3& position_error) const;
 
   // at(a) − at(b) for two places that are displaced together by up to `shared_error` and each on
@@ -78,6 +82,7 @@ class Field {
   double scale_;
   double offset_;
   double value_error_;
+  double voxel_rounding_;
   double filter_weight_error_;
   double range_ = 0;  // largest minus smallest stored value
   bool exact_;        // places and weights have no error, so slopes play no part
@@ -86,5 +91,6 @@ class Field {
 extern template class Field<std::uint8_t>;
 extern template class Field<std::uint16_t>;
 extern template class Field<float>;
+extern template class Field<scene::Half>;
 
 }  // namespace triptych::reference

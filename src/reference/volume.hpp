@@ -16,6 +16,8 @@ namespace triptych::reference {
 struct ErrorModel {
   double position_error_voxels = 0;  // of a sample's place, per axis
   double value_error = 0;  // of a fetched normalised value, absolute, beside filter_weight_error
+  // of every voxel, relative to its normalised value, which is not below 0
+  double voxel_rounding = 0;
   double filter_weight_error = 0;  // of interpolation weights: times the spread of the eight voxels
   double table_error = 0;          // of a looked-up colour or opacity, absolute
   double opacity_error = 0;        // of the step-corrected opacity, relative

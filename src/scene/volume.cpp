@@ -12,6 +12,7 @@
 #include "core/hash.hpp"
 #include "scene/denormals.hpp"
 #include "scene/exact_math.hpp"
+#include "scene/half.hpp"
 #include "scene/scalar_dispatch.hpp"
 
 namespace triptych::scene {
@@ -115,6 +116,36 @@ bool is_linear(const Volume& volume) {
   return volume.mapping == Mapping::linear && !volume.clipped;
 }
 
+// What f16 takes from integers.
+double whole_part_of_lower_end(const Volume& volume) {
+  return std::floor(volume.range_lo);
+}
+
+template <typename From>
+VoxelBytes halves_of(Volume& volume, const auto& stored) {
+  return convert<From, Half>(std::move(volume.voxels), [&](From value) {
+    const double wanted = stored(static_cast<double>(value));
+    return to_half(wanted < least_normal_half ? 0 : wanted);
+  });
+}
+
+template <typename From>
+void encode_half(Volume& volume, VoxelGrid& grid) {
+  if (fits_halves(volume)) {
+    const double extent = volume.range_hi - volume.range_lo;
+    const double lower = whole_part_of_lower_end(volume);
+    grid.scale = extent > 0 ? 1 / extent : 0;
+    grid.offset = extent > 0 ? (lower - volume.range_lo) / extent : 0;
+    grid.data = halves_of<From>(volume, [&](double value) { return value - lower; });
+    return;
+  }
+  constexpr double stored_one = 0x1.0p15;
+  const Normaliser normalise(volume);
+  grid.scale = 1 / stored_one;
+  grid.offset = 0;
+  grid.data = halves_of<From>(volume, [&](double value) { return normalise(value) * stored_one; });
+}
+
 template <typename From, typename To>
 void encode_integers(Volume& volume, VoxelGrid& grid) {
   if constexpr (std::is_integral_v<From> && sizeof(From) <= sizeof(To)) {
@@ -132,6 +163,8 @@ void encode_from(Volume& volume, VoxelGrid& grid) {
       return encode_integers<From, std::uint16_t>(volume, grid);
     case VoxelFormat::f32:
       return encode_float<From>(volume, grid);
+    case VoxelFormat::f16:
+      return encode_half<From>(volume, grid);
   }
 }
 
@@ -189,15 +222,19 @@ std::string_view name_of(VoxelFormat format) {
       return "u16";
     case VoxelFormat::f32:
       return "f32";
+    case VoxelFormat::f16:
+      return "f16";
   }
   return {};
 }
 
 VoxelFormat voxel_format(std::string_view name) {
-  for (const auto format : {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32}) {
+  for (const auto format :
+       {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32, VoxelFormat::f16}) {
     if (name_of(format) == name) return format;
   }
-  throw core::InputError(fmt::format("unknown voxel format '{}'; expected u8, u16 or f32", name));
+  throw core::InputError(
+      fmt::format("unknown voxel format '{}'; expected u8, u16, f32 or f16", name));
 }
 
 std::size_t bytes_of(VoxelFormat format) {
@@ -205,6 +242,7 @@ std::size_t bytes_of(VoxelFormat format) {
     case VoxelFormat::u8:
       return 1;
     case VoxelFormat::u16:
+    case VoxelFormat::f16:
       return 2;
     case VoxelFormat::f32:
       return 4;
@@ -219,6 +257,7 @@ double largest_stored(VoxelFormat format) {
     case VoxelFormat::u16:
       return 65535;
     case VoxelFormat::f32:
+    case VoxelFormat::f16:
       return 1;
   }
   return 1;
@@ -236,6 +275,8 @@ double VoxelGrid::normalised(std::size_t index) const {
       return load_scalar<std::uint16_t>(data.data(), index) * scale + offset;
     case VoxelFormat::f32:
       return static_cast<double>(load_scalar<float>(data.data(), index)) * scale + offset;
+    case VoxelFormat::f16:
+      return static_cast<double>(load_scalar<Half>(data.data(), index)) * scale + offset;
   }
   return 0;
 }
@@ -257,6 +298,23 @@ VoxelFormat lossless_format(ScalarType type) {
 
 VoxelFormat lossless_format(const Volume& volume) {
   return is_linear(volume) ? lossless_format(volume.type) : VoxelFormat::f32;
+}
+
+bool fits_halves(const Volume& volume) {
+  if (!is_linear(volume)) return false;
+  return with_scalar_type(volume.type, [&]<typename Scalar>(Scalar) {
+    if constexpr (std::is_integral_v<Scalar>) {
+      constexpr double most = 2048;  // all integers up to it are halves
+      const double lower = whole_part_of_lower_end(volume);
+      if (volume.range_hi - lower <= most) return true;
+      for (std::size_t i = 0; i < volume.voxel_count(); ++i) {
+        const double stored = load_scalar<Scalar>(volume.voxels.data(), i) - lower;
+        if (static_cast<double>(to_half(stored)) != stored) return false;
+      }
+      return true;
+    }
+    return false;
+  });
 }
 
 VoxelGrid encode(Volume&& volume, VoxelFormat format) {

@@ -44,17 +44,19 @@ struct Volume {
 };
 
 // How voxels are stored on a device: the levels of the factor `voxel`.
-enum class VoxelFormat : std::uint8_t { u8, u16, f32 };
+enum class VoxelFormat : std::uint8_t { u8, u16, f32, f16 };
 [[nodiscard]] std::string_view name_of(VoxelFormat format);
 [[nodiscard]] VoxelFormat voxel_format(std::string_view name);  // throws InputError
 [[nodiscard]] std::size_t bytes_of(VoxelFormat format);
-// The largest integer that u8 and u16 store; 1 for f32, which stores no integer.
+// The largest integer that u8 and u16 store; 1 for floats, of which a texel is what is stored.
 [[nodiscard]] double largest_stored(VoxelFormat format);
 
 // Voxels as uploaded. The normalised value, 0..1 over the range, is
 //   x = stored·scale + offset     (stored: the integer, or the float itself)
 // u8 and u16 hold 8- and 16-bit integer files exactly whatever their range; f32 holds x itself,
-// clamped to [0, 1], NaN as 0.
+// clamped to [0, 1], NaN as 0. f16 holds halves ≥ 0 of which none is subnormal: the integers of a
+// file less the range's lower end where that loses nothing (fits_halves), else 2¹⁵·x, rounded, and
+// below 2⁻²⁹ x is 0. So no voxel overflows, and what a device does with subnormals plays no part.
 struct VoxelGrid {
   VoxelFormat format = VoxelFormat::f32;
   std::array<int, 3> size{};
@@ -77,6 +79,10 @@ struct VoxelGrid {
 // As the volume's values are mapped: integers that are clamped or of which a logarithm is taken are
 // f32.
 [[nodiscard]] VoxelFormat lossless_format(const Volume& volume);
+
+// Whether f16 holds every voxel exactly: integers, mapped as they are, each of which has at most 11
+// significant bits once the whole part of the range's lower end is taken off.
+[[nodiscard]] bool fits_halves(const Volume& volume);
 
 // Converts; where the format is too small for the volume, values are rounded to its steps over the
 // range. Consumes the volume's voxels where the representation is the same, to keep one copy in

@@ -32,8 +32,9 @@ const std::vector<Factor>& volume_factors() {
       text("data", "generate:mandelbulb:96",
            "a volume file (.nrrd, .nhdr, .dat), generate:NAME:SIZE, generate:NAME:NXxNYxNZ, "
            "analytic:PROBLEM:SIZE, known by a formula, or stress:CASE:VARIANT"),
-      choice("voxel", {"auto", "u8", "u16", "f32"}, "auto", Decides::how_it_is_made,
-             "how voxels are stored on the device; auto: the device's fastest exact path"),
+      choice("voxel", {"auto", "u8", "u16", "f32", "f16"}, "auto", Decides::how_it_is_made,
+             "how voxels are stored on the device, f16: as half floats; auto: the device's fastest "
+             "exact path"),
       choice(
           "sampler", {"auto", "hardware", "manual", "packed"}, "auto", Decides::how_it_is_made,
           "who interpolates between voxels: the device's sampler, the kernel, or the kernel from "

@@ -15,6 +15,7 @@
 #include "scene/denormals.hpp"
 #include "scene/file_table.hpp"
 #include "scene/generators.hpp"
+#include "scene/half.hpp"
 #include "scene/value_window.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/factors.hpp"
@@ -74,6 +75,7 @@ class VolumeSuite final : public measure::SuiteWithTruth {
     std::string mapping;
     std::optional<StressScene> stress;  // without its voxels
     scene::VoxelFormat native = scene::VoxelFormat::f32;
+    bool fits_halves = false;
     std::shared_ptr<const scene::VoxelGrid> grid;
   };
   using ChooseFormat =
@@ -138,12 +140,14 @@ const VolumeSuite::Loaded& VolumeSuite::load(const Configuration& configuration,
   scene::set_window(volume, scene::parse_window(window), scene::mapping(mapping));
   const scene::VoxelFormat native = scene::lossless_format(volume);
   const scene::VoxelFormat format = choose(native, volume.size);
+  const bool fits_halves = scene::fits_halves(volume);
   loaded_ = {
       .data = data,
       .window = window,
       .mapping = mapping,
       .stress = std::move(stress),
       .native = native,
+      .fits_halves = fits_halves,
       .grid = std::make_shared<const scene::VoxelGrid>(scene::encode(std::move(volume), format))};
   return loaded_;
 }
@@ -246,12 +250,18 @@ measure::Work VolumeSuite::calibration(technique::Work kind) {
                   .sampler = technique::Sampler::manual, .skip = technique::Skip::none, .ert = 0}}};
 }
 
+bool rounds_to_halves(const Configuration& configuration, bool fits_halves) {
+  return configuration.at("voxel") == scene::name_of(scene::VoxelFormat::f16) && !fits_halves;
+}
+
 // A step of the voxel format where it cannot hold the data's own values, in normalised value; else
 // 0. Integers that are stored as floats are rounded when they are normalised, to floats below 1:
 // that is less than single precision does to them anyway.
-double storage_step(const Configuration& configuration, scene::VoxelFormat native) {
+double storage_step(const Configuration& configuration, scene::VoxelFormat native,
+                    bool fits_halves) {
   if (configuration.at("voxel") == "auto") return 0;
   const scene::VoxelFormat format = scene::voxel_format(configuration.at("voxel"));
+  if (format == scene::VoxelFormat::f16) return fits_halves ? 0 : 0x1.0p-28;
   if (format == scene::VoxelFormat::f32 && native != format &&
       technique::precision(configuration.at("precision")) == technique::Precision::fp64) {
     return 0x1.0p-24;
@@ -265,12 +275,14 @@ VolumeSuite::Judged VolumeSuite::judged(const Configuration& configuration,
   const Loaded& loaded = load_as_it_is(configuration);
   scene::VolumeScene pictured = scene(configuration, loaded);
   const auto probed = precision.find("filter_weight_error");
-  const reference::ErrorModel model =
-      error_model(pictured, {.ert = levels_of(configuration, loaded.stress).ert(),
-                             .adapt = levels_of(configuration, loaded.stress).adapt(),
-                             .filter_weight_error = probed == precision.end() ? 0 : probed->second,
-                             .storage_step = storage_step(configuration, loaded.native),
-                             .precision = technique::precision(configuration.at("precision"))});
+  const reference::ErrorModel model = error_model(
+      pictured, {.ert = levels_of(configuration, loaded.stress).ert(),
+                 .adapt = levels_of(configuration, loaded.stress).adapt(),
+                 .filter_weight_error = probed == precision.end() ? 0 : probed->second,
+                 .storage_step = storage_step(configuration, loaded.native, loaded.fits_halves),
+                 .voxel_rounding =
+                     rounds_to_halves(configuration, loaded.fits_halves) ? scene::half_roundoff : 0,
+                 .precision = technique::precision(configuration.at("precision"))});
   return {std::move(pictured), model};
 }
 
@@ -307,6 +319,7 @@ std::string VolumeSuite::truth_key(const Configuration& configuration,
   const std::string model_hash = core::HashBuilder("volume error model")
                                      .add(model.position_error_voxels)
                                      .add(model.value_error)
+                                     .add(model.voxel_rounding)
                                      .add(model.filter_weight_error)
                                      .add(model.table_error)
                                      .add(model.opacity_error)

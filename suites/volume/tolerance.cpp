@@ -74,6 +74,7 @@ reference::ErrorModel error_model(const scene::VolumeScene& scene, const PathPre
       .position_error_voxels = position_error(scene, u),
       .value_error = 13 * u * std::max(magnitude, 1.0) + (cells ? 84 * u * format_range : 0) +
                      path.storage_step / 2 + filter * format_range,
+      .voxel_rounding = path.voxel_rounding,
       .filter_weight_error = filter,
       .table_error = (preintegrated ? 4 : 3) * u,
       .opacity_error = (!midpoint ? 32

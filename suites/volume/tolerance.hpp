@@ -13,7 +13,8 @@ struct PathPrecision {
   double ert = 0;                  // ε at which rays may end
   double adapt = 0;                // what merged samples may cost (technique::brick_kinds)
   double filter_weight_error = 0;  // of the device's sampler, as probed (measure::Device)
-  double storage_step = 0;  // normalised value per step of a voxel format too small for the data
+  double storage_step = 0;    // normalised value per step of a voxel format too small for the data
+  double voxel_rounding = 0;  // of one that rounds each voxel by a share of it
   technique::Precision precision = technique::Precision::fp32;
 };
 
@@ -47,6 +48,10 @@ struct PathPrecision {
 //   256·x − ½ twice more: 13u·M. Half a storage step where the voxel format loses values. Cells
 //   make a cubic of the eight voxels: its terms are products of at most four factors, summed in
 //   turn, 6u each, and together at most 14 times the range R of the format: 84u·R more.
+// voxels. Halves (scene::VoxelGrid): integers that fits_halves says are exact are off by nothing.
+//   Else 2¹⁵·x is rounded to 11 bits: by 2⁻¹¹/(1 + 2⁻¹¹) of x, and a u of x in which the truth's
+//   float may differ from x is less than the rest of 2⁻¹¹·x. What would be subnormal, below 2⁻²⁹ of
+//   x, is 0: half a storage step of 2⁻²⁸. Nothing overflows, as 2¹⁵ < 65504.
 // filter. The probed error of the weights, rounded up to a power of two; never less than u. A
 // sampler
 //   that rounds its result to the steps of the format errs by that much between equal voxels too;

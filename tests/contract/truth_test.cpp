@@ -13,8 +13,8 @@ using measure::VolumeWork;
 
 TEST(Truth, EveryPathStaysWithinItsBound) {
   on_every_device([](measure::Device& device) {
-    for (const scene::VoxelFormat format :
-         {scene::VoxelFormat::u8, scene::VoxelFormat::u16, scene::VoxelFormat::f32}) {
+    for (const scene::VoxelFormat format : {scene::VoxelFormat::u8, scene::VoxelFormat::u16,
+                                            scene::VoxelFormat::f32, scene::VoxelFormat::f16}) {
       for (const technique::Sampler sampler :
            {technique::Sampler::hardware, technique::Sampler::manual, technique::Sampler::packed}) {
         SCOPED_TRACE(std::string(scene::name_of(format)) + " " +

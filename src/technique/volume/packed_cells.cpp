@@ -74,6 +74,11 @@ std::uint64_t packed_bytes(const std::array<int, 3>& size, scene::VoxelFormat fo
   return packed_texels(size, format) * packed_texel_bytes(format);
 }
 
+int voxel_bits(scene::VoxelFormat format) {
+  const int bits = static_cast<int>(8 * scene::bytes_of(format));
+  return format == scene::VoxelFormat::f16 ? -bits : bits;
+}
+
 void fill_packed_cells(const scene::VoxelGrid& grid, std::size_t begin, std::span<std::byte> out) {
   const std::size_t texel = packed_texel_bytes(grid.format);
   Packer packer(grid, begin / texel);

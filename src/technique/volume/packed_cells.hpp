@@ -21,13 +21,17 @@ namespace triptych::technique {
 //   u8   two words, the lower and the upper z, of four voxels each: (x−1, y−1) in the lowest byte,
 //        (x, y−1), (x−1, y), (x, y)
 //   u16  four words, two for each z, of two voxels each, in the same order
+//   f16  as u16
 //   f32  four words for the lower z; those for the upper z are the lower ones of the next layer, of
 //        which there is one more
-// That is eight times the voxels of u8 and u16, four times those of f32.
+// That is eight times the voxels of u8, u16 and f16, four times those of f32.
 [[nodiscard]] std::uint64_t packed_texels(const std::array<int, 3>& size,
                                           scene::VoxelFormat format);
 [[nodiscard]] std::size_t packed_texel_bytes(scene::VoxelFormat format);
 [[nodiscard]] std::uint64_t packed_bytes(const std::array<int, 3>& size, scene::VoxelFormat format);
+
+// TRI_VOXEL_BITS of packed.glsl: bits of an integer or float; −16: of a half.
+[[nodiscard]] int voxel_bits(scene::VoxelFormat format);
 
 // Writes the bytes from `begin` on; whole texels.
 void fill_packed_cells(const scene::VoxelGrid& grid, std::size_t begin, std::span<std::byte> out);

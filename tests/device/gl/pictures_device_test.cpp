@@ -51,7 +51,8 @@ Verdict against_truth(measure::Device& device, std::string_view technique,
 
 TEST(GlPictures, EveryFormatAndSamplerHoldsTheBound) {
   for_each_device([](measure::Device& device) {
-    for (const VoxelFormat voxel : {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32}) {
+    for (const VoxelFormat voxel :
+         {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32, VoxelFormat::f16}) {
       for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
         for (const std::string_view technique : picture_techniques) {
           const scene::VolumeScene scene = make_scene({.voxel = voxel});

@@ -19,12 +19,13 @@ struct Path {
   VoxelFormat voxel;
   Sampler sampler;
 };
-constexpr std::array<Path, 6> paths{{{VoxelFormat::u8, Sampler::manual},
+constexpr std::array<Path, 7> paths{{{VoxelFormat::u8, Sampler::manual},
                                      {VoxelFormat::u16, Sampler::manual},
                                      {VoxelFormat::f32, Sampler::manual},
                                      {VoxelFormat::u8, Sampler::hardware},
                                      {VoxelFormat::u16, Sampler::hardware},
-                                     {VoxelFormat::f32, Sampler::hardware}}};
+                                     {VoxelFormat::f32, Sampler::hardware},
+                                     {VoxelFormat::f16, Sampler::manual}}};
 
 struct Distance {
   double error = 0;  // largest of any channel

@@ -84,7 +84,7 @@ TEST(VulkanLimits, AFilterErrsByNoMoreThanItsFormatAndTheWeightsLeaveOpen) {
   for (const Candidate& each : candidates(instance.physical_devices())) {
     SCOPED_TRACE(each.info.id);
     Gpu gpu = open_gpu(each.physical);
-    for (const scene::VoxelFormat format : {u8, u16, f32}) {
+    for (const scene::VoxelFormat format : {u8, u16, f32, f16}) {
       const double error = probe_filter(gpu, format).value_or(0);
       EXPECT_LE(error, allowed_filter_error(gpu, format)) << scene::name_of(format);
     }

@@ -54,7 +54,8 @@ void expect_truth(measure::Device& device, const scene::VolumeScene& scene,
 
 TEST(VulkanPictures, EveryFormatAndSamplerIsWithinTheBound) {
   for_each_device([](measure::Device& device) {
-    for (const VoxelFormat voxel : {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32}) {
+    for (const VoxelFormat voxel :
+         {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32, VoxelFormat::f16}) {
       for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
         expect_truth(device, make_scene({.voxel = voxel}), {.sampler = sampler},
                      fmt::format("{} {}", scene::name_of(voxel), technique::name_of(sampler)));

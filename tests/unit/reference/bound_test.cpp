@@ -234,9 +234,10 @@ TEST(Bound, GrowsWithEveryTermOfTheModel) {
     for (const double bound : render_volume(scene, model).bound) sum += bound;
     return sum;
   };
-  for (double ErrorModel::*term : {&ErrorModel::position_error_voxels, &ErrorModel::value_error,
-                                   &ErrorModel::filter_weight_error, &ErrorModel::table_error,
-                                   &ErrorModel::opacity_error, &ErrorModel::compositing_error}) {
+  for (double ErrorModel::*term :
+       {&ErrorModel::position_error_voxels, &ErrorModel::value_error, &ErrorModel::voxel_rounding,
+        &ErrorModel::filter_weight_error, &ErrorModel::table_error, &ErrorModel::opacity_error,
+        &ErrorModel::compositing_error}) {
     ErrorModel one;
     one.*term = 1e-5;
     ErrorModel two;

@@ -2,15 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <type_traits>
 
 #include "core/error.hpp"
+#include "scene/half.hpp"
 
 namespace triptych::scene {
 namespace {
+
+constexpr std::array all_formats{VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32,
+                                 VoxelFormat::f16};
 
 template <typename T>
 constexpr ScalarType type_of() {
@@ -103,10 +108,54 @@ TEST(Encode, LossyFormatsRoundToTheNearestStepOfTheRange) {
   EXPECT_NEAR(narrow.normalised(1), 30000.0 / 65535, 0.5 / 255 + 1e-15);
 }
 
+double half_at(const VoxelGrid& grid, std::size_t index) {
+  Half half;
+  std::memcpy(&half, grid.data.data() + index * sizeof half, sizeof half);
+  return static_cast<double>(half);
+}
+
+// Twelve bits of a scanner, signed; bytes in a window beyond them; even numbers to the largest
+// half.
+TEST(Encode, HalvesHoldIntegersOfElevenBits) {
+  expect_exact<std::uint8_t>(VoxelFormat::f16, -3.5, 260);
+  expect_exact<std::int8_t>(VoxelFormat::f16, -128, 127);
+  EXPECT_TRUE(fits_halves(row_of<std::int16_t>({-1024, -1023, 0, 1023}, -1024, 1024)));
+  EXPECT_FALSE(fits_halves(row_of<std::int16_t>({-1024, 1026, 1025}, -1024, 1026)));
+  const std::vector<std::uint16_t> wide{0, 1, 2047, 2048, 4094, 65504};
+  ASSERT_TRUE(fits_halves(row_of(wide, 0, 65504)));
+  const VoxelGrid grid = encode(row_of(wide, 0, 65504), VoxelFormat::f16);
+  for (std::size_t i = 0; i < wide.size(); ++i) EXPECT_EQ(half_at(grid, i), wide[i]);
+  EXPECT_EQ(grid.normalised(5), 1);
+}
+
+// Floats, integers of more bits, and those that are clamped.
+TEST(Encode, HalvesRoundWhatTheyCannotHold) {
+  const auto expect_rounded = [](const Volume& volume) {
+    ASSERT_FALSE(fits_halves(volume));
+    Volume copy = volume;
+    Volume floats = volume;
+    const VoxelGrid grid = encode(std::move(copy), VoxelFormat::f16);
+    const VoxelGrid exact = encode(std::move(floats), VoxelFormat::f32);
+    for (std::size_t i = 0; i < grid.voxel_count(); ++i) {
+      const double x = exact.normalised(i);
+      ASSERT_LE(std::abs(grid.normalised(i) - x), half_roundoff * x + 0x1p-29) << x;
+      const double stored = half_at(grid, i);
+      ASSERT_TRUE(stored == 0 || (stored >= least_normal_half && stored <= largest_half));
+    }
+  };
+  std::vector<float> floats{0, 1, 1e-30F, 0x1p-29F, 0x1.8p-30F, 0x1.ffep-1F};
+  for (int i = 1; i < 4000; ++i) floats.push_back(static_cast<float>(std::exp2(-i * 0.01)));
+  expect_rounded(row_of(floats, 0, 1));
+  expect_rounded(row_of(every_value<std::uint16_t>(), 0, 65535));
+  Volume clipped = row_of(every_value<std::uint8_t>(), 10.5, 200);
+  clipped.clipped = true;
+  expect_rounded(clipped);
+}
+
 TEST(Encode, NonFiniteVoxelsHaveTheirPlace) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   const std::vector<double> values{std::numeric_limits<double>::quiet_NaN(), inf, -inf, 2};
-  for (const auto format : {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32}) {
+  for (const auto format : all_formats) {
     const VoxelGrid grid = encode(row_of(values, 0, 4), format);
     EXPECT_EQ(grid.normalised(0), 0);
     EXPECT_EQ(grid.normalised(1), 1);
@@ -116,7 +165,7 @@ TEST(Encode, NonFiniteVoxelsHaveTheirPlace) {
 }
 
 TEST(Encode, AnEmptyRangeMapsEverythingToZero) {
-  for (const auto format : {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32}) {
+  for (const auto format : all_formats) {
     EXPECT_EQ(encode(row_of<std::uint8_t>({7, 7}, 7, 7), format).normalised(1), 0);
     EXPECT_EQ(encode(row_of<float>({7, 7}, 7, 7), format).normalised(1), 0);
   }
@@ -175,10 +224,10 @@ TEST(VoxelFormat, LosslessIsTheSmallestThatHoldsTheType) {
 }
 
 TEST(VoxelFormat, NamesRoundTrip) {
-  for (const auto format : {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32}) {
+  for (const auto format : all_formats) {
     EXPECT_EQ(voxel_format(name_of(format)), format);
   }
-  EXPECT_THROW((void)voxel_format("f16"), core::InputError);
+  EXPECT_THROW((void)voxel_format("f64"), core::InputError);
 }
 
 TEST(Volume, ReadsBackEveryType) {

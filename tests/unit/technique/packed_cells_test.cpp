@@ -13,7 +13,8 @@ namespace {
 
 using scene::VoxelFormat;
 
-constexpr std::array all_formats{VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32};
+constexpr std::array all_formats{VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32,
+                                 VoxelFormat::f16};
 
 scene::VoxelGrid grid_of(VoxelFormat format, std::array<int, 3> size) {
   return scene::encode(scene::generate_volume("mandelbulb", size), format);

@@ -137,8 +137,8 @@ TEST(Parts, AreReadWhereABrickNearThemIsVisible) {
 }
 
 TEST(Layers, AreThoseOfTheCells) {
-  for (const auto format :
-       {scene::VoxelFormat::u8, scene::VoxelFormat::u16, scene::VoxelFormat::f32}) {
+  for (const auto format : {scene::VoxelFormat::u8, scene::VoxelFormat::u16,
+                            scene::VoxelFormat::f32, scene::VoxelFormat::f16}) {
     const std::array<int, 3> size{7, 5, 9};
     const Layers packed = packed_layers(size, format);
     EXPECT_EQ(packed.whole, packed_bytes(size, format));

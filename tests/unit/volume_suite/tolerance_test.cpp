@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "scene/half.hpp"
 #include "unit/reference/float_renderer.hpp"
 #include "unit/reference/random_scene.hpp"
 
@@ -59,6 +60,37 @@ TEST(Tolerance, HoldsForSinglePrecision) {
     judge(plate(eye));
   }
   EXPECT_GT(largest, 0.02);  // it would hold of any large number
+}
+
+// A picture of rounded voxels against the truth of those that they were; without the term for it,
+// the bound does not hold.
+TEST(Tolerance, PaysForVoxelsRoundedToHalves) {
+  double paid = 0;
+  double unpaid = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const auto character =
+        seed % 2 == 0 ? reference::Character::smooth : reference::Character::rough;
+    scene::VolumeScene scene = reference::random_scene(seed, character, scene::VoxelFormat::f32);
+    scene.shading.enabled = seed % 3 == 0;
+    scene::VolumeScene rounded = scene;
+    rounded.grid = reference::random_scene(seed, character, scene::VoxelFormat::f16).grid;
+    const core::Image image = reference::render_float(rounded, {});
+    const auto largest_share = [&](const PathPrecision& path) {
+      const reference::Truth truth = reference::render_volume(scene, error_model(scene, path));
+      double largest = 0;
+      for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
+        const double error = std::abs(static_cast<double>(image.rgba[i]) - truth.rgba[i]);
+        if (error > 0) largest = std::max(largest, error / truth.bound[i / 4]);
+      }
+      return largest;
+    };
+    paid = std::max(
+        paid, largest_share({.storage_step = 0x1p-28, .voxel_rounding = scene::half_roundoff}));
+    unpaid = std::max(unpaid, largest_share({}));
+  }
+  EXPECT_LE(paid, 1);
+  EXPECT_GT(paid, 0.02);
+  EXPECT_GT(unpaid, 1);
 }
 
 }  // namespace

@@ -41,17 +41,25 @@ ivec4 halves_of(uvec2 words) {
   return ivec4(words.x & 65535u, words.x >> 16, words.y & 65535u, words.y >> 16);
 }
 
+// Half floats of at least 0 and none of them subnormal: their bits are those of a float 2¹¹² times as small.
+// Precise: a compiler that put the factor off would interpolate denormals.
+vec4 floats_of(uvec2 words) {
+  precise vec4 floats = uintBitsToFloat(uvec4(halves_of(words)) << 13) * 5192296858534827628530496329220096.0;
+  return floats;
+}
+
 Corners corners_of(Grid grid, int index) {
   uvec4 texel = texelFetch(cell_texels, index);
   if (TRI_VOXEL_BITS == 8) return Corners(real4(bytes_of(texel.x)), real4(bytes_of(texel.y)));
   if (TRI_VOXEL_BITS == 16) return Corners(real4(halves_of(texel.xy)), real4(halves_of(texel.zw)));
+  if (TRI_VOXEL_BITS == -16) return Corners(real4(floats_of(texel.xy)), real4(floats_of(texel.zw)));
   uvec4 above = texelFetch(cell_texels, index + cell_strides(grid).z);
   return Corners(real4(uintBitsToFloat(texel)), real4(uintBitsToFloat(above)));
 }
 
 // By how much the corners of the cell `front` are more than those of `back`; integers without rounding.
 Corners corners_between(Grid grid, int back, int front) {
-  if (TRI_VOXEL_BITS <= 16) {
+  if (TRI_VOXEL_BITS == 8 || TRI_VOXEL_BITS == 16) {
     uvec4 a = texelFetch(cell_texels, back);
     uvec4 b = texelFetch(cell_texels, front);
     if (TRI_VOXEL_BITS == 8) {

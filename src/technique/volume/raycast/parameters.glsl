@@ -1,7 +1,7 @@
 // Mirrors technique::RaycastParameters (raycast_parameters.hpp), where the meaning of each field stands.
 // The backend's prelude defines TRI_BINDING(n) and the compile-time constants
 //   TRI_MANUAL_SAMPLER, TRI_SHADING, TRI_SPEED_OF_LIGHT, TRI_FAULT, TRI_PREINTEGRATED, TRI_LEAPS, TRI_ADAPT,
-//   TRI_VOXEL_BITS (integers),
+//   TRI_VOXEL_BITS (technique::voxel_bits; integers),
 // which may be specialization constants, and the macros TRI_PRECISION (bits of a `real`: 32 or 64), TRI_COUNT (0 or 1),
 // TRI_LONG_RAYS (0 or 1: technique::has_long_rays), TRI_PACKED (0 or 1: technique::Sampler::packed) and
 // TRI_PARTS (0 or 1: technique::Part). Where it also defines the macro TRI_OPACITY_FORM, that is

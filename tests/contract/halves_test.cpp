@@ -1,0 +1,137 @@
+// Voxels stored as half floats: within the bound of the data that they round, the same picture
+// where they round nothing, and half of what floats take of a device.
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/half.hpp"
+#include "under_test.hpp"
+#include "volume_truth.hpp"
+
+namespace triptych::contract {
+namespace {
+
+using measure::VolumeWork;
+using scene::VoxelFormat;
+using technique::Sampler;
+
+constexpr std::array<int, 3> size{40, 36, 44};
+
+measure::Work work_of(const char* data, VoxelFormat format, Sampler sampler) {
+  scene::VolumeScene scene = small_scene("surfaces");
+  scene.grid = std::make_shared<const scene::VoxelGrid>(
+      scene::encode(scene::generate_volume(data, size), format));
+  scene.camera = scene::camera_at("orbit_y:1/8", scene.box(), 90);
+  return {.technique = "raycast",
+          .scene =
+              VolumeWork{.scene = std::move(scene),
+                         .options = {.sampler = sampler, .skip = technique::Skip::none, .ert = 0}}};
+}
+
+// The largest error of a channel over the bound of its pixel.
+double share_of_bound(const core::Image& image, const reference::Truth& truth) {
+  double largest = 0;
+  for (std::size_t i = 0; i < truth.rgba.size(); ++i) {
+    const double error = std::abs(static_cast<double>(image.rgba[i]) - truth.rgba[i]);
+    if (error > 0) largest = std::max(largest, error / truth.bound[i / 4]);
+  }
+  return largest;
+}
+
+// Floats and integers of sixteen bits, both techniques, each way to read voxels.
+TEST(Halves, StayWithinTheBoundOfTheDataThatTheyRound) {
+  on_every_device([](measure::Device& device) {
+    double unpaid = 0;
+    for (const char* data : {"marschner_lobb", "nested_shells"}) {
+      for (const Sampler sampler : {Sampler::hardware, Sampler::manual, Sampler::packed}) {
+        for (const char* technique : {"raycast", "raycast_fragment"}) {
+          for (const bool shading : {false, true}) {
+            SCOPED_TRACE(std::string(data) + " " + std::string(technique::name_of(sampler)));
+            measure::Work work = work_of(data, VoxelFormat::f16, sampler);
+            work.technique = technique;
+            std::get<VolumeWork>(work.scene).scene.shading.enabled = shading;
+            if (device.unsupported(work)) continue;
+            scene::Volume exact = scene::generate_volume(data, size);
+            ASSERT_FALSE(scene::fits_halves(exact));
+            scene::VolumeScene scene = std::get<VolumeWork>(work.scene).scene;
+            const VoxelFormat native = scene::lossless_format(exact);
+            scene.grid =
+                std::make_shared<const scene::VoxelGrid>(scene::encode(std::move(exact), native));
+            volume_suite::PathPrecision path{
+                .filter_weight_error = device.filter_weight_error({VoxelFormat::f16, sampler}),
+                .storage_step = 0x1.0p-28,
+                .voxel_rounding = scene::half_roundoff};
+            const core::Image image = draw(device, work);
+            const auto share = [&] {
+              return share_of_bound(
+                  image, reference::render_volume(scene, volume_suite::error_model(scene, path)));
+            };
+            EXPECT_LE(share(), 1);
+            path.voxel_rounding = 0;
+            unpaid = std::max(unpaid, share());
+          }
+        }
+      }
+    }
+    EXPECT_GT(unpaid, 1);  // the bound without the rounding is too narrow for it
+  });
+}
+
+// Within the bound of the bytes, to which halves add nothing. Cells and OpenCL's buffers reach the
+// kernel as the integers that they are in either format, so that the counts are the same; on
+// OpenCL, whose compilers leave arithmetic as it is written, the bits too.
+TEST(Halves, OfBytesAreTheSamePictureAndWork) {
+  on_every_device([](measure::Device& device) {
+    const bool opencl = device.info().api == "opencl";
+    for (const Sampler sampler : {Sampler::manual, Sampler::packed}) {
+      for (const bool shading : {false, true}) {
+        measure::Work bytes = work_of("mandelbulb", VoxelFormat::u8, sampler);
+        measure::Work halves = work_of("mandelbulb", VoxelFormat::f16, sampler);
+        for (measure::Work* each : {&bytes, &halves}) {
+          auto& volume = std::get<VolumeWork>(each->scene);
+          volume.scene.shading.enabled = shading;
+          volume.options.skip = technique::Skip::distance;
+        }
+        if (device.unsupported(bytes)) continue;
+        ASSERT_EQ(device.unsupported(halves), std::nullopt);
+        expect_within_bound(device, halves);
+        if (opencl) {
+          EXPECT_EQ(draw(device, bytes), draw(device, halves));
+        }
+        if (opencl || sampler == Sampler::packed) {
+          const auto counts = [&](const measure::Work& work) {
+            return device.prepare(work)->frame(measure::Purpose::counters).counts;
+          };
+          EXPECT_EQ(counts(bytes), counts(halves));
+        }
+      }
+    }
+  });
+}
+
+TEST(Halves, TakeHalfTheMemoryOfFloats) {
+  on_every_device([](measure::Device& device) {
+    const auto bytes_held = [&](VoxelFormat format) {
+      const auto prepared = device.prepare(work_of("marschner_lobb", format, Sampler::manual));
+      std::uint64_t held = 0;
+      for (const auto& [name, bytes] : device.memory()) held += bytes;
+      return held;
+    };
+    const auto voxels = [](int border) {
+      return static_cast<std::uint64_t>(size[0] + border) *
+             static_cast<std::uint64_t>(size[1] + border) *
+             static_cast<std::uint64_t>(size[2] + border);
+    };
+    const std::uint64_t saved = bytes_held(VoxelFormat::f32) - bytes_held(VoxelFormat::f16);
+    const std::uint64_t expected = 2 * voxels(device.info().api == "opencl" ? 2 : 0);
+    if (device.info().api == "vulkan") {  // which tells an image with what its driver pads rows by
+      EXPECT_NEAR(static_cast<double>(saved), static_cast<double>(expected),
+                  0.25 * static_cast<double>(expected));
+    } else {
+      EXPECT_EQ(saved, expected);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace triptych::contract
