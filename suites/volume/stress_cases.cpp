@@ -256,6 +256,13 @@ std::vector<StressCase> cases_of_frame() {
        "the truth, from which every flip of it differs by far more than the bound",
        {},
        stress_asymmetric},
+      {56,
+       "halves",
+       "integers to 65504, the largest half; to 65535, beyond it; floats that would be subnormal",
+       "voxels of f16: the first exact, the second over their range, no half subnormal, none "
+       "infinite",
+       {"largest", "beyond", "subnormal"},
+       stress_halves},
   };
 }
 

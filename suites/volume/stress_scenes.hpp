@@ -31,6 +31,7 @@ namespace triptych::volume_suite {
 [[nodiscard]] StressScene stress_nan(std::string_view variant);
 [[nodiscard]] StressScene stress_infinite(std::string_view variant);
 [[nodiscard]] StressScene stress_denormal(std::string_view variant);
+[[nodiscard]] StressScene stress_halves(std::string_view variant);
 [[nodiscard]] StressScene stress_flat(std::string_view variant);
 [[nodiscard]] StressScene stress_lit(std::string_view variant);
 [[nodiscard]] StressScene stress_lit_everywhere(std::string_view variant);

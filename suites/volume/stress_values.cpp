@@ -118,6 +118,29 @@ StressScene stress_denormal(std::string_view variant) {
   return scene;
 }
 
+// What half floats are at their limits with. Of floats, 2⁻²⁹ of the range is the least that is
+// kept.
+StressScene stress_halves(std::string_view variant) {
+  const Size size{24, 24, 24};
+  if (variant == "subnormal") {
+    StressScene scene = seen_from_outside(volume_of(size, [&](int i, int j, int k) {
+      return i < 12 ? 0x1.0p-31 * (1 + j) : lopsided(size, i, j, k);
+    }));
+    scene.function = uniform({0.75F, 0.5F, 0.25F, 0.03F});
+    return scene;
+  }
+  const bool largest = variant == "largest";
+  const double step = largest ? 32 : 1;
+  const double most = largest ? 65504 : 65535;
+  StressScene scene = seen_from_outside(volume_of(size, [&](int i, int j, int k) {
+    const double x = lopsided(size, i, j, k);
+    return x > 0.9 ? most : std::floor(x * most / step) * step;
+  }));
+  store<std::uint16_t>(scene.volume, scene::ScalarType::u16, 1);
+  scene.volume.range_hi = most;
+  return scene;
+}
+
 // An empty range maps every voxel to 0; a constant field has no gradient to divide by.
 StressScene stress_flat(std::string_view variant) {
   const Size size{12, 12, 12};
