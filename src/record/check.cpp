@@ -38,6 +38,12 @@ Check check(std::string_view name) {
   throw core::InputError(fmt::format("unknown check '{}'; there are: {}", name, known));
 }
 
+Checks every_check() {
+  Checks checks;
+  for (const auto& [each, name] : check_names) checks.insert(each);
+  return checks;
+}
+
 std::string text_of(const Checks& checks) {
   std::string text;
   for (const Check each : checks)

@@ -23,6 +23,7 @@ enum class Check : std::uint8_t {
 [[nodiscard]] Check check(std::string_view name);  // throws InputError
 
 using Checks = std::set<Check>;
+[[nodiscard]] Checks every_check();
 // "image,counters"; empty text for none. Throws InputError for a name that is no check.
 [[nodiscard]] std::string text_of(const Checks& checks);
 [[nodiscard]] Checks checks_of(std::string_view text);

@@ -36,6 +36,7 @@ Waiver read_entry(const JsonNode& entry) {
                 .test = entry.at("test").text(),
                 .reason = entry.at("reason").text(),
                 .expiry = entry.has("expiry") ? entry.at("expiry").text() : std::string()};
+  if (entry.has("configuration")) waiver.configuration = entry.at("configuration").text();
   if (waiver.reason.find_first_not_of(" \t") == std::string::npos) {
     entry.at("reason").fail("expected a reason");
   }
@@ -76,7 +77,7 @@ std::vector<Waiver> read_expected(const std::filesystem::path& file) {
   std::vector<Waiver> result;
   for (const JsonNode& entry : json->root().elements()) {
     result.push_back(read_entry(entry));
-    result.back().configuration = entry.at("configuration").text();
+    static_cast<void>(entry.at("configuration"));
     result.back().known = read_known(entry.at("outcome"));
   }
   return result;

@@ -28,8 +28,8 @@ struct Waiver {
   Known known = Known::fail;
 };
 
-// [{device, test, reason, expiry}, …]; none where there is no such file. Throws InputError with
-// file and line.
+// [{device, test, reason, expiry}, …], each with a `configuration` where it has one; none where
+// there is no such file. Throws InputError with file and line.
 [[nodiscard]] std::vector<Waiver> read_waivers(const std::filesystem::path& file);
 
 // [{device, test, configuration, outcome, reason}, …], each with an `expiry` where it has one; an

@@ -303,6 +303,8 @@ GateResult judge_run(const record::Store& store, const std::string& run, const B
   GateResult result{.plan = request.plan, .run = run, .findings = {}};
   result.argument = request.argument;
   result.defaults = request.defaults;
+  result.times_decided = request.times_decide;
+  result.part = request.part;
   report_what_is_there(view, result);
   const WrongImages wrong = run_exact_checks(view, result);
   if (judges_times(view)) append(result.findings, check_timings(view, wrong));

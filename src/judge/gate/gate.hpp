@@ -68,6 +68,8 @@ struct GateResult {
   std::string argument = {};                         // as of the request
   std::map<std::string, std::string> defaults = {};  // likewise
   std::string baselines = {};                        // the folder, where commands have to name it
+  bool times_decided = false;                        // as of the request
+  bool part = false;                                 // likewise
   // Of which all findings are advice or reasons for not judging.
   [[nodiscard]] std::vector<std::string> nothing_decided() const;
   [[nodiscard]] core::ExitCode exit_code() const;

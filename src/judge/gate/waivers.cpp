@@ -9,8 +9,11 @@
 namespace triptych::judge {
 namespace {
 
-bool covers(const Waiver& waiver, const std::string& device, const std::string& test) {
-  return core::glob_matches(waiver.device, device) && core::glob_matches(waiver.test, test);
+// `configuration`: empty for a finding about a whole device or plan.
+bool covers(const Waiver& waiver, const std::string& device, const std::string& test,
+            const std::string& configuration) {
+  return core::glob_matches(waiver.device, device) && core::glob_matches(waiver.test, test) &&
+         core::glob_matches(waiver.configuration, configuration);
 }
 
 bool has_expired(const Waiver& waiver, const RunView& view) {
@@ -21,8 +24,7 @@ bool has_expired(const Waiver& waiver, const RunView& view) {
 const Waiver* known_of(const RunView& view, const Finding& finding, const std::set<Known>& kinds) {
   const auto found = std::ranges::find_if(*view.request.known, [&](const Waiver& each) {
     return kinds.contains(each.known) && !has_expired(each, view) &&
-           covers(each, finding.device, finding.test) &&
-           core::glob_matches(each.configuration, finding.configuration);
+           covers(each, finding.device, finding.test, finding.configuration);
   });
   return found == view.request.known->end() ? nullptr : &*found;
 }
@@ -59,9 +61,22 @@ void hold_against_known(const RunView& view, Finding& finding) {
 bool concerns(const Waiver& waiver, const RunView& view) {
   return std::ranges::any_of(view.records, [&](const record::Record& record) {
     return std::ranges::any_of(view.checks, [&](Check check) {
-      return covers(waiver, record.device, record.test_id(name_of(check)));
+      return covers(waiver, record.device, record.test_id(name_of(check)), record.configuration);
     });
   });
+}
+
+// One that names this plan, and no test that the plan can have.
+bool matches_no_test(const Waiver& waiver, const RunView& view) {
+  const record::Checks checks = record::every_check();
+  const std::string image = view.plan_test(Check::image);
+  const std::string plan = image.substr(0, image.rfind('.') + 1);
+  return waiver.test.starts_with(plan) &&
+         std::ranges::none_of(view.records, [&](const record::Record& record) {
+           return std::ranges::any_of(checks, [&](Check check) {
+             return core::glob_matches(waiver.test, record.test_id(name_of(check)));
+           });
+         });
 }
 
 }  // namespace
@@ -69,7 +84,7 @@ bool concerns(const Waiver& waiver, const RunView& view) {
 bool is_waived(const RunView& view, const record::Record& record, Check check) {
   return std::ranges::any_of(view.baselines.waivers(), [&](const Waiver& waiver) {
     return !has_expired(waiver, view) &&
-           covers(waiver, record.device, record.test_id(name_of(check)));
+           covers(waiver, record.device, record.test_id(name_of(check)), record.configuration);
   });
 }
 
@@ -84,7 +99,8 @@ void apply_waivers(const RunView& view, std::vector<Finding>& findings) {
   for (const Waiver& waiver : view.baselines.waivers()) {
     bool used = false;
     for (Finding& finding : findings) {
-      if (finding.verdict != Verdict::regression || !covers(waiver, finding.device, finding.test)) {
+      if (finding.verdict != Verdict::regression ||
+          !covers(waiver, finding.device, finding.test, finding.configuration)) {
         continue;
       }
       used = true;
@@ -102,6 +118,14 @@ void apply_waivers(const RunView& view, std::vector<Finding>& findings) {
           view, *view.checks.begin(), Verdict::advisory,
           fmt::format("the waiver of {} on {} expired on {} and excuses nothing: take it out ({})",
                       waiver.test, waiver.device, waiver.expiry, waiver.reason)));
+    }
+    if (matches_no_test(waiver, view)) {
+      findings.push_back(finding_about(
+          view, *view.checks.begin(), Verdict::advisory,
+          fmt::format(
+              "the waiver of {} matches no test; one is called SUITE.PLAN.CHECK.DEVICE, and "
+              "`configuration` limits a waiver to some of its pictures",
+              waiver.test)));
     }
   }
 }

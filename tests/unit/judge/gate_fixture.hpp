@@ -9,9 +9,12 @@ namespace triptych::judge {
 
 class GateTest : public JudgeTest {
  protected:
-  void write_waivers(const std::string& expiry, const std::string& device = "vulkan:*") {
+  void write_waivers(const std::string& expiry, const std::string& device = "vulkan:*",
+                     const std::string& configuration = "*",
+                     const std::string& test = "volume.quick.image.*") {
     const core::Json waivers = {{{"device", device},
-                                 {"test", "volume.quick.image.*"},
+                                 {"test", test},
+                                 {"configuration", configuration},
                                  {"reason", "known driver fault"},
                                  {"expiry", expiry}}};
     core::write_file(waivers.dump(), folder_.path() / "baselines" / "waivers.json");

@@ -246,6 +246,30 @@ TEST_F(GateTest, AWaiverOfAnotherDeviceExcusesNothing) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
 }
 
+TEST_F(GateTest, AWaiverOfSomePicturesExcusesNoOthers) {
+  add_run("a");
+  (void)accept_run("a");
+  add_run("b", wrong_image_on("vulkan:lavapipe"));
+  request_.checks = {Check::image};
+  const std::string wrong = with(gate("b"), Verdict::regression).at(0).configuration;
+  write_waivers("2027-01-01", "vulkan:*", wrong);
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
+  write_waivers("2027-01-01", "vulkan:*", wrong + "0");
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
+}
+
+TEST_F(GateTest, AWaiverThatMatchesNoTestIsTold) {
+  add_run("a");
+  (void)accept_run("a");
+  write_waivers("2027-01-01", "*", "*", "volume.quick.image.*raycast*");
+  EXPECT_THAT(text(gate("a")),
+              HasSubstr("the waiver of volume.quick.image.*raycast* matches no test"));
+  for (const char* test : {"volume.quick.cost.*", "volume.other.image.x", "*"}) {
+    write_waivers("2027-01-01", "*", "*", test);
+    EXPECT_THAT(text(gate("a")), testing::Not(HasSubstr("matches no test"))) << test;
+  }
+}
+
 TEST_F(GateTest, AnExpiredWaiverWithoutUseIsReported) {
   add_run("a");
   (void)accept_run("a");
