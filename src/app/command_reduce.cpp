@@ -6,6 +6,7 @@
 #include "app/arguments.hpp"
 #include "app/one_frame.hpp"
 #include "app/saying.hpp"
+#include "app/version.hpp"
 #include "core/json_text.hpp"
 #include "core/output_files.hpp"
 #include "core/temporary_folder.hpp"
@@ -36,7 +37,8 @@ measure::RunOptions options_of(const ReduceArguments& arguments) {
   return {.protocol = {},
           .limit = std::chrono::seconds(arguments.limit_s),
           .faults = measure::parse_faults(arguments.frame.faults),
-          .worker_command = measure::worker_command()};
+          .worker_command = measure::worker_command(),
+          .program = version()};
 }
 
 // Other counters are wrong only against the other device's, which `render` does not draw on.

@@ -7,6 +7,7 @@
 
 #include "app/registry.hpp"
 #include "app/saying.hpp"
+#include "app/version.hpp"
 #include "core/output_files.hpp"
 #include "measure/request/error_request.hpp"
 #include "measure/request/fastest.hpp"
@@ -86,7 +87,8 @@ measure::RunOptions options_of(const Measuring& measuring) {
           .again = measuring.again,
           .faults = measure::parse_faults(measuring.faults),
           .jobs = measuring.jobs,
-          .worker_command = measure::worker_command(measure::own_program(), more)};
+          .worker_command = measure::worker_command(measure::own_program(), more),
+          .program = version()};
 }
 
 // Where and with what plans are measured.

@@ -5,6 +5,7 @@
 
 #include <ctime>
 #include <random>
+#include <utility>
 
 #include "measure/system/system_facts.hpp"
 
@@ -18,12 +19,14 @@ std::string utc_now(const char* format) {
 
 }  // namespace
 
-record::Run new_run(const Plan& plan) {
+record::Run new_run(const Plan& plan, const std::string& program) {
   std::random_device entropy;
+  std::map<std::string, std::string> system = system_facts();
+  if (!program.empty()) system["triptych"] = program;
   return {.id = fmt::format("{}-{:08x}", utc_now("%Y%m%dT%H%M%SZ"), entropy()),
           .plan = plan.name,
           .started_at = utc_now("%Y-%m-%dT%H:%M:%SZ"),
-          .system = system_facts(),
+          .system = std::move(system),
           .checks = plan.checks,
           .plan_hash = plan.hash,
           .configurations = plan.configurations.size()};

@@ -49,7 +49,7 @@ void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& 
 // The id of the run to add to: a new one, or the plan's latest when it is to be resumed.
 std::string open_run(const PlannedRun& planned, record::Store& store) {
   const auto& [plan, suite, options] = planned;
-  const record::Run fresh = new_run(plan);
+  const record::Run fresh = new_run(plan, options.program);
   if (!options.resume) {
     store.add_run(fresh);
     return fresh.id;

@@ -37,6 +37,7 @@ struct RunOptions {
   int jobs = 0;
   std::vector<std::string> worker_command;           // as SideOptions::command
   std::vector<std::string> worker_environment = {};  // as SideOptions::environment
+  std::string program = {};  // the version, with its commit, that a run says; empty: the version
 };
 
 struct Progress {

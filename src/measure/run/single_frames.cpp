@@ -24,8 +24,8 @@ RunOptions untimed(RunOptions options) {
   return options;
 }
 
-std::string begin(const Plan& plan, record::Store& store) {
-  const record::Run run = new_run(plan);
+std::string begin(const Plan& plan, const RunOptions& options, record::Store& store) {
+  const record::Run run = new_run(plan, options.program);
   store.add_run(run);
   return run.id;
 }
@@ -39,7 +39,7 @@ SingleFrames::SingleFrames(const Suite& suite, std::string device, record::Store
       interrupts_(interrupts),
       options_(untimed(options)),
       plan_(plan_for(suite)),
-      context_{plan_, suite_, store_, options_, interrupts_, begin(plan_, store_), {}},
+      context_{plan_, suite_, store_, options_, interrupts_, begin(plan_, options_, store_), {}},
       device_(context_, std::move(device)) {}
 
 record::Record SingleFrames::draw(const Configuration& configuration) {
