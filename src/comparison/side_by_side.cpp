@@ -8,6 +8,7 @@
 #include <set>
 
 #include "judge/baselines/frame_change.hpp"
+#include "technique/catalogue.hpp"
 
 namespace triptych::comparison {
 namespace {
@@ -102,6 +103,46 @@ std::string text_of(const SideBySide::Cell& cell) {
   return text;
 }
 
+// A bound on speed is nobody's choice.
+bool is_a_choice(const std::string& technique) {
+  return std::ranges::none_of(technique::catalogue(), [&](const technique::Technique& each) {
+    return each.id == technique && !each.picture;
+  });
+}
+
+// "tiles 2.5 ms": a device's best technique, of the rows with as many configurations as any; empty
+// where it has none of these.
+std::string least_text(const SideBySide& table, const std::string& device) {
+  std::size_t most = 0;
+  for (const SideBySide::Row& row : table.rows) most = std::max(most, row.configurations);
+  const SideBySide::Row* best = nullptr;
+  for (const SideBySide::Row& row : table.rows) {
+    if (row.configurations < most || !row.cells.contains(device)) continue;
+    if (!is_a_choice(row.technique)) continue;
+    const double value = row.cells.at(device).value;
+    if (best == nullptr || value < best->cells.at(device).value) best = &row;
+  }
+  if (best == nullptr) return {};
+  return fmt::format("{} {:.3g} {}", best->technique, 1e-6 * best->cells.at(device).value,
+                     table.unit == "ns" ? "ms" : "M");
+}
+
+// Left-aligned columns.
+std::string aligned(const std::vector<std::vector<std::string>>& lines) {
+  std::vector<std::size_t> widths(lines.front().size());
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::string text;
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i + 1 < widths.size(); ++i) {
+      text += fmt::format("{:<{}}", line[i], widths[i] + 2);
+    }
+    text += line.back() + "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::optional<SideBySide> side_by_side(std::span<const record::Record> records) {
@@ -116,8 +157,10 @@ std::string SideBySide::sentence() const {
   for (const Row& row : rows) ++wins[row.best];
   const auto most =
       std::ranges::max_element(wins, {}, [](const auto& each) { return each.second; });
-  std::string text = fmt::format("{} takes the least in {} of {} techniques", most->first,
-                                 most->second, rows.size());
+  const auto its =
+      std::ranges::count_if(rows, [&](const Row& row) { return row.cells.contains(most->first); });
+  std::string text =
+      fmt::format("{} takes the least in {} of its {} techniques", most->first, most->second, its);
   for (const std::string& device : devices) {
     std::vector<double> ratios;
     for (const Row& row : rows) {
@@ -133,28 +176,25 @@ std::string SideBySide::sentence() const {
 }
 
 std::string to_text(const SideBySide& table) {
-  std::vector<std::vector<std::string>> lines{{""}};
-  lines.front().insert(lines.front().end(), table.devices.begin(), table.devices.end());
+  std::vector<std::vector<std::string>> lines{{""}, {"the least"}};
+  for (const std::string& device : table.devices) {
+    lines[0].push_back(device);
+    lines[1].push_back(least_text(table, device));
+  }
+  lines[0].emplace_back("configurations");
+  lines[1].emplace_back();
   for (const SideBySide::Row& row : table.rows) {
     std::vector<std::string>& line = lines.emplace_back(1, row.technique);
     for (const std::string& device : table.devices) {
       const auto cell = row.cells.find(device);
       line.push_back(cell == row.cells.end() ? "–" : text_of(cell->second));
     }
+    line.push_back(fmt::to_string(row.configurations));
   }
-  std::vector<std::size_t> widths(lines.front().size());
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-  }
-  std::string text;
-  for (std::size_t n = 0; n < lines.size(); ++n) {
-    for (std::size_t i = 0; i < widths.size(); ++i) {
-      text += fmt::format("{:<{}}", lines[n][i], widths[i] + 2);
-    }
-    text += n == 0 ? "configurations\n" : fmt::format("{}\n", table.rows[n - 1].configurations);
-  }
-  return text + fmt::format("\n{} a frame over the best device's. {}.\n",
-                            table.unit == "ns" ? "Time of" : "Instructions of", table.sentence());
+  std::ranges::rotate(lines.begin() + 1, lines.begin() + 2, lines.end());
+  return aligned(lines) + fmt::format("\n{} a frame over the best device's. {}.\n",
+                                      table.unit == "ns" ? "Time of" : "Instructions of",
+                                      table.sentence());
 }
 
 nlohmann::json to_json(const SideBySide& table) {

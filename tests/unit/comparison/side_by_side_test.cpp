@@ -38,6 +38,8 @@ TEST(SideBySide, IsTheGeometricMeanOverWhatAllMeasured) {
   EXPECT_NEAR(table->rows[1].cells.at("gl:x").ratio, 3, 1e-12);
   EXPECT_EQ(table->rows[1].best, "vulkan:y");
   EXPECT_THAT(to_text(*table), HasSubstr("1.26 (samples ×1.22)"));
+  EXPECT_THAT(to_text(*table), HasSubstr("the least  a 0.0001 M  a 0.000126 M"))
+      << "b has fewer configurations";
   EXPECT_EQ(to_json(*table)["rows"][1]["best"], "vulkan:y");
 }
 
@@ -50,7 +52,9 @@ TEST(SideBySide, TakesTimesWhereNothingWasCountedAndSaysWhatIsMissing) {
   ASSERT_TRUE(table);
   EXPECT_EQ(table->unit, "ns");
   EXPECT_THAT(to_text(*table), HasSubstr("–"));
-  EXPECT_THAT(table->sentence(), HasSubstr("gl:x takes the least in 2 of 2 techniques; gl:y 2.00"));
+  EXPECT_THAT(table->sentence(),
+              HasSubstr("gl:x takes the least in 2 of its 2 techniques; gl:y 2.00"));
+  EXPECT_THAT(to_text(*table), HasSubstr("\nthe least  a 10 ms  a 20 ms  b 20 ms  \n"));
 }
 
 TEST(SideBySide, OneDeviceIsNoTable) {
