@@ -123,7 +123,7 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
     results.push_back(judge_named(store, latest_run_of(store, each.typed, arguments.store),
                                   arguments.baselines, request));
   }
-  return tell_verdict(store, truths, arguments.baselines, results, since.seconds(),
+  return tell_verdict(store, truths, results, since.seconds(),
                       {.folder = arguments.out,
                        .junit = arguments.junit,
                        .markdown = arguments.markdown,

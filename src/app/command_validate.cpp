@@ -117,7 +117,7 @@ class Validation {
     if (!arguments_.write_expect.empty()) {
       core::write_text(arguments_.write_expect, judge::expected_text(judge::as_expected(results_)));
     }
-    return tell_verdict(store_, truths_, arguments_.baselines, results_, seconds,
+    return tell_verdict(store_, truths_, results_, seconds,
                         {.folder = arguments_.out,
                          .junit = arguments_.junit,
                          .markdown = {},

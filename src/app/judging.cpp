@@ -33,6 +33,19 @@ report::ScreenOptions screen() {
   return options;
 }
 
+std::string page_about(const record::Store& store, measure::Truths& truths,
+                       const std::vector<judge::GateResult>& results) {
+  report::PageRequest request{
+      .plans = {}, .truth = [&](const record::Record& record) { return truths.of(record); }};
+  const std::vector<record::Run> runs = store.runs();
+  for (const judge::GateResult& result : results) {
+    const auto run = std::ranges::find(runs, result.run, &record::Run::id);
+    request.plans.push_back(
+        {.run = run == runs.end() ? record::Run{.plan = result.plan} : *run, .verdict = result});
+  }
+  return core::naming(store.file().string(), [&] { return report::page(store, request); });
+}
+
 }  // namespace
 
 void require_store(const std::filesystem::path& file) {
@@ -107,23 +120,15 @@ judge::GateRequest request_of(measure::Truths& truths, const measure::Plan& plan
 }
 
 std::string page_of(const record::Store& store, measure::Truths& truths,
-                    const std::string& baselines, const std::vector<judge::GateResult>& judged) {
-  report::PageRequest request{
-      .plans = {}, .truth = [&](const record::Record& record) { return truths.of(record); }};
+                    const std::string& baselines) {
+  std::vector<judge::GateResult> results;
   for (const record::Run& run : latest_runs(store)) {
-    judge::GateRequest asked = request_of(truths, run.plan);
-    for (const judge::GateResult& each : judged) {
-      if (each.run != run.id) continue;
-      asked.argument = each.argument;
-      asked.defaults = each.defaults;
-    }
-    request.plans.push_back({.run = run, .verdict = judge_named(store, run.id, baselines, asked)});
+    results.push_back(judge_named(store, run.id, baselines, request_of(truths, run.plan)));
   }
-  return core::naming(store.file().string(), [&] { return report::page(store, request); });
+  return page_about(store, truths, results);
 }
 
 core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
-                            const std::string& baselines,
                             const std::vector<judge::GateResult>& results, double seconds,
                             const VerdictFiles& files) {
   if (!files.junit.empty()) core::write_text(files.junit, report::junit(results));
@@ -131,9 +136,8 @@ core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
   std::vector<std::string> written;
   if (!files.folder.empty()) {
     core::require_writable(files.folder);
-    written =
-        report::write_folder(files.folder, results, page_of(store, truths, baselines, results),
-                             report::benchmark_json(store, latest_runs(store)));
+    written = report::write_folder(files.folder, results, page_about(store, truths, results),
+                                   report::benchmark_json(store, latest_runs(store)));
   }
   if (files.json == "-") {
     fmt::print("{}", report::json(results));

@@ -47,14 +47,12 @@ struct VerdictFiles {
 // Writes the files and prints the last screen, which names those of the folder; `seconds`: that all
 // took. The exit code that counts over all.
 core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
-                            const std::string& baselines,
                             const std::vector<judge::GateResult>& results, double seconds,
                             const VerdictFiles& files);
 
-// The report on the latest run of each plan in a store, which holds one. `judged`: whose commands
-// it repeats.
+// The report on the latest run of each plan in a store, which holds one, judged by all that the
+// plan is for.
 [[nodiscard]] std::string page_of(const record::Store& store, measure::Truths& truths,
-                                  const std::string& baselines,
-                                  const std::vector<judge::GateResult>& judged = {});
+                                  const std::string& baselines);
 
 }  // namespace triptych::app

@@ -31,6 +31,20 @@ std::string devices_of(const PlanData& plan) {
   return text;
 }
 
+// Of the devices that were judged.
+PlanData data_of(const record::Store& store, const PlanReport& report, std::size_t number) {
+  PlanData plan{.prefix = fmt::format("plan{}", number),
+                .name = report.verdict.plan,
+                .devices = store.devices(report.run.id),
+                .records = store.records(report.run.id),
+                .verdict = &report.verdict};
+  const auto& judged = report.verdict.environments;
+  if (judged.empty()) return plan;
+  std::erase_if(plan.devices, [&](const auto& each) { return !judged.contains(each.device.id); });
+  std::erase_if(plan.records, [&](const auto& each) { return !judged.contains(each.device); });
+  return plan;
+}
+
 std::string plan_part(const PlanReport& report, const PlanData& plan) {
   return fmt::format(
              "<section id=\"{}\" data-kind=\"plan\" data-suite=\"{}\" data-device=\"{}\"><h2>{}"
@@ -57,11 +71,7 @@ std::string page(const record::Store& store, const PageRequest& request) {
   std::vector<PlanData> plans;
   std::vector<const judge::GateResult*> results;
   for (const PlanReport& report : request.plans) {
-    plans.push_back({.prefix = fmt::format("plan{}", plans.size()),
-                     .name = report.run.plan,
-                     .devices = store.devices(report.run.id),
-                     .records = store.records(report.run.id),
-                     .verdict = &report.verdict});
+    plans.push_back(data_of(store, report, plans.size()));
     results.push_back(&report.verdict);
   }
   const Overview all = overview(std::span<const judge::GateResult* const>(results));

@@ -66,9 +66,10 @@ std::string card(const Overview& all, std::span<const PlanData> plans) {
   }
   return fmt::format(
       "<header id=\"verdict\" class=\"{}\"><h1>{} ({})</h1><p class=\"lead\">{}</p>{}"
-      "<p>Triptych · {} {}{}</p></header>\n",
+      "<p>Triptych · {} {}{}{}</p></header>\n",
       css_class(all.code), word_of(all.code), static_cast<int>(all.code), lead(all), contents(all),
-      all.devices, all.devices == 1 ? "device" : "devices", names);
+      all.devices, all.devices == 1 ? "device" : "devices",
+      all.part ? " · a part of the plans" : "", names);
 }
 
 // With a link to the first cause of its kind.
