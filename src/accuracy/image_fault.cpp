@@ -39,8 +39,11 @@ std::string image_fault(const ImageComparison& comparison, const core::Image& im
                        comparison.pixels, name);
   }
   if (comparison.over_bound > 0) {
-    return fmt::format("{} of {} pixels are over the bound against {}; {}", comparison.over_bound,
-                       comparison.pixels, name, describe(comparison));
+    const std::string ids = comparison.wrong_ids == 0
+                                ? ""
+                                : fmt::format("{} show another particle; ", comparison.wrong_ids);
+    return fmt::format("{} of {} pixels are over the bound against {}; {}{}", comparison.over_bound,
+                       comparison.pixels, name, ids, describe(comparison));
   }
   if (comparison.wrong_ids + comparison.wrong_depths > 0) {
     return describe_surfaces(comparison, name);

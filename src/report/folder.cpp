@@ -17,7 +17,22 @@
 namespace triptych::report {
 namespace {
 
-// Every finding but those that pass, a line each, then how many there are of each verdict and the
+// Of what is open: which configurations, where the line names more than one, and the command.
+std::string details_of(const FindingGroup& group, const judge::GateResult& result) {
+  if (!is_open(*group.first)) return {};
+  std::vector<std::string> lines;
+  if (group.members.size() > 1) {
+    for (const judge::Finding* each : group.members) lines.push_back(each->configuration);
+  }
+  lines.push_back(command_of(*group.first, result));
+  std::string text;
+  for (const std::string& line : lines) {
+    if (!line.empty()) text += fmt::format("{:13}{}\n", "", core::printable(line));
+  }
+  return text;
+}
+
+// Every finding but those that pass by cause, then how many there are of each verdict and the
 // headline.
 std::string log_of(const judge::GateResult& result) {
   std::string text;
@@ -28,6 +43,7 @@ std::string log_of(const judge::GateResult& result) {
     text += fmt::format("{:<12} {}{}{}: {}\n", judge::name_of(finding.verdict),
                         core::printable(finding.test), subject.empty() ? "" : " ",
                         core::printable(subject), core::printable(finding.message));
+    text += details_of(group, result);
   }
   std::map<judge::Verdict, int> counts;
   for (const judge::Finding& finding : result.findings) ++counts[finding.verdict];

@@ -17,6 +17,7 @@ constexpr std::size_t most_lines = 40;
 constexpr std::size_t least_width = 40;
 constexpr std::size_t longest_command = 600;
 constexpr std::size_t longest_message = 3;  // lines
+constexpr std::size_t most_waived = 3;
 
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
@@ -61,6 +62,7 @@ class Screen {
                       core::printable(row.sentence, width_ - 25)));
     }
     add("");
+    waived(all);
     causes(all, files.empty() ? 2 : 4);
     list(files);
     add(fmt::format("  exit {}", meaning_of(all.code)));
@@ -80,8 +82,8 @@ class Screen {
 
   void head(const Overview& all, double seconds) {
     const std::string left =
-        fmt::format("Triptych   {} {} · {}", all.devices, all.devices == 1 ? "device" : "devices",
-                    time_text(seconds));
+        fmt::format("Triptych   {} {} · {}{}", all.devices, all.devices == 1 ? "device" : "devices",
+                    time_text(seconds), all.part ? " · a part of the plans" : "");
     const std::string right = fmt::format("{} ({})", word_of(all.code), static_cast<int>(all.code));
     const std::size_t used = width_of(left) + width_of(right);
     add(left + std::string(used + 3 < width_ ? width_ - used : 3, ' ') +
@@ -104,6 +106,17 @@ class Screen {
 
   [[nodiscard]] std::string sign_of(const judge::Finding& finding) const {
     return coloured(finding.verdict == Verdict::regression ? "✗" : "?", finding.verdict);
+  }
+
+  // A line each: whoever reads a pass has to know what it excuses.
+  void waived(const Overview& all) {
+    std::size_t shown = 0;
+    for (const Cause& cause : all.aside) {
+      if (cause.group.first->verdict != Verdict::waived || ++shown > most_waived) continue;
+      add(core::printable(fmt::format("  – {}: {}", place_of(cause), message_of(cause)), width_));
+    }
+    if (shown > most_waived) add(fmt::format("  – {} more are waived", shown - most_waived));
+    if (shown > 0) add("");
   }
 
   // As many as fit above the last lines.

@@ -88,7 +88,7 @@ std::string markdown(std::span<const judge::GateResult> results) {
     text +=
         fmt::format("{} {}", &result == results.data() ? ":" : ",", markdown_escaped(result.plan));
   }
-  text += "\n\n" + rows(all) + "\n";
+  text += fmt::format("{}\n\n{}\n", all.part ? " (a part)" : "", rows(all));
   std::vector<const Cause*> rest;
   for (std::size_t i = 0; i < all.open.size(); ++i) {
     if (i < shown_openly) {

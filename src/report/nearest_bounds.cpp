@@ -13,6 +13,7 @@ std::vector<NearestBound> nearest_bounds(std::span<const judge::GateResult* cons
     std::map<std::string, NearestBound> by_device;
     for (const judge::Finding& finding : result->findings) {
       if (finding.check != judge::Check::image || finding.device.empty()) continue;
+      if (finding.verdict != judge::Verdict::pass) continue;
       const auto ratio = finding.numbers.find("ratio");
       if (ratio == finding.numbers.end()) continue;
       NearestBound& bound = by_device[finding.device];
@@ -36,7 +37,8 @@ std::string nearest_text(std::span<const NearestBound> bounds) {
   const auto [farthest, nearest] = std::ranges::minmax_element(bounds, {}, &NearestBound::share);
   std::string text = fmt::format("nearest {:.3g} of it", nearest->share);
   if (farthest->share < sees_little && farthest != nearest) {
-    text += fmt::format("; {:.2g} on {} in {}", farthest->share, farthest->device, farthest->plan);
+    text += fmt::format(", farthest {:.2g} on {} in {}", farthest->share, farthest->device,
+                        farthest->plan);
   }
   return text;
 }

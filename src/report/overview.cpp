@@ -32,7 +32,7 @@ constexpr std::array kinds{
     Kind{Check::statistics, "Statistics", "changed", "as stored", "not checked", true},
     Kind{Check::cost, "Cost", "changed", "as stored", "not checked", true},
     Kind{Check::memory, "Memory", "changed", "as stored", "not checked", true},
-    Kind{Check::timing, "Times", "slower", "not slower", "shown, not judged", true},
+    Kind{Check::timing, "Times", "slower", "not slower", "not checked", true},
     Kind{Check::correlation, "Devices", "off the line", "along the line", "shown, not judged",
          false},
     Kind{Check::accuracy, "Accuracy", "changed", "as stored", "not checked", false},
@@ -50,7 +50,7 @@ bool decides(Verdict verdict) {
   return verdict != Verdict::advisory && verdict != Verdict::skipped;
 }
 
-// "vulkan:lavapipe: 18 of 66 wrong; gl:x: 1 of 66 wrong"
+// "vulkan:lavapipe: 18 of 66 checks wrong; gl:x: 1 of 66"
 std::string places(const std::map<std::string, Tally>& by_device, Verdict verdict,
                    std::string_view word) {
   std::string text;
@@ -64,8 +64,9 @@ std::string places(const std::map<std::string, Tally>& by_device, Verdict verdic
       continue;
     }
     ++shown;
-    text += fmt::format("{}{}: {} of {} {}", text.empty() ? "" : "; ",
-                        device.empty() ? "the plan" : device, found->second, tally.decided, word);
+    text += fmt::format("{}{}: {} of {}", text.empty() ? "" : "; ",
+                        device.empty() ? "the plan" : device, found->second, tally.decided);
+    if (shown == 1) text += fmt::format(" checks {}", word);
   }
   return rest > 0 ? text + fmt::format("; {} devices more", rest) : text;
 }
@@ -83,6 +84,9 @@ KindRow row_of(const Kind& kind, std::span<const GateResult* const> results) {
     }
   }
   const std::size_t right = all[Verdict::pass] + all[Verdict::improved];
+  const bool shown =  // and no more: nobody asked for a verdict
+      kind.check == Check::timing &&
+      std::ranges::none_of(results, [](const GateResult* each) { return each->times_decided; });
   KindRow row{kind.check, kind.name, "–", Verdict::skipped, std::string(kind.none)};
   if (all[Verdict::regression] > 0) {
     row = {kind.check, kind.name, "FAIL", Verdict::regression,
@@ -90,6 +94,9 @@ KindRow row_of(const Kind& kind, std::span<const GateResult* const> results) {
   } else if (all[Verdict::cannot_judge] > 0) {
     row = {kind.check, kind.name, "no verdict", Verdict::cannot_judge,
            places(by_device, Verdict::cannot_judge, "not judged")};
+    if (right > 0) row.sentence += fmt::format("; {} {}", right, kind.passed);
+  } else if (right > 0 && shown) {
+    row.sentence = fmt::format("{} shown, not judged", right);
   } else if (right > 0) {
     row = {kind.check, kind.name, "pass", Verdict::pass, fmt::format("{} {}", right, kind.passed)};
   } else if (all[Verdict::waived] > 0) {
@@ -132,6 +139,7 @@ Overview overview(std::span<const GateResult* const> results) {
   if (!results.empty()) all.code = core::ExitCode::pass;
   for (const GateResult* result : results) {
     all.code = core::worse_of(all.code, result->exit_code());
+    all.part = all.part || result->part;
     for (const Finding& finding : result->findings) {
       if (!finding.device.empty()) devices.insert(finding.device);
     }

@@ -30,6 +30,7 @@ struct Cause {
 struct Overview {
   core::ExitCode code = core::ExitCode::cannot_judge;
   std::size_t devices = 0;
+  bool part = false;  // of a plan, at least of one: a shard, some levels
   std::vector<KindRow> rows;
   std::vector<Cause> open;   // what somebody has to look at, worst first
   std::vector<Cause> aside;  // waived, improved, advice, skips; not what passed

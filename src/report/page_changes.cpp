@@ -88,7 +88,7 @@ std::string cost_bars(const PlanData& plan) {
   return told + table(rows, "bars");
 }
 
-// Of each technique on a device the middle half of its frames' changes, the bar their median.
+// Of each technique on a device the median change of its configurations, and their middle half.
 std::string time_bars(const PlanData& plan) {
   std::map<std::pair<std::string, std::string>, std::vector<double>> by_row;
   for (const Change& each : changes_in(plan, Check::timing)) {
@@ -99,16 +99,17 @@ std::string time_bars(const PlanData& plan) {
     largest = std::max(largest, std::abs(record::percentile(shares, 0.5)));
   }
   std::vector<std::vector<std::string>> rows{
-      {"device", "technique", "frames", "from", "to", "median", ""}};
+      {"device", "technique", "median", "", "from", "to", "configurations"}};
   for (const auto& [row, shares] : by_row) {
     const record::Summary of = *record::summarise(shares);
-    rows.push_back({escape(row.first), escape(row.second), fmt::to_string(shares.size()),
-                    percent(of.lower_quartile), percent(of.upper_quartile), percent(of.median),
-                    bar(of.median, largest)});
+    rows.push_back({escape(row.first), escape(row.second), percent(of.median),
+                    bar(of.median, largest), percent(of.lower_quartile), percent(of.upper_quartile),
+                    fmt::to_string(shares.size())});
   }
   return by_row.empty()
              ? ""
-             : "<p>Times beside stored: the middle half of the frames.</p>\n" + table(rows, "bars");
+             : "<p>Times beside stored: median and middle half of the configurations.</p>\n" +
+                   table(rows, "bars");
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ std::string finding_link(const PictureScene& scene, const SameBits& group) {
 // `about`: what is to be said of it, before how it was made.
 std::string titled(const PictureScene& scene, const SameBits& group, const std::string& figures,
                    const std::string& about, const ShareOfBound* shares = nullptr) {
-  std::string made = technique_names(group);
+  std::string made = "technique: " + technique_names(group);
   if (group.size() > 1 && made.find(", ") != std::string::npos) made += ": the same bits";
   for (const std::string& difference : made_by(group, scene)) made += "; " + difference;
   return opening(scene, group, shares) +
@@ -164,7 +164,11 @@ Panel panel_of(const PictureScene& scene, const SameBits& group) {
         .html = titled(scene, group, reference + drawn, "<b class=\"regression\">wrong size</b>"),
         .wrong = true};
   }
-  const ShareOfBound shares = share_of_bound(image, pair->truth, pair->bound);
+  ShareOfBound shares = share_of_bound(image, pair->truth, pair->bound);
+  if (result.over_bound > 0) {  // the pixel that the finding names
+    shares.x = result.worst.x;
+    shares.y = result.worst.y;
+  }
   const std::string difference =
       figure(picture(shares.image, "the difference of " + name), "the difference");
   return {.html = titled(scene, group, reference + drawn + difference, verdict_text(result, shares),

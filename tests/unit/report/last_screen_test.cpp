@@ -51,12 +51,12 @@ TEST(LastScreen, TellsWhatWhereAndWhatToType) {
             R"(Triptych   2 devices · 88 s                                             FAIL (1)
   ✗ image on vulkan:lavapipe: 11139 of 36864 pixels are over the bound
 
-  Pictures    FAIL       vulkan:lavapipe: 6 of 12 wrong
+  Pictures    FAIL       vulkan:lavapipe: 6 of 12 checks wrong
   Counters    pass       12 as stored
   Statistics  –          not checked
   Cost        –          not checked
   Memory      –          not checked
-  Times       –          shown, not judged; 12 with advice
+  Times       –          not checked; 12 with advice
 
   ✗ image: vulkan:lavapipe, technique=raycast (6 configurations)
     11139 of 36864 pixels are over the bound; opencl:pocl is right
@@ -88,7 +88,7 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
   add(result, Check::image, pass, "", "", "the truth has the stored hash");
   result.findings.back().numbers["ratio"] = 7;  // no device's
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}, {.width = 120}),
-              HasSubstr("4 within their bounds; nearest 0.61 of it; 0.003 on opencl:y in "
+              HasSubstr("4 within their bounds; nearest 0.61 of it, farthest 0.003 on opencl:y in "
                         "volume/quick\n"));
   const auto all = overview(std::vector{result});
   ASSERT_EQ(all.bounds.size(), 2U);
@@ -96,6 +96,46 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
   EXPECT_EQ(all.bounds[0].pictures, 2U);
   EXPECT_EQ(all.bounds[0].configuration, "step=0.61");
   EXPECT_EQ(all.bounds[1].share, 0.003);
+}
+
+// What is excused is no picture within its bound.
+TEST(LastScreen, NamesWhatIsWaived) {
+  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
+  add(result, Check::image, pass, "gl:x", "step=1", "within");
+  result.findings.back().numbers["ratio"] = 0.5;
+  add(result, Check::image, waived, "gl:x", "step=2", "waived until 2027-01-01 (known): wrong");
+  result.findings.back().numbers["ratio"] = 4e5;
+  const std::string text = last_screen(std::vector{result}, 3, {});
+  EXPECT_THAT(text, HasSubstr("1 within their bounds; 1 waived; nearest 0.5 of it\n"));
+  EXPECT_THAT(text, HasSubstr("\n  – gl:x, step=2: waived until 2027-01-01 (known): wrong\n"));
+}
+
+TEST(LastScreen, SaysThatTimesAreShownOrDecided) {
+  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
+  add(result, Check::timing, pass, "gl:x", "step=1", "2 ms, stored 1 ms: +100 %");
+  add(result, Check::timing, advisory, "gl:x", "", "times: +100 %");
+  EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
+              HasSubstr("  Times       –          1 shown, not judged; 1 with advice\n"));
+  result.times_decided = true;
+  EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
+              HasSubstr("  Times       pass       1 not slower; 1 with advice\n"));
+}
+
+TEST(LastScreen, SaysWhenOnlyAPartWasJudged) {
+  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
+  add(result, Check::image, pass, "gl:x", "step=1", "within");
+  EXPECT_THAT(last_screen(std::vector{result}, 3, {}), Not(HasSubstr("a part")));
+  result.part = true;
+  EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
+              HasSubstr("Triptych   1 device · 3 s · a part of the plans"));
+}
+
+TEST(LastScreen, WithoutAVerdictStillSaysWhatIsRight) {
+  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
+  add(result, Check::image, pass, "gl:x", "step=1", "within");
+  add(result, Check::image, cannot_judge, "", "", "the required device gl:y measured nothing");
+  EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
+              HasSubstr("the plan: 1 of 1 checks not judged; 1 within their bounds"));
 }
 
 TEST(LastScreen, OfNothingIsNoPass) {
