@@ -92,6 +92,17 @@ TEST(Gate, AWrongPictureIsARegression) {
   EXPECT_EQ(program.run(judge_from("s.sqlite")).code, 1);
 }
 
+// What was not asked for is on neither.
+TEST(Gate, ThePageSaysWhatTheScreenSays) {
+  const Program program;
+  accept_runs(program, right_picture(program), 1);
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), "{}").code, 0);  // a wrong picture
+  EXPECT_EQ(program.run(judge_from("s.sqlite") + " --out all").code, 1);
+  EXPECT_NE(program.read("all/report.html").find("<h1>FAIL (1)</h1>"), std::string::npos);
+  EXPECT_EQ(program.run(judge_from("s.sqlite") + " --check counters --out one").code, 0);
+  EXPECT_NE(program.read("one/report.html").find("<h1>PASS (0)</h1>"), std::string::npos);
+}
+
 TEST(Gate, AnUntimedRunIsJudgedByItsPicturesAndCounters) {
   const Program program;
   const auto picture = right_picture(program);
