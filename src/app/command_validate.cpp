@@ -32,6 +32,7 @@ struct ValidateArguments {
   std::string json;
   PlanChoice choice;  // its shard
   int jobs = 0;       // as of measure::RunOptions
+  int limit_s = standard_limit_s;
   std::string expect;
   std::string write_expect;
   bool resume = false;
@@ -51,6 +52,7 @@ Measuring measuring_of(const ValidateArguments& arguments, const std::string& fi
           .store = file,
           .resume = arguments.resume,
           .jobs = arguments.jobs,
+          .limit_s = arguments.limit_s,
           .untimed = true,
           .statistics = true,
           .told_to = stderr};
@@ -192,6 +194,7 @@ void add_validate_command(Commands& commands) {
       .add_option("--jobs", arguments.jobs,
                   "Workers at once, of one device too (default: one of each device)")
       ->check(CLI::Range(1, 64));
+  add_limit_option(command, arguments.limit_s, "a configuration");
   command.add_option("--shard", arguments.choice.shard,
                      "i/n: only the i-th of n parts of each plan");
   command.add_option("--expect", arguments.expect,

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "judge/gate/run_view.hpp"
+#include "record/hung.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -57,6 +58,11 @@ Redrawn tell_flakes(const GateResult& first, GateResult second, const Places& pl
       const bool same = again.check == finding.check && place_of(again) == place_of(finding);
       if (!same || !is_right(again.verdict)) continue;
       again = finding;
+      if (record::limit_in(finding.message)) {
+        again.verdict = Verdict::cannot_judge;
+        again.message = finding.message + std::string(slow_suffix);
+        continue;
+      }
       again.message = std::string(flake_prefix) + finding.message;
       redrawn.flakes.insert(place_of(finding));
     }

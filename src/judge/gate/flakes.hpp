@@ -17,13 +17,18 @@ inline constexpr std::string_view known_prefix = "known ";
 // What that of a regression begins with that was none when it was drawn again.
 inline constexpr std::string_view flake_prefix = "flake, right when drawn again: ";
 
+// What that of a hang ends with which was right when it was drawn again: a time tells no hang from
+// a slow driver on a busy machine.
+inline constexpr std::string_view slow_suffix =
+    "; right when drawn again: slow, or it hangs at times; --limit gives it longer";
+
 using Places = std::set<std::pair<std::string, std::string>>;  // device, configuration
 
 // Where the result has regressions of a configuration.
 [[nodiscard]] Places failing(const GateResult& result);
 
 struct Redrawn {
-  GateResult result;  // of the second time; flakes are regressions that say so
+  GateResult result;  // of the second time; flakes are regressions that say so, hangs undecided
   Places flakes;
 };
 

@@ -5,6 +5,7 @@
 #include "core/file.hpp"
 #include "gate_fixture.hpp"
 #include "judge/gate/flakes.hpp"
+#include "record/hung.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -133,6 +134,22 @@ TEST_F(KnownGateTest, WhatIsRightWhenDrawnAgainIsAFlakeAndNoPass) {
   request_.known = known;
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);                   // this time it shows
   EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(0));  // a pass is no surprise
+}
+
+// Neither a fault nor a pass: a slow driver on a busy machine ends so, too.
+TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
+  add_run("b", [](record::Record& record, core::Image&) {
+    if (record.device != lavapipe || record.configuration != plain_) return;
+    record.outcome = record::Outcome::hung;
+    record.reason = record::no_answer_within(record::standard_limit);
+  });
+  const GateResult first = gate("b");
+  EXPECT_EQ(first.exit_code(), ExitCode::regression);
+  const Redrawn right = tell_flakes(first, gate("accepted"), failing(first));
+  EXPECT_TRUE(right.flakes.empty());
+  EXPECT_EQ(right.result.exit_code(), ExitCode::cannot_judge);
+  EXPECT_THAT(with(right.result, Verdict::cannot_judge).at(0).message, HasSubstr(slow_suffix));
+  EXPECT_THAT(written_by(right.result), SizeIs(0));
 }
 
 // Its counters fail both times.
