@@ -8,11 +8,11 @@
 #include "core/file.hpp"
 #include "core/glob.hpp"
 #include "core/image_io.hpp"
+#include "core/json_file.hpp"
 #include "core/quoting.hpp"
 #include "estimation/statistics.hpp"
 #include "judge/baselines/baselines.hpp"
 #include "judge/baselines/drop_skipped.hpp"
-#include "judge/baselines/json_file.hpp"
 #include "judge/baselines/layout.hpp"
 #include "judge/baselines/next_folder.hpp"
 #include "record/has_picture.hpp"
@@ -220,7 +220,7 @@ void append_history(const Accepted& accepted, const AcceptRequest& request, Next
   Update history(next, Layout::history);
   if (!history.value().is_array()) history.value() = Json::array();
   history.value().push_back({{"date", request.date}, {"reason", request.reason}, {"devices", ids}});
-  next.files[Layout::history] = bytes_of(to_lines(history.value(), 1));
+  next.files[Layout::history] = bytes_of(core::to_lines(history.value(), 1));
 }
 
 void write_manifest(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
@@ -245,7 +245,7 @@ void write_manifest(const Accepted& accepted, const Manifest& stored, NextFolder
              : stored.configurations},
       {"devices", devices},
       {"files", files}};
-  next.files[Layout::manifest] = bytes_of(to_lines(manifest, 2));
+  next.files[Layout::manifest] = bytes_of(core::to_lines(manifest, 2));
 }
 
 void refuse_unfit(const std::vector<record::Record>& records, const std::string& run,

@@ -11,8 +11,8 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_io.hpp"
+#include "core/json_file.hpp"
 #include "estimation/statistics.hpp"
-#include "judge/baselines/json_file.hpp"
 #include "judge/baselines/layout.hpp"
 
 namespace triptych::judge {
@@ -31,7 +31,7 @@ using ByName = std::map<std::string, Value>;
 
 // {name: value, …}; empty when the file is missing.
 template <typename Value, typename Read>
-ByName<Value> read_members(const JsonNode& node, const Read& read) {
+ByName<Value> read_members(const core::JsonNode& node, const Read& read) {
   ByName<Value> result;
   for (const auto& [name, value] : node.members()) result.emplace(name, read(value));
   return result;
@@ -39,43 +39,44 @@ ByName<Value> read_members(const JsonNode& node, const Read& read) {
 
 template <typename Value, typename Read>
 ByName<Value> read_table(const fs::path& path, const Read& read) {
-  const auto file = JsonFile::read(path);
+  const auto file = core::JsonFile::read(path);
   return file ? read_members<Value>(file->root(), read) : ByName<Value>{};
 }
 
 // {"device": …, "configurations": {name: value, …}}. A file must not speak for another device.
 template <typename Value, typename Read>
 ByName<Value> read_device_table(const fs::path& path, std::string_view device, const Read& read) {
-  const auto file = JsonFile::read(path);
+  const auto file = core::JsonFile::read(path);
   if (!file) return {};
-  const JsonNode named = file->root().at("device");
+  const core::JsonNode named = file->root().at("device");
   if (named.text() != device) named.fail(fmt::format("expected the device '{}'", device));
   return read_members<Value>(file->root().at("configurations"), read);
 }
 
-std::string read_text(const JsonNode& node) {
+std::string read_text(const core::JsonNode& node) {
   return node.text();
 }
 
-record::Counts read_counts(const JsonNode& node) {
-  return read_members<std::uint64_t>(node, [](const JsonNode& n) { return n.whole_number(); });
+record::Counts read_counts(const core::JsonNode& node) {
+  return read_members<std::uint64_t>(node,
+                                     [](const core::JsonNode& n) { return n.whole_number(); });
 }
 
-Manifest read_manifest(const JsonNode& node) {
+Manifest read_manifest(const core::JsonNode& node) {
   Manifest manifest{.plan_hash = node.at("plan_hash").text(),
                     .checks = record::checks_of(node.at("checks").text()),
                     .configurations = node.at("configurations").whole_number(),
                     .files = read_members<std::string>(node.at("files"), read_text)};
   for (const auto& [device, drivers] : node.at("devices").members()) {
-    for (const JsonNode& driver : drivers.elements()) {
+    for (const core::JsonNode& driver : drivers.elements()) {
       manifest.devices[device].insert(driver.text());
     }
   }
   return manifest;
 }
 
-StoredImage read_stored_image(const JsonNode& node) {
-  const JsonNode both = node.at("reference");
+StoredImage read_stored_image(const core::JsonNode& node) {
+  const core::JsonNode both = node.at("reference");
   const auto hashes = both.elements();
   if (hashes.size() != 2) both.fail("expected two hashes");
   StoredImage image{{hashes[0].text(), hashes[1].text()}, {}};
@@ -85,36 +86,36 @@ StoredImage read_stored_image(const JsonNode& node) {
   return image;
 }
 
-StoredCounters read_counters(const JsonNode& node) {
-  return read_members<record::Counts>(node, [](const JsonNode& by_device) {
+StoredCounters read_counters(const core::JsonNode& node) {
+  return read_members<record::Counts>(node, [](const core::JsonNode& by_device) {
     record::Counts counts = read_counts(by_device);
     if (counts.empty()) by_device.fail("expected the value of a device at least");
     return counts;
   });
 }
 
-ByName<record::Counts> read_memory(const JsonNode& node) {
+ByName<record::Counts> read_memory(const core::JsonNode& node) {
   return read_members<record::Counts>(node, read_counts);
 }
 
-ByName<StoredError> read_errors(const JsonNode& node) {
-  return read_members<StoredError>(node, [](const JsonNode& error) {
+ByName<StoredError> read_errors(const core::JsonNode& node) {
+  return read_members<StoredError>(node, [](const core::JsonNode& error) {
     return StoredError{error.at("rmse").number_from_zero(),
                        error.at("arithmetic").number_from_zero()};
   });
 }
 
-DriverCost read_cost(const JsonNode& node) {
+DriverCost read_cost(const core::JsonNode& node) {
   return {.device = node.at("device").text(),
           .driver_version = node.at("driver_version").text(),
           .counted_by = node.at("counted_by").text(),
           .configurations =
-              read_members<StoredCost>(node.at("configurations"), [](const JsonNode& cost) {
+              read_members<StoredCost>(node.at("configurations"), [](const core::JsonNode& cost) {
                 return StoredCost{read_counts(cost.at("frame")), read_counts(cost.at("prepare"))};
               })};
 }
 
-StoredTiming read_timing(const JsonNode& node) {
+StoredTiming read_timing(const core::JsonNode& node) {
   return {node.at("clock").text(), node.at("median_ns").positive_number(),
           node.at("spread").positive_number(), node.at("kernel_hash").text()};
 }
@@ -207,7 +208,8 @@ struct Baselines::Cache {
     const auto known = calibrations.find(path);
     if (known != calibrations.end()) return known->second;
     ByName<std::string> calibration;
-    if (const auto file = JsonFile::read(path); file && file->value().contains("calibration")) {
+    if (const auto file = core::JsonFile::read(path);
+        file && file->value().contains("calibration")) {
       calibration = read_members<std::string>(file->root().at("calibration"), read_text);
     }
     return calibrations.emplace(path, std::move(calibration)).first->second;
@@ -250,7 +252,7 @@ const std::string& Baselines::problem() const {
 
 const Manifest& Baselines::manifest() const {
   if (!cache_->manifest) {
-    const auto file = JsonFile::read(folder_ / Layout::manifest);
+    const auto file = core::JsonFile::read(folder_ / Layout::manifest);
     cache_->manifest = file ? read_manifest(file->root()) : Manifest{};
   }
   return *cache_->manifest;
@@ -303,7 +305,7 @@ const std::map<std::string, DriverCost>& Baselines::cost_of_all_drivers() const 
   if (!cache_->cost) {
     cache_->cost.emplace();
     for (const auto& [driver, path] : files_in(folder_ / Layout::cost_folder)) {
-      if (const auto file = JsonFile::read(path)) {
+      if (const auto file = core::JsonFile::read(path)) {
         cache_->cost->emplace(driver, read_cost(file->root()));
       }
     }

@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "core/json_file.hpp"
 #include "core/json_text.hpp"
-#include "judge/baselines/json_file.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -41,13 +41,13 @@ std::vector<std::byte> bytes_of(std::string_view text) {
 }
 
 Update::Update(NextFolder& next, std::string name) : next_(next), name_(std::move(name)) {
-  if (next.files.contains(name_)) before_ = JsonFile::read(next.folder / name_)->value();
+  if (next.files.contains(name_)) before_ = core::JsonFile::read(next.folder / name_)->value();
   after_ = before_;
 }
 
 void Update::write(int depth) const {
   if (after_ == before_) return;
-  next_.files[name_] = bytes_of(to_lines(after_, depth));
+  next_.files[name_] = bytes_of(core::to_lines(after_, depth));
   describe();
 }
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/json_file.hpp"
 #include "core/json_text.hpp"
-#include "judge/baselines/json_file.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -31,7 +31,7 @@ bool is_iso_date(std::string_view text) {
   return date.ok();
 }
 
-Waiver read_entry(const JsonNode& entry) {
+Waiver read_entry(const core::JsonNode& entry) {
   Waiver waiver{.device = entry.at("device").text(),
                 .test = entry.at("test").text(),
                 .reason = entry.at("reason").text(),
@@ -46,7 +46,7 @@ Waiver read_entry(const JsonNode& entry) {
   return waiver;
 }
 
-Known read_known(const JsonNode& node) {
+Known read_known(const core::JsonNode& node) {
   const std::string text = node.text();
   const auto found = std::ranges::find(known_names, std::string_view(text),
                                        &std::pair<Known, std::string_view>::second);
@@ -62,9 +62,9 @@ std::string_view name_of(Known known) {
 
 std::vector<Waiver> read_waivers(const std::filesystem::path& file) {
   std::vector<Waiver> result;
-  const auto json = JsonFile::read(file);
+  const auto json = core::JsonFile::read(file);
   if (!json) return result;
-  for (const JsonNode& entry : json->root().elements()) {
+  for (const core::JsonNode& entry : json->root().elements()) {
     static_cast<void>(entry.at("expiry"));  // by hand nothing is excused for ever
     result.push_back(read_entry(entry));
   }
@@ -72,10 +72,10 @@ std::vector<Waiver> read_waivers(const std::filesystem::path& file) {
 }
 
 std::vector<Waiver> read_expected(const std::filesystem::path& file) {
-  const auto json = JsonFile::read(file);
+  const auto json = core::JsonFile::read(file);
   if (!json) throw core::InputError(file.string() + ": there is no such file");
   std::vector<Waiver> result;
-  for (const JsonNode& entry : json->root().elements()) {
+  for (const core::JsonNode& entry : json->root().elements()) {
     result.push_back(read_entry(entry));
     static_cast<void>(entry.at("configuration"));
     result.back().known = read_known(entry.at("outcome"));
@@ -98,7 +98,7 @@ std::string expected_text(std::vector<Waiver> waivers) {
     if (!each.expiry.empty()) entry["expiry"] = each.expiry;
     list.push_back(std::move(entry));
   }
-  return to_lines(list, 1);
+  return core::to_lines(list, 1);
 }
 
 }  // namespace triptych::judge

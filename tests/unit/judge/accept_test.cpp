@@ -9,8 +9,8 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/json.hpp"
+#include "core/json_file.hpp"
 #include "fixture.hpp"
-#include "judge/baselines/json_file.hpp"
 
 namespace triptych::judge {
 namespace {

@@ -1,4 +1,4 @@
-#include "judge/baselines/json_file.hpp"
+#include "core/json_file.hpp"
 
 #include <fmt/format.h>
 
@@ -13,11 +13,10 @@
 #include "core/foreign_error.hpp"
 #include "core/json_text.hpp"
 
-namespace triptych::judge {
+namespace triptych::core {
 namespace {
 
-core::FilePlace place_at(const std::filesystem::path& file, std::string_view text,
-                         std::size_t offset) {
+FilePlace place_at(const std::filesystem::path& file, std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, offset);
   const auto line_start = before.find_last_of('\n');
   const std::size_t column =
@@ -38,7 +37,7 @@ std::string bare_message(std::string_view what) {
 std::size_t offset_of(std::string_view text, const std::vector<std::string>& path) {
   std::size_t offset = 0;
   for (const std::string& step : path) {
-    const std::size_t found = text.find(core::Json(step).dump() + ":", offset);
+    const std::size_t found = text.find(Json(step).dump() + ":", offset);
     if (found != std::string_view::npos) offset = found;
   }
   return offset;
@@ -46,7 +45,7 @@ std::size_t offset_of(std::string_view text, const std::vector<std::string>& pat
 
 // The offset of the n-th place (from 1) where `key` stands as a key.
 std::size_t offset_of_key(std::string_view text, const std::string& key, std::size_t n) {
-  const std::string quoted = core::Json(key).dump() + ":";
+  const std::string quoted = Json(key).dump() + ":";
   std::size_t offset = text.find(quoted);
   while (--n > 0 && offset != std::string_view::npos) offset = text.find(quoted, offset + 1);
   return std::min(offset, text.size());
@@ -59,41 +58,41 @@ std::string quoted_in(std::string_view what) {
   return std::string(end > begin ? what.substr(begin + 1, end - begin - 1) : what);
 }
 
-core::Json parse(const std::filesystem::path& file, const std::string& text) {
+Json parse(const std::filesystem::path& file, const std::string& text) {
   std::vector<std::set<std::string>> open_objects;
   std::map<std::string, std::size_t> seen;
-  const auto watch = [&](int, core::Json::parse_event_t event, core::Json& value) {
-    if (event == core::Json::parse_event_t::object_start) open_objects.emplace_back();
-    if (event == core::Json::parse_event_t::object_end) open_objects.pop_back();
-    if (event != core::Json::parse_event_t::key) return true;
+  const auto watch = [&](int, Json::parse_event_t event, Json& value) {
+    if (event == Json::parse_event_t::object_start) open_objects.emplace_back();
+    if (event == Json::parse_event_t::object_end) open_objects.pop_back();
+    if (event != Json::parse_event_t::key) return true;
     const auto key = value.get<std::string>();
     const std::size_t times = ++seen[key];
     if (!open_objects.back().insert(key).second) {
-      throw core::InputError(place_at(file, text, offset_of_key(text, key, times)),
-                             fmt::format("the key '{}' stands twice in one object", key));
+      throw InputError(place_at(file, text, offset_of_key(text, key, times)),
+                       fmt::format("the key '{}' stands twice in one object", key));
     }
     return true;
   };
   try {
-    return core::Json::parse(text, watch);
-  } catch (const core::Json::parse_error& error) {
+    return Json::parse(text, watch);
+  } catch (const Json::parse_error& error) {
     const std::size_t offset = error.byte == 0 ? 0 : error.byte - 1;
-    throw core::InputError(place_at(file, text, std::min(offset, text.size())),
-                           bare_message(error.what()));
-  } catch (const core::Json::out_of_range& error) {
+    throw InputError(place_at(file, text, std::min(offset, text.size())),
+                     bare_message(error.what()));
+  } catch (const Json::out_of_range& error) {
     const std::string number = quoted_in(error.what());
-    throw core::InputError(place_at(file, text, std::min(text.find(number), text.size())),
-                           fmt::format("the number {} is too large", number));
+    throw InputError(place_at(file, text, std::min(text.find(number), text.size())),
+                     fmt::format("the number {} is too large", number));
   }
 }
 
-bool is_container(const core::Json& value) {
+bool is_container(const Json& value) {
   return value.is_structured() && !value.empty();
 }
 
-void append_lines(std::string& out, const core::Json& value, int depth, int indent) {
+void append_lines(std::string& out, const Json& value, int depth, int indent) {
   if (depth == 0 || !is_container(value)) {
-    out += core::json_text(value);
+    out += json_text(value);
     return;
   }
   const bool object = value.is_object();
@@ -103,7 +102,7 @@ void append_lines(std::string& out, const core::Json& value, int depth, int inde
     if (!first) out += ",\n";
     first = false;
     out.append(static_cast<std::size_t>(indent) + 1, ' ');
-    if (object) out += core::json_text(core::Json(item.key())) + ": ";
+    if (object) out += json_text(Json(item.key())) + ": ";
     append_lines(out, item.value(), depth - 1, indent + 1);
   }
   out += '\n';
@@ -113,7 +112,7 @@ void append_lines(std::string& out, const core::Json& value, int depth, int inde
 
 }  // namespace
 
-std::string to_lines(const core::Json& value, int depth) {
+std::string to_lines(const Json& value, int depth) {
   std::string out;
   append_lines(out, value, depth, 0);
   return out + "\n";
@@ -123,14 +122,14 @@ JsonFile::JsonFile(std::filesystem::path file, std::string text)
     : file_(std::move(file)), text_(std::move(text)), value_(parse(file_, text_)) {}
 
 std::optional<JsonFile> JsonFile::read(const std::filesystem::path& file) {
-  const bool there = core::naming(file.string(), [&] { return std::filesystem::exists(file); });
+  const bool there = naming(file.string(), [&] { return std::filesystem::exists(file); });
   if (!there) return std::nullopt;
-  return JsonFile(file, core::read_text(file, core::most_json_bytes));
+  return JsonFile(file, read_text(file, core::most_json_bytes));
 }
 
 void JsonFile::fail(const std::vector<std::string>& path, std::string_view message) const {
-  throw core::InputError(place_at(file_, text_, offset_of(text_, path)),
-                         fmt::format("at /{}: {}", fmt::join(path, "/"), message));
+  throw InputError(place_at(file_, text_, offset_of(text_, path)),
+                   fmt::format("at /{}: {}", fmt::join(path, "/"), message));
 }
 
 std::vector<std::pair<std::string, JsonNode>> JsonNode::members() const {
@@ -179,15 +178,15 @@ std::uint64_t JsonNode::whole_number() const {
 }
 
 void JsonNode::fail(std::string_view message) const {
-  file_->fail(
-      path_, fmt::format("{}, found {}", message,
-                         value_->is_structured() ? value_->type_name() : core::json_text(*value_)));
+  file_->fail(path_,
+              fmt::format("{}, found {}", message,
+                          value_->is_structured() ? value_->type_name() : json_text(*value_)));
 }
 
-JsonNode JsonNode::child(std::string name, const core::Json& value) const {
+JsonNode JsonNode::child(std::string name, const Json& value) const {
   std::vector<std::string> path = path_;
   path.push_back(std::move(name));
   return {*file_, value, std::move(path)};
 }
 
-}  // namespace triptych::judge
+}  // namespace triptych::core

@@ -1,4 +1,4 @@
-#include "judge/baselines/json_file.hpp"
+#include "core/json_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 
 #include "core/error.hpp"
 #include "core/file.hpp"
-#include "fixture.hpp"
+#include "support/temporary_folder.hpp"
 
-namespace triptych::judge {
+namespace triptych::core {
 namespace {
 
 using testing::HasSubstr;
@@ -108,4 +108,4 @@ TEST(JsonLines, BytesThatAreNoTextDoNotStopTheWriter) {
 }
 
 }  // namespace
-}  // namespace triptych::judge
+}  // namespace triptych::core

@@ -12,7 +12,7 @@
 
 #include "core/json.hpp"
 
-namespace triptych::judge {
+namespace triptych::core {
 
 class JsonFile;
 
@@ -20,7 +20,7 @@ class JsonFile;
 // line and the path within the file when the value is not what is asked for.
 class JsonNode {
  public:
-  JsonNode(const JsonFile& file, const core::Json& value, std::vector<std::string> path)
+  JsonNode(const JsonFile& file, const Json& value, std::vector<std::string> path)
       : file_(&file), value_(&value), path_(std::move(path)) {}
 
   [[nodiscard]] std::vector<std::pair<std::string, JsonNode>> members() const;
@@ -34,9 +34,9 @@ class JsonNode {
   [[noreturn]] void fail(std::string_view message) const;
 
  private:
-  [[nodiscard]] JsonNode child(std::string name, const core::Json& value) const;
+  [[nodiscard]] JsonNode child(std::string name, const Json& value) const;
   const JsonFile* file_;
-  const core::Json* value_;
+  const Json* value_;
   std::vector<std::string> path_;
 };
 
@@ -47,7 +47,7 @@ class JsonFile {
   [[nodiscard]] static std::optional<JsonFile> read(const std::filesystem::path& file);
 
   [[nodiscard]] JsonNode root() const { return {*this, value_, {}}; }
-  [[nodiscard]] const core::Json& value() const noexcept { return value_; }
+  [[nodiscard]] const Json& value() const noexcept { return value_; }
   // InputError with the line of the value at `path` (keys, or indexes in decimal).
   [[noreturn]] void fail(const std::vector<std::string>& path, std::string_view message) const;
 
@@ -55,11 +55,11 @@ class JsonFile {
   JsonFile(std::filesystem::path file, std::string text);
   std::filesystem::path file_;
   std::string text_;
-  core::Json value_;
+  Json value_;
 };
 
 // Objects and arrays down to `depth` levels with one member per line, deeper ones on their member's
 // line.
-[[nodiscard]] std::string to_lines(const core::Json& value, int depth);
+[[nodiscard]] std::string to_lines(const Json& value, int depth);
 
-}  // namespace triptych::judge
+}  // namespace triptych::core
