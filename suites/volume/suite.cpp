@@ -15,13 +15,13 @@
 #include "scene/denormals.hpp"
 #include "scene/file_table.hpp"
 #include "scene/generators.hpp"
-#include "scene/half.hpp"
 #include "scene/value_window.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/factors.hpp"
 #include "suites/volume/frame_description.hpp"
 #include "suites/volume/own_levels.hpp"
 #include "suites/volume/plain_work.hpp"
+#include "suites/volume/storage_error.hpp"
 #include "suites/volume/stress_cases.hpp"
 #include "suites/volume/tolerance.hpp"
 #include "technique/volume/bricks.hpp"
@@ -250,39 +250,21 @@ measure::Work VolumeSuite::calibration(technique::Work kind) {
                   .sampler = technique::Sampler::manual, .skip = technique::Skip::none, .ert = 0}}};
 }
 
-bool rounds_to_halves(const Configuration& configuration, bool fits_halves) {
-  return configuration.at("voxel") == scene::name_of(scene::VoxelFormat::f16) && !fits_halves;
-}
-
-// A step of the voxel format where it cannot hold the data's own values, in normalised value; else
-// 0. Integers that are stored as floats are rounded when they are normalised, to floats below 1:
-// that is less than single precision does to them anyway.
-double storage_step(const Configuration& configuration, scene::VoxelFormat native,
-                    bool fits_halves) {
-  if (configuration.at("voxel") == "auto") return 0;
-  const scene::VoxelFormat format = scene::voxel_format(configuration.at("voxel"));
-  if (format == scene::VoxelFormat::f16) return fits_halves ? 0 : 0x1.0p-28;
-  if (format == scene::VoxelFormat::f32 && native != format &&
-      technique::precision(configuration.at("precision")) == technique::Precision::fp64) {
-    return 0x1.0p-24;
-  }
-  if (scene::bytes_of(format) >= scene::bytes_of(native)) return 0;
-  return 1 / scene::largest_stored(format);
-}
-
 VolumeSuite::Judged VolumeSuite::judged(const Configuration& configuration,
                                         const std::map<std::string, double>& precision) {
   const Loaded& loaded = load_as_it_is(configuration);
   scene::VolumeScene pictured = scene(configuration, loaded);
   const auto probed = precision.find("filter_weight_error");
-  const reference::ErrorModel model = error_model(
-      pictured, {.ert = levels_of(configuration, loaded.stress).ert(),
-                 .adapt = levels_of(configuration, loaded.stress).adapt(),
-                 .filter_weight_error = probed == precision.end() ? 0 : probed->second,
-                 .storage_step = storage_step(configuration, loaded.native, loaded.fits_halves),
-                 .voxel_rounding =
-                     rounds_to_halves(configuration, loaded.fits_halves) ? scene::half_roundoff : 0,
-                 .precision = technique::precision(configuration.at("precision"))});
+  const technique::Precision computed = technique::precision(configuration.at("precision"));
+  const StorageError stored =
+      storage_error(configuration.at("voxel"), loaded.native, loaded.fits_halves, computed);
+  const reference::ErrorModel model =
+      error_model(pictured, {.ert = levels_of(configuration, loaded.stress).ert(),
+                             .adapt = levels_of(configuration, loaded.stress).adapt(),
+                             .filter_weight_error = probed == precision.end() ? 0 : probed->second,
+                             .storage_step = stored.step,
+                             .voxel_rounding = stored.rounding,
+                             .precision = computed});
   return {std::move(pictured), model};
 }
 
