@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "judge/baselines/frame_change.hpp"
 #include "technique/catalogue.hpp"
@@ -176,13 +177,15 @@ std::string SideBySide::sentence() const {
 }
 
 std::string to_text(const SideBySide& table) {
-  std::vector<std::vector<std::string>> lines{{""}, {"the least"}};
+  std::vector<std::string> head{""};
+  std::vector<std::string> least{"the least"};
   for (const std::string& device : table.devices) {
-    lines[0].push_back(device);
-    lines[1].push_back(least_text(table, device));
+    head.push_back(device);
+    least.push_back(least_text(table, device));
   }
-  lines[0].emplace_back("configurations");
-  lines[1].emplace_back();
+  head.emplace_back("configurations");
+  least.emplace_back();
+  std::vector<std::vector<std::string>> lines{std::move(head)};
   for (const SideBySide::Row& row : table.rows) {
     std::vector<std::string>& line = lines.emplace_back(1, row.technique);
     for (const std::string& device : table.devices) {
@@ -191,7 +194,7 @@ std::string to_text(const SideBySide& table) {
     }
     line.push_back(fmt::to_string(row.configurations));
   }
-  std::ranges::rotate(lines.begin() + 1, lines.begin() + 2, lines.end());
+  lines.push_back(std::move(least));
   return aligned(lines) + fmt::format("\n{} a frame over the best device's. {}.\n",
                                       table.unit == "ns" ? "Time of" : "Instructions of",
                                       table.sentence());
