@@ -44,6 +44,12 @@ GateResult failing() {
   return result;
 }
 
+GateResult passing() {
+  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
+  add(result, Check::image, pass, "gl:x", "step=1", "within");
+  return result;
+}
+
 TEST(LastScreen, TellsWhatWhereAndWhatToType) {
   const std::vector<GateResult> results{failing()};
   const std::vector<std::string> files{"out/report.html", "out/gate.log"};
@@ -70,8 +76,7 @@ TEST(LastScreen, TellsWhatWhereAndWhatToType) {
 }
 
 TEST(LastScreen, OfAPassIsShort) {
-  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
-  add(result, Check::image, pass, "gl:x", "step=1", "within");
+  GateResult result = passing();
   const std::string text = last_screen(std::vector{result}, 3, {});
   EXPECT_THAT(text, HasSubstr("PASS (0)"));
   EXPECT_LE(std::ranges::count(text, '\n'), 10);
@@ -100,8 +105,7 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
 
 // What is excused is no picture within its bound.
 TEST(LastScreen, NamesWhatIsWaived) {
-  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
-  add(result, Check::image, pass, "gl:x", "step=1", "within");
+  GateResult result = passing();
   result.findings.back().numbers["ratio"] = 0.5;
   add(result, Check::image, waived, "gl:x", "step=2", "waived until 2027-01-01 (known): wrong");
   result.findings.back().numbers["ratio"] = 4e5;
@@ -122,8 +126,7 @@ TEST(LastScreen, SaysThatTimesAreShownOrDecided) {
 }
 
 TEST(LastScreen, SaysWhenOnlyAPartWasJudged) {
-  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
-  add(result, Check::image, pass, "gl:x", "step=1", "within");
+  GateResult result = passing();
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}), Not(HasSubstr("a part")));
   result.part = true;
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
@@ -131,8 +134,7 @@ TEST(LastScreen, SaysWhenOnlyAPartWasJudged) {
 }
 
 TEST(LastScreen, WithoutAVerdictStillSaysWhatIsRight) {
-  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
-  add(result, Check::image, pass, "gl:x", "step=1", "within");
+  GateResult result = passing();
   add(result, Check::image, cannot_judge, "", "", "the required device gl:y measured nothing");
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
               HasSubstr("the plan: 1 of 1 checks not judged; 1 within their bounds"));
