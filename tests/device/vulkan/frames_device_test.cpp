@@ -140,11 +140,14 @@ TEST(VulkanFrames, AWholeRenderPassIsTimedByTheDevice) {
     const auto prepared =
         device.prepare(make_work("raycast_fragment", make_scene({.width = 256, .height = 256})));
     static_cast<void>(prepared->frame(Purpose::timing));  // the first frame compiles
-    const measure::Frame frame = prepared->frame(Purpose::timing);
-    if (!frame.device_ns) GTEST_SKIP() << "no clock";
-    EXPECT_LE(*frame.device_ns, frame.wall_ns);
-    const double least = device.info().driver == "llvmpipe" ? 0.5 * frame.wall_ns : 0;
-    EXPECT_GE(*frame.device_ns, least);
+    double of_wall = 0;  // the best of some: a busy machine may wake us late
+    for (int i = 0; i < 20; ++i) {
+      const measure::Frame frame = prepared->frame(Purpose::timing);
+      if (!frame.device_ns) GTEST_SKIP() << "no clock";
+      EXPECT_LE(*frame.device_ns, frame.wall_ns);
+      of_wall = std::max(of_wall, *frame.device_ns / frame.wall_ns);
+    }
+    EXPECT_GE(of_wall, device.info().driver == "llvmpipe" ? 0.5 : 0);
   });
 }
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 #include "core/random.hpp"
@@ -52,9 +52,9 @@ TEST(NearestNeighbours, LeaveOutPlacesBeyondSinglePrecisionAndStayFast) {
   const auto seconds_of = [](double unit) {
     std::vector<Place> line;
     for (int i = 0; i < 30'000; ++i) line.push_back({unit * i, unit * (i % 173), unit * (i % 71)});
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();  // of the processor: others' work is not in it
     static_cast<void>(median_nearest_distance(std::move(line)));
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   };
   EXPECT_LT(seconds_of(1e-200), 10 * seconds_of(1) + 0.05);
   EXPECT_LT(seconds_of(1e200), 10 * seconds_of(1) + 0.05);
