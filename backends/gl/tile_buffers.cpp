@@ -67,7 +67,7 @@ std::size_t colour_words(scene::ColourKind colour) {
   return colour == scene::ColourKind::rgba32 ? 4 : 1;
 }
 
-// Pairs of pixels, one above the other; as good as none where no sphere may be large.
+// Pairs of pixels, one above the other; as good as none where no large ones are resolved.
 Texture pair_texture(const Api& gl, int width, int height, bool any) {
   const GLsizei columns = any ? width : 1;
   const GLsizei rows = any ? (height + 1) / 2 : 1;
@@ -128,7 +128,7 @@ TileBuffers::TileBuffers(const Api& gl, const scene::ParticleScene& scene,
       tile_states_(device_buffer(gl, tile_bytes())),
       pixels_(device_buffer(gl, planes * pixel_bytes())),
       cell_ends_(words(gl, arrangement.cells.size())),
-      large_pixels_(pair_texture(gl, width_, height_, rounds.entries > 0)),
+      large_pixels_(pair_texture(gl, width_, height_, rounds.resolved())),
       zeros_(filled(gl, std::max(pixel_bytes(), tile_bytes()) / word, 0)),
       no_particles_(filled(gl, pixel_bytes() / word, core::Image::no_particle)) {
   const std::size_t times = extra_work_stride == 0 ? 1 : 2;

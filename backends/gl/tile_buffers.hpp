@@ -39,11 +39,9 @@ class TileBuffers {
   // No large spheres, no entries and no tiles drawn into.
   void start_round(const Api& gl) const;
 
-  // Work groups: 64 tiles each; as many as there are tiles that the round draws into; and as many
-  // as go through a list of unknown length together.
+  // Work groups: 64 tiles each, and as many as there are tiles that the round draws into.
   [[nodiscard]] GLuint groups_for_tiles() const;
   void dispatch_listed(const Api& gl) const;
-  static constexpr GLuint spread_groups = 256;
   // Of TRI_BLOCK × TRI_BLOCK tiles, which are drawn together.
   [[nodiscard]] GLuint blocks() const;
 

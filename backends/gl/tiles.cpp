@@ -33,13 +33,13 @@ struct Programs {
 };
 
 // GL counts image units by themselves, and from few.
-std::string tile_defines(Culling culling, bool large) {
-  return fmt::format("#define TRI_LARGE {:d}\n#define TRI_CULLING {}\n#define TRI_LARGE_PIXELS 0\n",
-                     int{large}, static_cast<int>(culling));
+std::string tile_defines(Culling culling, int spheres) {
+  return fmt::format("#define TRI_SPHERES {}\n#define TRI_CULLING {}\n#define TRI_LARGE_PIXELS 0\n",
+                     spheres, static_cast<int>(culling));
 }
 
 Programs make_programs(const Api& gl, const ParticleConstants& constants, Culling culling,
-                       bool large) {
+                       int spheres) {
   Programs programs;
   const auto program = [&](const std::vector<ParticleStage>& described,
                            const ParticleConstants& with) {
@@ -47,7 +47,7 @@ Programs make_programs(const Api& gl, const ParticleConstants& constants, Cullin
     for (const Stage& stage : stages) programs.sources.push_back(stage.source);
     return link(gl, stages);
   };
-  const std::string defines = tile_defines(culling, large);
+  const std::string defines = tile_defines(culling, spheres);
   for (std::size_t i = 0; i < passes.size(); ++i) {
     std::vector<std::string_view> files{"sprite.glsl"};
     if (i == cells || i == bin) files.emplace_back("cells.glsl");
@@ -83,7 +83,7 @@ class TilesDrawing final : public Drawing {
         buffers_(gl, work.scene, arrangement, rounds_, data_, options_.extra_work_stride),
         target_(gl, work.scene.width, work.scene.height, options_.fault),
         cells_(arrangement.cells.size()),
-        programs_(make_programs(gl, constants_, options_.culling, rounds_.entries > 0)) {
+        programs_(make_programs(gl, constants_, options_.culling, rounds_.spheres())) {
     kernel_hash_ = hash_of(gl, programs_.sources);
   }
 
@@ -99,7 +99,7 @@ class TilesDrawing final : public Drawing {
         ParticleConstants constants = constants_;
         constants.count = true;
         counting_.emplace(
-            Counting{make_programs(gl, constants, options_.culling, rounds_.entries > 0),
+            Counting{make_programs(gl, constants, options_.culling, rounds_.spheres()),
                      ParticleCounters(gl)});
       }
       counting_->counters.start(gl);
@@ -113,7 +113,7 @@ class TilesDrawing final : public Drawing {
     const bool counting = purpose == Purpose::counters;
     const Programs& programs = counting ? counting_->programs : programs_;
     draw_depths(gl, programs, !counting && options_.extra_work_stride != 0);
-    if (rounds_.small) run(gl, programs, index, TileBuffers::spread_groups);
+    if (rounds_.small) run(gl, programs, index, spread_groups());
     target_.clear(gl, background_);
     gl.UseProgram(programs.show.get());
     gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(buffers_.blocks()));
@@ -147,6 +147,12 @@ class TilesDrawing final : public Drawing {
   static void finish(const Api& gl) {
     gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                      GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  }
+
+  // That go through a list of unknown length together.
+  [[nodiscard]] GLuint spread_groups() const {
+    constexpr std::uint64_t most = 256;
+    return static_cast<GLuint>(std::min(most, (particles_ + group_size - 1) / group_size));
   }
 
   static void run(const Api& gl, const Programs& programs, Pass pass, GLuint groups) {
@@ -188,11 +194,12 @@ class TilesDrawing final : public Drawing {
     }
   }
 
-  // Draws the round's large spheres, and notes what is hidden.
+  // Draws the round's large spheres, unless the last pass does, and notes what is hidden.
   void resolve_tiles(const Api& gl, const Programs& programs,
                      const technique::TileRound& round) const {
     run(gl, programs, place, buffers_.groups_for_tiles());
-    if (round.entries > 0) run(gl, programs, fill, TileBuffers::spread_groups);
+    if (round.entries > 0) run(gl, programs, fill, spread_groups());
+    if (rounds_.at_once) return;
     gl.UseProgram(programs.of[resolve].get());
     buffers_.dispatch_listed(gl);
     finish(gl);

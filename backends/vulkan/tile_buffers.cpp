@@ -29,9 +29,9 @@ Buffer words(const Gpu& gpu, vk::DeviceSize count) {
           eStorageBuffer | eUniformTexelBuffer | eIndirectBuffer | eTransferDst, Place::device};
 }
 
-// Pairs of pixels, one above the other; as good as none where no sphere may be large.
+// Pairs of pixels, one above the other; as good as none where no large ones are resolved.
 vk::Extent3D pairs(const scene::ParticleScene& scene, const technique::TileRounds& rounds) {
-  if (rounds.entries == 0) return {1, 1, 1};
+  if (!rounds.resolved()) return {1, 1, 1};
   return {static_cast<std::uint32_t>(scene.width),
           parts(static_cast<std::uint32_t>(scene.height), 2), 1};
 }

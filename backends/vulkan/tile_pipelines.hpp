@@ -16,7 +16,7 @@ enum class TilePass : std::uint8_t { cells, bin, place, fill, resolve, settle, i
 struct TileConstants {
   ParticleConstants common;
   std::int32_t culling = 0;
-  std::int32_t large = 0;  // whether spheres may be large
+  std::int32_t spheres = 0;  // technique::TileRounds::spheres()
 };
 
 class TilePipelines {

@@ -25,9 +25,6 @@ struct RoundOf {  // shaders/tiles_prelude.glsl
   std::uint32_t cells;
 };
 
-// Which go through a list of unknown length together.
-constexpr std::uint32_t spread_groups = 256;
-
 vk::QueryPipelineStatisticFlags tile_statistics() {
   return vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations;
 }
@@ -46,6 +43,10 @@ class TilesFrames final : public measure::Prepared {
   [[nodiscard]] std::string kernel_hash() const override { return tiles_hash(constants_); }
 
  private:
+  // That go through a list of unknown length together.
+  [[nodiscard]] std::uint32_t spread_groups() const {
+    return std::min(256U, groups_for(data_.particles(), group));
+  }
   void bind() const;
   void run(const vk::raii::CommandBuffer& commands, vk::Pipeline pipeline,
            std::uint32_t groups) const;
@@ -104,8 +105,7 @@ TilesFrames::TilesFrames(const Gpu& gpu, const Instance& instance,
       options_(work.options),
       rounds_(rounds_of(gpu, work, arrangement)),
       constants_(TileConstants{particle_constants(gpu, work),
-                               static_cast<std::int32_t>(options_.culling),
-                               rounds_.entries > 0 ? 1 : 0}),
+                               static_cast<std::int32_t>(options_.culling), rounds_.spheres()}),
       data_(gpu, work, arrangement),
       buffers_(gpu, work, data_, rounds_),
       tile_groups_(groups_for(buffers_.tiles(), group)),
@@ -155,15 +155,16 @@ void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelin
   barrier(commands);
 }
 
-// Draws the round's large spheres, and notes what is hidden.
+// Draws the round's large spheres, unless the last pass does, and notes what is hidden.
 void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                           const technique::TileRound& round) const {
   run(commands, pipelines[TilePass::place], tile_groups_);
   barrier(commands);
   if (round.entries > 0) {
-    run(commands, pipelines[TilePass::fill], spread_groups);
+    run(commands, pipelines[TilePass::fill], spread_groups());
     barrier(commands);
   }
+  if (rounds_.at_once) return;
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines[TilePass::resolve]);
   buffers_.dispatch_listed(commands);
   barrier(commands);
@@ -172,7 +173,7 @@ void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePip
 void TilesFrames::show(const vk::raii::CommandBuffer& commands,
                        const TilePipelines& pipelines) const {
   if (rounds_.small) {
-    run(commands, pipelines[TilePass::index], spread_groups);
+    run(commands, pipelines[TilePass::index], spread_groups());
     barrier(commands);
   }
   target_.begin(commands, false);

@@ -11,11 +11,11 @@ struct Injected {
   ParticleWork work;
 };
 
-// A fault beside a scene in which it shows: ties need coincident spheres, a lost border spheres
-// that reach over several tiles.
+// A fault beside a scene in which it shows: a small sprite needs spheres that `tiles` does not look
+// for in whole tiles, ties coincident ones, a lost border some that reach over several tiles.
 std::vector<Injected> faults() {
   std::vector<Injected> all;
-  all.push_back({"small_sprite", generated_work("uniform", 200, "orbit_y:1/8", 200)});
+  all.push_back({"small_sprite", generated_work("uniform", 10000, "orbit_y:1/8", 200)});
   all.push_back({"unresolved_ties", generated_work("coincident", 4000, "orbit_y:1/8", 96)});
   all.push_back({"reversed_depth", generated_work("uniform", 2000, "orbit_y:1/8", 96)});
   all.push_back({"culled_visible", generated_work("uniform", 50000, "orbit_y:1/8", 96)});

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "particle_prelude.glsl"
-layout(constant_id = 8) const int TRI_LARGE = 1;
+layout(constant_id = 8) const int TRI_SPHERES = 7;
 #include "particles/camera_space.glsl"
 #include "particles/colour.glsl"
 #include "particles/tile_grid.glsl"

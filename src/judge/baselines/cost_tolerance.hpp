@@ -29,12 +29,14 @@ struct CostTolerance {
 //   tables in the order of addresses: 0.16 to 0.55 % of the driver's count were seen between two
 //   runs. Where nothing is compiled the driver is a hundredth of such a frame, so that a share of
 //   its own adds next to nothing.
+// - What a process drew before moves the driver's count of `tiles`, by 0.5 % of it on OpenGL and
+//   1.8 % on lavapipe: a part of the plan is compared with what the whole plan counted.
 inline constexpr std::array cost_tolerances{
     CostTolerance{"device_code", "*", "tiles", 1e-5},
     CostTolerance{"device_code", "*", "*", 0},
     CostTolerance{"driver", "opencl:pocl*", "*", 3.5e-3},
     CostTolerance{"driver", "vulkan:lavapipe*", "raycast*", 5e-4, 1e-2},
-    CostTolerance{"driver", "vulkan:lavapipe*", "tiles", 5e-4, 1e-2},
+    CostTolerance{"driver", "*", "tiles", 5e-4, 2e-2},
     CostTolerance{"driver", "*", "*", 5e-4},
 };
 

@@ -3,6 +3,7 @@
 // loads from storage buffers lane by lane.
 
 #define TRI_TILE 16             // pixels along a tile's edge
+#define TRI_SMALL_EDGE 6        // and along that of a small sphere's rectangle at most: what llvmpipe is fastest with
 #define TRI_BLOCK 4             // tiles along the edge of what is drawn together
 #define TRI_PARTICLE_BITS 28    // of an entry
 #define TRI_LARGEST_KEY 0xFFFFFFFFu
@@ -27,6 +28,11 @@ uint farthest_in(int index) { return tile_state(index).z; }
 #define TRI_TOUCHED 2u    // small spheres were, in this round
 #define TRI_HAS_LARGE 4u  // large_pixels holds what earlier rounds have drawn
 
+// What the picture's spheres may be, as bits of TRI_SPHERES (technique::TileRounds).
+#define TRI_SMALL 1     // small
+#define TRI_LARGE 2     // large
+#define TRI_RESOLVED 4  // and drawn by tiles_resolve: tiles_show finds them in large_pixels
+
 // Depth key and particle key of large spheres, two rows of pixels in one.
 #ifndef TRI_LARGE_PIXELS
 #define TRI_LARGE_PIXELS 20
@@ -43,6 +49,8 @@ uint depth_key(float depth) {
 float depth_of_key(uint key) { return uintBitsToFloat(TRI_FAULT == 3 ? ~key : key); }
 uint particle_key(uint particle) { return TRI_FAULT == 2 ? ~particle & 0x7FFFFFFFu : particle; }
 uint particle_of_key(uint key) { return TRI_FAULT == 2 ? ~key & 0x7FFFFFFFu : key; }
+
+uint particle_of(uint entry) { return entry & (1u << TRI_PARTICLE_BITS) - 1u; }
 
 // The depth key of the sphere on the ray through this place of the image plane, 0 where the ray misses it.
 uint sphere_key(vec4 c, vec2 s) {

@@ -48,27 +48,25 @@ class NeedBound {
   static double tiles(int pixels) { return std::ceil(static_cast<double>(pixels) / tile_edge); }
 
   [[nodiscard]] Need of(const std::array<float, 4>& sphere) const {
-    constexpr double tile_pixels = double{tile_edge} * tile_edge;
     const glm::dvec3 to = glm::dvec3(sphere[0], sphere[1], sphere[2]) - camera_.eye;
     const double r = static_cast<double>(sphere[3]);
     const double z = glm::dot(to, camera_.forward);
     if (z <= -r) return {};
     double columns = columns_;
     double rows = rows_;
+    double pixels = double{tile_edge} * tile_edge * columns * rows;
     bool small = true;  // as little of it may be in sight
     if (z > 1.001 * r) {
       const double width = extent(glm::dot(to, right_), z, r, half_x_);
       const double height = extent(glm::dot(to, camera_.up), z, r, half_y_);
       if (width <= 0 || height <= 0) return {};
-      if (std::max(width, height) < tile_edge) return {.pixels = width * height, .small = true};
-      small = std::max(width, height) < tile_edge + slack;
+      if (std::max(width, height) < small_edge) return {.pixels = width * height, .small = true};
+      pixels = width * height;
+      small = std::max(width, height) < small_edge + slack;
       columns = std::min(columns, std::floor(width / tile_edge) + 2);
       rows = std::min(rows, std::floor(height / tile_edge) + 2);
     }
-    return {.pixels = tile_pixels * columns * rows,
-            .entries = columns * rows,
-            .large = 1,
-            .small = small};
+    return {.pixels = pixels, .entries = columns * rows, .large = 1, .small = small};
   }
 
   // Pixels of one axis between the sphere's two tangents, (a·z ± r·√(a² + z² − r²))/(z² − r²) on
@@ -124,6 +122,8 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
     need.add(more);
   }
   finish();
+  constexpr double few = 2;  // spheres a pixel
+  out.at_once = out.rounds.size() == 1 && covered <= few * pixels;
   return out;
 }
 

@@ -10,6 +10,7 @@
 namespace triptych::technique {
 
 inline constexpr int tile_edge = 16;  // TRI_TILE
+inline constexpr int small_edge = 6;  // TRI_SMALL_EDGE
 
 // Cells that are binned together before the tiles are resolved.
 struct TileRound {
@@ -22,6 +23,14 @@ struct TileRounds {
   std::vector<TileRound> rounds;  // all cells, front to back
   std::uint64_t entries = 0;      // (tile, large sphere) pairs that a round may have at most
   bool small = false;             // there may be small spheres
+  bool at_once = false;           // one round of so few that the last pass draws the large ones
+
+  // Whether passes before the last draw large spheres.
+  [[nodiscard]] bool resolved() const noexcept { return entries > 0 && !at_once; }
+  // TRI_SPHERES of tile_grid.glsl.
+  [[nodiscard]] int spheres() const noexcept {
+    return (small ? 1 : 0) | (entries > 0 ? 2 : 0) | (resolved() ? 4 : 0);
+  }
 };
 
 // Large spheres that a round has at most, unless a single cell has more: a tile's loop over its

@@ -10,6 +10,7 @@
 // and in the end
 //   tiles_index    finds the lowest particle at each pixel's depth among the small ones,
 //   tiles_show     colours every pixel once, as a fragment shader on blocks of tiles that hold something.
+// Few spheres are drawn at once: nothing is resolved or settled, tiles_show goes through the entries itself.
 // A tile that holds nothing costs nothing. No pass waits within a work group, and pixels leave as vectors: through
 // images and the rasterizer. Devices without vectors of their own loads take storage buffers word by word.
 // Everything a pixel keeps is a maximum of keys (depth) and a minimum of keys (particle), so that the
@@ -91,4 +92,4 @@ uint farthest_around(ivec4 rectangle) {
 }
 
 // A small rectangle has at most 2×2 tiles: no side is longer than a tile.
-bool is_small(ivec4 rectangle) { return max(rectangle.z, rectangle.w) <= TRI_TILE; }
+bool is_small(ivec4 rectangle) { return max(rectangle.z, rectangle.w) <= TRI_SMALL_EDGE; }

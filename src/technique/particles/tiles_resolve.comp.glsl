@@ -1,5 +1,5 @@
 // 32 invocations for each listed tile, a quarter of it for every eight of them, a column of eight pixels for one: the
-// nearest of the quarter's entries, then the farthest of what the pixels show. TRI_LARGE: 0 where no sphere is large.
+// nearest of the quarter's entries, then the farthest of what the pixels show.
 layout(local_size_x = 32) in;
 
 struct Column {  // pairs of pixels, as in large_pixels
@@ -48,7 +48,7 @@ void draw_entries(uint at, uint end, uint quarter, ivec2 pixel, inout Column col
   }
   uint entry = next_entry(at, end, quarter);
   do {
-    uint particle = entry & (1u << TRI_PARTICLE_BITS) - 1u;
+    uint particle = particle_of(entry);
     vec4 sphere = texelFetch(camera_texels, int(particle));
     if (entry == 0u) sphere = vec4(0.0, 0.0, -1.0, 0.0);  // none: out of sight
     particle = particle_key(particle);
@@ -63,7 +63,8 @@ void draw_entries(uint at, uint end, uint quarter, ivec2 pixel, inout Column col
 // What a pixel shows, or more where it is beyond the picture.
 uint shown_key(ivec2 pixel, uint large) {
   bool inside = pixel.x < u.viewport.x && pixel.y < u.viewport.y;
-  return inside ? max(depth_seen(pixel), large) : TRI_LARGEST_KEY;
+  uint small = (TRI_SPHERES & TRI_SMALL) != 0 ? depth_seen(pixel) : 0u;
+  return inside ? max(small, large) : TRI_LARGEST_KEY;
 }
 
 uint farthest_of_pair(uvec4 pair, ivec2 pixel) {
@@ -78,7 +79,7 @@ void resolve(int index) {
   pixel.x += lane % 8;
   uvec4 state = tile_state(index);
   Column column = Column(uvec4(0u), uvec4(0u), uvec4(0u), uvec4(0u));
-  if (TRI_LARGE == 1) {
+  if ((TRI_SPHERES & TRI_RESOLVED) != 0) {
     bool fresh = (state.w & TRI_HAS_LARGE) == 0u;
     column = Column(load_pair(pixel, 0, fresh), load_pair(pixel, 1, fresh), load_pair(pixel, 2, fresh),
                     load_pair(pixel, 3, fresh));

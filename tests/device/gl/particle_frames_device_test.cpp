@@ -140,9 +140,12 @@ scene::ParticleScene large_before_small() {
 }
 
 // Work groups of 64 that a frame has beside those that resolve tiles.
-std::uint64_t groups_of_other_passes(const technique::TileRounds& rounds) {
+std::uint64_t groups_of_other_passes(const scene::ParticleScene& scene,
+                                     const technique::TileRounds& rounds) {
   constexpr std::uint64_t group = 64;
-  constexpr std::uint64_t spread = 256;              // groups that share what there is
+  // Groups that share what there is.
+  const std::uint64_t spread =
+      std::min<std::uint64_t>(256, (scene.particles->count() + group - 1) / group);
   std::uint64_t groups = rounds.small ? spread : 0;  // index
   for (const technique::TileRound& round : rounds.rounds) {
     const bool last = &round == &rounds.rounds.back();
@@ -160,20 +163,31 @@ std::uint64_t invocations(measure::Device& device, const scene::ParticleScene& s
       .counts.at("compute_invocations");
 }
 
-// One sphere in 45×38 pixels, or 9 tiles: 32 invocations for each tile that it may reach, and for
-// no other. A small one is drawn when it is binned.
+struct InOnePlace {
+  double radius;
+  std::size_t spheres;
+  std::uint64_t tiles;  // that each may reach
+  bool at_once;
+};
+
+// Spheres in 45×38 pixels, or 9 tiles: 32 invocations for each tile that they may reach, and for no
+// other. Small ones are drawn when they are binned, few large ones by the last pass.
 TEST(GlParticleFrames, ATileThatHoldsNothingIsNotResolved) {
   for_each_device([](measure::Device& device) {
     if (device.info().driver != "llvmpipe") return;  // which counts invocations exactly
-    for (const auto& [radius, tiles] : {std::pair{3.0, 0U}, {8.0, 4U}, {40.0, 9U}}) {
-      const scene::ParticleScene scene = seen_from({{-6, 0, -60, radius}}, {0, 0, 0}, 30);
+    for (const auto& [radius, count, tiles, at_once] :
+         {InOnePlace{1, 1, 0, true}, {8, 1, 4, true}, {8, 40, 4, false}, {40, 40, 9, false}}) {
+      const scene::ParticleScene scene =
+          seen_from(std::vector<std::array<double, 4>>(count, {-6, 0, -60, radius}), {0, 0, 0}, 30);
       const technique::TileRounds rounds =
           technique::tile_rounds(scene, technique::arrange(scene), 65535, 1U << 24U);
       ASSERT_EQ(rounds.rounds.size(), 1U);
+      EXPECT_EQ(rounds.at_once, at_once);
       const record::Counts counts =
           device.prepare(particle_work("tiles", scene))->frame(Purpose::counters).counts;
-      EXPECT_EQ(counts.at("bin_entries"), tiles);
-      EXPECT_EQ(invocations(device, scene), 64 * groups_of_other_passes(rounds) + 32 * tiles);
+      EXPECT_EQ(counts.at("bin_entries"), count * tiles);
+      EXPECT_EQ(invocations(device, scene),
+                64 * groups_of_other_passes(scene, rounds) + (at_once ? 0 : 32 * tiles));
     }
   });
 }
@@ -189,7 +203,7 @@ TEST(GlParticleFrames, RoundsWithoutLargeSpheresAreNotFilled) {
     ASSERT_GT(rounds.rounds.front().entries, 0U);
     ASSERT_EQ(rounds.rounds.back().entries, 0U);
     const std::uint64_t all = invocations(device, scene);
-    const std::uint64_t others = 64 * groups_of_other_passes(rounds);
+    const std::uint64_t others = 64 * groups_of_other_passes(scene, rounds);
     EXPECT_GT(all, others);
     EXPECT_LE(all, others + 32 * 9 * (rounds.rounds.size() - 1));
   });

@@ -57,6 +57,17 @@ TEST(TileRounds, LargeSpheresAlonePromiseThatNoneIsSmall) {
   EXPECT_TRUE(tile_rounds(edge, arrange(edge), 65535, 1U << 20U).small);
 }
 
+// Their entries are gone through once a pixel: more are resolved, once for all pixels of a column.
+TEST(TileRounds, FewLargeSpheresAreDrawnAtOnce) {
+  for (const auto& [count, at_once] : {std::pair{8U, true}, {200U, false}, {60000U, false}}) {
+    const scene::ParticleScene scene = uniform(count, 2);
+    const TileRounds rounds = tile_rounds(scene, arrange(scene), 65535, 1U << 20U);
+    EXPECT_EQ(rounds.at_once, at_once) << count;
+    EXPECT_EQ(rounds.resolved(), !at_once) << count;
+    EXPECT_EQ(rounds.spheres() & 6, at_once ? 2 : 6) << count;
+  }
+}
+
 // A tile's loop over its entries stays below what Mesa's drivers allow.
 TEST(TileRounds, ARoundHasNotMoreLargeSpheresThanALoopMayTake) {
   scene::ParticleScene scene = uniform(200000, 1000);
