@@ -53,7 +53,8 @@ std::string plan_part(const PlanReport& report, const PlanData& plan) {
              escape(report.verdict.headline())) +
          system_line(report.run) + common_line(plan) + changes_section(plan) +
          accuracy_section(plan) + correlation_section(plan) + devices_section(plan) +
-         times_section(plan) + speed_of_light_section(plan) + counts_section(plan) + "</section>\n";
+         times_section(plan) + speed_of_light_section(plan) + needed_section(plan) +
+         counts_section(plan) + "</section>\n";
 }
 
 // Findings stand beside the pictures where any of these is wrong.

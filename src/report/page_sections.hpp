@@ -60,6 +60,8 @@ struct Pictures {
 [[nodiscard]] std::string changes_section(const PlanData& plan);
 [[nodiscard]] std::string times_section(const PlanData& plan);
 [[nodiscard]] std::string speed_of_light_section(const PlanData& plan);
+// Samples and spheres that skipping and culling leave, and how many of them show.
+[[nodiscard]] std::string needed_section(const PlanData& plan);
 // Of each pair of devices, what keeps step and what is off its line.
 [[nodiscard]] std::string correlation_section(const PlanData& plan);
 // Of the scenes whose accuracy the verdict tells.

@@ -97,7 +97,7 @@ class ScriptedStore {
       store_.add_image(record.image, exr);
       for (int i = 0; i < 12; ++i)
         record.wall_ns.push_back(1e6 * (1 + 0.03 * i) * (device[0] == 'o' ? 1 : 1.7));
-      record.counters = {{"samples", 123456}};
+      record.counters = {{"samples", 123456}, {"samples_nonzero", 92592}};
       record.cost = {{"device_code", 987654}, {"driver", 1234}};
     }
     store_.add_record(record);
