@@ -1,11 +1,13 @@
 #include "comparison/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "core/json.hpp"
 #include "core/quoting.hpp"
@@ -54,6 +56,56 @@ std::string line_of(const Compared& compared, const ComparisonCommand& command) 
                         100 * std::expm1(compared.shift.estimate - work->log_ratio));
   }
   return line + "\n";
+}
+
+std::vector<std::string_view> parts_of(std::string_view key) {
+  constexpr std::string_view between = "; ";
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= key.size();) {
+    const std::size_t end = std::min(key.find(between, begin), key.size());
+    parts.push_back(key.substr(begin, end - begin));
+    begin = end + between.size();
+  }
+  return parts;
+}
+
+bool has(const std::vector<std::string_view>& parts, std::string_view part) {
+  return std::ranges::find(parts, part) != parts.end();
+}
+
+// What `b` has and `a` has not; of a variable of `a` alone that it is not set.
+std::vector<std::string> differing(const std::vector<std::string_view>& a,
+                                   const std::vector<std::string_view>& b) {
+  std::vector<std::string> parts;
+  for (const std::string_view part : b) {
+    if (!has(a, part)) parts.emplace_back(part);
+  }
+  for (const std::string_view part : a) {
+    const std::string name(part.substr(0, part.find('=') + 1));  // empty: no variable
+    const bool set = std::ranges::any_of(b, [&](auto each) { return each.starts_with(name); });
+    if (!set) parts.push_back("without " + std::string(part));
+  }
+  return parts;
+}
+
+// What both have stands once; the features of one processor are of no interest here.
+std::string sides_text(const record::Device& a, const record::Device& b) {
+  const std::string key_a = a.key();
+  const std::string key_b = b.key();
+  auto parts_a = parts_of(key_a);
+  auto parts_b = parts_of(key_b);
+  const auto is_shared_processor = [](const auto& other) {
+    return [&](std::string_view part) { return part.starts_with("CPU ") && has(other, part); };
+  };
+  const auto all_b = parts_b;
+  std::erase_if(parts_b, is_shared_processor(parts_a));
+  std::erase_if(parts_a, is_shared_processor(all_b));
+  std::string text_b = fmt::format("{}", fmt::join(parts_b, "; "));
+  if (a.id == b.id) {
+    const auto parts = differing(parts_a, parts_b);
+    text_b = parts.empty() ? "the same" : fmt::format("the same, but {}", fmt::join(parts, "; "));
+  }
+  return fmt::format("a: {}\nb: {}\n", fmt::join(parts_a, "; "), text_b);
 }
 
 std::string differences_text(const ComparisonResult& result) {
@@ -158,8 +210,7 @@ std::string headline(const ComparisonResult& result) {
 
 std::string to_text(const ComparisonResult& result, const ComparisonCommand& command) {
   std::string text =
-      fmt::format("{}\na: {}\nb: {}\n", command.plan, result.a.key(), result.b.key());
-  text += differences_text(result);
+      command.plan + "\n" + sides_text(result.a, result.b) + differences_text(result);
   if (result.timed) {
     text += "time of b over time of a:\n";
     for (const Compared& compared : result.configurations) text += line_of(compared, command);
