@@ -1,10 +1,12 @@
 // What skipping leaves: an oracle would take only what the picture shows.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "report/html.hpp"
@@ -37,23 +39,27 @@ std::optional<Work> work_of(const record::Counts& counters) {
 }  // namespace
 
 std::string needed_section(const PlanData& plan) {
+  const bool volume = suite_of(plan) == "volume";
+  const std::string factor = volume ? "skip" : "culling";
   // Devices that took the same stand together.
-  std::map<std::tuple<std::string, std::string, Work>, std::string> devices;
+  using Key = std::tuple<std::string, std::string, std::string, Work>;
+  std::map<Key, std::set<std::string>> devices;
   for (const record::Record& record : plan.records) {
     const auto work = work_of(record.counters);
-    if (!work) continue;
-    std::string& names = devices[{scene_title(plan, record), record.technique, *work}];
-    names += (names.empty() ? "" : "<br>") + escape(record.device);
+    const auto level = record.factors.find(factor);
+    if (!work || level == record.factors.end()) continue;
+    const std::string scene = picture_title(plan, record);
+    devices[{scene, record.technique, level->second, *work}].insert(escape(record.device));
   }
   if (devices.empty()) return {};
-  const bool volume = suite_of(plan) == "volume";
   std::vector<std::vector<std::string>> rows{
-      {"scene", "technique", "taken", "needed", "needed of taken", "device"}};
+      {"scene", "technique", factor, "taken", "needed", "needed of taken", "device"}};
   for (const auto& [key, names] : devices) {
-    const auto& [scene, technique, work] = key;
+    const auto& [scene, technique, level, work] = key;
     const double share = static_cast<double>(work.needed) / static_cast<double>(work.taken);
-    rows.push_back({escape(scene), escape(technique), grouped(work.taken), grouped(work.needed),
-                    fmt::format("{:.3f}", share), names});
+    rows.push_back({escape(scene), escape(technique), escape(level), grouped(work.taken),
+                    grouped(work.needed), fmt::format("{:.3f}", share),
+                    fmt::format("{}", fmt::join(names, ", "))});
   }
   return folded("Skipping: what was taken, and what the picture needed",
                 volume ? "<p>Samples, and those that are not transparent.</p>" + table(rows)
