@@ -41,9 +41,8 @@ FrameChange frame_change(const record::Record& now, const record::Counts& before
   const double frame = frame_of(before);
   for (const auto& [part, name] : cost_parts) {
     const double stored = count_of(before, part).value_or(0);
-    compare(
-        change, name, stored, count_of(now.cost, part).value_or(0),
-        frame * cost_tolerance(part, now.device, now.technique, frame > 0 ? stored / frame : 0));
+    compare(change, name, stored, count_of(now.cost, part).value_or(0),
+            cost_tolerance(part, now.device, now.technique, stored, frame));
   }
   const auto misses = count_of(before, "misses");
   const auto misses_now = count_of(now.cost, "misses");

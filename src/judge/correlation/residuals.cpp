@@ -130,8 +130,11 @@ class Explanation {
 Repeatability repeatability(std::string_view device, std::string_view technique,
                             const FrameCost& stored) {
   const double sum = std::max(stored.sum(), 1.0);
-  return {.device_code = cost_tolerance("device_code", device, technique, stored.device_code / sum),
-          .driver = cost_tolerance("driver", device, technique, stored.driver / sum)};
+  const auto share = [&](std::string_view part, double count) {
+    return cost_tolerance(part, device, technique, count, sum) / sum;
+  };
+  return {.device_code = share("device_code", stored.device_code),
+          .driver = share("driver", stored.driver)};
 }
 
 Repeatability operator+(const Repeatability& a, const Repeatability& b) {

@@ -56,7 +56,8 @@ class CorrelationWorld {
       record->counted_by = "emulator";
       const double frame = std::exp(15 + 0.02 * i + scatter * normal());
       // Half of a bound each: two counts are apart by no more than it.
-      const double bound = repeatability(id, record->technique, {1, 0}).driver / 2.01;
+      const double bound =
+          repeatability(id, record->technique, {0.7 * frame, 0.3 * frame}).driver / 2.01;
       stored.configurations[record->configuration].frame =
           counts(0.7 * frame, 0.3 * frame + bound * frame * jitter());
       record->cost =
