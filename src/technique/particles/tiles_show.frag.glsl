@@ -35,9 +35,10 @@ Shown with_entries(Shown shown, ivec2 pixel) {
   uvec4 state = tile_state(tile_index(pixel / TRI_TILE));
   uint at = state.y - state.x;
   do {
-    uint particle = particle_of(texelFetch(entry_texels, int(at)).x);
+    bool is_entry = at < state.y;
+    uint particle = is_entry ? particle_of(texelFetch(entry_texels, int(at)).x) : 0u;
     vec4 sphere = texelFetch(camera_texels, int(particle));
-    uvec2 keys = uvec2(at < state.y ? sphere_key(sphere, s) : 0u, particle_key(particle));
+    uvec2 keys = uvec2(is_entry ? sphere_key(sphere, s) : 0u, particle_key(particle));
     if (is_nearer(keys, shown.keys)) shown = Shown(keys, sphere);
     ++at;
   } while (at < state.y);
