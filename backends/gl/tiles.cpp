@@ -2,7 +2,6 @@
 // (technique/particles/tiles.glsl says in which passes).
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 
 #include "backends/gl/particle_data.hpp"
@@ -113,7 +112,7 @@ class TilesDrawing final : public Drawing {
     const bool counting = purpose == Purpose::counters;
     const Programs& programs = counting ? counting_->programs : programs_;
     draw_depths(gl, programs, !counting && options_.extra_work_stride != 0);
-    if (rounds_.small) run(gl, programs, index, spread_groups());
+    if (rounds_.small) run(gl, programs, index, technique::list_groups(particles_));
     target_.clear(gl, background_);
     gl.UseProgram(programs.show.get());
     gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(buffers_.blocks()));
@@ -147,12 +146,6 @@ class TilesDrawing final : public Drawing {
   static void finish(const Api& gl) {
     gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                      GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  }
-
-  // That go through a list of unknown length together.
-  [[nodiscard]] GLuint spread_groups() const {
-    constexpr std::uint64_t most = 256;
-    return static_cast<GLuint>(std::min(most, (particles_ + group_size - 1) / group_size));
   }
 
   static void run(const Api& gl, const Programs& programs, Pass pass, GLuint groups) {
@@ -198,7 +191,7 @@ class TilesDrawing final : public Drawing {
   void resolve_tiles(const Api& gl, const Programs& programs,
                      const technique::TileRound& round) const {
     run(gl, programs, place, buffers_.groups_for_tiles());
-    if (round.entries > 0) run(gl, programs, fill, spread_groups());
+    if (round.entries > 0) run(gl, programs, fill, technique::list_groups(particles_));
     if (rounds_.at_once) return;
     gl.UseProgram(programs.of[resolve].get());
     buffers_.dispatch_listed(gl);

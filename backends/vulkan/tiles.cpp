@@ -43,10 +43,6 @@ class TilesFrames final : public measure::Prepared {
   [[nodiscard]] std::string kernel_hash() const override { return tiles_hash(constants_); }
 
  private:
-  // That go through a list of unknown length together.
-  [[nodiscard]] std::uint32_t spread_groups() const {
-    return std::min(256U, groups_for(data_.particles(), group));
-  }
   void bind() const;
   void run(const vk::raii::CommandBuffer& commands, vk::Pipeline pipeline,
            std::uint32_t groups) const;
@@ -161,7 +157,7 @@ void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePip
   run(commands, pipelines[TilePass::place], tile_groups_);
   barrier(commands);
   if (round.entries > 0) {
-    run(commands, pipelines[TilePass::fill], spread_groups());
+    run(commands, pipelines[TilePass::fill], technique::list_groups(data_.particles()));
     barrier(commands);
   }
   if (rounds_.at_once) return;
@@ -173,7 +169,7 @@ void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePip
 void TilesFrames::show(const vk::raii::CommandBuffer& commands,
                        const TilePipelines& pipelines) const {
   if (rounds_.small) {
-    run(commands, pipelines[TilePass::index], spread_groups());
+    run(commands, pipelines[TilePass::index], technique::list_groups(data_.particles()));
     barrier(commands);
   }
   target_.begin(commands, false);

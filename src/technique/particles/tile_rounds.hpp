@@ -33,6 +33,14 @@ struct TileRounds {
   }
 };
 
+// Work groups of 64 that go through a list of at most so many particles together, each until the
+// list's end.
+[[nodiscard]] constexpr std::uint32_t list_groups(std::uint64_t particles) noexcept {
+  constexpr std::uint64_t most = 256;
+  const std::uint64_t groups = (particles + 63) / 64;
+  return static_cast<std::uint32_t>(groups < most ? groups : most);
+}
+
 // Large spheres that a round has at most, unless a single cell has more: a tile's loop over its
 // entries then ends before Mesa ends it (docs/accuracy.md).
 inline constexpr std::uint64_t most_large_spheres = 32000;
