@@ -137,9 +137,9 @@ class Page:
         return base64.b64decode(self.call("Page.captureScreenshot", format="png", **more)["data"])
 
     def names(self):
-        """(role, name) of what a screen reader tells, in its order."""
+        """(role, name) of what a screen reader tells, in its order. White space at a name's ends comes and goes."""
         nodes = self.call("Accessibility.getFullAXTree")["nodes"]
-        return [(node["role"]["value"], node.get("name", {}).get("value", ""))
+        return [(node["role"]["value"], node.get("name", {}).get("value", "").strip())
                 for node in nodes if not node.get("ignored") and "role" in node]
 
     def complaints(self):
