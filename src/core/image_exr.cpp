@@ -150,7 +150,33 @@ Image allocate(const Imf::Header& header, std::size_t file_bytes) {
   return image;
 }
 
+// OpenEXR asks for as much memory as an attribute states before it looks whether the file goes on
+// so far. After magic number and version an attribute is a name and a type, each ended by a zero,
+// its size in 32 bits and its value; an empty name ends them.
+void require_attributes_inside(std::span<const std::byte> bytes) {
+  std::size_t place = 8;
+  const auto skip_text = [&] {
+    const auto end = std::ranges::find(bytes.subspan(place), std::byte{0});
+    const auto length = static_cast<std::size_t>(end - bytes.begin()) - place;
+    place = std::min(bytes.size(), place + length + 1);
+    return length;
+  };
+  while (place < bytes.size() && skip_text() > 0) {
+    skip_text();
+    std::int32_t size = 0;
+    if (bytes.size() - place < sizeof(size)) return;  // OpenEXR says that it ends here
+    std::memcpy(&size, bytes.data() + place, sizeof(size));
+    place += sizeof(size);
+    if (size < 0 || static_cast<std::size_t>(size) > bytes.size() - place) {
+      throw std::runtime_error(
+          fmt::format("has an attribute of {} bytes at byte {} of {}", size, place, bytes.size()));
+    }
+    place += static_cast<std::size_t>(size);
+  }
+}
+
 Image decode(std::span<const std::byte> bytes) {
+  require_attributes_inside(bytes);
   MemoryIn stream(bytes);
   Imf::InputFile file(stream, 0);
   if (!file.isComplete()) throw std::runtime_error("was not written to its end");

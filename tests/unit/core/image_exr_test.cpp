@@ -2,6 +2,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfRgbaFile.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -147,6 +149,18 @@ TEST(Exr, DamagedBytesNeverEscape) {
     } catch (const InputError&) {
     }
   }
+}
+
+// A header of some hundred bytes would make OpenEXR ask for two gigabytes.
+TEST(Exr, AnAttributeBeyondTheFileIsRefusedBeforeMemoryIsAskedFor) {
+  std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
+  const std::string_view name("channels\0chlist", 15);
+  const auto* text = reinterpret_cast<const char*>(bytes.data());
+  const std::size_t size = std::string_view(text, bytes.size()).find(name) + name.size() + 1;
+  bytes[size + 3] = std::byte{0x7F};
+  EXPECT_THAT([&] { (void)decode_exr(bytes, "large.exr"); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("large.exr: "), HasSubstr("attribute of"),
+                                              HasSubstr(fmt::format("at byte {}", size + 4)))));
 }
 
 TEST(Exr, TellsAbsentFromBroken) {
