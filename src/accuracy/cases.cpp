@@ -30,6 +30,13 @@ double root_mean_square(const std::vector<float>& values) {
   return values.empty() ? 0 : std::sqrt(squares / static_cast<double>(values.size()));
 }
 
+// Buffers and images; what a frame moves stands among them (measure/contract/memory_ledger.hpp).
+std::uint64_t bytes_held(const record::Counts& memory) {
+  std::uint64_t bytes = 0;
+  for (const auto& [kind, of_kind] : memory) bytes += kind == "moved" ? 0 : of_kind;
+  return bytes;
+}
+
 core::Image in_eight_bits(core::Image image) {
   for (float& value : image.rgba) {
     value = std::round(std::clamp(value, 0.0F, 1.0F) * 255.0F) / 255.0F;
@@ -58,6 +65,7 @@ AccuracyCase accuracy_case(const record::Record& record, const PictureError& err
                       .factors = record.factors,
                       .time_ns = summary ? std::optional(summary->median) : std::nullopt,
                       .samples = {},
+                      .memory = {},
                       .rmse = error.rmse,
                       .largest = error.largest,
                       .error_99 = error.error_99,
@@ -65,6 +73,7 @@ AccuracyCase accuracy_case(const record::Record& record, const PictureError& err
                       .arithmetic = error.arithmetic};
   const auto samples = record.counters.find("samples");
   if (samples != record.counters.end()) result.samples = samples->second;
+  if (!record.memory.empty()) result.memory = bytes_held(record.memory);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "report/figure.hpp"
@@ -14,10 +15,35 @@
 namespace triptych::report {
 namespace {
 
+struct Axis {
+  std::string title;
+  std::string unit;  // of a value, after it
+};
+Axis axis_of(Cost cost) {
+  switch (cost) {
+    case Cost::time:
+      return {"time of a frame, ms", "ms"};
+    case Cost::samples:
+      return {"samples taken", "samples"};
+    case Cost::memory:
+      return {"held on the device, MiB", "MiB"};
+  }
+  return {};
+}
+
 std::optional<double> cost_of(const accuracy::AccuracyCase& each, Cost cost) {
-  if (cost == Cost::time && each.time_ns) return *each.time_ns / 1e6;
-  if (cost == Cost::time || !each.samples) return std::nullopt;
-  return static_cast<double>(*each.samples);
+  const auto in = [](const auto& value, double unit) {
+    return value ? std::optional(static_cast<double>(*value) / unit) : std::nullopt;
+  };
+  switch (cost) {
+    case Cost::time:
+      return in(each.time_ns, 1e6);
+    case Cost::samples:
+      return in(each.samples, 1);
+    case Cost::memory:
+      return in(each.memory, 1 << 20);
+  }
+  return std::nullopt;
 }
 
 // What the colour tells: of configurations that stand alone the technique, else there would be as
@@ -44,11 +70,10 @@ class Diagram {
         cost_(cost),
         figure_(title + " on " + scene.device,
                 {.title = "RMSE against the limit", .logarithmic = true},
-                {.title = cost == Cost::time ? "time of a frame, ms" : "samples taken",
-                 .logarithmic = true},
-                230, 150) {}
+                {.title = axis_of(cost).title, .logarithmic = true}, 230, 150) {}
 
   [[nodiscard]] std::string svg() {
+    find_front();
     name_front();
     for (const accuracy::AccuracyFamily& family : scene_.families) add_family(family);
     if (figure_.empty()) return {};
@@ -58,10 +83,22 @@ class Diagram {
   }
 
  private:
+  // Of the cost that is shown: which is fastest says nothing of memory.
+  void find_front() {
+    std::vector<std::size_t> shown;
+    for (std::size_t i = 0; i < scene_.cases.size(); ++i) {
+      if (place_of(i)) shown.push_back(i);
+    }
+    std::ranges::sort(shown, {},
+                      [this](std::size_t i) { return std::pair(place_of(i)->y, place_of(i)->x); });
+    for (const std::size_t i : shown) {
+      if (front_.empty() || place_of(i)->x < place_of(front_.back())->x) front_.push_back(i);
+    }
+  }
   void name_front() {
     for (const accuracy::AccuracyFamily& family : scene_.families) {
       const bool in_front = std::ranges::any_of(family.members, [&](std::size_t i) {
-        return std::ranges::find(scene_.front, i) != scene_.front.end();
+        return std::ranges::find(front_, i) != front_.end();
       });
       if (!in_front || named_.size() == colour_count) continue;
       named_.insert(colour_name(family, scene_.cases[family.members.front()]));
@@ -90,8 +127,8 @@ class Diagram {
       const accuracy::AccuracyCase& each = scene_.cases[i];
       places.push_back(*place);
       figure_.point(*place, {.colour = colour(colour_name(family, each)), .opacity = 0.8},
-                    fmt::format("{}: RMSE {:.3g}, {:.3g}{}", each.configuration, place->x, place->y,
-                                cost_ == Cost::time ? " ms" : " samples"));
+                    fmt::format("{}: RMSE {:.3g}, {:.3g} {}", each.configuration, place->x,
+                                place->y, axis_of(cost_).unit));
     }
     if (places.size() > 1) {
       const std::string name = colour_name(family, scene_.cases[family.members.front()]);
@@ -100,11 +137,8 @@ class Diagram {
   }
   void add_front() {
     std::vector<Figure::Place> places;
-    for (const std::size_t i : scene_.front) {
-      if (const auto place = place_of(i)) places.push_back(*place);
-    }
-    std::ranges::sort(places, {}, &Figure::Place::x);
-    if (places.empty()) return;
+    for (const std::size_t i : front_) places.push_back(*place_of(i));
+    std::ranges::reverse(places);
     figure_.line(places, {.colour = "ink", .width = 1.6}, "the front");
     for (const auto& place : places) figure_.point(place, {.colour = "ink", .hollow = true});
     figure_.legend("the front", {.colour = "ink"}, true);
@@ -116,6 +150,7 @@ class Diagram {
   const accuracy::AccuracyScene& scene_;
   Cost cost_;
   Figure figure_;
+  std::vector<std::size_t> front_;  // by rising cost
   std::set<std::string> named_;
   std::map<std::string, std::string_view> colours_;
 };

@@ -174,6 +174,7 @@ std::string accuracy_section(const PlanData& plan) {
       any([](const accuracy::AccuracyCase& each) { return each.time_ns.has_value(); });
   const bool counted =
       any([](const accuracy::AccuracyCase& each) { return each.samples.has_value(); });
+  const bool held = any([](const accuracy::AccuracyCase& each) { return each.memory.has_value(); });
   std::string text =
       "<h3>Run time against error</h3><p>The error is the root mean square over all channels, in "
       "linear float, against the picture that the scene tends to as its sampling is refined. A "
@@ -189,6 +190,14 @@ std::string accuracy_section(const PlanData& plan) {
   if (counted) {
     text += "<p>The same against the samples taken, which no clock disturbs.</p>" +
             accuracy_chart(scenes, Cost::samples);
+  }
+  if (held) {
+    text +=
+        folded("Memory against error",
+               "<p>The same against the bytes that a configuration holds on the device: data, "
+               "tables, bricks and pictures. Cells packed for fetching take four or eight times "
+               "the voxels’.</p>" +
+                   accuracy_chart(scenes, Cost::memory));
   }
   text += folded("Orders of all families", order_table(scenes)) +
           folded("What an error is made of: each factor switched alone", parts_table(scenes));

@@ -13,7 +13,12 @@ namespace {
 const double decade = std::log(10.0);
 
 AccuracyCase at(double time_ns, double rmse) {
-  return {.configuration = {}, .factors = {}, .time_ns = time_ns, .samples = {}, .rmse = rmse};
+  return {.configuration = {},
+          .factors = {},
+          .time_ns = time_ns,
+          .samples = {},
+          .memory = {},
+          .rmse = rmse};
 }
 
 // In squares of a decade of time and one of error.

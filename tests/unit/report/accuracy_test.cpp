@@ -14,6 +14,7 @@ accuracy::AccuracyCase at(const std::string& step, double time, double rmse) {
           .factors = {{"data", "ball"}, {"step", step}},
           .time_ns = time,
           .samples = {},
+          .memory = 3U << 20,
           .rmse = rmse};
 }
 
@@ -38,6 +39,22 @@ TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
   EXPECT_THAT(html, HasSubstr("the front"));
   EXPECT_THAT(html, testing::Not(HasSubstr("step=0.125:")));  // the one without error
   EXPECT_EQ(accuracy_chart(scenes, Cost::samples), "");
+  EXPECT_THAT(accuracy_chart(scenes, Cost::memory), HasSubstr("step=2: RMSE 0.004, 3 MiB"));
+}
+
+// Each axis has its own front: the most accurate that has an error holds the least, so it is alone.
+TEST(AccuracyChart, DrawsTheFrontOfWhatItShows) {
+  std::vector<accuracy::AccuracyScene> scenes{some_scene()};
+  scenes[0].cases[2].memory = 1U << 20;
+  const auto rings = [&scenes](Cost cost) {
+    const std::string html = accuracy_chart(scenes, cost);
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = html.find("class=\"line ink\"", at)) != std::string::npos; ++at)
+      ++count;
+    return count;
+  };
+  EXPECT_EQ(rings(Cost::time), 1 + 3 + 1);  // line, points, legend
+  EXPECT_EQ(rings(Cost::memory), 1 + 1 + 1);
 }
 
 TEST(AccuracySection, TellsOrdersTimesAndParts) {
@@ -51,6 +68,7 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
   EXPECT_THAT(text, HasSubstr("1 of 5"));  // dominated
   EXPECT_THAT(text, HasSubstr("step 0.125 → 0.25"));
   EXPECT_THAT(text, HasSubstr("time of a frame, ms"));
+  EXPECT_THAT(text, HasSubstr("held on the device, MiB"));
 }
 
 TEST(AccuracySection, ComparesDevicesByTheArea) {
