@@ -23,6 +23,7 @@ namespace {
 constexpr std::array<const char*, 4> colour_channels{"R", "G", "B", "A"};
 constexpr const char* depth_channel = "Z";
 constexpr const char* id_channel = "id";
+constexpr int largest_side = 1 << 16;  // of an image
 
 class MemoryOut : public Imf::OStream {
  public:
@@ -130,7 +131,6 @@ void require_channels(const Imf::ChannelList& channels) {
 // An image of the header's size. A header may claim any size: what no compression of this file's
 // length could hold is refused before memory is asked for.
 Image allocate(const Imf::Header& header, std::size_t file_bytes) {
-  constexpr std::int64_t largest_side = 1 << 16;
   constexpr std::size_t most_pixels_per_byte = 4096;
   const Imath::Box2i window = header.dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
@@ -175,7 +175,17 @@ void require_attributes_inside(std::span<const std::byte> bytes) {
   }
 }
 
+// OpenEXR takes memory for some rows of a picture before its size can be asked.
+void limit_size() {
+  static const bool limited = [] {
+    Imf::Header::setMaxImageSize(largest_side, largest_side);
+    return true;
+  }();
+  static_cast<void>(limited);
+}
+
 Image decode(std::span<const std::byte> bytes) {
+  limit_size();
   require_attributes_inside(bytes);
   MemoryIn stream(bytes);
   Imf::InputFile file(stream, 0);

@@ -163,6 +163,19 @@ TEST(Exr, AnAttributeBeyondTheFileIsRefusedBeforeMemoryIsAskedFor) {
                                               HasSubstr(fmt::format("at byte {}", size + 4)))));
 }
 
+// Of eight million columns OpenEXR would take half a gigabyte for the first rows.
+TEST(Exr, AWindowThatIsTooWideIsRefusedBeforeMemoryIsAskedFor) {
+  std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
+  const std::string_view name("dataWindow\0box2i", 16);
+  const auto* text = reinterpret_cast<const char*>(bytes.data());
+  const std::size_t value =
+      std::string_view(text, bytes.size()).find(name) + name.size() + 1 + sizeof(std::int32_t);
+  const std::int32_t right = 0x7A004D;
+  std::memcpy(bytes.data() + value + 2 * sizeof(std::int32_t), &right, sizeof(right));
+  EXPECT_THAT([&] { (void)decode_exr(bytes, "wide.exr"); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("wide.exr: "), HasSubstr("65536"))));
+}
+
 TEST(Exr, TellsAbsentFromBroken) {
   const TemporaryFolder folder;
   EXPECT_THROW((void)read_exr(folder.path() / "none.exr"), IoError);
