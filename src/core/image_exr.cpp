@@ -12,6 +12,7 @@
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "core/file.hpp"
@@ -152,26 +153,36 @@ Image allocate(const Imf::Header& header, std::size_t file_bytes) {
 
 // OpenEXR asks for as much memory as an attribute states before it looks whether the file goes on
 // so far. After magic number and version an attribute is a name and a type, each ended by a zero,
-// its size in 32 bits and its value; an empty name ends them.
+// its size in 32 bits and its value; an empty name ends them. Of channels – a name and 16 bytes
+// each, up to an empty name – it reads the list, whatever size is stated.
 void require_attributes_inside(std::span<const std::byte> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::size_t place = 8;
-  const auto skip_text = [&] {
-    const auto end = std::ranges::find(bytes.subspan(place), std::byte{0});
-    const auto length = static_cast<std::size_t>(end - bytes.begin()) - place;
-    place = std::min(bytes.size(), place + length + 1);
-    return length;
+  const auto take_text = [&] {
+    const std::size_t end = std::min(text.find('\0', place), text.size());
+    const std::string_view taken = text.substr(place, end - place);
+    place = std::min(end + 1, text.size());
+    return taken;
   };
-  while (place < bytes.size() && skip_text() > 0) {
-    skip_text();
+  while (place < text.size() && !take_text().empty()) {
+    const bool channels = take_text() == "chlist";
     std::int32_t size = 0;
-    if (bytes.size() - place < sizeof(size)) return;  // OpenEXR says that it ends here
-    std::memcpy(&size, bytes.data() + place, sizeof(size));
+    if (text.size() - place < sizeof(size)) return;  // OpenEXR says that it ends here
+    std::memcpy(&size, text.data() + place, sizeof(size));
     place += sizeof(size);
-    if (size < 0 || static_cast<std::size_t>(size) > bytes.size() - place) {
+    if (size < 0 || static_cast<std::size_t>(size) > text.size() - place) {
       throw std::runtime_error(
-          fmt::format("has an attribute of {} bytes at byte {} of {}", size, place, bytes.size()));
+          fmt::format("has an attribute of {} bytes at byte {} of {}", size, place, text.size()));
     }
-    place += static_cast<std::size_t>(size);
+    const std::size_t end = place + static_cast<std::size_t>(size);
+    while (channels && place < text.size() && !take_text().empty()) {
+      place = std::min(place + 16, text.size());
+    }
+    if (channels && place != end) {
+      throw std::runtime_error(
+          fmt::format("has channels that end at byte {}, and not at {} as stated", place, end));
+    }
+    place = end;
   }
 }
 

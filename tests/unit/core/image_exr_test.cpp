@@ -163,6 +163,15 @@ TEST(Exr, AnAttributeBeyondTheFileIsRefusedBeforeMemoryIsAskedFor) {
                                               HasSubstr(fmt::format("at byte {}", size + 4)))));
 }
 
+TEST(Exr, ChannelsThatEndElsewhereThanStatedAreRefused) {
+  std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
+  const std::string_view first("A\0\2\0\0\0", 6);
+  const auto* text = reinterpret_cast<const char*>(bytes.data());
+  bytes[std::string_view(text, bytes.size()).find(first) + 1] = std::byte{0x94};
+  EXPECT_THAT([&] { (void)decode_exr(bytes, "channels.exr"); },
+              ThrowsMessage<InputError>(HasSubstr("channels that end at byte")));
+}
+
 // Of eight million columns OpenEXR would take half a gigabyte for the first rows.
 TEST(Exr, AWindowThatIsTooWideIsRefusedBeforeMemoryIsAskedFor) {
   std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
