@@ -121,20 +121,22 @@ std::optional<Order> fit_order(std::span<const StepError> points) {
   return Order{fit.line.slope, t * fit.slope_error, x.size()};
 }
 
-std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases) {
+std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases, const CostOf& cost_of) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (cases[i].time_ns) order.push_back(i);
+    if (cost_of(cases[i])) order.push_back(i);
   }
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-    return std::pair(*cases[a].time_ns, cases[a].rmse) <
-           std::pair(*cases[b].time_ns, cases[b].rmse);
-  });
+  std::ranges::stable_sort(
+      order, {}, [&](std::size_t i) { return std::pair(*cost_of(cases[i]), cases[i].rmse); });
   std::vector<std::size_t> front;
   for (const std::size_t i : order) {
     if (front.empty() || cases[i].rmse < cases[front.back()].rmse) front.push_back(i);
   }
   return front;
+}
+
+std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases) {
+  return pareto_front(cases, [](const AccuracyCase& each) { return each.time_ns; });
 }
 
 std::vector<Dominated> dominated(std::span<const AccuracyCase> cases,

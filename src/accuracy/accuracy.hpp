@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -54,8 +55,11 @@ struct Order {
 // nullopt for fewer than three such points: the error is rounding, or too little was measured.
 [[nodiscard]] std::optional<Order> fit_order(std::span<const StepError> points);
 
-// The indices that no other one beats on both axes, by rising time; of equals the first. What was
-// not timed is not among them.
+// The indices that no other one beats in cost and error both, by rising cost; of equals the first.
+// What has no cost is not among them. Without `cost_of`: by time.
+using CostOf = std::function<std::optional<double>(const AccuracyCase&)>;
+[[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases,
+                                                    const CostOf& cost_of);
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases);
 
 // For each configuration off the front the one on it that beats it on both axes, the fastest.

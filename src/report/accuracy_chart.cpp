@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 #include <sstream>
-#include <utility>
 #include <vector>
 
 #include "report/figure.hpp"
@@ -85,15 +84,10 @@ class Diagram {
  private:
   // Of the cost that is shown: which is fastest says nothing of memory.
   void find_front() {
-    std::vector<std::size_t> shown;
-    for (std::size_t i = 0; i < scene_.cases.size(); ++i) {
-      if (place_of(i)) shown.push_back(i);
-    }
-    std::ranges::sort(shown, {},
-                      [this](std::size_t i) { return std::pair(place_of(i)->y, place_of(i)->x); });
-    for (const std::size_t i : shown) {
-      if (front_.empty() || place_of(i)->x < place_of(front_.back())->x) front_.push_back(i);
-    }
+    front_ = accuracy::pareto_front(scene_.cases, [this](const accuracy::AccuracyCase& each) {
+      const auto place = place_of(each);
+      return place ? std::optional(place->y) : std::nullopt;
+    });
   }
   void name_front() {
     for (const accuracy::AccuracyFamily& family : scene_.families) {
@@ -105,8 +99,7 @@ class Diagram {
     }
   }
   // What has no error or no cost has no place on such axes.
-  [[nodiscard]] std::optional<Figure::Place> place_of(std::size_t i) const {
-    const accuracy::AccuracyCase& each = scene_.cases[i];
+  [[nodiscard]] std::optional<Figure::Place> place_of(const accuracy::AccuracyCase& each) const {
     const auto paid = cost_of(each, cost_);
     if (!paid || !(*paid > 0) || !(each.rmse > 0)) return std::nullopt;
     return Figure::Place{each.rmse, *paid};
@@ -122,9 +115,9 @@ class Diagram {
   void add_family(const accuracy::AccuracyFamily& family) {
     std::vector<Figure::Place> places;
     for (const std::size_t i : family.members) {
-      const auto place = place_of(i);
-      if (!place) continue;
       const accuracy::AccuracyCase& each = scene_.cases[i];
+      const auto place = place_of(each);
+      if (!place) continue;
       places.push_back(*place);
       figure_.point(*place, {.colour = colour(colour_name(family, each)), .opacity = 0.8},
                     fmt::format("{}: RMSE {:.3g}, {:.3g} {}", each.configuration, place->x,
@@ -137,7 +130,7 @@ class Diagram {
   }
   void add_front() {
     std::vector<Figure::Place> places;
-    for (const std::size_t i : front_) places.push_back(*place_of(i));
+    for (const std::size_t i : front_) places.push_back(*place_of(scene_.cases[i]));
     std::ranges::reverse(places);
     figure_.line(places, {.colour = "ink", .width = 1.6}, "the front");
     for (const auto& place : places) figure_.point(place, {.colour = "ink", .hollow = true});
