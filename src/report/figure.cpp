@@ -143,7 +143,7 @@ class Figure::Drawing {
     double x = left_;
     double row = 0;
     for (const Entry& entry : figure_.entries_) {
-      const std::string text = shortened(entry.text);
+      const std::string text = shortened(entry.text, longest_entry);
       const double width = width_of(text) + 30;
       if (x > left_ && x + width > total_width_) {
         x = left_;
@@ -165,7 +165,8 @@ class Figure::Drawing {
                                        line_attributes(entry.style), x, y)
                          : mark_element(x + 8, y, entry.style, {});
       text += "<g>" + title_element(entry.text) +
-              text_element(x + 18, y + 4, "start", escape(shortened(entry.text))) + "</g>";
+              text_element(x + 18, y + 4, "start", escape(shortened(entry.text, longest_entry))) +
+              "</g>";
     }
     return text;
   }

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double letter = 6.3;  // mean advance of 11 px text
 constexpr double mark_radius = 3.2;
-constexpr std::size_t longest_name = 34;
 
 // Characters, not bytes.
 std::size_t length_of(std::string_view text) {
@@ -45,8 +44,8 @@ double width_of(std::string_view text) {
   return letter * static_cast<double>(length_of(text));
 }
 
-std::string shortened(std::string_view text) {
-  if (length_of(text) <= longest_name) return std::string(text);
+std::string shortened(std::string_view text, std::size_t longest) {
+  if (length_of(text) <= longest) return std::string(text);
   const auto byte_of = [&](std::size_t character) {
     std::size_t at = 0;
     for (; at < text.size(); ++at) {
@@ -55,7 +54,7 @@ std::string shortened(std::string_view text) {
     }
     return at;
   };
-  const std::size_t half = longest_name / 2;
+  const std::size_t half = longest / 2;
   return std::string(text.substr(0, byte_of(half))) + "…" +
          std::string(text.substr(byte_of(length_of(text) - half + 1)));
 }

@@ -11,8 +11,13 @@ namespace triptych::report {
 // Of a text of the style sheet's size, by the mean advance of its letters.
 [[nodiscard]] double width_of(std::string_view text);
 
-// A name of more than 34 characters without its middle, which says least.
-[[nodiscard]] std::string shortened(std::string_view text);
+// Characters of a name beside an axis, and of one in a legend, which has a line of its own where it
+// needs it.
+inline constexpr std::size_t longest_name = 34;
+inline constexpr std::size_t longest_entry = 64;
+
+// A name of more characters than that without its middle, which says least.
+[[nodiscard]] std::string shortened(std::string_view text, std::size_t longest = longest_name);
 
 // What a pointer over the element shows; nothing for no text.
 [[nodiscard]] std::string title_element(std::string_view text);

@@ -137,6 +137,14 @@ TEST(Figure, LabelsDoNotCoverEachOther) {
   EXPECT_THAT(figure.svg(), Not(HasSubstr("second")));
 }
 
+// Whose middle tells them apart, as factors in the order of their names do.
+TEST(Figure, ALegendTellsLongNamesApart) {
+  Figure figure("", {}, {}, 100, 100);
+  figure.point({1, 1}, {}, "");
+  figure.legend("precision=fp32, quadrature=cells, sampler=manual", {});
+  EXPECT_THAT(figure.svg(), HasSubstr(">precision=fp32, quadrature=cells, sampler=manual</text>"));
+}
+
 TEST(WellFormed, TellsWhatIsNot) {
   EXPECT_EQ(xml_fault("<a b=\"c\"><d/>x &amp; y</a>"), "");
   for (const char* bad : {"<a>", "<a></b>", "<a b=c/>", "<a b=\"<\"/>", "<a>&x;</a>", "<a/><a/>",
