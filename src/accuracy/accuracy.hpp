@@ -22,6 +22,7 @@ struct AccuracyCase {
   std::optional<double> time_ns;         // median of the timed frames, where there were any
   std::optional<std::uint64_t> samples;  // taken, where they were counted
   std::optional<std::uint64_t> memory;   // bytes held on the device, where they were told
+  std::optional<double> joules;          // of a frame, by all meters, where any told it
   double rmse = 0;                       // against the limit
   double largest = 0;
   double error_99 = 0;  // 99th percentile of the pixels' largest error

@@ -37,6 +37,13 @@ std::uint64_t bytes_held(const record::Counts& memory) {
   return bytes;
 }
 
+// No meter's part is another's (measure/system/energy_meters.hpp).
+double joules_of(const record::Counts& microjoules) {
+  double sum = 0;
+  for (const auto& [meter, told] : microjoules) sum += static_cast<double>(told);
+  return sum * 1e-6;
+}
+
 core::Image in_eight_bits(core::Image image) {
   for (float& value : image.rgba) {
     value = std::round(std::clamp(value, 0.0F, 1.0F) * 255.0F) / 255.0F;
@@ -66,6 +73,7 @@ AccuracyCase accuracy_case(const record::Record& record, const PictureError& err
                       .time_ns = summary ? std::optional(summary->median) : std::nullopt,
                       .samples = {},
                       .memory = {},
+                      .joules = {},
                       .rmse = error.rmse,
                       .largest = error.largest,
                       .error_99 = error.error_99,
@@ -74,6 +82,7 @@ AccuracyCase accuracy_case(const record::Record& record, const PictureError& err
   const auto samples = record.counters.find("samples");
   if (samples != record.counters.end()) result.samples = samples->second;
   if (!record.memory.empty()) result.memory = bytes_held(record.memory);
+  if (!record.energy.empty()) result.joules = joules_of(record.energy);
   return result;
 }
 

@@ -63,8 +63,9 @@ void evaluate(AccuracyScene& scene);
 
 // {"device", "scene", "data", "uncertainty", "representation", "eight_bits", "nothing",
 // "hypervolume", "configurations": [{"configuration", "time_ns", "samples", "memory_bytes",
-// "rmse", "largest", "error_99", "lattice", "arithmetic", "front"}], "families": [{"name", "order",
-// "half_width", "configurations"}]}; null for what was not timed, counted or found
+// "joules", "rmse", "largest", "error_99", "lattice", "arithmetic", "front"}], "families":
+// [{"name", "order", "half_width", "configurations"}]}; null for what was not timed, counted or
+// found
 [[nodiscard]] nlohmann::json to_json(const AccuracyScene& scene);
 
 }  // namespace triptych::accuracy

@@ -18,6 +18,7 @@ Json case_json(const AccuracyCase& each, bool front) {
           {"time_ns", optional_number(each.time_ns)},
           {"samples", optional_number(each.samples)},
           {"memory_bytes", optional_number(each.memory)},
+          {"joules", optional_number(each.joules)},
           {"rmse", each.rmse},
           {"largest", each.largest},
           {"error_99", each.error_99},

@@ -115,6 +115,7 @@ struct Record {
   Counts prepare_cost;
   std::string counted_by;   // by what: emulator, its version, the processor it shows
   Counts memory;            // bytes allocated on the device for this configuration, by kind
+  Counts energy;            // microjoules of a frame, by meter; empty where no meter told it
   Counts counters;          // ours; empty unless a counting frame was made
   Counts statistics;        // the driver's
   std::string image;        // content hash, key of Store::image(); empty when there is none

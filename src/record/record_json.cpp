@@ -175,6 +175,7 @@ void visit_fields(auto& record, Visit&& visit) requires
   visit("prepare_cost", record.prepare_cost);
   visit("counted_by", record.counted_by);
   visit("memory", record.memory);
+  visit("energy", record.energy);
   visit("counters", record.counters);
   visit("statistics", record.statistics);
   visit("image", record.image);

@@ -168,6 +168,7 @@ class PartsOf {
     read_map("cost", record, r.cost);
     read_map("prepare_cost", record, r.prepare_cost);
     read_map("memory", record, r.memory);
+    read_map("energy", record, r.energy);
     read_map("statistic", record, r.statistics);
     read_map("precision", record, r.precision);
     same_as_.each(record, [&](Reader& row) { row >> r.same_as; });
@@ -200,6 +201,7 @@ void insert_record(const SQLite::Database& database, const Record& r) {
   insert_map(database, "cost", seq, r.cost);
   insert_map(database, "prepare_cost", seq, r.prepare_cost);
   insert_map(database, "memory", seq, r.memory);
+  insert_map(database, "energy", seq, r.energy);
   insert_map(database, "statistic", seq, r.statistics);
   insert_map(database, "precision", seq, r.precision);
   if (!r.same_as.empty()) execute(database, "INSERT INTO same_as VALUES (?, ?)", seq, r.same_as);
@@ -221,6 +223,7 @@ std::vector<Record> read_records(const SQLite::Database& database, std::string_v
   read_map(database, "cost", run, by_seq, &Record::cost);
   read_map(database, "prepare_cost", run, by_seq, &Record::prepare_cost);
   read_map(database, "memory", run, by_seq, &Record::memory);
+  read_map(database, "energy", run, by_seq, &Record::energy);
   read_map(database, "statistic", run, by_seq, &Record::statistics);
   read_map(database, "precision", run, by_seq, &Record::precision);
   read_rows(database, "same_as", "t.configuration", "t.record", run, by_seq,

@@ -26,6 +26,8 @@ Axis axis_of(Cost cost) {
       return {"samples taken", "samples"};
     case Cost::memory:
       return {"held on the device, MiB", "MiB"};
+    case Cost::energy:
+      return {"energy of a frame, J", "J"};
   }
   return {};
 }
@@ -41,6 +43,8 @@ std::optional<double> cost_of(const accuracy::AccuracyCase& each, Cost cost) {
       return in(each.samples, 1);
     case Cost::memory:
       return in(each.memory, 1 << 20);
+    case Cost::energy:
+      return in(each.joules, 1);
   }
   return std::nullopt;
 }

@@ -213,6 +213,8 @@ Columns<RecordSource> record_columns(const RecordNames& names) {
   append(columns, names.cost, "cost_", {"", "integer", "", "of one frame, "}, &Record::cost);
   append(columns, names.memory, "memory_bytes_",
          {"", "integer", "bytes", "on the device for this configuration, "}, &Record::memory);
+  append(columns, names.energy, "energy_uj_",
+         {"", "integer", "microjoules", "of a frame, by meter "}, &Record::energy);
   return columns;
 }
 

@@ -46,7 +46,7 @@ struct RecordSource {
 
 // The names that make columns of their own.
 struct RecordNames {
-  std::set<std::string> factors, cost, memory;
+  std::set<std::string> factors, cost, memory, energy;
 };
 
 [[nodiscard]] Columns<RunSource> run_columns();

@@ -201,6 +201,7 @@ RecordNames names_of(const std::vector<RunInStore>& runs) {
     names.factors.merge(store->names(run.id, "factor"));
     names.cost.merge(store->names(run.id, "cost"));
     names.memory.merge(store->names(run.id, "memory"));
+    names.energy.merge(store->names(run.id, "energy"));
   }
   return names;
 }

@@ -175,6 +175,8 @@ std::string accuracy_section(const PlanData& plan) {
   const bool counted =
       any([](const accuracy::AccuracyCase& each) { return each.samples.has_value(); });
   const bool held = any([](const accuracy::AccuracyCase& each) { return each.memory.has_value(); });
+  const bool metered =
+      any([](const accuracy::AccuracyCase& each) { return each.joules.has_value(); });
   std::string text =
       "<h3>Run time against error</h3><p>The error is the root mean square over all channels, in "
       "linear float, against the picture that the scene tends to as its sampling is refined. A "
@@ -198,6 +200,12 @@ std::string accuracy_section(const PlanData& plan) {
                "tables, bricks and pictures. Cells packed for fetching take four or eight times "
                "the voxels’.</p>" +
                    accuracy_chart(scenes, Cost::memory));
+  }
+  if (metered) {
+    text += folded("Energy against error",
+                   "<p>The same against the joules that the machine’s meters told of a frame, its "
+                   "idle share and other programs’ included.</p>" +
+                       accuracy_chart(scenes, Cost::energy));
   }
   text += folded("Orders of all families", order_table(scenes)) +
           folded("What an error is made of: each factor switched alone", parts_table(scenes));

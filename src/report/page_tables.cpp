@@ -161,6 +161,8 @@ std::string counts_section(const PlanData& plan) {
           [](const record::Record& r) -> const record::Counts& { return r.cost; });
   section("Memory allocated on the device, bytes",
           [](const record::Record& r) -> const record::Counts& { return r.memory; });
+  section("Energy of a frame, microjoules by meter, the machine’s other work included",
+          [](const record::Record& r) -> const record::Counts& { return r.energy; });
   section("Counters of our own, from a build that is never timed",
           [](const record::Record& r) -> const record::Counts& { return r.counters; });
   section("Pipeline statistics, as the drivers tell them; an empty cell: it tells nothing",

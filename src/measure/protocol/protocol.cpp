@@ -141,7 +141,8 @@ record::Record count_instructions(Prepared& prepared, const InstructionCounter& 
 }
 
 Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Work work_kind,
-                    const std::vector<record::ClockTrust>& clocks, const std::string& name) {
+                    const std::vector<record::ClockTrust>& clocks, const std::string& name,
+                    const EnergyMeters* meters) {
   if (!protocol.timed) return untimed(prepared, protocol);
   const Stopwatch whole;
   initialize_benchmarks();
@@ -172,10 +173,13 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   if (protocol.counters) {
     record.counters = counted([&] { return prepared.frame(Purpose::counters); }).counts;
   }
-  BenchmarkResult loop = time_loop(name + "/loop", record.loop_frames,
-                                   [&] { static_cast<void>(prepared.frame(Purpose::timing)); });
+  const auto draw = [&] { static_cast<void>(prepared.frame(Purpose::timing)); };
+  BenchmarkResult loop = time_loop(name + "/loop", record.loop_frames, draw);
   record.loop_wall_ns = loop.total_ns;
   work_ns += loop.total_ns;
+  if (meters != nullptr && protocol.least_loop_ns > 0) {
+    record.energy = counted([&] { return meters->of_a_frame(draw); });
+  }
 
   for (core::Json& entry : loop.entries) entries.push_back(std::move(entry));
   add_counts(entries, record.counters);

@@ -10,6 +10,7 @@
 #include "core/image.hpp"
 #include "measure/contract/backend.hpp"
 #include "measure/counting/instruction_counter.hpp"
+#include "measure/system/energy_meters.hpp"
 #include "record/record.hpp"
 
 namespace triptych::measure {
@@ -46,11 +47,12 @@ struct Measurement {
 };
 
 // Drives one prepared technique through the protocol; Google Benchmark drives the timed loop.
-// `work_kind` picks the clock in `clocks`. `name` becomes the benchmark's name.
+// `work_kind` picks the clock in `clocks`. `name` becomes the benchmark's name. Where there is a
+// loop, a second one tells energy by `meters`.
 [[nodiscard]] Measurement measure(Prepared& prepared, const Protocol& protocol,
                                   technique::Work work_kind,
                                   const std::vector<record::ClockTrust>& clocks,
-                                  const std::string& name);
+                                  const std::string& name, const EnergyMeters* meters = nullptr);
 
 // Nothing but the instructions of one frame, the third: drivers compile late and set up once within
 // the first two. The n-th frame is only ever compared with the n-th.

@@ -27,6 +27,7 @@ AccuracyCase at(double time, double rmse, double step = 1, const std::string& er
           .time_ns = time,
           .samples = {},
           .memory = {},
+          .joules = {},
           .rmse = rmse};
 }
 

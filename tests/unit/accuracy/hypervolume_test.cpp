@@ -18,6 +18,7 @@ AccuracyCase at(double time_ns, double rmse) {
           .time_ns = time_ns,
           .samples = {},
           .memory = {},
+          .joules = {},
           .rmse = rmse};
 }
 

@@ -63,16 +63,26 @@ TEST_F(StoreDamage, AChangedValueIsFoundByAVisit) {
 }
 
 TEST_F(StoreDamage, AChangedValueIsFoundWhereverItIs) {
-  for (const char* sql :
-       {"UPDATE run SET plan_hash = 'x'", "UPDATE run SET configurations = 2",
-        "UPDATE device SET driver_version = 'x'", "UPDATE device SET limits = '{}'",
-        "UPDATE clock SET trusted = 0", "UPDATE statistics_calibration SET verdict = 'x'",
-        "UPDATE record SET outcome = 'skipped'", "UPDATE record SET injected = ''",
-        "UPDATE sample SET ns = -ns", "DELETE FROM sample WHERE frame = 3", "DELETE FROM factor",
-        "UPDATE counter SET value = 1 WHERE name = 'rays_hit'", "DELETE FROM statistic",
-        "UPDATE cost SET value = value + 1", "UPDATE memory SET name = 'x'",
-        "UPDATE precision SET value = NULL", "UPDATE same_as SET configuration = 'x'",
-        "UPDATE image SET exr = x'00'", "UPDATE truth SET bound = x'00'"}) {
+  for (const char* sql : {"UPDATE run SET plan_hash = 'x'",
+                          "UPDATE run SET configurations = 2",
+                          "UPDATE device SET driver_version = 'x'",
+                          "UPDATE device SET limits = '{}'",
+                          "UPDATE clock SET trusted = 0",
+                          "UPDATE statistics_calibration SET verdict = 'x'",
+                          "UPDATE record SET outcome = 'skipped'",
+                          "UPDATE record SET injected = ''",
+                          "UPDATE sample SET ns = -ns",
+                          "DELETE FROM sample WHERE frame = 3",
+                          "DELETE FROM factor",
+                          "UPDATE counter SET value = 1 WHERE name = 'rays_hit'",
+                          "DELETE FROM statistic",
+                          "UPDATE cost SET value = value + 1",
+                          "UPDATE memory SET name = 'x'",
+                          "UPDATE energy SET value = value + 1",
+                          "UPDATE precision SET value = NULL",
+                          "UPDATE same_as SET configuration = 'x'",
+                          "UPDATE image SET exr = x'00'",
+                          "UPDATE truth SET bound = x'00'"}) {
     std::filesystem::copy_file(file_, folder_ / "kept",
                                std::filesystem::copy_options::overwrite_existing);
     change(sql);

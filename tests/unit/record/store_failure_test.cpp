@@ -79,7 +79,7 @@ TEST_F(StoreTest, OtherSchemaVersion) {
     for (const Mode mode : {Mode::read, Mode::append}) {
       EXPECT_THAT(refusal<core::InputError>(file_, mode),
                   AllOf(HasSubstr(std::string("schema version ") + version),
-                        HasSubstr("reads version 5"), HasSubstr(hint), HasSubstr("--store")));
+                        HasSubstr("reads version 6"), HasSubstr(hint), HasSubstr("--store")));
     }
   }
 }

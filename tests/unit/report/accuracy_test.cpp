@@ -15,6 +15,7 @@ accuracy::AccuracyCase at(const std::string& step, double time, double rmse) {
           .time_ns = time,
           .samples = {},
           .memory = 3U << 20,
+          .joules = 0.25,
           .rmse = rmse};
 }
 
@@ -40,6 +41,7 @@ TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
   EXPECT_THAT(html, testing::Not(HasSubstr("step=0.125:")));  // the one without error
   EXPECT_EQ(accuracy_chart(scenes, Cost::samples), "");
   EXPECT_THAT(accuracy_chart(scenes, Cost::memory), HasSubstr("step=2: RMSE 0.004, 3 MiB"));
+  EXPECT_THAT(accuracy_chart(scenes, Cost::energy), HasSubstr("step=2: RMSE 0.004, 0.25 J"));
 }
 
 // Each axis has its own front: the most accurate that has an error holds the least, so it is alone.
@@ -69,6 +71,7 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
   EXPECT_THAT(text, HasSubstr("step 0.125 → 0.25"));
   EXPECT_THAT(text, HasSubstr("time of a frame, ms"));
   EXPECT_THAT(text, HasSubstr("held on the device, MiB"));
+  EXPECT_THAT(text, HasSubstr("energy of a frame, J"));
 }
 
 TEST(AccuracySection, ComparesDevicesByTheArea) {

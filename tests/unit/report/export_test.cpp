@@ -93,6 +93,7 @@ TEST_F(ExportTest, ARowForEachRecordAndAColumnForEachFactor) {
     each.device_ns = {1, 3};
     each.device_clock_trusted = true;
     each.memory = {{"buffers", 7}};
+    each.energy = {{"package-0", 9}};
   });
   add("radius_scale=2", [](Record& each) {
     each.factors = {{"radius_scale", "2"}};
@@ -110,6 +111,7 @@ TEST_F(ExportTest, ARowForEachRecordAndAColumnForEachFactor) {
   EXPECT_EQ(records.at(0).at("median_wall_ns"), "4");
   EXPECT_EQ(records.at(0).at("clock"), "device");
   EXPECT_EQ(records.at(0).at("memory_bytes_buffers"), "7");
+  EXPECT_EQ(records.at(0).at("energy_uj_package-0"), "9");
   EXPECT_EQ(records.at(0).at("cost_device_code"), "");
   EXPECT_EQ(records.at(1).at("cost_device_code"), "5");
   EXPECT_EQ(rows("samples").size(), 5U);

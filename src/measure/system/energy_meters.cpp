@@ -1,0 +1,177 @@
+#include "measure/system/energy_meters.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <system_error>
+
+#include "measure/system/stopwatch.hpp"
+
+namespace triptych::measure {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <typename Value>
+std::optional<Value> value_of(const fs::path& file) {
+  std::ifstream stream(file);
+  Value value{};
+  if (stream >> value) return value;
+  return std::nullopt;
+}
+
+// The entries of a folder that begin so, in the order of their names; none where it is not there.
+std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
+  std::set<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (it->path().filename().string().starts_with(prefix)) found.insert(it->path());
+  }
+  return {found.begin(), found.end()};
+}
+
+}  // namespace
+
+// One meter over the frames: from its first renewal to its last.
+class EnergyMeters::Span {
+ public:
+  // Between frames: what the meter says after so many of them.
+  void see(std::uint64_t microjoules, int frames, double ns, std::uint64_t range) {
+    if (seen_ && microjoules != last_) {
+      if (renewed_) {
+        if (microjoules > last_)
+          sum_ += microjoules - last_;
+        else if (range > last_)
+          sum_ += range - last_ + microjoules;
+        frames_ = frames - first_frame_;
+        ns_ = ns - first_ns_;
+      } else {
+        first_frame_ = frames;
+        first_ns_ = ns;
+        renewed_ = true;
+      }
+    }
+    seen_ = true;
+    last_ = microjoules;
+  }
+  [[nodiscard]] bool is_enough() const {
+    constexpr double least_ns = 100e6;
+    return frames_ > 0 && ns_ >= least_ns;
+  }
+  [[nodiscard]] std::uint64_t of_a_frame() const {
+    return static_cast<std::uint64_t>(
+        std::llround(static_cast<double>(sum_) / static_cast<double>(frames_)));
+  }
+
+ private:
+  bool seen_ = false, renewed_ = false;
+  std::uint64_t last_ = 0, sum_ = 0;
+  int first_frame_ = 0, frames_ = 0;
+  double first_ns_ = 0, ns_ = 0;
+};
+
+EnergyMeters::EnergyMeters(const fs::path& system, const fs::path& nvml) {
+  find_processors(system);
+  find_intel_cards(system);
+  find_nvidia_cards(nvml);
+}
+
+std::vector<std::string> EnergyMeters::names() const {
+  std::vector<std::string> names;
+  for (const Meter& meter : meters_) names.push_back(meter.name);
+  return names;
+}
+
+// Of a package's parts the memory alone is no share of the package; `psys`, the whole machine, is
+// no part of anything else here, and would count the packages twice.
+void EnergyMeters::find_processors(const fs::path& system) {
+  for (const fs::path& zone : entries(system / "class/powercap", "intel-rapl:")) {
+    const std::string name = value_of<std::string>(zone / "name").value_or("");
+    if (!name.starts_with("package")) continue;
+    add_zone(zone, name);
+    for (const fs::path& part : entries(zone, zone.filename().string() + ":")) {
+      if (value_of<std::string>(part / "name") == "dram") add_zone(part, name + "/dram");
+    }
+  }
+}
+
+void EnergyMeters::add_zone(const fs::path& zone, const std::string& name) {
+  const fs::path file = zone / "energy_uj";
+  if (!value_of<std::uint64_t>(file)) return;
+  const auto range = value_of<std::uint64_t>(zone / "max_energy_range_uj");
+  meters_.push_back({name, [file] { return value_of<std::uint64_t>(file); }, range.value_or(0)});
+}
+
+void EnergyMeters::find_intel_cards(const fs::path& system) {
+  std::map<std::string, int> cards;
+  for (const fs::path& card : entries(system / "class/hwmon", "hwmon")) {
+    const std::string driver = value_of<std::string>(card / "name").value_or("");
+    const fs::path file = card / "energy1_input";
+    if ((driver != "i915" && driver != "xe") || !value_of<std::uint64_t>(file)) continue;
+    meters_.push_back({fmt::format("{}-{}", driver, cards[driver]++),
+                       [file] { return value_of<std::uint64_t>(file); }, 0});
+  }
+}
+
+// By the functions' names and types of nvml.h, version 12; a result of 0 is success.
+void EnergyMeters::find_nvidia_cards(const fs::path& nvml) {
+  using Card = struct nvmlDevice_st*;
+  void* library = ::dlopen(nvml.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  if (library == nullptr) return;
+  const auto find = [library]<typename F>(const char* name, F*& function) {
+    function = reinterpret_cast<F*>(::dlsym(library, name));
+    return function != nullptr;
+  };
+  int (*init)() = nullptr;
+  int (*count)(unsigned*) = nullptr;
+  int (*card_at)(unsigned, Card*) = nullptr;
+  int (*energy)(Card, unsigned long long*) = nullptr;
+  unsigned cards = 0;
+  const bool works = find("nvmlInit_v2", init) && find("nvmlDeviceGetCount_v2", count) &&
+                     find("nvmlDeviceGetHandleByIndex_v2", card_at) &&
+                     find("nvmlDeviceGetTotalEnergyConsumption", energy) && init() == 0 &&
+                     count(&cards) == 0;
+  for (unsigned i = 0; works && i < cards; ++i) {
+    Card card = nullptr;
+    unsigned long long millijoules = 0;
+    if (card_at(i, &card) != 0 || energy(card, &millijoules) != 0) continue;
+    meters_.push_back({fmt::format("nvidia-{}", i),
+                       [energy, card]() -> std::optional<std::uint64_t> {
+                         unsigned long long now = 0;
+                         if (energy(card, &now) != 0) return std::nullopt;
+                         return now * 1000;
+                       },
+                       0});
+  }
+}
+
+record::Counts EnergyMeters::of_a_frame(const std::function<void()>& draw) const {
+  constexpr double most_ns = 1e9;
+  constexpr int least_frames = 3;
+  std::vector<Span> spans(meters_.size());
+  const Stopwatch whole;
+  const auto see = [&](int frames) {
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+      const auto told = meters_[i].microjoules();
+      if (told) spans[i].see(*told, frames, whole.ns(), meters_[i].range);
+    }
+    return std::ranges::all_of(spans, &Span::is_enough);
+  };
+  int frames = 0;
+  while (!see(frames) && (frames < least_frames || whole.ns() < most_ns)) {
+    draw();
+    ++frames;
+  }
+  record::Counts told;
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    if (spans[i].is_enough()) told[meters_[i].name] = spans[i].of_a_frame();
+  }
+  return told;
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,147 @@
+#include "measure/system/energy_meters.hpp"
+
+#include <dlfcn.h>
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <thread>
+
+#include "core/file.hpp"
+#include "core/temporary_folder.hpp"
+#include "measure/protocol/protocol.hpp"
+#include "tests/unit/measure_run/scripted_prepared.hpp"
+
+namespace triptych::measure {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Pair;
+
+constexpr const char* no_nvml = "no such library";
+
+// The folders of a Linux machine.
+class EnergyMetersTest : public ::testing::Test {
+ protected:
+  void write(const std::string& file, const std::string& text) const {
+    const std::filesystem::path path = system_.path() / "class" / file;
+    std::filesystem::create_directories(path.parent_path());
+    core::write_file(text + "\n", path);
+  }
+  void zone(const std::string& folder, const std::string& name, const std::string& energy) const {
+    write("powercap/" + folder + "/name", name);
+    write("powercap/" + folder + "/energy_uj", energy);
+    write("powercap/" + folder + "/max_energy_range_uj", "10000");
+  }
+  [[nodiscard]] EnergyMeters meters() const { return EnergyMeters(system_.path(), no_nvml); }
+
+  core::TemporaryFolder system_;
+};
+
+// Long enough that ten of them last a tenth of a second.
+void take_a_while() {
+  std::this_thread::sleep_for(std::chrono::milliseconds(12));
+}
+
+TEST_F(EnergyMetersTest, AMachineWithoutAnyTellsNothingAndDrawsNothing) {
+  EXPECT_THAT(meters().names(), IsEmpty());
+  EXPECT_THAT(meters().of_a_frame([] { ADD_FAILURE() << "a frame was drawn"; }), IsEmpty());
+}
+
+TEST_F(EnergyMetersTest, PartsOfWhatIsCountedAlreadyAreNoMeters) {
+  zone("intel-rapl:0", "package-0", "1");
+  zone("intel-rapl:0/intel-rapl:0:0", "core", "1");
+  zone("intel-rapl:0/intel-rapl:0:1", "dram", "1");
+  zone("intel-rapl:1", "psys", "1");
+  zone("intel-rapl-mmio:0", "package-0", "1");
+  zone("intel-rapl:2", "package-1", "");  // as what only root may read
+  write("hwmon/hwmon0/name", "coretemp");
+  write("hwmon/hwmon0/energy1_input", "1");
+  write("hwmon/hwmon1/name", "xe");
+  write("hwmon/hwmon1/energy1_input", "1");
+  write("hwmon/hwmon2/name", "xe");
+  EXPECT_THAT(meters().names(), ElementsAre("package-0", "package-0/dram", "xe-0"));
+}
+
+// A meter that is renewed with every third frame: what lies before its first renewal and behind its
+// last does not count.
+TEST_F(EnergyMetersTest, CountsBetweenRenewals) {
+  zone("intel-rapl:0", "package-0", "1000");
+  int drawn = 0;
+  const record::Counts told = meters().of_a_frame([&] {
+    take_a_while();
+    ++drawn;
+    if (drawn % 3 == 2) {
+      zone("intel-rapl:0", "package-0", std::to_string(1000 + 90 * drawn));
+    }
+  });
+  EXPECT_THAT(told, ElementsAre(Pair("package-0", 90)));
+  EXPECT_GE(drawn, 11);
+}
+
+TEST_F(EnergyMetersTest, ACountMayBeginAnew) {
+  zone("intel-rapl:0", "package-0", "9000");
+  int drawn = 0;
+  const record::Counts told = meters().of_a_frame([&] {
+    take_a_while();
+    zone("intel-rapl:0", "package-0", std::to_string((9000 + 300 * ++drawn) % 10000));
+  });
+  EXPECT_THAT(told, ElementsAre(Pair("package-0", 300)));
+}
+
+TEST_F(EnergyMetersTest, OneThatStandsStillIsLeftOutAfterASecond) {
+  zone("intel-rapl:0", "package-0", "1000");
+  zone("intel-rapl:1", "package-1", "1000");
+  int drawn = 0;
+  const record::Counts told = meters().of_a_frame([&] {
+    take_a_while();
+    zone("intel-rapl:0", "package-0", std::to_string(1000 + ++drawn));
+  });
+  EXPECT_THAT(told, ElementsAre(Pair("package-0", 1)));
+  EXPECT_LE(drawn, 84);
+}
+
+TEST_F(EnergyMetersTest, OfLongFramesTwoAreEnough) {
+  zone("intel-rapl:0", "package-0", "1000");
+  int drawn = 0;
+  const record::Counts told = meters().of_a_frame([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(520));
+    zone("intel-rapl:0", "package-0", std::to_string(1000 + 7 * ++drawn));
+  });
+  EXPECT_EQ(drawn, 2);
+  EXPECT_THAT(told, ElementsAre(Pair("package-0", 7)));
+}
+
+TEST_F(EnergyMetersTest, NvidiasTellMillijoules) {
+  const EnergyMeters meters(system_.path(), FAKE_NVML);
+  EXPECT_THAT(meters.names(), ElementsAre("nvidia-0"));
+  void* library = ::dlopen(FAKE_NVML, RTLD_NOW);
+  ASSERT_NE(library, nullptr);
+  const auto take =
+      reinterpret_cast<void (*)(unsigned long long)>(::dlsym(library, "fake_nvml_take"));
+  const record::Counts told = meters.of_a_frame([&] {
+    take_a_while();
+    take(3);
+  });
+  EXPECT_THAT(told, ElementsAre(Pair("nvidia-0", 3000)));
+}
+
+TEST_F(EnergyMetersTest, ARecordTellsThemWhereItHasALoop) {
+  zone("intel-rapl:0", "package-0", "1000");
+  const EnergyMeters meters = this->meters();
+  int drawn = 0;
+  const auto energy_of = [&](const Protocol& protocol) {
+    ScriptedPrepared prepared([&](int) {
+      take_a_while();
+      zone("intel-rapl:0", "package-0", std::to_string(1000 + 20 * ++drawn));
+      return frame_of(12e6);
+    });
+    return measure(prepared, protocol, technique::Work::compute, {}, "test", &meters).record.energy;
+  };
+  EXPECT_THAT(energy_of({}), ElementsAre(Pair("package-0", 20)));
+  EXPECT_THAT(energy_of(brief_protocol), IsEmpty());
+  EXPECT_THAT(energy_of({.timed = false}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace triptych::measure
