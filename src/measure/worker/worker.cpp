@@ -246,8 +246,10 @@ class Worker {
     if (!counter_) counter_ = InstructionCounter::of_this_process();
     if (!counter_) throw core::NotSupported("this worker's instructions are not counted");
     record::Counts prepare_cost;
+    const Stopwatch measuring;
     const auto prepared = counter_->counting(prepare_cost, [&] { return device_->prepare(work); });
     answer.record = count_instructions(*prepared, *counter_);
+    measuring_ns_ = measuring.ns();
     answer.record.memory = device_->memory();
     answer.record.prepare_cost = std::move(prepare_cost);
     answer.record.factors = std::move(configuration);
