@@ -157,8 +157,10 @@ std::string counts_section(const PlanData& plan) {
     }
     text += folded(title, table(rows, "counts"));
   };
-  section("Cost: instructions of one frame, by whose code they are",
-          [](const record::Record& r) -> const record::Counts& { return r.cost; });
+  section(
+      "Cost: instructions of one frame, by whose code they are; misses: lines of 64 bytes that "
+      "device code moves into a cache of 32 KiB",
+      [](const record::Record& r) -> const record::Counts& { return r.cost; });
   section("Memory allocated on the device, bytes",
           [](const record::Record& r) -> const record::Counts& { return r.memory; });
   section("Energy of a frame, microjoules by meter, the machine’s other work included",
