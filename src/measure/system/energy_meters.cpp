@@ -25,6 +25,11 @@ std::optional<Value> value_of(const fs::path& file) {
   return std::nullopt;
 }
 
+// Virtual machines may show a count that stands at 0.
+bool counts(const fs::path& file) {
+  return value_of<std::uint64_t>(file).value_or(0) > 0;
+}
+
 // The entries of a folder that begin so, in the order of their names; none where it is not there.
 std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
   std::set<fs::path> found;
@@ -102,7 +107,7 @@ void EnergyMeters::find_processors(const fs::path& system) {
 
 void EnergyMeters::add_zone(const fs::path& zone, const std::string& name) {
   const fs::path file = zone / "energy_uj";
-  if (!value_of<std::uint64_t>(file)) return;
+  if (!counts(file)) return;
   const auto range = value_of<std::uint64_t>(zone / "max_energy_range_uj");
   meters_.push_back({name, [file] { return value_of<std::uint64_t>(file); }, range.value_or(0)});
 }
@@ -112,7 +117,7 @@ void EnergyMeters::find_intel_cards(const fs::path& system) {
   for (const fs::path& card : entries(system / "class/hwmon", "hwmon")) {
     const std::string driver = value_of<std::string>(card / "name").value_or("");
     const fs::path file = card / "energy1_input";
-    if ((driver != "i915" && driver != "xe") || !value_of<std::uint64_t>(file)) continue;
+    if ((driver != "i915" && driver != "xe") || !counts(file)) continue;
     meters_.push_back({fmt::format("{}-{}", driver, cards[driver]++),
                        [file] { return value_of<std::uint64_t>(file); }, 0});
   }
@@ -139,7 +144,7 @@ void EnergyMeters::find_nvidia_cards(const fs::path& nvml) {
   for (unsigned i = 0; works && i < cards; ++i) {
     Card card = nullptr;
     unsigned long long millijoules = 0;
-    if (card_at(i, &card) != 0 || energy(card, &millijoules) != 0) continue;
+    if (card_at(i, &card) != 0 || energy(card, &millijoules) != 0 || millijoules == 0) continue;
     meters_.push_back({fmt::format("nvidia-{}", i),
                        [energy, card]() -> std::optional<std::uint64_t> {
                          unsigned long long now = 0;

@@ -48,13 +48,14 @@ TEST_F(EnergyMetersTest, AMachineWithoutAnyTellsNothingAndDrawsNothing) {
   EXPECT_THAT(meters().of_a_frame([] { ADD_FAILURE() << "a frame was drawn"; }), IsEmpty());
 }
 
-TEST_F(EnergyMetersTest, PartsOfWhatIsCountedAlreadyAreNoMeters) {
+TEST_F(EnergyMetersTest, WhatIsCountedAlreadyOrNotAtAllIsNoMeter) {
   zone("intel-rapl:0", "package-0", "1");
   zone("intel-rapl:0/intel-rapl:0:0", "core", "1");
   zone("intel-rapl:0/intel-rapl:0:1", "dram", "1");
   zone("intel-rapl:1", "psys", "1");
   zone("intel-rapl-mmio:0", "package-0", "1");
-  zone("intel-rapl:2", "package-1", "");  // as what only root may read
+  zone("intel-rapl:2", "package-1", "");   // as what only root may read
+  zone("intel-rapl:3", "package-2", "0");  // as in a virtual machine
   write("hwmon/hwmon0/name", "coretemp");
   write("hwmon/hwmon0/energy1_input", "1");
   write("hwmon/hwmon1/name", "xe");
