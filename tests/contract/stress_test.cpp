@@ -1,13 +1,16 @@
 // What of the stress catalogue is no single picture: a hundred transfer functions, a hundred
-// repeats, the time that denormals cost.
+// repeats, denormals.
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <cstring>
 #include <limits>
 #include <string>
 
+#include "measure/plan/plan.hpp"
 #include "scene/denormals.hpp"
 #include "suites/volume/stress_cases.hpp"
+#include "suites/volume/suite.hpp"
 #include "technique/catalogue.hpp"
 #include "under_test.hpp"
 
@@ -73,50 +76,29 @@ TEST(Stress, AHundredRepeatsHaveTheSameBits) {
   });
 }
 
-// A scene of case 18, and the same with numbers that are as small as they need be but not denormal.
-struct Denormal {
-  std::string_view variant;
-  float ordinary;
-};
-
-StressScene made_ordinary(StressScene scene, const Denormal& denormal) {
-  if (denormal.variant == "voxels") {
-    scene.volume = stress_scene(*stress_data("stress:nan:zero_one")).volume;  // of the same size
-    return scene;
-  }
-  for (auto& entry : scene.function.entries) {
-    for (float& value : entry) {
-      const bool is_denormal = value > 0 && value < std::numeric_limits<float>::min();
-      const bool makes_them = denormal.variant == "transmittance" && &value == &entry.back();
-      if (is_denormal || makes_them) value = denormal.ordinary;
-    }
-  }
-  return scene;
-}
-
-double least_ns(measure::Prepared& prepared, double least) {
-  return std::min(least, prepared.frame(measure::Purpose::timing).wall_ns);
-}
-
-// Case 18: the least of frames drawn in turns, so that a busy machine slows both; a few more rounds
-// where it was too busy for the least to be seen.
-TEST(Stress, DenormalsTakeNoMoreTime) {
-  constexpr double allowed = 1.2;
-  on_every_device([](measure::Device& device) {
-    for (const Denormal& denormal : {Denormal{"voxels", 0}, Denormal{"opacity", 1e-6F},
-                                     Denormal{"colour", 1e-3F}, Denormal{"transmittance", 0.5F}}) {
-      SCOPED_TRACE(std::string(denormal.variant));
-      StressScene scene =
-          stress_scene(*stress_data("stress:denormal:" + std::string(denormal.variant)));
-      scene.width = scene.height = 96;
-      const auto ordinary = device.prepare(work_of(device, made_ordinary(scene, denormal)));
-      const auto tiny = device.prepare(work_of(device, scene));
-      std::array<double, 2> least{std::numeric_limits<double>::infinity(),
-                                  std::numeric_limits<double>::infinity()};
-      for (int frame = 0; frame < 200 && (frame < 20 || least[1] > allowed * least[0]); ++frame) {
-        least = {least_ns(*ordinary, least[0]), least_ns(*tiny, least[1])};
+// Case 18: what they would cost, no count of instructions shows (scene/denormals.hpp).
+TEST(Stress, NoDenormalIsGivenToADevice) {
+  const auto is_denormal = [](float value) {
+    return value != 0 && std::abs(value) < std::numeric_limits<float>::min();
+  };
+  const auto suite = volume_suite::make_suite({});
+  const auto defaults = measure::default_plan(*suite, {}).configurations.front();
+  on_every_device([&](measure::Device& device) {
+    for (const char* variant : {"voxels", "opacity", "colour", "transmittance"}) {
+      SCOPED_TRACE(variant);
+      measure::Configuration configuration = defaults;
+      configuration["data"] = std::string("stress:denormal:") + variant;
+      configuration["transfer_function"] = "own";
+      configuration["voxel"] = "f32";
+      const measure::Work work = suite->work(configuration, device);
+      const scene::VolumeScene& scene = std::get<measure::VolumeWork>(work.scene).scene;
+      std::vector<float> voxels(scene.grid->data.size() / sizeof(float));
+      std::memcpy(voxels.data(), scene.grid->data.data(), scene.grid->data.size());
+      ASSERT_EQ(scene.grid->format, scene::VoxelFormat::f32);
+      EXPECT_TRUE(std::ranges::none_of(voxels, is_denormal));
+      for (const auto& entry : scene.transfer_function.entries) {
+        EXPECT_TRUE(std::ranges::none_of(entry, is_denormal));
       }
-      EXPECT_LE(least[1], allowed * least[0]);
     }
   });
 }
