@@ -177,7 +177,7 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   BenchmarkResult loop = time_loop(name + "/loop", record.loop_frames, draw);
   record.loop_wall_ns = loop.total_ns;
   work_ns += loop.total_ns;
-  if (meters != nullptr && protocol.least_loop_ns > 0) {
+  if (meters != nullptr && protocol.has_loop()) {
     record.energy = counted([&] { return meters->of_a_frame(draw); });
   }
 

@@ -33,6 +33,8 @@ struct Protocol {
   // Else a configuration that does the very work of one before (measure/contract/equivalents.hpp)
   // takes over what that one told.
   bool measure_every = false;
+
+  [[nodiscard]] bool has_loop() const noexcept { return timed && least_loop_ns > 0; }
 };
 
 // Where times are shown and decide nothing: the third frame on, as in count_instructions(), and no

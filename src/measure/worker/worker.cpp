@@ -219,11 +219,11 @@ class Worker {
     const double prepare_ns = whole.ns();
     answer.record.prepare_ns = prepare_ns;
 
-    if (!meters_) meters_.emplace();
+    if (job.protocol.has_loop() && !meters_) meters_.emplace();
     const Stopwatch measuring;
     Measurement measured =
         measure(*prepared, job.protocol, technique::technique(work.technique).work, clocks_,
-                job.name, &*meters_);
+                job.name, meters_ ? &*meters_ : nullptr);
     measuring_ns_ = measuring.ns();
     answer.record = std::move(measured.record);
     answer.record.memory = device_->memory();
@@ -261,7 +261,7 @@ class Worker {
   record::Device info_;
   std::vector<record::ClockTrust> clocks_;
   std::optional<InstructionCounter> counter_;
-  std::optional<EnergyMeters> meters_;  // found late: a worker that counts loads no other library
+  std::optional<EnergyMeters> meters_;  // found where a loop asks for them: they load a library
   std::unique_ptr<Prepared> held_;
   Equivalents equivalents_;
   std::string data_;         // of the configuration that is being worked on
