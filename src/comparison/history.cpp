@@ -13,15 +13,6 @@
 namespace triptych::comparison {
 namespace {
 
-std::optional<double> cost_of(const record::Record& record) {
-  double sum = 0;
-  for (const char* part : {"device_code", "driver"}) {
-    const auto found = record.cost.find(part);
-    if (found != record.cost.end()) sum += static_cast<double>(found->second);
-  }
-  return sum > 0 ? std::optional(sum) : std::nullopt;
-}
-
 std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& store) {
   std::map<std::string, MeasuredByConfiguration> devices;
   for (const record::Run& run : record::latest_runs(store)) {
@@ -29,7 +20,7 @@ std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& st
       if (record.outcome != record::Outcome::measured) return;
       const auto time = record::summarise(record.time_ns());
       devices[record.device][run.plan + " " + record.configuration] = {
-          cost_of(record), time ? std::optional(time->median) : std::nullopt};
+          record.instructions(), time ? std::optional(time->median) : std::nullopt};
     });
   }
   return devices;

@@ -129,6 +129,21 @@ std::string Device::statistics_key() const {
                      core::content_hash(exact).substr(0, 8));
 }
 
+std::optional<std::uint64_t> Record::instructions() const {
+  std::uint64_t sum = 0;
+  for (const char* part : {"device_code", "driver"}) {
+    const auto found = cost.find(part);
+    if (found != cost.end()) sum += found->second;
+  }
+  return sum > 0 ? std::optional(sum) : std::nullopt;
+}
+
+std::optional<std::uint64_t> Record::fetched_bytes() const {
+  constexpr std::uint64_t line = 64;
+  const auto misses = cost.find("misses");
+  return misses == cost.end() ? std::nullopt : std::optional(misses->second * line);
+}
+
 const std::vector<double>& Record::time_ns() const {
   return clock() == "device" ? device_ns : wall_ns;
 }

@@ -129,6 +129,11 @@ struct Record {
   [[nodiscard]] bool untimed() const {
     return outcome == Outcome::measured && warm_up_frames == 0 && wall_ns.empty();
   }
+  // Of a frame what repeats from process to process: the device's code and the driver's together.
+  // nullopt where none was counted.
+  [[nodiscard]] std::optional<std::uint64_t> instructions() const;
+  // What the device's code fetched past the simulated cache, whose lines have 64 bytes.
+  [[nodiscard]] std::optional<std::uint64_t> fetched_bytes() const;
   // The samples that count, and the name of their clock: "device" or "wall".
   [[nodiscard]] const std::vector<double>& time_ns() const;
   [[nodiscard]] const std::vector<double>& time_ns_by(std::string_view clock) const {

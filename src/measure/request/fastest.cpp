@@ -34,11 +34,10 @@ std::string chosen_levels(const Record& record, const std::set<std::string>& cho
 }
 
 std::optional<Contestant> counted(const Record& record) {
-  const auto code = record.cost.find("device_code");
-  const auto driver = record.cost.find("driver");
-  if (code == record.cost.end() || driver == record.cost.end()) return std::nullopt;
-  const auto sum = static_cast<double>(code->second + driver->second);
-  return Contestant{&record, sum, sum};
+  const auto instructions = record.instructions();
+  if (!instructions) return std::nullopt;
+  const auto amount = static_cast<double>(*instructions);
+  return Contestant{&record, amount, amount};
 }
 
 std::optional<Contestant> timed(const Record& record, std::string_view clock) {

@@ -67,6 +67,15 @@ TEST(RecordTest, DeviceClockCountsOnlyWhereTrustedAndThere) {
   EXPECT_EQ(record.time_ns(), record.wall_ns);
 }
 
+TEST(RecordTest, InstructionsAreWhatRepeats) {
+  Record record;
+  EXPECT_FALSE(record.instructions());
+  EXPECT_FALSE(record.fetched_bytes());
+  record.cost = {{"device_code", 70}, {"driver", 7}, {"libc", 900}, {"misses", 3}};
+  EXPECT_EQ(record.instructions(), 77U);
+  EXPECT_EQ(record.fetched_bytes(), 192U);
+}
+
 TEST(RecordTest, TestIdKeepsToItsAlphabet) {
   Record record = sample_record();
   record.suite = "volume";
