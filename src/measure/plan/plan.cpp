@@ -219,6 +219,10 @@ void hold(const Combinations& combinations, const Shard& shard, Plan& plan) {
 
 }  // namespace
 
+bool Plan::judges(const record::Checks& any) const {
+  return std::ranges::any_of(any, [this](record::Check each) { return checks.contains(each); });
+}
+
 record::Checks Plan::standard_checks() {
   using record::Check;
   return {Check::image, Check::counters, Check::statistics, Check::memory, Check::timing};

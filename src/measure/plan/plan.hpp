@@ -22,7 +22,7 @@ struct Plan {
       configurations;               // in order: data varies slowest, then pipelines, then views
   std::vector<std::string> varied;  // factors with more than one value
   // What its runs are judged by. Only what they need is measured: no clock is read where timing is
-  // not among them, and where cost is, workers run under the emulator and draw for nothing else.
+  // not among them, and where cost is, workers run under the emulator.
   record::Checks checks = standard_checks();
   // Of its text: another plan of the same name has another. Empty where it has no text.
   std::string hash;
@@ -34,6 +34,8 @@ struct Plan {
   [[nodiscard]] static record::Checks standard_checks();
   [[nodiscard]] bool timed() const { return checks.contains(record::Check::timing); }
   [[nodiscard]] bool counted() const { return checks.contains(record::Check::cost); }
+  // Whether by any of these.
+  [[nodiscard]] bool judges(const record::Checks& any) const;
 };
 
 // Overrides from the command line: "--set factor=a,b".

@@ -129,15 +129,22 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
 
 }  // namespace
 
-record::Record count_instructions(Prepared& prepared, const InstructionCounter& counter) {
+Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
+                               const InstructionCounter& counter) {
   constexpr int frames_before = 2;
   for (int i = 0; i < frames_before; ++i) static_cast<void>(prepared.frame(Purpose::timing));
   counter.wait_until_quiet();
-  record::Record record;
+  Measurement result;
+  record::Record& record = result.record;
   static_cast<void>(counter.counting(record.cost, [&] { return prepared.frame(Purpose::timing); }));
+  if (protocol.picture) {
+    result.image = prepared.image();
+    record.image = image_hash(result.image);
+  }
+  if (protocol.counters) record.counters = prepared.frame(Purpose::counters).counts;
   record.kernel_hash = prepared.kernel_hash();
   record.outcome = record::Outcome::measured;
-  return record;
+  return result;
 }
 
 Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Work work_kind,

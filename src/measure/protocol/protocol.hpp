@@ -28,8 +28,10 @@ struct Protocol {
   // Else one frame each for its picture, the statistics and our counters: nothing is warmed up, and
   // no time or benchmark is told.
   bool timed = true;
-  // Nothing but the instructions of the third frame (counting/emulator.hpp).
+  // The instructions of the third frame (counting/emulator.hpp) and no time; our counters and its
+  // picture where they are asked for.
   bool counted = false;
+  bool picture = true;  // kept of a counted frame, too
   // Else a configuration that does the very work of one before (measure/contract/equivalents.hpp)
   // takes over what that one told.
   bool measure_every = false;
@@ -56,10 +58,10 @@ struct Measurement {
                                   const std::vector<record::ClockTrust>& clocks,
                                   const std::string& name, const EnergyMeters* meters = nullptr);
 
-// Nothing but the instructions of one frame, the third: drivers compile late and set up once within
-// the first two. The n-th frame is only ever compared with the n-th.
-[[nodiscard]] record::Record count_instructions(Prepared& prepared,
-                                                const InstructionCounter& counter);
+// The instructions of one frame, the third: drivers compile late and set up once within the first
+// two. The n-th frame is only ever compared with the n-th.
+[[nodiscard]] Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
+                                             const InstructionCounter& counter);
 
 // Device time of a calibration work against its wall time, frame by frame. Trusted when the ratio
 // of every frame lies within ClockLimits (measure/protocol/clock.hpp), one late wake-up among five

@@ -108,6 +108,7 @@ Json to_json(const Protocol& protocol) {
           {"counters", protocol.counters},
           {"timed", protocol.timed},
           {"counted", protocol.counted},
+          {"picture", protocol.picture},
           {"measure_every", protocol.measure_every}};
 }
 
@@ -120,6 +121,7 @@ Protocol protocol_from(const Json& json) {
           .counters = json.at("counters"),
           .timed = json.at("timed"),
           .counted = json.at("counted"),
+          .picture = json.at("picture"),
           .measure_every = json.at("measure_every")};
 }
 

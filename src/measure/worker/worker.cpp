@@ -234,22 +234,28 @@ class Worker {
     if (plain) {
       equivalents_.add(*plain, configuration_key(suite_, job.configuration), work, measured.image);
     }
+    keep_picture(work, measured.image, answer);
+  }
+
+  static void keep_picture(const Work& work, const core::Image& image, Answer& answer) {
     if (technique::technique(work.technique).picture) {
-      answer.exr = core::encode_exr(measured.image);
+      answer.exr = core::encode_exr(image);
     } else {
       answer.record.image.clear();  // a sum, or nothing
     }
   }
 
-  // Under the emulator: instructions, and nothing that would need a clock.
-  void count(const Job&, const Work& work, Configuration configuration, Answer& answer) {
+  // Under the emulator: nothing that would need a clock.
+  void count(const Job& job, const Work& work, Configuration configuration, Answer& answer) {
     if (!counter_) counter_ = InstructionCounter::of_this_process();
     if (!counter_) throw core::NotSupported("this worker's instructions are not counted");
     record::Counts prepare_cost;
     const Stopwatch measuring;
     const auto prepared = counter_->counting(prepare_cost, [&] { return device_->prepare(work); });
-    answer.record = count_instructions(*prepared, *counter_);
+    Measurement measured = count_instructions(*prepared, job.protocol, *counter_);
     measuring_ns_ = measuring.ns();
+    answer.record = std::move(measured.record);
+    if (job.protocol.picture) keep_picture(work, measured.image, answer);
     answer.record.memory = device_->memory();
     answer.record.prepare_cost = std::move(prepare_cost);
     answer.record.factors = std::move(configuration);
