@@ -88,12 +88,19 @@ std::vector<std::size_t> by_accuracy(std::span<const AccuracyCase> cases) {
 }
 
 // Where the line through two points passes the error; both logarithms must exist.
-std::optional<double> time_between(const AccuracyCase& a, const AccuracyCase& b, double error) {
-  if (!a.time_ns || !b.time_ns) return std::nullopt;
+std::optional<double> cost_between(const AccuracyCase& a, const AccuracyCase& b,
+                                   const CostOf& cost_of, double error) {
+  const auto of_a = cost_of(a);
+  const auto of_b = cost_of(b);
+  if (!of_a || !of_b) return std::nullopt;
   const bool between = std::min(a.rmse, b.rmse) < error && error < std::max(a.rmse, b.rmse);
   if (!between || !(std::min(a.rmse, b.rmse) > 0)) return std::nullopt;
   const double share = std::log(error / a.rmse) / std::log(b.rmse / a.rmse);
-  return *a.time_ns * std::pow(*b.time_ns / *a.time_ns, share);
+  return *of_a * std::pow(*of_b / *of_a, share);
+}
+
+std::optional<double> time_of(const AccuracyCase& each) {
+  return each.time_ns;
 }
 
 }  // namespace
@@ -136,7 +143,7 @@ std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases, const
 }
 
 std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases) {
-  return pareto_front(cases, [](const AccuracyCase& each) { return each.time_ns; });
+  return pareto_front(cases, time_of);
 }
 
 std::vector<Dominated> dominated(std::span<const AccuracyCase> cases,
@@ -170,20 +177,28 @@ std::vector<AccuracyFamily> accuracy_families(std::span<const AccuracyCase> case
   return result;
 }
 
-std::optional<double> time_to_error(std::span<const AccuracyCase> cases,
-                                    std::span<const AccuracyFamily> families, double error) {
+std::optional<double> cost_to_error(std::span<const AccuracyCase> cases,
+                                    std::span<const AccuracyFamily> families, const CostOf& cost_of,
+                                    double error) {
   std::optional<double> least;
-  const auto consider = [&](double time) { least = std::min(least.value_or(time), time); };
+  const auto consider = [&](const std::optional<double>& cost) {
+    if (cost) least = std::min(least.value_or(*cost), *cost);
+  };
   for (const AccuracyCase& each : cases) {
-    if (each.time_ns && each.rmse <= error) consider(*each.time_ns);
+    if (each.rmse <= error) consider(cost_of(each));
   }
   for (const AccuracyFamily& family : families) {
     for (std::size_t i = 0; i + 1 < family.members.size(); ++i) {
-      const auto time = time_between(cases[family.members[i]], cases[family.members[i + 1]], error);
-      if (time) consider(*time);
+      const AccuracyCase& one = cases[family.members[i]];
+      consider(cost_between(one, cases[family.members[i + 1]], cost_of, error));
     }
   }
   return least;
+}
+
+std::optional<double> time_to_error(std::span<const AccuracyCase> cases,
+                                    std::span<const AccuracyFamily> families, double error) {
+  return cost_to_error(cases, families, time_of, error);
 }
 
 std::size_t most_accurate(std::span<const AccuracyCase> cases) {

@@ -19,11 +19,13 @@ namespace triptych::accuracy {
 struct AccuracyCase {
   std::string configuration;
   std::map<std::string, std::string> factors;
-  std::optional<double> time_ns;         // median of the timed frames, where there were any
-  std::optional<std::uint64_t> samples;  // taken, where they were counted
-  std::optional<std::uint64_t> memory;   // bytes held on the device, where they were told
-  std::optional<double> joules;          // of a frame, by all meters, where any told it
-  double rmse = 0;                       // against the limit
+  std::optional<double> time_ns;              // median of the timed frames, where there were any
+  std::optional<std::uint64_t> samples;       // taken, where they were counted
+  std::optional<std::uint64_t> instructions;  // of a frame, where they were counted
+  std::optional<std::uint64_t> fetched;       // bytes, past a simulated cache
+  std::optional<std::uint64_t> memory;        // bytes held on the device, where they were told
+  std::optional<double> joules;               // of a frame, by all meters, where any told it
+  double rmse = 0;                            // against the limit
   double largest = 0;
   double error_99 = 0;  // 99th percentile of the pixels' largest error
   // rmse split by the truth on the same sample lattice: limit – that truth, and that truth –
@@ -80,8 +82,11 @@ struct AccuracyFamily {
 // Without a factor `step` every configuration is a family of its own.
 [[nodiscard]] std::vector<AccuracyFamily> accuracy_families(std::span<const AccuracyCase> cases);
 
-// The least time to reach an error: a configuration at or below it, or the point between two
-// neighbours of a family, straight on two logarithmic axes. nullopt: none gets there.
+// The least cost of reaching an error: a configuration's at or below it, or that of the point
+// between two neighbours of a family, straight on two logarithmic axes. nullopt: none gets there.
+[[nodiscard]] std::optional<double> cost_to_error(std::span<const AccuracyCase> cases,
+                                                  std::span<const AccuracyFamily> families,
+                                                  const CostOf& cost_of, double error);
 [[nodiscard]] std::optional<double> time_to_error(std::span<const AccuracyCase> cases,
                                                   std::span<const AccuracyFamily> families,
                                                   double error);

@@ -72,6 +72,8 @@ AccuracyCase accuracy_case(const record::Record& record, const PictureError& err
                       .factors = record.factors,
                       .time_ns = summary ? std::optional(summary->median) : std::nullopt,
                       .samples = {},
+                      .instructions = record.instructions(),
+                      .fetched = record.fetched_bytes(),
                       .memory = {},
                       .joules = {},
                       .rmse = error.rmse,

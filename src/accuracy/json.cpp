@@ -17,6 +17,8 @@ Json case_json(const AccuracyCase& each, bool front) {
   return {{"configuration", each.configuration},
           {"time_ns", optional_number(each.time_ns)},
           {"samples", optional_number(each.samples)},
+          {"instructions", optional_number(each.instructions)},
+          {"fetched_bytes", optional_number(each.fetched)},
           {"memory_bytes", optional_number(each.memory)},
           {"joules", optional_number(each.joules)},
           {"rmse", each.rmse},

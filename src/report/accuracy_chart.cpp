@@ -24,6 +24,10 @@ Axis axis_of(Cost cost) {
       return {"time of a frame, ms", "ms"};
     case Cost::samples:
       return {"samples taken", "samples"};
+    case Cost::instructions:
+      return {"instructions, millions", "million"};
+    case Cost::fetched:
+      return {"fetched past a cache, MiB", "MiB"};
     case Cost::memory:
       return {"held on the device, MiB", "MiB"};
     case Cost::energy:
@@ -41,6 +45,10 @@ std::optional<double> cost_of(const accuracy::AccuracyCase& each, Cost cost) {
       return in(each.time_ns, 1e6);
     case Cost::samples:
       return in(each.samples, 1);
+    case Cost::instructions:
+      return in(each.instructions, 1e6);
+    case Cost::fetched:
+      return in(each.fetched, 1 << 20);
     case Cost::memory:
       return in(each.memory, 1 << 20);
     case Cost::energy:

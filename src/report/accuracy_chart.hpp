@@ -6,7 +6,7 @@
 
 namespace triptych::report {
 
-enum class Cost { time, samples, memory, energy };
+enum class Cost { time, samples, instructions, fetched, memory, energy };
 
 // HTML, a figure per scene and device: error against the limit across, cost up, both logarithmic; a
 // line per family, the front in ink, the goals as upright rules. A case without error or without

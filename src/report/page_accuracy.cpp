@@ -59,18 +59,29 @@ void append_area(std::vector<std::string>& row, const std::vector<AccuracyScene>
   }
 }
 
+// In time, else in instructions.
+std::string to_error(const AccuracyScene& scene, double goal) {
+  if (!scene.front.empty()) {
+    const auto time = accuracy::time_to_error(scene.cases, scene.families, goal);
+    return time ? duration(*time) : "not reached";
+  }
+  const auto instructions = [](const accuracy::AccuracyCase& each) -> std::optional<double> {
+    return each.instructions;
+  };
+  const auto cost = accuracy::cost_to_error(scene.cases, scene.families, instructions, goal);
+  return cost ? fmt::format("{:.1f} M instructions", *cost / 1e6) : "";
+}
+
 std::string summary_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{{"scene", "device", "order in the step", "least error", "time to 1/255",
-             "time to 1/1024", "time to 1e-4", "hypervolume", "times as long as the best",
-             "on the front", "dominated"}};
+  Rows rows{{"scene", "device", "order in the step", "least error", "to 1/255", "to 1/1024",
+             "to 1e-4", "hypervolume", "times as long as the best", "on the front", "dominated"}};
   for (const AccuracyScene& scene : scenes) {
     const std::size_t best = accuracy::most_accurate(scene.cases);
     std::vector<std::string> row{escape(accuracy_title(scenes, scene)), escape(scene.device),
                                  order_text(family_of(scene, best).order),
                                  error_text(scene.cases[best].rmse)};
     for (const double goal : accuracy::accuracy_goals) {
-      const auto time = accuracy::time_to_error(scene.cases, scene.families, goal);
-      row.push_back(time ? duration(*time) : scene.front.empty() ? "" : "not reached");
+      row.push_back(to_error(scene, goal));
     }
     append_area(row, scenes, scene);
     row.push_back(fmt::format("{}", scene.front.size()));
@@ -161,54 +172,56 @@ std::string dominated_table(const std::vector<AccuracyScene>& scenes) {
   return table(rows);
 }
 
+// A cost beside the time, drawn where anything told it; folded where it has a title.
+struct Beside {
+  Cost cost;
+  std::string_view title;
+  std::string_view text;
+};
+constexpr Beside beside_time[]{
+    {Cost::samples, "", "Against the samples taken, which no clock disturbs."},
+    {Cost::instructions, "",
+     "Against the instructions of a frame, the device’s code and the driver’s."},
+    {Cost::fetched, "Bytes fetched against error",
+     "Against what the device’s code fetched past a simulated cache of 32 KiB."},
+    {Cost::memory, "Memory against error",
+     "Against the bytes that a configuration holds on the device: data, tables, bricks "
+     "and pictures. Cells packed for fetching take four or eight times the voxels’."},
+    {Cost::energy, "Energy against error",
+     "Against the joules that the machine’s meters told of a frame, its idle share and "
+     "other programs’ included."}};
+
+std::string charts_beside(const std::vector<AccuracyScene>& scenes) {
+  std::string text;
+  for (const auto& [cost, title, sentence] : beside_time) {
+    const std::string chart = accuracy_chart(scenes, cost);
+    if (chart.empty()) continue;
+    const std::string body = fmt::format("<p>{}</p>{}", sentence, chart);
+    text += title.empty() ? body : folded(title, body);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string accuracy_section(const PlanData& plan) {
   const std::vector<AccuracyScene>& scenes = plan.verdict->accuracies;
   if (scenes.empty()) return {};
-  const auto any = [&](const auto& has) {
-    return std::ranges::any_of(
-        scenes, [&](const AccuracyScene& scene) { return std::ranges::any_of(scene.cases, has); });
-  };
-  const bool timed =
-      any([](const accuracy::AccuracyCase& each) { return each.time_ns.has_value(); });
-  const bool counted =
-      any([](const accuracy::AccuracyCase& each) { return each.samples.has_value(); });
-  const bool held = any([](const accuracy::AccuracyCase& each) { return each.memory.has_value(); });
-  const bool metered =
-      any([](const accuracy::AccuracyCase& each) { return each.joules.has_value(); });
   std::string text =
       "<h3>Run time against error</h3><p>The error is the root mean square over all channels, in "
       "linear float, against the picture that the scene tends to as its sampling is refined. A "
       "line joins configurations that differ by their step alone; the thick line is the front, "
-      "which nothing "
-      "beats on both axes; dashed: 1/255, 1/1024 and 1e-4. A time to an error is read off between "
-      "two neighbours of a line. The hypervolume is the area between the front and one second by "
-      "the error of an empty picture, in natural logarithms; beside it how many times as long the "
-      "device with the largest may take on every frame before its area is no larger. It rests on "
-      "times of one run and decides nothing.</p>" +
+      "which nothing beats on both axes; dashed: 1/255, 1/1024 and 1e-4. What an error takes is "
+      "read off between two neighbours of a line. The hypervolume is the area between the front "
+      "and one second by the error of an empty picture, in natural logarithms; beside it how many "
+      "times as long the device with the largest may take on every frame before its area is no "
+      "larger. It rests on times of one run and decides nothing.</p>" +
       summary_table(scenes);
-  if (timed) text += accuracy_chart(scenes, Cost::time);
-  if (counted) {
-    text += "<p>The same against the samples taken, which no clock disturbs.</p>" +
-            accuracy_chart(scenes, Cost::samples);
-  }
-  if (held) {
-    text +=
-        folded("Memory against error",
-               "<p>The same against the bytes that a configuration holds on the device: data, "
-               "tables, bricks and pictures. Cells packed for fetching take four or eight times "
-               "the voxels’.</p>" +
-                   accuracy_chart(scenes, Cost::memory));
-  }
-  if (metered) {
-    text += folded("Energy against error",
-                   "<p>The same against the joules that the machine’s meters told of a frame, its "
-                   "idle share and other programs’ included.</p>" +
-                       accuracy_chart(scenes, Cost::energy));
-  }
+  text += accuracy_chart(scenes, Cost::time) + charts_beside(scenes);
   text += folded("Orders of all families", order_table(scenes)) +
           folded("What an error is made of: each factor switched alone", parts_table(scenes));
+  const bool timed =
+      std::ranges::any_of(scenes, [](const AccuracyScene& scene) { return !scene.front.empty(); });
   if (timed) text += folded("Dominated configurations", dominated_table(scenes));
   return text;
 }

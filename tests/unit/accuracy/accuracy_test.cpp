@@ -26,6 +26,8 @@ AccuracyCase at(double time, double rmse, double step = 1, const std::string& er
           .factors = {{"step", step == 1 ? "1" : std::to_string(step)}, {"ert", ert}},
           .time_ns = time,
           .samples = {},
+          .instructions = {},
+          .fetched = {},
           .memory = {},
           .joules = {},
           .rmse = rmse};

@@ -17,6 +17,8 @@ AccuracyCase at(double time_ns, double rmse) {
           .factors = {},
           .time_ns = time_ns,
           .samples = {},
+          .instructions = {},
+          .fetched = {},
           .memory = {},
           .joules = {},
           .rmse = rmse};

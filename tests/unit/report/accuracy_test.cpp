@@ -14,6 +14,8 @@ accuracy::AccuracyCase at(const std::string& step, double time, double rmse) {
           .factors = {{"data", "ball"}, {"step", step}},
           .time_ns = time,
           .samples = {},
+          .instructions = static_cast<std::uint64_t>(time),
+          .fetched = 5U << 20,
           .memory = 3U << 20,
           .joules = 0.25,
           .rmse = rmse};
@@ -40,6 +42,9 @@ TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
   EXPECT_THAT(html, HasSubstr("the front"));
   EXPECT_THAT(html, testing::Not(HasSubstr("step=0.125:")));  // the one without error
   EXPECT_EQ(accuracy_chart(scenes, Cost::samples), "");
+  EXPECT_THAT(accuracy_chart(scenes, Cost::instructions),
+              HasSubstr("step=2: RMSE 0.004, 3 million"));
+  EXPECT_THAT(accuracy_chart(scenes, Cost::fetched), HasSubstr("step=2: RMSE 0.004, 5 MiB"));
   EXPECT_THAT(accuracy_chart(scenes, Cost::memory), HasSubstr("step=2: RMSE 0.004, 3 MiB"));
   EXPECT_THAT(accuracy_chart(scenes, Cost::energy), HasSubstr("step=2: RMSE 0.004, 0.25 J"));
 }
@@ -72,6 +77,22 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
   EXPECT_THAT(text, HasSubstr("time of a frame, ms"));
   EXPECT_THAT(text, HasSubstr("held on the device, MiB"));
   EXPECT_THAT(text, HasSubstr("energy of a frame, J"));
+  EXPECT_THAT(text, HasSubstr("instructions, millions"));
+  EXPECT_THAT(text, HasSubstr("fetched past a cache, MiB"));
+}
+
+// Of a counted plan, which no clock was read for.
+TEST(AccuracySection, TellsInstructionsWhereThereAreNoTimes) {
+  accuracy::AccuracyScene scene = some_scene();
+  for (accuracy::AccuracyCase& each : scene.cases) each.time_ns.reset();
+  accuracy::evaluate(scene);
+  judge::GateResult verdict;
+  verdict.accuracies = {scene};
+  const PlanData plan{.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
+  const std::string text = accuracy_section(plan);
+  EXPECT_THAT(text, HasSubstr("1.0 M instructions"));  // to 1/255
+  EXPECT_THAT(text, HasSubstr("3.2 M instructions"));  // to 1e-4, between two steps
+  EXPECT_THAT(text, testing::Not(HasSubstr("time of a frame, ms")));
 }
 
 TEST(AccuracySection, ComparesDevicesByTheArea) {
