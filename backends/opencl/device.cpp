@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -58,6 +59,7 @@ class Device final : public measure::Device {
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
 
  private:
+  [[nodiscard]] double sampler_error(scene::VoxelFormat format) const;  // as probed
   [[nodiscard]] std::optional<std::string> half_defect(scene::VoxelFormat format) const;
   [[nodiscard]] std::optional<std::string> image_defect(const scene::VoxelGrid& grid) const;
   [[nodiscard]] std::optional<std::string> size_defect(std::string_view technique,
@@ -75,7 +77,7 @@ class Device final : public measure::Device {
 // PoCL 3.1 lists images of half floats, and without cl_khr_fp16 reads no values from them.
 std::optional<std::string> Device::half_defect(scene::VoxelFormat format) const {
   if (format != scene::VoxelFormat::f16) return std::nullopt;
-  const double error = filter_weight_error({format, Sampler::hardware});
+  const double error = sampler_error(format);
   const double allowed = technique::allowed_filter_error(technique::least_weight_bits, format);
   if (error <= allowed) return std::nullopt;
   return fmt::format(
@@ -174,18 +176,23 @@ measure::VolumePath Device::default_path(const measure::VolumeKind& volume) cons
   const scene::VoxelFormat native = volume.native;
   const measure::VolumePath hardware{native, Sampler::hardware};
   constexpr double exact = 1e-5;
-  if (is_gpu_ && image_format(session_, native) && filter_weight_error(hardware) < exact) {
+  if (is_gpu_ && image_format(session_, native) && sampler_error(native) < exact) {
     return hardware;
   }
   return {native, Sampler::manual};
 }
 
 double Device::filter_weight_error(const measure::VolumePath& path) const {
-  if (path.sampler == Sampler::manual) return 0;
-  const auto known = filter_errors_.find(path.voxel);
+  if (path.sampler != Sampler::hardware) return 0;
+  // A wrong filter is no wide bound.
+  return std::min(sampler_error(path.voxel),
+                  technique::allowed_filter_error(technique::least_weight_bits, path.voxel));
+}
+
+double Device::sampler_error(scene::VoxelFormat format) const {
+  const auto known = filter_errors_.find(format);
   if (known != filter_errors_.end()) return known->second;
-  return filter_errors_.emplace(path.voxel, probe_filter(session_, programs_, path.voxel))
-      .first->second;
+  return filter_errors_.emplace(format, probe_filter(session_, programs_, format)).first->second;
 }
 
 std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {

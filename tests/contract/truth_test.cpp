@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "data_folder.hpp"
+#include "technique/volume/filter_bound.hpp"
 #include "under_test.hpp"
 #include "volume_truth.hpp"
 
@@ -30,6 +31,25 @@ TEST(Truth, EveryPathStaysWithinItsBound) {
         if (device.unsupported(work)) continue;
         expect_within_bound(device, work);
       }
+    }
+  });
+}
+
+// A device whose sampler is wrong shall be found wrong, not be given a bound that wide.
+TEST(Truth, NoSamplerWidensItsBoundBeyondWhatAFilterMayErrBy) {
+  on_every_device([](measure::Device& device) {
+    for (const scene::VoxelFormat format : {scene::VoxelFormat::u8, scene::VoxelFormat::u16,
+                                            scene::VoxelFormat::f32, scene::VoxelFormat::f16}) {
+      measure::Work work = default_work(device, scene::generate_volume("mandelbulb", {8, 8, 8}),
+                                        small_scene("haze"));
+      VolumeWork& volume = std::get<VolumeWork>(work.scene);
+      volume.scene.grid = std::make_shared<const scene::VoxelGrid>(
+          scene::encode(scene::generate_volume("mandelbulb", {8, 8, 8}), format));
+      volume.options.sampler = technique::Sampler::hardware;
+      if (device.unsupported(work)) continue;
+      EXPECT_LE(device.filter_weight_error({format, technique::Sampler::hardware}),
+                technique::allowed_filter_error(technique::least_weight_bits, format))
+          << scene::name_of(format);
     }
   });
 }
