@@ -39,6 +39,43 @@ std::optional<std::pair<Known, std::string>> expected_as(const Finding& finding)
   return std::nullopt;
 }
 
+// That `finding` was right the second time: a flake, or a hang that a time cannot tell from a slow
+// driver.
+Finding right_again(const Finding& finding) {
+  Finding again = finding;
+  if (record::limit_in(finding.message)) {
+    again.verdict = Verdict::cannot_judge;
+    again.message += slow_suffix;
+  } else {
+    again.message.insert(0, flake_prefix);
+  }
+  return again;
+}
+
+// What became of a regression. Where its check says nothing of the place any more, it was the crash
+// of what has no finding once it is drawn, such as a picture of speed_of_light.
+void tell_again(const Finding& finding, Redrawn& redrawn) {
+  std::vector<Finding>& findings = redrawn.result.findings;
+  const auto again = std::ranges::find_if(findings, [&](const Finding& each) {
+    return each.check == finding.check && place_of(each) == place_of(finding);
+  });
+  if (again != findings.end() && again->verdict == Verdict::regression) return;
+  if (again != findings.end() && again->verdict == Verdict::waived) return;
+  if (again != findings.end() && !is_right(again->verdict)) {
+    Finding undecided = finding;
+    undecided.message += fmt::format("; drawn again: {}", again->message);
+    *again = std::move(undecided);
+    return;
+  }
+  const Finding right = right_again(finding);
+  if (right.verdict == Verdict::regression) redrawn.flakes.insert(place_of(finding));
+  if (again != findings.end()) {
+    *again = right;
+  } else {
+    findings.push_back(right);
+  }
+}
+
 }  // namespace
 
 Places failing(const GateResult& result) {
@@ -53,18 +90,8 @@ Places failing(const GateResult& result) {
 Redrawn tell_flakes(const GateResult& first, GateResult second, const Places& places) {
   Redrawn redrawn{std::move(second), {}};
   for (const Finding& finding : first.findings) {
-    if (finding.verdict != Verdict::regression || !places.contains(place_of(finding))) continue;
-    for (Finding& again : redrawn.result.findings) {
-      const bool same = again.check == finding.check && place_of(again) == place_of(finding);
-      if (!same || !is_right(again.verdict)) continue;
-      again = finding;
-      if (record::limit_in(finding.message)) {
-        again.verdict = Verdict::cannot_judge;
-        again.message = finding.message + std::string(slow_suffix);
-        continue;
-      }
-      again.message = std::string(flake_prefix) + finding.message;
-      redrawn.flakes.insert(place_of(finding));
+    if (finding.verdict == Verdict::regression && places.contains(place_of(finding))) {
+      tell_again(finding, redrawn);
     }
   }
   sort_findings(redrawn.result.findings);

@@ -152,6 +152,36 @@ TEST_F(KnownGateTest, AHangThatIsRightWhenDrawnAgainCannotBeJudged) {
   EXPECT_THAT(written_by(right.result), SizeIs(0));
 }
 
+// A crash stands under the first check. Drawn again, sums have no picture, hence no such finding.
+TEST_F(KnownGateTest, ACrashOfWhatHasNoPictureIsAFlakeToo) {
+  const auto sums = [](record::Record& record, core::Image&) {
+    if (record.device != lavapipe || record.configuration != plain_) return;
+    record.technique = "speed_of_light";
+    if (record.run != "b") return;
+    record.outcome = record::Outcome::crashed;
+    record.reason = "killed by SIGABRT";
+  };
+  add_run("b", sums);
+  add_run("c", sums);
+  const GateResult first = gate("b");
+  const Redrawn right = tell_flakes(first, gate("c"), failing(first));
+  EXPECT_EQ(right.flakes, failing(first));
+  const auto flakes = with(right.result, Verdict::regression);
+  ASSERT_THAT(flakes, SizeIs(1));
+  EXPECT_EQ(flakes[0].message, std::string(flake_prefix) + "crashed: killed by SIGABRT");
+}
+
+TEST_F(KnownGateTest, WhatIsSkippedWhenDrawnAgainStaysARegression) {
+  add_run("b", wrong_image_on(lavapipe));
+  add_run("c", skipped_on(lavapipe));
+  const GateResult first = gate("b");
+  const Redrawn redrawn = tell_flakes(first, gate("c"), failing(first));
+  EXPECT_TRUE(redrawn.flakes.empty());
+  const auto wrong = with(redrawn.result, Verdict::regression);
+  ASSERT_THAT(wrong, SizeIs(1));
+  EXPECT_THAT(wrong[0].message, HasSubstr("; drawn again: skipped: no geometry shaders"));
+}
+
 // Its counters fail both times.
 TEST_F(KnownGateTest, EachCheckIsAFlakeByItself) {
   request_.checks = {Check::image, Check::counters};
