@@ -45,6 +45,8 @@ class JsonFile {
   // nullopt when there is no such file; InputError with line and column when it is not JSON or has
   // one key twice in an object (what a careless merge leaves).
   [[nodiscard]] static std::optional<JsonFile> read(const std::filesystem::path& file);
+  // A file's text, which may not have been written yet.
+  JsonFile(std::filesystem::path file, std::string text);
 
   [[nodiscard]] JsonNode root() const { return {*this, value_, {}}; }
   [[nodiscard]] const Json& value() const noexcept { return value_; }
@@ -52,7 +54,6 @@ class JsonFile {
   [[noreturn]] void fail(const std::vector<std::string>& path, std::string_view message) const;
 
  private:
-  JsonFile(std::filesystem::path file, std::string text);
   std::filesystem::path file_;
   std::string text_;
   Json value_;

@@ -40,8 +40,16 @@ std::vector<std::byte> bytes_of(std::string_view text) {
   return {bytes.begin(), bytes.end()};
 }
 
+std::string text_of(const std::vector<std::byte>& bytes) {
+  std::string text(bytes.size(), '\0');
+  std::ranges::transform(bytes, text.begin(),
+                         [](std::byte each) { return static_cast<char>(each); });
+  return text;
+}
+
 Update::Update(NextFolder& next, std::string name) : next_(next), name_(std::move(name)) {
-  if (next.files.contains(name_)) before_ = core::JsonFile::read(next.folder / name_)->value();
+  const auto file = next.files.find(name_);
+  if (file != next.files.end()) before_ = core::JsonFile(name_, text_of(file->second)).value();
   after_ = before_;
 }
 

@@ -24,7 +24,7 @@ struct NextFolder {
   }
 };
 
-// Of one of its files, written at most once.
+// Of one of its files, as it will be so far.
 class Update {
  public:
   // `next` has to live as long.
