@@ -65,7 +65,11 @@ void update_counters(const Accepted& accepted, Update& update) {
 void update_memory(const Accepted& accepted, Update& update) {
   Json& table = table_of(update.value(), accepted);
   for (const record::Record& record : accepted.measured) {
-    if (!record.memory.empty()) table[record.configuration][record.device] = record.memory;
+    if (record.memory.empty()) {
+      erase_from(table, record.configuration, record.device);
+    } else {
+      table[record.configuration][record.device] = record.memory;
+    }
   }
 }
 
@@ -74,8 +78,9 @@ void update_errors(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
   Json& table = table_of(update.value(), accepted);
   for (const record::Record& record : accepted.measured) {
-    const accuracy::LimitPicture* limit = record.image.empty() ? nullptr : request.limit(record);
-    if (limit == nullptr) continue;
+    const accuracy::LimitPicture* limit = request.limit(record);
+    if (limit == nullptr) erase_from(table, record.configuration, record.device);
+    if (limit == nullptr || record.image.empty()) continue;
     const auto error =
         accuracy::picture_error(store.picture(record.image), request.truth(record), limit->image);
     if (!error) continue;
@@ -103,7 +108,17 @@ record::Counts kept_of(record::Counts cost) {
   return cost;
 }
 
-// Counts of another emulator are another kind of number: they replace all that is stored.
+// Counts of another emulator are another kind of number: they replace all that is stored, which
+// those of --only may not.
+void refuse_another_emulator(const Accepted& accepted, const Json& file,
+                             const record::Record& record) {
+  if (accepted.replaces_all || !file.contains("configurations")) return;
+  throw core::InputError(fmt::format(
+      "run {}: {} was counted by {}, what is stored of it by {}: of another emulator accept the "
+      "whole plan, without --only",
+      record.run, record.device, record.counted_by, file.value("counted_by", "")));
+}
+
 void update_cost(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::cost(device));
   bool counted = false;
@@ -116,6 +131,7 @@ void update_cost(const Accepted& accepted, const record::Device& device, NextFol
                                            device.id, file.value("counted_by", ""),
                                            record.counted_by));
       }
+      refuse_another_emulator(accepted, file, record);
       file = {{"device", device.id},
               {"driver_version", device.driver_version},
               {"counted_by", record.counted_by}};

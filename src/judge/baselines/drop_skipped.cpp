@@ -22,10 +22,7 @@ void drop_from_table(std::span<const record::Record> skipped, const char* name, 
   Update file(next, name);
   Json& table = file.value();
   for (const record::Record& record : skipped) {
-    const auto found = table.find(record.configuration);
-    if (found == table.end()) continue;
-    erase_device(*found, record.device);
-    if (found->empty()) table.erase(found);
+    erase_from(table, record.configuration, record.device);
   }
   file.write(2);
 }
@@ -44,6 +41,13 @@ void drop_from_file(std::span<const record::Record> skipped, const std::string& 
 }
 
 }  // namespace
+
+void erase_from(Json& table, const std::string& configuration, const std::string& device) {
+  const auto found = table.find(configuration);
+  if (found == table.end()) return;
+  erase_device(*found, device);
+  if (found->empty()) table.erase(found);
+}
 
 void drop_skipped(std::span<const record::Record> skipped,
                   const std::map<std::string, record::Device>& devices, NextFolder& next) {

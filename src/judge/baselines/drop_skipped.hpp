@@ -10,6 +10,10 @@
 
 namespace triptych::judge {
 
+// What a table of {configuration: {device: …}} or {configuration: {name: {device: …}}} has of one
+// on one, and what is empty then.
+void erase_from(core::Json& table, const std::string& configuration, const std::string& device);
+
 // All that is stored of the records' configurations on their devices; of what is stored by driver
 // or machine, that of `devices` (by id).
 void drop_skipped(std::span<const record::Record> skipped,

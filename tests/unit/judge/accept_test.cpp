@@ -129,6 +129,27 @@ TEST_F(AcceptTest, WhatADeviceSkipsNowIsDropped) {
   EXPECT_EQ(counters[plain_]["samples"].size() + 1, counters[bricks_]["samples"].size());
 }
 
+// Of the same files: what is dropped does not bring back what was there before.
+TEST_F(AcceptTest, DroppingKeepsWhatIsAcceptedBesides) {
+  add_run("b", [&](record::Record& record, core::Image&) {
+    record.counters["samples"] = 7;
+    const bool skips = record.device == "opencl:pocl" && record.configuration == plain_;
+    if (skips) record.outcome = record::Outcome::skipped;
+  });
+  const auto expect_accepted = [&] {
+    const core::Json counters = read(baseline("counters.json"));
+    EXPECT_EQ(counters[plain_]["samples"].count("opencl:pocl"), 0U);
+    EXPECT_EQ(counters[plain_]["samples"]["gl:llvmpipe-egl"], 7);
+    EXPECT_EQ(counters[bricks_]["samples"]["opencl:pocl"], 7);
+  };
+  (void)accept_run("b", {.only = "*", .drop = true});  // nothing was there
+  expect_accepted();
+  std::filesystem::remove_all(baseline("counters.json").parent_path());
+  accept_first();
+  (void)accept_run("b", {.only = "*", .drop = true});
+  expect_accepted();
+}
+
 // One device's run replaces its own voxel format's hash, and leaves the others'.
 TEST_F(AcceptTest, DataOfOtherFormatsKeepsItsHash) {
   const auto with_formats = [](record::Record& record, core::Image&) {
@@ -224,9 +245,11 @@ TEST_F(AcceptTest, CostIsOfOneEmulator) {
             (core::Json{{"device_code", 700}, {"driver", 300}, {"allocations", 4}}));
   EXPECT_EQ(cost["configurations"][plain_]["prepare"]["driver"], 9000);
   add_run("b", counted_by("two"));
-  (void)accept_run("b", {.only = plain_});
+  EXPECT_THROW((void)accept_run("b", {.only = plain_}), core::InputError) << "others would go";
+  EXPECT_EQ(read(device_file("cost", "vulkan")), cost);
+  (void)accept_run("b");
   EXPECT_EQ(read(device_file("cost", "vulkan"))["counted_by"], "two");
-  EXPECT_EQ(read(device_file("cost", "vulkan"))["configurations"].size(), 1U);
+  EXPECT_EQ(read(device_file("cost", "vulkan"))["configurations"].size(), 4U);
   add_run("mixed", [&](record::Record& record, core::Image& image) {
     counted_by(record.configuration == plain_ ? "one" : "two")(record, image);
   });
@@ -239,6 +262,11 @@ TEST_F(AcceptTest, MemoryIsKeptByDevice) {
   });
   EXPECT_EQ(read(baseline("memory.json"))[plain_].size(), 2U);
   EXPECT_EQ(read(baseline("memory.json"))[plain_]["gl:llvmpipe-egl"]["buffers"], 4096);
+  add_run("b", [](record::Record& record, core::Image&) {
+    if (record.device == "vulkan:lavapipe") record.memory = {{"buffers", 4096}};
+  });
+  (void)accept_run("b");
+  EXPECT_EQ(read(baseline("memory.json"))[plain_].size(), 1U) << "one tells it no longer";
 }
 
 TEST_F(AcceptTest, DataThatChangedSinceTheRunAreRefused) {
