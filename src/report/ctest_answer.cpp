@@ -69,11 +69,10 @@ std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
   for (const judge::Finding& finding : result.findings) {
     const bool idle =
         finding.verdict == judge::Verdict::advisory || finding.verdict == judge::Verdict::skipped;
-    // A correlation is decided of a device as a whole.
-    const bool decided_whole =
-        finding.check == judge::Check::correlation &&
-        (finding.verdict == judge::Verdict::pass || finding.verdict == judge::Verdict::regression);
-    if (decided_whole || (!idle && !finding.configuration.empty())) return std::nullopt;
+    // Of a device as a whole a pass sums up; a correlation's decides.
+    const bool sums_up = finding.verdict == judge::Verdict::pass && finding.configuration.empty() &&
+                         finding.check != judge::Check::correlation;
+    if (!idle && !sums_up) return std::nullopt;
     if (idle && reason.empty()) reason = finding.message;
   }
   if (reason.empty()) return std::nullopt;

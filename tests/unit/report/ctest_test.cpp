@@ -65,6 +65,14 @@ TEST_F(CTestAnswer, WhatOnlyAdvisesHasJudgedNothing) {
   EXPECT_EQ(reason_to_skip(result_), std::nullopt);
 }
 
+TEST_F(CTestAnswer, WhatCannotBeJudgedOfADeviceIsNoSkip) {
+  add(Verdict::skipped, "step=1");
+  add(Verdict::pass, "");
+  EXPECT_EQ(reason_to_skip(result_), "because");
+  add(Verdict::cannot_judge, "");
+  EXPECT_EQ(reason_to_skip(result_), std::nullopt);
+}
+
 TEST_F(CTestAnswer, ACorrelationIsDecidedOfADevice) {
   add(Verdict::advisory, "");
   add(Verdict::pass, "", Check::correlation);
