@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "estimation/statistics.hpp"
 #include "judge/baselines/frame_change.hpp"
@@ -46,6 +47,10 @@ class DeviceCostCheck {
           stored_ != nullptr ? "its instructions were not counted, though they were when it was "
                                "accepted: count them, or leave cost out of --check"
                              : "its instructions were not counted");
+    } else if (const auto other = counted_otherwise(**counted)) {
+      add(findings, Verdict::cannot_judge,
+          fmt::format("its instructions were counted by {} and by {}: run the plan again",
+                      (*counted)->counted_by, *other));
     } else if (stored_ == nullptr || stored_->counted_by != (*counted)->counted_by) {
       tell_other(**counted, findings);
     } else {
@@ -58,6 +63,15 @@ class DeviceCostCheck {
  private:
   void add(std::vector<Finding>& findings, Verdict verdict, std::string message) const {
     findings.push_back(finding_about(view_, device_, Check::cost, verdict, std::move(message)));
+  }
+
+  // By what else than that record: a resumed run, or one merged of shards.
+  [[nodiscard]] std::optional<std::string> counted_otherwise(const record::Record& counted) const {
+    for (const record::Record* record : records_) {
+      if (record->cost.empty() || record->counted_by == counted.counted_by) continue;
+      return record->counted_by;
+    }
+    return std::nullopt;
   }
 
   // Of another version of this driver, or by another emulator, the nearest that there is.

@@ -72,6 +72,19 @@ TEST_F(CostGateTest, OneInstructionOfDeviceCodeIsARegression) {
                     HasSubstr("instructions 2000000 → 2000001"), Not(HasSubstr("driver"))));
 }
 
+// A run that was resumed, or merged of shards.
+TEST_F(CostGateTest, CountsOfTwoEmulatorsAreNotJudged) {
+  const GateResult result = judge(counted([](record::Record& record) {
+    if (record.configuration != plain_) return;
+    record.counted_by = "an emulator 2";
+    record.cost["device_code"] *= 2;
+  }));
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
+  const auto told = with(result, Verdict::cannot_judge, Check::cost);
+  ASSERT_EQ(told.size(), 3U);
+  EXPECT_THAT(told[0].message, AllOf(HasSubstr("by an emulator 1"), HasSubstr("by an emulator 2")));
+}
+
 TEST_F(CostGateTest, OneInstructionLessIsAnImprovement) {
   const GateResult result = judge(changed("vulkan:lavapipe", "device_code", -1));
   EXPECT_EQ(result.exit_code(), ExitCode::pass);
