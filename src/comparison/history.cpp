@@ -40,12 +40,6 @@ std::optional<double> ratio(const MeasuredByConfiguration& a, const MeasuredByCo
   return count > 0 ? std::optional(std::exp(sum / count)) : std::nullopt;
 }
 
-std::optional<double> chained(const std::optional<double>& before,
-                              const std::optional<double>& step) {
-  if (!step) return std::nullopt;
-  return before.value_or(1) * *step;
-}
-
 std::string text_of(const std::optional<double>& value) {
   return value ? fmt::format("{:.4f}", *value) : "–";
 }
@@ -101,34 +95,46 @@ HistoryBuilder::Points HistoryBuilder::points_of(const record::Store& store) con
 
 void HistoryBuilder::add_changes(const record::Store& store, measure::Truths& truths,
                                  Points& points) const {
-  for (const DeviceChange& change : diff_stores(*before_, store, devices_, truths).devices) {
-    const DifferenceGroups groups = groups_of(change);
-    HistoryPoint& point = points[change.b.id];
-    point.changes = groups.empty() ? std::string() : groups.text();
-    point.worse = change.has(DifferenceKind::regression);
+  std::map<const record::Store*, std::vector<std::string>> since;
+  for (const auto& [id, point] : points) {
+    const auto known = chains_.find(id);
+    if (known != chains_.end()) since[known->second.last].push_back(id);
+  }
+  for (const auto& [before, devices] : since) {
+    for (const DeviceChange& change : diff_stores(*before, store, devices, truths).devices) {
+      const DifferenceGroups groups = groups_of(change);
+      HistoryPoint& point = points[change.b.id];
+      point.changes = groups.empty() ? std::string() : groups.text();
+      point.worse = change.has(DifferenceKind::regression);
+    }
   }
 }
 
+// nullopt where nothing here tells the value, or nothing that the chain's last store has, too: then
+// it begins anew.
+std::optional<double> HistoryBuilder::extend(Chain& chain, const MeasuredByConfiguration& here,
+                                             std::optional<double> Measured::*value) {
+  if (!ratio(here, here, value)) return std::nullopt;
+  const auto step = ratio(chain.last, here, value);
+  const bool begins = chain.last.empty();
+  chain = {here, step ? chain.value * *step : 1};
+  return begins || step ? std::optional(chain.value) : std::nullopt;
+}
+
 void HistoryBuilder::add(const record::Store& store, measure::Truths& truths) {
-  auto measured = by_device(store);
+  const auto measured = by_device(store);
   Points points = points_of(store);
+  add_changes(store, truths, points);
   for (auto& [id, point] : points) {
+    Chains& chains = chains_[id];
+    chains.last = &store;
     const auto here = measured.find(id);
-    const auto there = measured_.find(id);
-    const std::vector<HistoryPoint>& known = of(id).points;
-    if (here == measured.end()) continue;
-    if (known.empty()) {
-      point.cost = ratio(here->second, here->second, &Measured::cost);
-      point.time = ratio(here->second, here->second, &Measured::time);
-    } else if (there != measured_.end()) {
-      point.cost = chained(known.back().cost, ratio(there->second, here->second, &Measured::cost));
-      point.time = chained(known.back().time, ratio(there->second, here->second, &Measured::time));
+    if (here != measured.end()) {
+      point.cost = extend(chains.cost, here->second, &Measured::cost);
+      point.time = extend(chains.time, here->second, &Measured::time);
     }
+    of(id).points.push_back(std::move(point));
   }
-  if (before_ != nullptr) add_changes(store, truths, points);
-  for (auto& [id, point] : points) of(id).points.push_back(std::move(point));
-  before_ = &store;
-  measured_ = std::move(measured);
 }
 
 std::string to_text(const std::vector<DeviceHistory>& history) {

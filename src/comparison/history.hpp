@@ -49,22 +49,32 @@ class HistoryBuilder {
  public:
   explicit HistoryBuilder(std::vector<std::string> devices) : devices_(std::move(devices)) {}
 
-  // The next store, which must live until the one behind it is added; `truths`: of its records and
-  // of the one before.
+  // The next store, which must live as long; `truths`: of its records and of those before.
   void add(const record::Store& store, measure::Truths& truths);
   [[nodiscard]] const std::vector<DeviceHistory>& devices() const { return history_; }
 
  private:
   using Points = std::map<std::string, HistoryPoint>;  // by device
+  // Where the last store that told a device's costs, or times, had got.
+  struct Chain {
+    MeasuredByConfiguration last;
+    double value = 1;
+  };
+  struct Chains {
+    Chain cost;
+    Chain time;
+    const record::Store* last = nullptr;  // that held the device
+  };
   [[nodiscard]] Points points_of(const record::Store& store) const;
   DeviceHistory& of(const std::string& device);
 
+  static std::optional<double> extend(Chain& chain, const MeasuredByConfiguration& here,
+                                      std::optional<double> Measured::*value);
   void add_changes(const record::Store& store, measure::Truths& truths, Points& points) const;
 
   std::vector<std::string> devices_;
   std::vector<DeviceHistory> history_;
-  const record::Store* before_ = nullptr;
-  std::map<std::string, MeasuredByConfiguration> measured_;  // in it, by device
+  std::map<std::string, Chains> chains_;  // by device
 };
 
 // Each device with a line per store, then the first store that was worse.

@@ -19,12 +19,13 @@ using ::testing::Not;
 class History : public testing::Test {
  protected:
   // `base_ns`: what a frame takes; `keys`: of the script.
-  void measure(const std::string& store, const std::string& base_ns,
-               const std::string& keys = "") const {
+  void measure(const std::string& store, const std::string& base_ns, const std::string& keys = "",
+               const std::string& how = "") const {
     const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}{}}})",
                                            picture.string(), base_ns, keys);
     const Result result = program.run(
-        fmt::format("run volume/quick --set skip=none,bricks --store {} {}", store, tiny), script);
+        fmt::format("run volume/quick --set skip=none,bricks --store {} {} {}", store, tiny, how),
+        script);
     ASSERT_EQ(result.code, 0) << result.output;
   }
 
@@ -50,6 +51,20 @@ TEST_F(History, TellsWhatMovedAndTheFirstThatWasWorse) {
   EXPECT_TRUE(points[2].at("worse").get<bool>());
   EXPECT_FALSE(points[3].at("worse").get<bool>()) << "no worse than the one before";
   EXPECT_THAT(history.at("first_worse").get<std::string>(), HasSubstr("3.sqlite"));
+}
+
+// The one between tells no time, but pictures.
+TEST_F(History, GoesOnBehindAGap) {
+  const std::string wrong = R"(, "failures": [{"kind": "wrong_image", "at": "image"}])";
+  measure("1.sqlite", "1e5");
+  measure("2.sqlite", "1e5", "", "--untimed");
+  measure("3.sqlite", "2e5", wrong);
+  const Result told = program.run("history 1.sqlite 2.sqlite 3.sqlite --json");
+  const core::Json points = core::Json::parse(told.output).at(0).at("points");
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_FALSE(points[1].contains("time"));
+  EXPECT_NEAR(points[2].at("time").get<double>(), 2, 0.2);
+  EXPECT_TRUE(points[2].at("worse").get<bool>());
 }
 
 TEST_F(History, GoesByTimeWhateverTheOrder) {
