@@ -79,6 +79,7 @@ void take_over(record::Record& record, const record::Record& measured) {
   record.loop_wall_ns = measured.loop_wall_ns;
   record.loop_frames = measured.loop_frames;
   record.memory = measured.memory;
+  record.energy = measured.energy;
   record.counters = measured.counters;
   record.statistics = measured.statistics;
   record.image = measured.image;
