@@ -19,8 +19,6 @@ namespace triptych::judge {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t least_runs = 5;  // fewer stored runs decide nothing
-
 struct StoredImage {
   ReferenceHash reference;
   std::map<std::string, std::string> data;  // content hashes by Layout::data_key
@@ -64,7 +62,6 @@ record::Counts read_counts(const core::JsonNode& node) {
 
 Manifest read_manifest(const core::JsonNode& node) {
   Manifest manifest{.plan_hash = node.at("plan_hash").text(),
-                    .checks = record::checks_of(node.at("checks").text()),
                     .configurations = node.at("configurations").whole_number(),
                     .files = read_members<std::string>(node.at("files"), read_text)};
   for (const auto& [device, drivers] : node.at("devices").members()) {

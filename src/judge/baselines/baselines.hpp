@@ -41,7 +41,6 @@ namespace triptych::judge {
 
 struct Manifest {
   std::string plan_hash;
-  record::Checks checks;
   std::uint64_t configurations = 0;
   std::map<std::string, std::set<std::string>> devices;  // id → Device::statistics_key()
   std::map<std::string, std::string> files;              // name → content hash

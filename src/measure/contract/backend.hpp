@@ -26,7 +26,7 @@ struct VolumeWork {
 };
 
 // Its images carry depth (Z, distance along the view axis) and ids; its counters are
-// technique::particle_counters and visible_ids.
+// technique::particle_counts.
 struct ParticleWork {
   scene::ParticleScene scene;
   technique::ParticleOptions options;

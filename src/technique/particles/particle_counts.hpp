@@ -38,8 +38,19 @@ struct CountedFrame {
   std::uint64_t cells = 0;
   std::uint64_t particles = 0;
 };
-// Those of `particle_counters` that such a frame has, and visible_ids. `sums`: all rows of the
-// buffer. Fragments are what a rasterizer makes, bin entries what compute makes.
+// Our own counters, the same words on every API. A technique tells those that mean something for
+// it; they come from Purpose::counters frames.
+//   cells, cells_culled   cells of the arrangement, and those left out
+//   particles_submitted   particles of the cells that were drawn
+//   particles_culled      the rest
+//   sprites               particles whose sprite (or, for tiles, pixel rectangle) is not empty
+//   vertices              their corners (0 for tiles)
+//   fragments             pixel centres that the sprites cover, before any depth test
+//   fragments_discarded   of those, the ones whose ray misses the sphere or finds it behind
+//   fragments_kept        the others
+//   bin_entries           (tile, particle) pairs: tiles, and OpenCL's rasterizer
+//   visible_ids           the different particles in the picture, which every one tells
+// `sums`: all rows of the buffer.
 [[nodiscard]] std::map<std::string, std::uint64_t> particle_counts(
     const CountedFrame& frame, std::span<const std::uint32_t> sums, const core::Image& picture);
 

@@ -42,20 +42,4 @@ struct ParticleOptions {
   int extra_work_stride = 0;
 };
 
-// Our own counters, the same words on every API. A technique tells those that mean something for
-// it; they come from Purpose::counters frames.
-//   cells, cells_culled   cells of the arrangement, and those left out
-//   particles_submitted   particles of the cells that were drawn
-//   particles_culled      the rest
-//   sprites               particles whose sprite (or, for tiles, pixel rectangle) is not empty
-//   vertices              their corners (0 for tiles)
-//   fragments             pixel centres that the sprites cover, before any depth test
-//   fragments_discarded   of those, the ones whose ray misses the sphere or finds it behind
-//   fragments_kept        the others
-//   bin_entries           (tile, particle) pairs: tiles, and OpenCL's rasterizer
-// Beside them stands visible_ids, the different particles in the picture, which every one tells.
-inline constexpr std::array<std::string_view, 10> particle_counters{
-    "cells",    "cells_culled", "particles_submitted", "particles_culled", "sprites",
-    "vertices", "fragments",    "fragments_discarded", "fragments_kept",   "bin_entries"};
-
 }  // namespace triptych::technique
