@@ -1,5 +1,8 @@
 #include "judge/baselines/waivers.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -31,7 +34,18 @@ bool is_iso_date(std::string_view text) {
   return date.ok();
 }
 
+// A key that nobody reads would leave an entry that excuses more than it says.
+void refuse_other_keys(const core::JsonNode& entry) {
+  constexpr std::array<std::string_view, 6> known{"device", "test",   "configuration",
+                                                  "reason", "expiry", "outcome"};
+  for (const auto& [key, value] : entry.members()) {
+    if (std::ranges::find(known, key) != known.end()) continue;
+    value.fail(fmt::format("no such key; there are: {}", fmt::join(known, ", ")));
+  }
+}
+
 Waiver read_entry(const core::JsonNode& entry) {
+  refuse_other_keys(entry);
   Waiver waiver{.device = entry.at("device").text(),
                 .test = entry.at("test").text(),
                 .reason = entry.at("reason").text(),

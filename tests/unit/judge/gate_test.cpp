@@ -288,6 +288,24 @@ TEST_F(GateTest, AWaiverNeedsReasonAndDate) {
   }
 }
 
+// It would excuse every configuration.
+TEST_F(GateTest, AWaiverWithAMisspelledKeyIsRefused) {
+  accept_first();
+  write_waivers("2099-01-01");
+  const auto file = folder_.path() / "baselines" / "waivers.json";
+  std::string text = core::read_text(file);
+  text.replace(text.find("\"configuration\""), 15, "\"configurations\"");
+  core::write_file(text, file);
+  try {
+    (void)gate("accepted");
+    ADD_FAILURE() << "not refused";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("configurations: no such key; there are: device"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // --- the verdict on the whole ---
 
 TEST(GateResultTest, Precedence) {
