@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "core/glob.hpp"
 #include "core/json.hpp"
@@ -17,27 +20,13 @@ std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& st
   std::map<std::string, MeasuredByConfiguration> devices;
   for (const record::Run& run : record::latest_runs(store)) {
     store.visit_records(run.id, [&](const record::Record& record) {
+      Measured& here = devices[record.device][run.plan + " " + record.configuration];
       if (record.outcome != record::Outcome::measured) return;
       const auto time = record::summarise(record.time_ns());
-      devices[record.device][run.plan + " " + record.configuration] = {
-          record.instructions(), time ? std::optional(time->median) : std::nullopt};
+      here = {record.instructions(), time ? std::optional(time->median) : std::nullopt};
     });
   }
   return devices;
-}
-
-// b over a, the geometric mean over what both have.
-std::optional<double> ratio(const MeasuredByConfiguration& a, const MeasuredByConfiguration& b,
-                            std::optional<double> Measured::*value) {
-  double sum = 0;
-  int count = 0;
-  for (const auto& [name, now] : b) {
-    const auto then = a.find(name);
-    if (then == a.end() || !(now.*value) || !(then->second.*value)) continue;
-    sum += std::log(*(now.*value) / *(then->second.*value));
-    ++count;
-  }
-  return count > 0 ? std::optional(std::exp(sum / count)) : std::nullopt;
 }
 
 std::string text_of(const std::optional<double>& value) {
@@ -93,45 +82,75 @@ HistoryBuilder::Points HistoryBuilder::points_of(const record::Store& store) con
   return points;
 }
 
-void HistoryBuilder::add_changes(const record::Store& store, measure::Truths& truths,
-                                 Points& points) const {
-  std::map<const record::Store*, std::vector<std::string>> since;
+void HistoryBuilder::add_changes(const record::Store& store,
+                                 const std::map<std::string, MeasuredByConfiguration>& measured,
+                                 measure::Truths& truths, Points& points) const {
+  std::map<const record::Store*, std::set<std::string>> devices_since;
   for (const auto& [id, point] : points) {
-    const auto known = chains_.find(id);
-    if (known != chains_.end()) since[known->second.last].push_back(id);
-  }
-  for (const auto& [before, devices] : since) {
-    for (const DeviceChange& change : diff_stores(*before, store, devices, truths).devices) {
-      const DifferenceGroups groups = groups_of(change);
-      HistoryPoint& point = points[change.b.id];
-      point.changes = groups.empty() ? std::string() : groups.text();
-      point.worse = change.has(DifferenceKind::regression);
+    const auto known = known_.find(id);
+    if (known == known_.end()) continue;
+    devices_since[known->second.last].insert(id);
+    const auto here = measured.find(id);
+    if (here == measured.end()) continue;
+    for (const auto& [configuration, amounts] : here->second) {
+      const auto holder = known->second.holder.find(configuration);
+      if (holder != known->second.holder.end()) devices_since[holder->second].insert(id);
     }
+  }
+  std::map<std::string, DeviceChange> changes;
+  for (const auto& [before, devices] : devices_since) {
+    for (DeviceChange& change :
+         diff_stores(*before, store, {devices.begin(), devices.end()}, truths).devices) {
+      const Known& known = known_.at(change.b.id);
+      std::erase_if(change.configurations, [&, before = before](const ConfigurationDiff& each) {
+        const auto holder = known.holder.find(each.key);
+        return (holder == known.holder.end() ? known.last : holder->second) != before;
+      });
+      DeviceChange& all = changes[change.b.id];
+      if (before == known.last) all.device = std::move(change.device);
+      std::ranges::move(change.configurations, std::back_inserter(all.configurations));
+    }
+  }
+  for (const auto& [id, change] : changes) {
+    const DifferenceGroups groups = groups_of(change);
+    points[id].changes = groups.empty() ? std::string() : groups.text();
+    points[id].worse = change.has(DifferenceKind::regression);
   }
 }
 
-// nullopt where nothing here tells the value, or nothing that the chain's last store has, too: then
-// it begins anew.
+// nullopt where nothing here tells the value, or nothing that was told before: of what has no
+// relation to the first point none is made up.
 std::optional<double> HistoryBuilder::extend(Chain& chain, const MeasuredByConfiguration& here,
                                              std::optional<double> Measured::*value) {
-  if (!ratio(here, here, value)) return std::nullopt;
-  const auto step = ratio(chain.last, here, value);
-  const bool begins = chain.last.empty();
-  chain = {here, step ? chain.value * *step : 1};
-  return begins || step ? std::optional(chain.value) : std::nullopt;
+  double sum = 0;
+  int count = 0;
+  for (const auto& [configuration, amounts] : here) {
+    const auto before = chain.find(configuration);
+    if (!(amounts.*value) || before == chain.end()) continue;
+    sum += std::log(*(amounts.*value) / before->second.amount * before->second.value);
+    ++count;
+  }
+  if (count == 0 && !chain.empty()) return std::nullopt;
+  const double now = count > 0 ? std::exp(sum / count) : 1;
+  for (const auto& [configuration, amounts] : here) {
+    if (amounts.*value) chain.insert_or_assign(configuration, Link{*(amounts.*value), now});
+  }
+  return chain.empty() ? std::nullopt : std::optional(now);
 }
 
 void HistoryBuilder::add(const record::Store& store, measure::Truths& truths) {
   const auto measured = by_device(store);
   Points points = points_of(store);
-  add_changes(store, truths, points);
+  add_changes(store, measured, truths, points);
   for (auto& [id, point] : points) {
-    Chains& chains = chains_[id];
-    chains.last = &store;
-    const auto here = measured.find(id);
-    if (here != measured.end()) {
-      point.cost = extend(chains.cost, here->second, &Measured::cost);
-      point.time = extend(chains.time, here->second, &Measured::time);
+    Known& known = known_[id];
+    known.last = &store;
+    if (const auto here = measured.find(id); here != measured.end()) {
+      point.cost = extend(known.cost, here->second, &Measured::cost);
+      point.time = extend(known.time, here->second, &Measured::time);
+      for (const auto& [configuration, amounts] : here->second) {
+        known.holder[configuration] = &store;
+      }
     }
     of(id).points.push_back(std::move(point));
   }

@@ -18,12 +18,13 @@ struct HistoryPoint {
   std::string started_at;  // its first run
   std::string driver_version;
   std::string triptych;  // the program's version
-  // Of the first point, by the geometric mean over the configurations that neighbours both have,
-  // multiplied from point to point; empty where no two neighbours up to here share any.
+  // Of the first point, by the geometric mean over the configurations that were there before, each
+  // since the last store that told it, multiplied from point to point; empty where none was.
   std::optional<double> cost;  // instructions of generated code and driver
   std::optional<double> time;  // median of the frames
-  std::string changes;         // against the point before, as `diff` tells; empty: nothing
-  bool worse = false;          // a regression is among them
+  // Of each configuration against the last store that has it, as `diff` tells; empty: nothing.
+  std::string changes;
+  bool worse = false;  // a regression is among them
 };
 
 struct DeviceHistory {
@@ -34,7 +35,7 @@ struct DeviceHistory {
   [[nodiscard]] const HistoryPoint* first_worse() const;
 };
 
-// Of a configuration on a device.
+// Of a configuration on a device, where it was measured.
 struct Measured {
   std::optional<double> cost;
   std::optional<double> time;
@@ -55,26 +56,30 @@ class HistoryBuilder {
 
  private:
   using Points = std::map<std::string, HistoryPoint>;  // by device
-  // Where the last store that told a device's costs, or times, had got.
-  struct Chain {
-    MeasuredByConfiguration last;
-    double value = 1;
+  // Of a configuration what it last took, and what of the first point that was.
+  struct Link {
+    double amount;
+    double value;
   };
-  struct Chains {
+  using Chain = std::map<std::string, Link>;
+  struct Known {  // of a device
     Chain cost;
     Chain time;
-    const record::Store* last = nullptr;  // that held the device
+    const record::Store* last = nullptr;                 // that held the device
+    std::map<std::string, const record::Store*> holder;  // the last of each configuration
   };
   [[nodiscard]] Points points_of(const record::Store& store) const;
   DeviceHistory& of(const std::string& device);
 
   static std::optional<double> extend(Chain& chain, const MeasuredByConfiguration& here,
                                       std::optional<double> Measured::*value);
-  void add_changes(const record::Store& store, measure::Truths& truths, Points& points) const;
+  void add_changes(const record::Store& store,
+                   const std::map<std::string, MeasuredByConfiguration>& measured,
+                   measure::Truths& truths, Points& points) const;
 
   std::vector<std::string> devices_;
   std::vector<DeviceHistory> history_;
-  std::map<std::string, Chains> chains_;  // by device
+  std::map<std::string, Known> known_;  // by device
 };
 
 // Each device with a line per store, then the first store that was worse.

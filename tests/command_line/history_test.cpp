@@ -23,9 +23,10 @@ class History : public testing::Test {
                const std::string& how = "") const {
     const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}{}}})",
                                            picture.string(), base_ns, keys);
-    const Result result = program.run(
-        fmt::format("run volume/quick --set skip=none,bricks --store {} {} {}", store, tiny, how),
-        script);
+    const Result result =
+        program.run(fmt::format("run volume/quick --store {} {} {}", store, tiny,
+                                how.starts_with("--set") ? how : "--set skip=none,bricks " + how),
+                    script);
     ASSERT_EQ(result.code, 0) << result.output;
   }
 
@@ -65,6 +66,22 @@ TEST_F(History, GoesOnBehindAGap) {
   EXPECT_FALSE(points[1].contains("time"));
   EXPECT_NEAR(points[2].at("time").get<double>(), 2, 0.2);
   EXPECT_TRUE(points[2].at("worse").get<bool>());
+}
+
+// The second store has but one of two configurations; the other is wrong in the third.
+TEST_F(History, HoldsEachConfigurationAgainstTheLastStoreThatHasIt) {
+  const std::string wrong =
+      R"(, "failures": [{"kind": "wrong_image", "at": "image", "only": "*skip=bricks*"}])";
+  measure("1.sqlite", "1e5");
+  measure("2.sqlite", "1e5", "", "--set skip=none");
+  measure("3.sqlite", "1e5", wrong);
+  measure("4.sqlite", "1e5", wrong);
+  const Result told = program.run("history 1.sqlite 2.sqlite 3.sqlite 4.sqlite --json");
+  const core::Json points = core::Json::parse(told.output).at(0).at("points");
+  ASSERT_EQ(points.size(), 4U);
+  EXPECT_FALSE(points[1].at("worse").get<bool>());
+  EXPECT_TRUE(points[2].at("worse").get<bool>()) << told.output;
+  EXPECT_FALSE(points[3].at("worse").get<bool>());
 }
 
 TEST_F(History, GoesByTimeWhateverTheOrder) {
