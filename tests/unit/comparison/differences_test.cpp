@@ -222,7 +222,9 @@ TEST(DeviceDifferences, LimitsAreGainedLostAndChanged) {
   record::Device b = a;
   a.limits = {{"x", "1"}, {"y", "1"}};
   b.limits = {{"x", "2"}, {"z", "1"}};
-  b.statistics_calibration = {{"fragment_invocations", "exact"}};
+  a.statistics_calibration = {{"fragment_invocations", "inflated"}};
+  b.statistics_calibration = {{"fragment_invocations", "exact"},
+                              {"compute_invocations", "exact"}};  // of which a's run drew nothing
   const auto found = find_differences(a, b);
   ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(found[0].text, "1 → 2");
@@ -231,6 +233,16 @@ TEST(DeviceDifferences, LimitsAreGainedLostAndChanged) {
   EXPECT_EQ(found[3].kind, DifferenceKind::calibration);
   b.id = "gl:llvmpipe-egl";
   EXPECT_THAT(find_differences(a, b), IsEmpty());
+}
+
+// OpenCL bins spheres that Vulkan and GL draw at once.
+TEST_F(Differences, WhatAnApiCountsInItsOwnWayIsNoRegressionOfAnother) {
+  use_another_driver();
+  record_a.counters["bin_entries"] = 44;
+  record_b.counters["bin_entries"] = 13237;
+  EXPECT_EQ(find().differences.at(0).kind, DifferenceKind::regression);
+  device_b.api = "opencl";
+  EXPECT_EQ(find().differences.at(0).kind, DifferenceKind::changed);
 }
 
 TEST_F(Differences, TheWorstComesFirst) {
