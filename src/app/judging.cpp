@@ -10,6 +10,7 @@
 #include <map>
 #include <utility>
 
+#include "app/arguments.hpp"
 #include "app/paths.hpp"
 #include "core/foreign_error.hpp"
 #include "core/output_files.hpp"
@@ -82,9 +83,17 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
 judge::GateResult judge_named(const record::Store& store, const std::string& run,
                               const std::string& baselines, const judge::GateRequest& request) {
   return core::naming(fmt::format("{}: run {}", store.file().string(), run), [&] {
+    const auto option = [](std::string_view name, const std::string& value) {
+      return fmt::format(" {} {}", name, core::shell_quoted(value));
+    };
+    judge::GateRequest complete = request;
+    const std::string file = store.file().string();
+    if (file != standard_store) complete.store_option = option("--store", file);
+    const bool elsewhere = baselines != default_baselines().string();
+    if (elsewhere) complete.baselines_option = option("--baselines", baselines);
     judge::GateResult result =
-        judge::judge_run(store, run, judge::Baselines(baselines, request.plan), request);
-    if (baselines != default_baselines().string()) result.baselines = baselines;
+        judge::judge_run(store, run, judge::Baselines(baselines, request.plan), complete);
+    if (elsewhere) result.baselines = baselines;
     return result;
   });
 }

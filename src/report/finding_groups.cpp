@@ -246,7 +246,7 @@ class Grouping {
 // A hang too, whose limit `render` takes.
 bool is_told_by_a_picture(const Finding& finding) {
   return finding.check == Check::image || finding.check == Check::stress ||
-         finding.check == Check::accuracy || record::limit_in(finding.message);
+         record::limit_in(finding.message);
 }
 
 // What is wrong by what is stored alone is measured and judged again, into a store of its own.
@@ -260,9 +260,13 @@ void judge_again(const Finding& finding, const judge::GateResult& result, Comman
   } else {
     command.factors.insert(result.defaults.begin(), result.defaults.end());
   }
+  // An order is that of all steps.
+  if (finding.check == Check::accuracy) command.factors.erase("step");
   command.more = {"--measure", "--check", std::string(judge::name_of(finding.check)), "--store",
                   "repro.sqlite"};
-  if (finding.check == Check::timing) command.more.emplace_back("--times");
+  if (finding.check == Check::timing && result.times_decided) {
+    command.more.emplace_back("--times");
+  }
   if (!result.baselines.empty()) {
     command.more.insert(command.more.end(), {"--baselines", result.baselines});
   }
@@ -363,12 +367,9 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
                   .more = {"--truth", "--out", "repro"}};
   // Counting has a limit of its own.
   if (finding.check == Check::cost) command.limit.reset();
-  if (is_told_by_a_picture(finding)) {
-    if (finding.check == Check::accuracy) command.more.erase(command.more.begin());
-  } else if (is_open(finding) && is_known(result)) {
+  if (!is_told_by_a_picture(finding)) {
+    if (!is_open(finding) || !is_known(result)) return {};
     judge_again(finding, result, command);
-  } else {
-    return {};
   }
   if (const auto set = result.environments.find(finding.device); set != result.environments.end()) {
     command.environment = set->second;

@@ -64,7 +64,7 @@ TEST_F(AbsentData, LeavesNoLimitToJudgeBy) {
           .code,
       0);
   std::filesystem::remove(program.folder() / "field.nrrd");
-  const Result judged = program.run("gate volume/accuracy --store s.sqlite --baselines b");
+  const Result judged = program.run("gate volume/accuracy --store s.sqlite --baselines b --json");
   EXPECT_EQ(judged.code, 2) << judged.output;
   EXPECT_NE(judged.output.find("its error cannot be told: field.nrrd: not found"),
             std::string::npos)

@@ -139,8 +139,9 @@ void report_missing(const RunView& view, const record::Device& device,
   findings.push_back(finding_about(
       view, device, *view.checks.begin(), Verdict::cannot_judge,
       fmt::format("missing rows: of {} {} configurations there is no record of {}; finish the run "
-                  "with triptych run {} --resume",
-                  wanted.size(), kind, examples_of(missing), core::shell_quoted(view.argument()))));
+                  "with triptych run {} --resume{}",
+                  wanted.size(), kind, examples_of(missing), core::shell_quoted(view.argument()),
+                  view.request.store_option)));
   set_number(findings.back(), "missing", static_cast<double>(missing.size()));
 }
 

@@ -81,6 +81,9 @@ struct GateRequest {
   std::string plan;
   // The plan as commands take it; empty: its name has to do (record::plan_argument).
   std::string argument = {};
+  // " --store FILE", " --baselines FOLDER": what commands have to be told where neither is usual.
+  std::string store_option = {};
+  std::string baselines_option = {};
   std::set<Check> checks;            // empty: those of the run's plan (checked_in)
   std::vector<std::string> devices;  // globs; empty: all in the run
   std::vector<std::string>

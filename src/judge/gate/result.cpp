@@ -145,7 +145,8 @@ std::string RunView::argument() const {
 }
 
 std::string RunView::accept_command() const {
-  return fmt::format("triptych accept {} --reason TEXT", core::shell_quoted(argument()));
+  return fmt::format("triptych accept {}{}{} --reason TEXT", core::shell_quoted(argument()),
+                     request.store_option, request.baselines_option);
 }
 
 Finding finding_about(const record::Record& record, Check check, Verdict verdict,

@@ -196,11 +196,23 @@ TEST(CommandOf, JudgesAgainWhatIsHeldAgainstBaselines) {
 }
 
 TEST(CommandOf, MeasuresTimesAgainWhereTheyDecided) {
-  const judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
-  EXPECT_EQ(
-      command_of(finding(regression, "gl:x", "step=1", "slower", Check::timing), quick),
+  judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
+  const std::string command =
       "triptych gate volume/quick --device gl:x --set step=1 --measure --check timing --store "
-      "repro.sqlite --times");
+      "repro.sqlite";
+  const Finding slower = finding(regression, "gl:x", "step=1", "slower", Check::timing);
+  EXPECT_EQ(command_of(slower, quick), command);
+  quick.times_decided = true;
+  EXPECT_EQ(command_of(slower, quick), command + " --times");
+}
+
+// By what is stored: a picture alone tells no error. An order is of all steps.
+TEST(CommandOf, JudgesAnErrorAgain) {
+  const judge::GateResult plan{.plan = "volume/accuracy", .run = "r", .findings = {}};
+  EXPECT_EQ(
+      command_of(finding(regression, "gl:x", "data=ball,step=1", "RMSE", Check::accuracy), plan),
+      "triptych gate volume/accuracy --device gl:x --set data=ball --measure --check accuracy "
+      "--store repro.sqlite");
 }
 
 TEST(CommandOf, DrawsTheLineThroughAllDevicesAgain) {
