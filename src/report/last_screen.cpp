@@ -49,6 +49,16 @@ std::string time_text(double seconds) {
   return fmt::format("{:.0f} min", seconds / 60);
 }
 
+// What to do stands at the end, behind the last semicolon: it stays.
+std::string shortened(std::string_view text, std::size_t limit) {
+  const std::string whole = core::printable(text);
+  if (width_of(whole) <= limit) return whole;
+  const std::string end = whole.substr(std::min(whole.rfind("; "), whole.size()));
+  const std::size_t kept = width_of(end);
+  if (kept > limit / 2) return core::printable(text, limit);
+  return core::printable(text, limit - kept) + end;
+}
+
 class Screen {
  public:
   explicit Screen(const ScreenOptions& options)
@@ -63,7 +73,7 @@ class Screen {
     }
     add("");
     waived(all);
-    causes(all, files.empty() ? 2 : 4);
+    causes(all, files);
     list(files);
     add(fmt::format("  exit {}", meaning_of(all.code)));
     return text_;
@@ -120,7 +130,8 @@ class Screen {
   }
 
   // As many as fit above the last lines.
-  void causes(const Overview& all, std::size_t below) {
+  void causes(const Overview& all, std::span<const std::string> files) {
+    const std::size_t below = files.empty() ? 2 : 4;
     std::size_t shown = 0;
     for (const Cause& cause : all.open) {
       const std::vector<std::string> lines = lines_of(cause);
@@ -130,8 +141,10 @@ class Screen {
       ++shown;
     }
     if (shown < all.open.size()) {
-      add(fmt::format("  {} more causes: in the page and the files below",
-                      all.open.size() - shown));
+      const std::size_t more = all.open.size() - shown;
+      add(fmt::format(
+          "  {} more {}: {}", more, more == 1 ? "cause" : "causes",
+          files.empty() ? "--out FOLDER writes them" : "in the page and the files below"));
     }
   }
 
@@ -141,7 +154,7 @@ class Screen {
         "  {} {}", sign_of(first),
         core::printable(fmt::format("{}: {}", judge::name_of(first.check), place_of(cause)),
                         width_ - 4))};
-    std::string message = core::printable(message_of(cause), longest_message * (width_ - 6));
+    std::string message = shortened(message_of(cause), longest_message * (width_ - 6));
     if (const std::string whose = cause.group.whose(); !whose.empty()) {
       message += "; " + core::printable(whose);
     }

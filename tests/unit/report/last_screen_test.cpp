@@ -93,7 +93,7 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
   add(result, Check::image, pass, "", "", "the truth has the stored hash");
   result.findings.back().numbers["ratio"] = 7;  // no device's
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}, {.width = 120}),
-              HasSubstr("4 within their bounds; nearest 0.61 of it, farthest 0.003 on opencl:y in "
+              HasSubstr("3 within their bounds; nearest 0.61 of it, farthest 0.003 on opencl:y in "
                         "volume/quick\n"));
   const auto all = overview(std::vector{result});
   ASSERT_EQ(all.bounds.size(), 2U);
@@ -162,6 +162,17 @@ TEST(LastScreen, HasAtMostFortyLinesAndSaysWhatIsLeftOut) {
   EXPECT_LE(std::ranges::count(text, '\n'), 40);
   EXPECT_THAT(text, HasSubstr("more causes"));
   EXPECT_THAT(text, HasSubstr("; 57 devices more"));
+}
+
+TEST(LastScreen, SaysWhereTheOtherCausesAreToldAndHowToMendThem) {
+  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
+  for (int i = 0; i < 60; ++i) {
+    add(result, Check::image, cannot_judge, fmt::format("gl:x#{}", i), "step=1",
+        "nothing is stored of " + std::string(400, 'x') + "; accept it: triptych accept PLAN");
+  }
+  const std::string text = last_screen(std::vector{result}, 3, {}, {.width = 120});
+  EXPECT_THAT(text, HasSubstr("more causes: --out FOLDER writes them"));
+  EXPECT_THAT(text, HasSubstr("accept it: triptych accept PLAN"));
 }
 
 TEST(LastScreen, ColoursOnlyWhenAsked) {
