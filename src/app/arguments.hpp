@@ -50,6 +50,9 @@ void add_plan_option(CLI::App& command, Plans& plans) {
 
 inline constexpr const char* standard_store = "triptych.sqlite";
 
+// What `git bisect run` takes for a commit that tells nothing.
+inline constexpr auto bisect_skips = static_cast<core::ExitCode>(125);
+
 // The folder of the baselines; one without a name would be the folder the program is started in.
 void add_baselines_option(CLI::App& command, std::string& folder);
 

@@ -142,16 +142,18 @@ void refuse_bad_files(const GateArguments& arguments) {
 
 // For `git bisect run`: what is no verdict on a commit is skipped by it.
 core::ExitCode gate(const GateArguments& arguments) {
-  constexpr auto skipped = static_cast<core::ExitCode>(125);
   const measure::Stopwatch since;
-  refuse_bad_files(arguments);
-  if (!arguments.bisect) return judge_and_tell(arguments, since);
+  const auto judged = [&] {
+    refuse_bad_files(arguments);
+    return judge_and_tell(arguments, since);
+  };
+  if (!arguments.bisect) return judged();
   try {
-    const core::ExitCode code = core::naming({}, [&] { return judge_and_tell(arguments, since); });
-    return code == core::ExitCode::cannot_judge ? skipped : code;
+    const core::ExitCode code = core::naming({}, judged);
+    return code == core::ExitCode::cannot_judge ? bisect_skips : code;
   } catch (const core::Error& error) {
     say("triptych: {}\n", error.what());
-    return skipped;
+    return bisect_skips;
   }
 }
 

@@ -26,8 +26,10 @@ namespace fs = std::filesystem;
 
 void tell_progress(const comparison::ComparisonProgress& progress) {
   if (progress.loading) return show_loading(*progress.loading);
-  show("{}/{} {}: {}, left at most {} s", progress.done, progress.total, progress.stage,
-       progress.configuration, progress.left.count());
+  const auto seconds = progress.left.count();
+  const std::string left = seconds > 0 ? fmt::format(", left at most {} s", seconds) : "";
+  show("{}/{} {}: {}{}", progress.done, progress.total, progress.stage, progress.configuration,
+       left);
 }
 
 comparison::ComparisonCommand command_of(const Comparing& comparing, const std::string& typed,
@@ -132,6 +134,8 @@ std::vector<Comparing> against_base(const std::string& base,
   std::vector<std::string> environment;
   if (program) {
     command = measure::worker_command(fs::absolute(base).string());
+  } else if (base.find('=') == std::string::npos) {
+    throw core::InputError(fmt::format("--base {}: no program to run, nor NAME=VALUE", base));
   } else {
     environment = measure::parse_environment(base, "--base " + base);
   }

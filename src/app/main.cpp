@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,7 +75,11 @@ ExitCode run(int argc, char** argv) {
       return ExitCode::pass;
     }
     app::say("triptych: {}\nRun with --help for more information.\n", error.what());
-    return ExitCode::usage;
+    // Another commit may lack an option: no verdict on it.
+    const auto arguments = std::span(argv, static_cast<std::size_t>(argc));
+    const bool bisects =
+        std::ranges::find(arguments, std::string_view("--bisect")) != arguments.end();
+    return bisects ? app::bisect_skips : ExitCode::usage;
   }
   return commands.chosen();
 }

@@ -108,8 +108,10 @@ TEST_F(Compare, TheGateJudgesByABase) {
   expect_verdict(gate("--base TRIPTYCH_NULL_SCRIPT='" + script(1, 2) + "'"), 0, "PASS");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM), 0, "PASS");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --inject crash"), 1, "b crashed");
-  expect_verdict(gate("--base nothing"), 3, "--base nothing: expected NAME=VALUE");
+  expect_verdict(gate("--base nothing"), 3, "--base nothing: no program to run, nor NAME=VALUE");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --measure"), 3, "excludes");
+  expect_verdict(gate("--bisect --base " TRIPTYCH_PROGRAM " --measure"), 125, "excludes");
+  expect_verdict(gate("--bisect --no-such-option"), 125, "no-such-option");
 }
 
 TEST_F(Compare, AClockThatCannotBeBelievedIsNotUsed) {
