@@ -114,7 +114,10 @@ std::string differences_text(const ComparisonResult& result) {
   for (const Compared& compared : result.configurations) {
     groups.add(compared.differences, compared.key);
   }
-  return groups.empty() ? "nothing differs but time\n" : groups.text();
+  if (!groups.empty()) return groups.text();
+  const bool timed = std::ranges::any_of(result.configurations,
+                                         [](const Compared& each) { return each.blocks > 0; });
+  return timed ? "nothing differs but time\n" : "nothing differs\n";
 }
 
 std::string clocks_text(const ComparisonResult& result) {

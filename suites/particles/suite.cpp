@@ -112,7 +112,8 @@ std::string ParticleSuite::missing_data(const Configuration& configuration) cons
   const std::string& data = configuration.at("data");
   if (stress_data(data) || scene::particles_present(data, folders_)) return {};
   return fmt::format(
-      "data file '{}' is not here; set TRIPTYCH_DATA to the folder that holds particles/", data);
+      "data file '{}' is not here{}; set TRIPTYCH_DATA to the folder that holds particles/", data,
+      folders_.empty() ? "" : fmt::format(", nor in {}", folders_.front().string()));
 }
 
 void ParticleSuite::load(const Configuration& configuration) {

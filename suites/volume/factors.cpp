@@ -70,8 +70,8 @@ const std::vector<Factor>& volume_factors() {
              "error that may be spent on taking the samples of a nearly homogeneous brick as one; "
              "needs skip bricks"),
       choice("precision", {"fp32", "fp64"}, "fp32", Decides::how_it_is_made,
-             "what rays, interpolation and compositing are computed in; fp64 needs sampler manual, "
-             "which auto then is"),
+             "what rays, interpolation and compositing are computed in; fp64 needs sampler manual "
+             "or packed, one of which auto then is"),
       number(
           "budget", 0x1.0p-10, 1 << 20, std::string(no_budget), Decides::how_it_is_made,
           "MiB of device memory for voxels: a volume that takes more is drawn in parts, front to "
