@@ -176,6 +176,30 @@ TEST(Parts, WithMergedBricksOrInDoublePrecision) {
   });
 }
 
+// Of a last sample behind the exit a walk knows no brick: it is read, from what no part had moved.
+TEST(Parts, ThatShowNothingAreReadWhereAWalkReadsThem) {
+  on_every_device([](measure::Device& device) {
+    scene::Volume volume{.size = {16, 16, 64}, .type = scene::ScalarType::u8, .range_hi = 255};
+    for (int i = 0; i < 16 * 16 * 64; ++i) {
+      volume.voxels.push_back(std::byte(i / 256 > 2 && i / 256 < 14 ? 200 : 0));
+    }
+    measure::Work work = default_work(device, std::move(volume), small_scene("surfaces"));
+    for (const Sampler sampler : samplers(device, work)) {
+      for (const Skip skip : {Skip::bricks, Skip::distance}) {
+        for (int view = 0; view < 16; ++view) {
+          SCOPED_TRACE(fmt::format("{} {} view {}", technique::name_of(sampler),
+                                   technique::name_of(skip), view));
+          auto& [scene, options] = volume_of(work);
+          options.sampler = sampler;
+          options.skip = skip;
+          scene.camera = scene::camera_at(fmt::format("orbit_y:{}/16", view), scene.box(), 90);
+          expect_the_whole(device, work, {2, 4});
+        }
+      }
+    }
+  });
+}
+
 TEST(Parts, AreWithinTheTruthsBound) {
   on_every_device([](measure::Device& device) {
     measure::Work work = work_of("mandelbulb", small_scene("surfaces"));

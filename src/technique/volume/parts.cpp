@@ -62,7 +62,8 @@ std::optional<std::string> why_whole_only(std::string_view technique,
 
 bool is_read(const Part& part, const scene::VolumeScene& scene, const RaycastOptions& options,
              std::span<const std::int32_t> map) {
-  if (options.skip == Skip::none) return true;
+  // A walk takes a last sample that lies behind the exit for a visible brick's; leaps do not.
+  if (options.skip != Skip::distance) return true;
   const BrickLayout layout = brick_layout(scene, options.skip, options.adapt);
   const auto counts = brick_counts(scene.grid->size, layout);
   const auto layer = static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]);

@@ -90,7 +90,8 @@ struct PartParameters {
 struct PartPass {
   Part part;
   PartParameters parameters;
-  // Whether any brick near the part is visible; else its voxels need not be there.
+  // Whether any brick near the part is visible; else leaps pass over its voxels, which need not be
+  // there.
   bool read = true;
 };
 // `map`: brick_map of scene and options.
