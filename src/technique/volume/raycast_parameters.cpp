@@ -13,6 +13,7 @@
 #include "technique/volume/brick_kinds.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/extra_work.hpp"
+#include "technique/volume/long_rays.hpp"
 
 namespace triptych::technique {
 namespace {
@@ -73,21 +74,17 @@ std::vector<std::byte> bytes_of(const BasicRaycastParameters<Real>& parameters) 
 }
 
 // A pass of the raycaster's loop takes a piece of a cell, and long_rays.hpp says why they are
-// counted. A ray crosses as many planes as all axes have voxels, at most.
+// counted.
 std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
                                         const RaycastOptions& options) {
   if (options.sampler == Sampler::hardware) {
     return "quadrature cells reads the voxels of a cell itself: it is for sampler manual or packed";
   }
-  constexpr std::int64_t most_passes = 32'768;
-  const auto [nx, ny, nz] = scene.grid->size;
-  const std::int64_t cells = std::int64_t{nx} + ny + nz;
-  if (cells * (1 + scene.parts_of_cell()) <= most_passes) return std::nullopt;
+  if (cell_passes(scene, 0) <= most_cell_passes) return std::nullopt;
   return fmt::format(
-      "quadrature cells would cut a ray into {} cells of {} parts, and some drivers end loops of "
-      "so "
-      "many passes: take a longer step",
-      cells, scene.parts_of_cell());
+      "quadrature cells would cut a ray into {} pieces, and some drivers end loops of so many "
+      "passes: take a longer step",
+      cell_passes(scene, 0));
 }
 
 }  // namespace
