@@ -118,16 +118,27 @@ class Runs {
     }
   }
 
-  // Those of large spheres stay in front, the others follow by the distance of their boxes.
+  [[nodiscard]] double distance_of(const Run& run) const {
+    const glm::dvec3& eye = scene_.camera.eye;
+    return glm::distance(eye, glm::clamp(eye, glm::dvec3(run.lo), glm::dvec3(run.hi)));
+  }
+
+  // Those of large spheres stay in front, the others follow by the distance of their part. Its runs
+  // stay in order: of spheres that coincide, and so share it, the lowest id is drawn first.
   void sort_front_to_back() {
+    std::vector<double> distances(runs_.size());
+    for (std::size_t part = 0; part < first_run_.size(); ++part) {
+      const std::size_t end = part + 1 < first_run_.size() ? first_run_[part + 1] : runs_.size();
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t i = first_run_[part]; i < end; ++i) {
+        nearest = std::min(nearest, distance_of(runs_[i]));
+      }
+      for (std::size_t i = first_run_[part]; i < end; ++i) distances[i] = nearest;
+    }
     front_to_back_.resize(runs_.size());
     std::iota(front_to_back_.begin(), front_to_back_.end(), 0U);
-    const glm::dvec3& eye = scene_.camera.eye;
-    const auto distance = [&](std::uint32_t i) {
-      const Run& run = runs_[i];
-      return glm::distance(eye, glm::clamp(eye, glm::dvec3(run.lo), glm::dvec3(run.hi)));
-    };
-    std::ranges::stable_sort(front_to_back_.begin() + large_, front_to_back_.end(), {}, distance);
+    std::ranges::stable_sort(front_to_back_.begin() + large_, front_to_back_.end(), {},
+                             [&](std::uint32_t i) { return distances[i]; });
     std::uint32_t begin = 0;
     for (const std::uint32_t i : front_to_back_) {
       runs_[i].begin = std::exchange(begin, begin + runs_[i].count);

@@ -1,5 +1,6 @@
 #include "technique/particles/arrangement.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -146,6 +147,32 @@ TEST(Arrangement, CellsComeFrontToBackAndIdsAscend) {
     farthest = distance;
     const auto begin = ids.begin() + cell.begin;
     EXPECT_TRUE(std::is_sorted(begin, begin + cell.count));
+  }
+}
+
+// They fill more than one run, and of two at one place the lower id is to be drawn first.
+TEST(Arrangement, CrowdsThatCannotBeDividedStayInOrder) {
+  scene::ParticleSet set = scene::generate_particles("uniform", 2600, scene::ColourKind::rgba8);
+  for (auto& sphere : set.spheres) {
+    for (std::size_t axis = 0; axis < 3; ++axis) sphere[axis] *= 1e-3F;
+  }
+  const std::size_t half = set.count();
+  for (std::size_t i = 0; i < half; ++i) {
+    set.spheres.push_back(set.spheres[i]);
+    set.rgba8.push_back(set.rgba8[i]);
+    set.ids.push_back(static_cast<std::uint32_t>(half + i));
+  }
+  set.spheres.push_back({50, 50, 50, 1});  // so that all others share a part
+  set.rgba8.push_back(set.rgba8.front());
+  set.ids.push_back(static_cast<std::uint32_t>(2 * half));
+  scene::ParticleScene scene = scene_of(std::move(set));
+  for (int view = 0; view < 8; ++view) {
+    scene.camera = scene::particle_camera(fmt::format("random:{}", view), *scene.particles, 20);
+    const Arrangement arranged = arrange(scene);
+    ASSERT_GT(arranged.cells.size(), 2U);
+    std::vector<std::uint32_t> ids = ids_of(arranged);
+    std::erase(ids, static_cast<std::uint32_t>(2 * half));
+    EXPECT_TRUE(std::ranges::is_sorted(ids)) << view;
   }
 }
 
