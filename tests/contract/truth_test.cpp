@@ -35,6 +35,26 @@ TEST(Truth, EveryPathStaysWithinItsBound) {
   });
 }
 
+// A last sample may lie voxels behind the exit, where the field is constant and has no gradient.
+TEST(Truth, ShadedLongStepsStayWithinTheBound) {
+  on_every_device([](measure::Device& device) {
+    for (const technique::Sampler sampler :
+         {technique::Sampler::hardware, technique::Sampler::manual, technique::Sampler::packed}) {
+      for (const double step : {1.5, 2.0, 8.0}) {
+        SCOPED_TRACE(std::string(technique::name_of(sampler)) + " " + std::to_string(step));
+        scene::VolumeScene scene = small_scene("haze");
+        scene.shading.enabled = true;
+        scene.step_voxels = step;
+        measure::Work work = default_work(
+            device, scene::generate_volume("frequency_box", {32, 32, 32}), std::move(scene));
+        std::get<VolumeWork>(work.scene).options.sampler = sampler;
+        if (device.unsupported(work)) continue;
+        expect_within_bound(device, work);
+      }
+    }
+  });
+}
+
 // A device whose sampler is wrong shall be found wrong, not be given a bound that wide.
 TEST(Truth, NoSamplerWidensItsBoundBeyondWhatAFilterMayErrBy) {
   on_every_device([](measure::Device& device) {

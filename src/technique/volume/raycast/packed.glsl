@@ -89,6 +89,9 @@ real field(Grid grid, real3 p) {
 // Beside the outermost cells, along whose own axis all is constant, there are none.
 real3 rises(Grid grid, real3 p) {
   Place place = place_of(grid, p);
+  // With a step of more than a voxel (of which no form is positive) the last sample may lie so far behind the exit
+  // that one voxel before it all is constant, too. What place_of clamps to is not quite as far.
+  if (TRI_OPACITY_FORM < 1 && TRI_FAULT == 0) place.f = clamp(p + 0.5 - real3(place.cell), real3(0.0), real3(1.0));
   ivec3 strides = cell_strides(grid);
   int here = cell_index(grid, place.cell);
   ivec3 back = here - strides * ivec3(greaterThan(place.cell, ivec3(0)));
