@@ -59,7 +59,7 @@ int causes_in(const std::string& screen) {
   int causes = static_cast<int>(std::distance(
       std::sregex_iterator(screen.begin(), screen.end(), cause), std::sregex_iterator()));
   std::smatch more;
-  if (std::regex_search(screen, more, std::regex("\n  ([0-9]+) more causes"))) {
+  if (std::regex_search(screen, more, std::regex("\n  ([0-9]+) more causes?"))) {
     causes += std::stoi(more[1]);
   }
   return causes;
