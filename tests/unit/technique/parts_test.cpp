@@ -131,8 +131,12 @@ TEST(Parts, AreReadWhereABrickNearThemIsVisible) {
       const bool has_slice_70 = pass.part.begin <= 71 && pass.part.end > 70;
       EXPECT_TRUE(pass.read || !has_slice_70);
     }
-    EXPECT_LE(read, skip == Skip::none ? 10 : 3) << name_of(skip);
-    EXPECT_TRUE(skip != Skip::none || read == static_cast<int>(parts.size()));
+    // A walk reads behind the exit, whatever part that is.
+    if (skip == Skip::distance) {
+      EXPECT_LE(read, 3);
+    } else {
+      EXPECT_EQ(read, static_cast<int>(parts.size())) << name_of(skip);
+    }
   }
 }
 
