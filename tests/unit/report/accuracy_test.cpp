@@ -34,6 +34,16 @@ accuracy::AccuracyScene some_scene() {
   return scene;
 }
 
+// Of some_scene where no time was measured.
+std::string untimed_section() {
+  accuracy::AccuracyScene scene = some_scene();
+  for (accuracy::AccuracyCase& each : scene.cases) each.time_ns.reset();
+  accuracy::evaluate(scene);
+  judge::GateResult verdict;
+  verdict.accuracies = {scene};
+  return accuracy_section({.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict});
+}
+
 TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
   const std::vector<accuracy::AccuracyScene> scenes{some_scene()};
   const std::string html = accuracy_chart(scenes, Cost::time);
@@ -83,13 +93,7 @@ TEST(AccuracySection, TellsOrdersTimesAndParts) {
 
 // Of a counted plan, which no clock was read for.
 TEST(AccuracySection, TellsInstructionsWhereThereAreNoTimes) {
-  accuracy::AccuracyScene scene = some_scene();
-  for (accuracy::AccuracyCase& each : scene.cases) each.time_ns.reset();
-  accuracy::evaluate(scene);
-  judge::GateResult verdict;
-  verdict.accuracies = {scene};
-  const PlanData plan{.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
-  const std::string text = accuracy_section(plan);
+  const std::string text = untimed_section();
   EXPECT_THAT(text, HasSubstr("1.0 M instructions"));  // to 1/255
   EXPECT_THAT(text, HasSubstr("3.2 M instructions"));  // to 1e-4, between two steps
   EXPECT_THAT(text, testing::Not(HasSubstr("time of a frame, ms")));
@@ -127,13 +131,7 @@ TEST(AccuracySection, TellsPicturesOfOneDataApart) {
 }
 
 TEST(AccuracySection, WithoutTimesTellsErrorsAlone) {
-  accuracy::AccuracyScene scene = some_scene();
-  for (accuracy::AccuracyCase& each : scene.cases) each.time_ns.reset();
-  accuracy::evaluate(scene);
-  judge::GateResult verdict;
-  verdict.accuracies = {scene};
-  const PlanData plan{.prefix = "plan0", .devices = {}, .records = {}, .verdict = &verdict};
-  const std::string text = accuracy_section(plan);
+  const std::string text = untimed_section();
   EXPECT_THAT(text, HasSubstr("2.00 ± 0.00 (3 steps)"));
   EXPECT_THAT(text, testing::Not(HasSubstr("time of a frame, ms")));
   EXPECT_THAT(text, testing::Not(HasSubstr("not reached")));

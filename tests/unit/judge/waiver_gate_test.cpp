@@ -1,0 +1,106 @@
+// What excuses a finding, and for how long.
+
+#include <gmock/gmock.h>
+
+#include "gate_fixture.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using core::ExitCode;
+using testing::HasSubstr;
+
+TEST_F(GateTest, AWaiverExcusesUntilItsExpiry) {
+  add_run("a");
+  (void)accept_run("a");
+  add_run("b", wrong_image_on("vulkan:lavapipe"));
+  request_.checks = {Check::image};
+  write_waivers("2026-03-02");
+  const GateResult waived = gate("b");
+  EXPECT_EQ(waived.exit_code(), ExitCode::pass) << text(waived);
+  ASSERT_EQ(with(waived, Verdict::waived).size(), 1U);
+  EXPECT_THAT(with(waived, Verdict::waived).at(0).message, HasSubstr("known driver fault"));
+
+  write_waivers("2026-03-01");
+  const GateResult expired = gate("b");
+  EXPECT_EQ(expired.exit_code(), ExitCode::regression);
+  EXPECT_THAT(with(expired, Verdict::regression).at(0).message, HasSubstr("expired on 2026-03-01"));
+}
+
+TEST_F(GateTest, AWaivedPicturePassesWithAllChecks) {
+  accept_first();
+  add_run("b", wrong_image_on("vulkan:lavapipe"));
+  write_waivers("2027-01-01");
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
+}
+
+TEST_F(GateTest, AWaiverOfAnotherDeviceExcusesNothing) {
+  add_run("a");
+  (void)accept_run("a");
+  add_run("b", wrong_image_on("vulkan:lavapipe"));
+  write_waivers("2027-01-01", "gl:*");
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
+}
+
+TEST_F(GateTest, AWaiverOfSomePicturesExcusesNoOthers) {
+  add_run("a");
+  (void)accept_run("a");
+  add_run("b", wrong_image_on("vulkan:lavapipe"));
+  request_.checks = {Check::image};
+  const std::string wrong = with(gate("b"), Verdict::regression).at(0).configuration;
+  write_waivers("2027-01-01", "vulkan:*", wrong);
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
+  write_waivers("2027-01-01", "vulkan:*", wrong + "0");
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
+}
+
+TEST_F(GateTest, AWaiverThatMatchesNoTestIsTold) {
+  add_run("a");
+  (void)accept_run("a");
+  write_waivers("2027-01-01", "*", "*", "volume.quick.image.*raycast*");
+  EXPECT_THAT(text(gate("a")),
+              HasSubstr("the waiver of volume.quick.image.*raycast* matches no test"));
+  for (const char* test : {"volume.quick.cost.*", "volume.other.image.x", "*"}) {
+    write_waivers("2027-01-01", "*", "*", test);
+    EXPECT_THAT(text(gate("a")), testing::Not(HasSubstr("matches no test"))) << test;
+  }
+}
+
+TEST_F(GateTest, AnExpiredWaiverWithoutUseIsReported) {
+  add_run("a");
+  (void)accept_run("a");
+  write_waivers("2025-01-01");
+  const GateResult result = gate("a");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass);
+  EXPECT_THAT(text(result), HasSubstr("expired on 2025-01-01 and excuses nothing"));
+}
+
+TEST_F(GateTest, AWaiverNeedsReasonAndDate) {
+  add_run("a");
+  (void)accept_run("a");
+  for (const char* no_day : {"soon", "2099-13-45", "2099-02-29", "0000-00-00"}) {
+    write_waivers(no_day);
+    EXPECT_THROW((void)gate("a"), core::InputError) << no_day;
+  }
+}
+
+// It would excuse every configuration.
+TEST_F(GateTest, AWaiverWithAMisspelledKeyIsRefused) {
+  accept_first();
+  write_waivers("2099-01-01");
+  const auto file = folder_.path() / "baselines" / "waivers.json";
+  std::string text = core::read_text(file);
+  text.replace(text.find("\"configuration\""), 15, "\"configurations\"");
+  core::write_file(text, file);
+  try {
+    (void)gate("accepted");
+    ADD_FAILURE() << "not refused";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("configurations: no such key; there are: device"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace triptych::judge
