@@ -52,24 +52,18 @@ Json& table_of(Json& table, const Accepted& accepted) {
 void update_counters(const Accepted& accepted, Update& update) {
   Json& table = table_of(update.value(), accepted);
   for (const record::Record& record : accepted.measured) {
+    erase_from(table, record.configuration, record.device);
     Json& counters = table[record.configuration];
     if (!counters.is_object()) counters = Json::object();
-    for (Json& values : counters) values.erase(record.device);
     for (const auto& [counter, value] : record.counters) counters[counter][record.device] = value;
-    for (auto item = counters.begin(); item != counters.end();) {
-      item = item->empty() ? counters.erase(item) : std::next(item);
-    }
   }
 }
 
 void update_memory(const Accepted& accepted, Update& update) {
   Json& table = table_of(update.value(), accepted);
   for (const record::Record& record : accepted.measured) {
-    if (record.memory.empty()) {
-      erase_from(table, record.configuration, record.device);
-    } else {
-      table[record.configuration][record.device] = record.memory;
-    }
+    erase_from(table, record.configuration, record.device);
+    if (!record.memory.empty()) table[record.configuration][record.device] = record.memory;
   }
 }
 
@@ -110,15 +104,6 @@ record::Counts kept_of(record::Counts cost) {
 
 // Counts of another emulator are another kind of number: they replace all that is stored, which
 // those of --only may not.
-void refuse_another_emulator(const Accepted& accepted, const Json& file,
-                             const record::Record& record) {
-  if (accepted.replaces_all || !file.contains("configurations")) return;
-  throw core::InputError(fmt::format(
-      "run {}: {} was counted by {}, what is stored of it by {}: of another emulator accept the "
-      "whole plan, without --only",
-      record.run, record.device, record.counted_by, file.value("counted_by", "")));
-}
-
 void update_cost(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::cost(device));
   bool counted = false;
@@ -126,12 +111,13 @@ void update_cost(const Accepted& accepted, const record::Device& device, NextFol
     if (record.device != device.id || record.cost.empty()) continue;
     Json& file = update.object();
     if (file.value("counted_by", "") != record.counted_by) {
-      if (counted) {
-        throw core::InputError(fmt::format("run {}: {} was counted by {} and by {}", record.run,
-                                           device.id, file.value("counted_by", ""),
-                                           record.counted_by));
+      const bool loses = !accepted.replaces_all && file.contains("configurations");
+      if (counted || loses) {
+        throw core::InputError(
+            fmt::format("run {}: {} was counted by {} and by {}{}", record.run, device.id,
+                        file.value("counted_by", ""), record.counted_by,
+                        counted ? "" : ": accept the whole plan, without --only"));
       }
-      refuse_another_emulator(accepted, file, record);
       file = {{"device", device.id},
               {"driver_version", device.driver_version},
               {"counted_by", record.counted_by}};

@@ -33,18 +33,18 @@ std::string readable(std::string pointer) {
   return pointer.substr(1);
 }
 
-}  // namespace
-
-std::vector<std::byte> bytes_of(std::string_view text) {
-  const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
-  return {bytes.begin(), bytes.end()};
-}
-
 std::string text_of(const std::vector<std::byte>& bytes) {
   std::string text(bytes.size(), '\0');
   std::ranges::transform(bytes, text.begin(),
                          [](std::byte each) { return static_cast<char>(each); });
   return text;
+}
+
+}  // namespace
+
+std::vector<std::byte> bytes_of(std::string_view text) {
+  const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
+  return {bytes.begin(), bytes.end()};
 }
 
 Update::Update(NextFolder& next, std::string name) : next_(next), name_(std::move(name)) {
