@@ -24,9 +24,6 @@ enum class Check : std::uint8_t {
 
 using Checks = std::set<Check>;
 [[nodiscard]] Checks every_check();
-// Those that look at pictures, and at our counters.
-inline const Checks needing_pictures{Check::image, Check::accuracy, Check::stress};
-inline const Checks needing_counters{Check::counters, Check::accuracy};
 // "image,counters"; empty text for none. Throws InputError for a name that is no check.
 [[nodiscard]] std::string text_of(const Checks& checks);
 [[nodiscard]] Checks checks_of(std::string_view text);

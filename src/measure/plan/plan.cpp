@@ -219,8 +219,14 @@ void hold(const Combinations& combinations, const Shard& shard, Plan& plan) {
 
 }  // namespace
 
-bool Plan::judges(const record::Checks& any) const {
-  return std::ranges::any_of(any, [this](record::Check each) { return checks.contains(each); });
+bool Plan::judges_pictures() const {
+  using enum record::Check;
+  return checks.contains(image) || checks.contains(accuracy) || checks.contains(stress);
+}
+
+bool Plan::judges_counters() const {
+  using enum record::Check;
+  return checks.contains(counters) || checks.contains(accuracy);
 }
 
 record::Checks Plan::standard_checks() {

@@ -34,8 +34,8 @@ struct Plan {
   [[nodiscard]] static record::Checks standard_checks();
   [[nodiscard]] bool timed() const { return checks.contains(record::Check::timing); }
   [[nodiscard]] bool counted() const { return checks.contains(record::Check::cost); }
-  // Whether by any of these.
-  [[nodiscard]] bool judges(const record::Checks& any) const;
+  [[nodiscard]] bool judges_pictures() const;
+  [[nodiscard]] bool judges_counters() const;
 };
 
 // Overrides from the command line: "--set factor=a,b".

@@ -97,8 +97,10 @@ Protocol DeviceRun::protocol() const {
       protocol.statistics && context_.plan.checks.contains(record::Check::statistics);
   protocol.timed = protocol.timed && context_.plan.timed();
   protocol.counted = context_.plan.counted();
-  protocol.picture = !protocol.counted || context_.plan.judges(record::needing_pictures);
-  protocol.counters = !protocol.counted || context_.plan.judges(record::needing_counters);
+  if (protocol.counted) {
+    protocol.picture = context_.plan.judges_pictures();
+    protocol.counters = context_.plan.judges_counters();
+  }
   // A plan for pictures alone asks for each of them: that two are alike is what it tests.
   protocol.measure_every = protocol.measure_every || !context_.plan.timed();
   return protocol;

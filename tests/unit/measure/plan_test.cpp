@@ -258,9 +258,9 @@ TEST_F(PlanTest, ChecksSayWhatIsMeasured) {
   const Plan counted = load("suite: fake\nchecks: [memory, cost]\n");
   EXPECT_FALSE(counted.timed());
   EXPECT_TRUE(counted.counted());
-  EXPECT_TRUE(standard.judges(record::needing_pictures));
-  EXPECT_TRUE(standard.judges(record::needing_counters));
-  EXPECT_FALSE(counted.judges(record::needing_pictures));
+  EXPECT_TRUE(standard.judges_pictures());
+  EXPECT_TRUE(standard.judges_counters());
+  EXPECT_FALSE(counted.judges_pictures());
 }
 
 TEST_F(PlanTest, ChecksThatAreNoneOrExcludeEachOther) {
