@@ -62,10 +62,10 @@ void narrow(AccuracyScene& scene, const record::Record& record);
 void evaluate(AccuracyScene& scene);
 
 // {"device", "scene", "data", "uncertainty", "representation", "eight_bits", "nothing",
-// "hypervolume", "configurations": [{"configuration", "time_ns", "samples", "memory_bytes",
-// "joules", "rmse", "largest", "error_99", "lattice", "arithmetic", "front"}], "families":
-// [{"name", "order", "half_width", "configurations"}]}; null for what was not timed, counted or
-// found
+// "hypervolume", "configurations": [{"configuration", "time_ns", "samples", "instructions",
+// "fetched_bytes", "memory_bytes", "joules", "rmse", "largest", "error_99", "lattice",
+// "arithmetic", "front"}], "families": [{"name", "order", "half_width", "configurations"}]}; null
+// for what was not timed, counted or found
 [[nodiscard]] nlohmann::json to_json(const AccuracyScene& scene);
 
 }  // namespace triptych::accuracy

@@ -255,7 +255,7 @@ class Finder {
     const auto ratio = ratio_of(*a, *b);
     const std::string on_a = judge::statistic_reservation(a_.device.statistics_calibration, name);
     const std::string on_b = judge::statistic_reservation(b_.device.statistics_calibration, name);
-    const bool unsteady = on_a.starts_with("unsteady") || on_b.starts_with("unsteady");
+    const bool unsteady = judge::is_unsteady(on_a) || judge::is_unsteady(on_b);
     if (same_driver_ && !unsteady) {
       add(Kind::regression, about, change(*a, *b) + ", on the same driver", ratio);
     } else if (!on_a.empty() || !on_b.empty()) {

@@ -82,6 +82,11 @@ HistoryBuilder::Points HistoryBuilder::points_of(const record::Store& store) con
   return points;
 }
 
+const record::Store* HistoryBuilder::Known::before(const std::string& configuration) const {
+  const auto found = holder.find(configuration);
+  return found == holder.end() ? last : found->second;
+}
+
 void HistoryBuilder::add_changes(const record::Store& store,
                                  const std::map<std::string, MeasuredByConfiguration>& measured,
                                  measure::Truths& truths, Points& points) const {
@@ -93,8 +98,7 @@ void HistoryBuilder::add_changes(const record::Store& store,
     const auto here = measured.find(id);
     if (here == measured.end()) continue;
     for (const auto& [configuration, amounts] : here->second) {
-      const auto holder = known->second.holder.find(configuration);
-      if (holder != known->second.holder.end()) devices_since[holder->second].insert(id);
+      devices_since[known->second.before(configuration)].insert(id);
     }
   }
   std::map<std::string, DeviceChange> changes;
@@ -103,8 +107,7 @@ void HistoryBuilder::add_changes(const record::Store& store,
          diff_stores(*before, store, {devices.begin(), devices.end()}, truths).devices) {
       const Known& known = known_.at(change.b.id);
       std::erase_if(change.configurations, [&, before = before](const ConfigurationDiff& each) {
-        const auto holder = known.holder.find(each.key);
-        return (holder == known.holder.end() ? known.last : holder->second) != before;
+        return known.before(each.key) != before;
       });
       DeviceChange& all = changes[change.b.id];
       if (before == known.last) all.device = std::move(change.device);

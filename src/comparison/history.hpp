@@ -67,6 +67,9 @@ class HistoryBuilder {
     Chain time;
     const record::Store* last = nullptr;                 // that held the device
     std::map<std::string, const record::Store*> holder;  // the last of each configuration
+
+    // The store that a configuration is held against: the last one where none has it.
+    [[nodiscard]] const record::Store* before(const std::string& configuration) const;
   };
   [[nodiscard]] Points points_of(const record::Store& store) const;
   DeviceHistory& of(const std::string& device);

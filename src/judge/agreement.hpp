@@ -30,5 +30,9 @@ inline constexpr std::array<std::string_view, 5> portable_statistics{
 // nothing: its numbers are taken as they are.
 [[nodiscard]] std::string statistic_reservation(
     const std::map<std::string, std::string>& calibration, const std::string& statistic);
+// Whether that is another number of the same picture each time: nothing to hold a driver to.
+[[nodiscard]] inline bool is_unsteady(std::string_view reservation) {
+  return reservation.starts_with("unsteady");
+}
 
 }  // namespace triptych::judge

@@ -74,21 +74,21 @@ std::string places(const std::map<std::string, Tally>& by_device, Verdict verdic
 KindRow row_of(const Kind& kind, std::span<const GateResult* const> results) {
   std::map<std::string, Tally> by_device;
   std::map<Verdict, std::size_t> all;
-  std::size_t of_no_device = 0;
+  std::size_t right = 0;
   for (const GateResult* result : results) {
     for (const Finding& finding : result->findings) {
       if (finding.check != kind.check) continue;
       // That a truth has its stored hash is no picture within its bound.
+      const bool of_truth = finding.check == Check::image && finding.device.empty();
       const bool is_right =
           finding.verdict == Verdict::pass || finding.verdict == Verdict::improved;
-      if (finding.check == Check::image && finding.device.empty() && is_right) ++of_no_device;
+      if (is_right && !of_truth) ++right;
       Tally& tally = by_device[finding.device];
       ++tally.of[finding.verdict];
       ++all[finding.verdict];
       if (decides(finding.verdict)) ++tally.decided;
     }
   }
-  const std::size_t right = all[Verdict::pass] + all[Verdict::improved] - of_no_device;
   const bool shown =  // and no more: nobody asked for a verdict
       kind.check == Check::timing &&
       std::ranges::none_of(results, [](const GateResult* each) { return each->times_decided; });

@@ -59,21 +59,19 @@ void tell_again(const Finding& finding, Redrawn& redrawn) {
   const auto again = std::ranges::find_if(findings, [&](const Finding& each) {
     return each.check == finding.check && place_of(each) == place_of(finding);
   });
-  if (again != findings.end() && again->verdict == Verdict::regression) return;
-  if (again != findings.end() && again->verdict == Verdict::waived) return;
-  if (again != findings.end() && !is_right(again->verdict)) {
-    Finding undecided = finding;
-    undecided.message += fmt::format("; drawn again: {}", again->message);
-    *again = std::move(undecided);
-    return;
-  }
-  const Finding right = right_again(finding);
-  if (right.verdict == Verdict::regression) redrawn.flakes.insert(place_of(finding));
-  if (again != findings.end()) {
-    *again = right;
+  const bool told = again != findings.end();
+  const bool stands =
+      told && (again->verdict == Verdict::regression || again->verdict == Verdict::waived);
+  if (stands) return;
+  Finding now = finding;
+  if (told && !is_right(again->verdict)) {
+    now.message += fmt::format("; drawn again: {}", again->message);
   } else {
-    findings.push_back(right);
+    now = right_again(finding);
+    if (now.verdict == Verdict::regression) redrawn.flakes.insert(place_of(finding));
   }
+  if (told) *again = std::move(now);
+  if (!told) findings.push_back(std::move(now));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #pragma once
 // How particles may be drawn: the factors that do not decide the picture.
 
-#include <array>
 #include <cstdint>
 #include <string_view>
 
