@@ -50,10 +50,20 @@ class Ratios(unittest.TestCase):
         records[1]["error"] = {"rmse": 0.11}
         self.assertEqual(module.chosen_sides(ratio, records, ["d"])[0], [])
 
+    def test_a_side_is_told_of_a_device_only_by_what_keeps_the_error_there(self):
+        module = loaded()
+        ratio = module.Ratio("r", {"suite": "volume", "data": "a:b"}, {"step": [1, 0.5]}, {"step": 2}, ("rmse", 0.1))
+        records = [{"device": "d", "configuration": step, "factor_step": step, "time": time}
+                   for step, time in (("1", 1), ("0.5", 8), ("2", 2))]
+        self.assertEqual(module.quotient(ratio, records, "d", "time"), 2)
+        self.assertEqual(module.quotient(ratio, records, "d", "time", {("d", "1")}), 0.25)
+        self.assertIsNone(module.quotient(ratio, records, "d", "time", {("d", "2")}))
+
     def test_a_device_against_another(self):
         module = loaded()
         ratio = module.Ratio("r", {"suite": "volume", "data": "a:b"}, "opencl:pocl", None)
-        records = [{"device": device, "time": time} for device, time in (("opencl:pocl", 2.0), ("gl:x", 3.0))]
+        records = [{"device": device, "configuration": "", "time": time}
+                   for device, time in (("opencl:pocl", 2.0), ("gl:x", 3.0))]
         self.assertEqual(module.quotient(ratio, records, "gl:x", "time"), 1.5)
         self.assertIsNone(module.quotient(ratio, records[1:], "gl:x", "time"))
 
