@@ -152,6 +152,8 @@ def _aside(records, notes, more, emulated):
     outcome = records["outcome"].astype(str)
     reasons = [(outcome != "measured", outcome + " on " + records["device"].astype(str)),
                (records["injected"].notna(), "with an injected fault"),
+               # Not independent: r of a copy and its original is 1 whatever was measured.
+               (records["same_as"].notna(), "that took over an equivalent configuration's frames"),
                (records["technique"] == "speed_of_light", "of a technique that makes no picture"),
                (emulated, "counted, hence timed under an emulator, if at all")]
     reasons += [(wrong, text + " on " + records["device"].astype(str)) for wrong, text in more]

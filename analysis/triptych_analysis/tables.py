@@ -13,9 +13,11 @@ class InputError(Exception):
 
 # What the analysis takes of the tables, beside the columns of factors and of cost.
 RECORD_COLUMNS = ["record", "run", "suite", "plan", "configuration", "technique", "device", "outcome", "injected",
-                  "median_wall_ns", "median_device_ns", "device_clock_trusted", "counted_by"]
-TEXT = {"run", "suite", "plan", "configuration", "technique", "device", "outcome", "injected", "counted_by", "started_at",
-        "device_key", "processor", "store"}
+                  "median_wall_ns", "median_device_ns", "device_clock_trusted", "counted_by", "same_as"]
+TEXT = {"run", "suite", "plan", "configuration", "technique", "device", "outcome", "injected", "counted_by", "same_as",
+        "started_at", "device_key", "processor", "store"}
+# Those that a store calls or keeps otherwise.
+IN_STORE = {"record": "seq", "same_as": "(SELECT configuration FROM same_as WHERE same_as.record = record.seq)"}
 FACTOR, COST = "factor_", "cost_"
 
 
@@ -114,7 +116,7 @@ def _read_store(file):
 
 
 def _from_database(database, file):
-    own = ", ".join("seq AS record" if each == "record" else each for each in RECORD_COLUMNS)
+    own = ", ".join(f"{IN_STORE.get(each, each)} AS {each}" for each in RECORD_COLUMNS)
     records = pd.read_sql(f"SELECT {own} FROM record ORDER BY seq", database)
     for table, prefix in (("factor", FACTOR), ("cost", COST)):
         long = pd.read_sql(f"SELECT record, name, value FROM {table}", database)

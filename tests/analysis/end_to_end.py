@@ -14,7 +14,7 @@ import unittest
 import xml.etree.ElementTree
 
 from triptych_analysis import __main__ as analyze
-from triptych_analysis import notebook
+from triptych_analysis import dataset, notebook, tables
 
 PROGRAM = os.environ.get("TRIPTYCH_PROGRAM")
 SCRIPT = json.dumps({"devices": [1, 1.7, 0.8], "base_ns": 2e5, "ns_per_sample": 20, "noise": 0.05})
@@ -193,6 +193,18 @@ class EndToEnd(unittest.TestCase):
         for file in files:
             with open(file, "rb") as one, open(file.replace(self.out, again), "rb") as other:
                 self.assertEqual(one.read(), other.read(), file)
+
+    def test_frames_taken_over_are_no_observation(self):
+        """No brick of a box that is full is empty: two ways to skip them are one work."""
+        with open(os.path.join(self.folder, "copies.yaml"), "w", encoding="utf-8") as file:
+            json.dump({"suite": "volume", "technique": ["raycast"], "data": ["generate:uniform_box:8"], "viewport": [8],
+                       "skip": ["none", "distance"]}, file)
+        self.triptych("run", "copies.yaml", "--device", "null:*", "--store", "copies.sqlite")
+        self.triptych("export", "copies.sqlite", "--out", "copies")
+        for source in ("copies", "copies.sqlite"):
+            data, = dataset.datasets(tables.read(os.path.join(self.folder, source)))
+            self.assertEqual(len(data), 3, source)
+            self.assertEqual(data.notes, ["3 records that took over an equivalent configuration's frames are left aside"])
 
     def test_the_notebook_runs(self):
         out = os.path.join(self.folder, "notebook")

@@ -24,7 +24,7 @@ def records(*changes):
     ordinary = {"run": "r1", "suite": "volume", "plan": "volume/study", "technique": "raycast", "device": "a",
                 "configuration": "camera=orbit_y:0/2,data=ball,technique=raycast", "outcome": "measured",
                 "injected": None, "median_wall_ns": 11e6, "median_device_ns": 9e6, "device_clock_trusted": 1.0,
-                "counted_by": None, "started_at": "2026-01-01", "store": "s.sqlite", "processor": "p",
+                "counted_by": None, "same_as": None, "started_at": "2026-01-01", "store": "s.sqlite", "processor": "p",
                 "device_key": "a 1", "factor_camera": "orbit_y:0/2", "factor_data": "ball",
                 "cost_device_code": np.nan, "cost_driver": np.nan, "cost_libc": np.nan}
     return pd.DataFrame([{"record": i, **ordinary, **each} for i, each in enumerate(changes, 1)])

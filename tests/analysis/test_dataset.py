@@ -49,12 +49,13 @@ class Observations(unittest.TestCase):
         self.assertEqual(len(data.duplicates), 0)
 
     def test_what_is_no_measurement_is_left_aside_and_said(self):
-        data = times({"outcome": "skipped", "median_wall_ns": np.nan}, {"injected": "slowdown:20"},
+        data = times({"outcome": "skipped", "median_wall_ns": np.nan}, {"injected": "slowdown:20"}, {"same_as": "data=ball"},
                      {"median_wall_ns": np.nan}, {"technique": "speed_of_light"}, {"counted_by": "valgrind"}, {})
         self.assertEqual(len(data), 1)
         self.assertEqual(data.notes, [
             "1 records counted, hence timed under an emulator, if at all are left aside",
             "1 records of a technique that makes no picture are left aside", "1 records skipped on a are left aside",
+            "1 records that took over an equivalent configuration's frames are left aside",
             "1 records with an injected fault are left aside", "1 records without a time on a are left aside"])
 
     def test_what_the_device_chose_is_no_factor(self):
@@ -67,7 +68,8 @@ class Observations(unittest.TestCase):
         found = dataset.datasets(synthetic.records(
             {"counted_by": "valgrind", "median_wall_ns": np.nan, "cost_device_code": 5e6, "cost_driver": 2e6,
              "cost_libc": 1e6},
-            {"device": "b", "counted_by": "valgrind", "cost_device_code": 5e6}, {"device": "c"}))
+            {"device": "b", "counted_by": "valgrind", "cost_device_code": 5e6}, {"device": "c"},
+            {"device": "d", "counted_by": "valgrind", "cost_device_code": 5e6, "cost_driver": 2e6, "same_as": "data=ball"}))
         self.assertEqual([(each.signal, len(each)) for each in found], [("time", 1), ("cost", 1)])
         self.assertEqual(list(found[1].values), [7e6])
         self.assertEqual(found[1].unit, "instructions")
