@@ -4,7 +4,7 @@ import argparse
 import os
 import sys
 
-from . import analysis, dataset, output, tables
+from . import analysis, correlation, dataset, output, tables
 
 EXIT_NOTHING, EXIT_USAGE = 2, 3
 
@@ -39,7 +39,9 @@ def run(arguments):
     references = references_of(arguments.reference)
     records = tables.read(arguments.source, arguments.plan)
     nothing = True
-    for data in dataset.datasets(records, arguments.clock):
+    found = dataset.datasets(records, arguments.clock)
+    correlation.require_references(found, references)
+    for data in found:
         of = analysis.analyse(data, references, arguments.seed)
         output.write(of, os.path.join(arguments.out, data.suite, data.signal))
         print("\n".join(output.summary(of)), flush=True)

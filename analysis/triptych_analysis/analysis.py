@@ -27,8 +27,8 @@ class Analysis:
 
 
 def analyse(dataset, references=None, seed=1):
-    """`references`: factor → the level that speed-ups are relative to, else the first. Everything that draws goes by
-    `seed`. Raises tables.InputError for a reference whose level the factor does not have."""
+    """`references`: factor → the level that speed-ups are relative to, the first where there is none such. Everything
+    that draws goes by `seed`."""
     left_out, tables = [], {}
     tables["distributions"], tables["percentiles"], tables["histograms"] = distribution.distributions(dataset, seed)
     if tables["distributions"].empty:
@@ -56,7 +56,11 @@ def _correlate(dataset, references, left_out):
     matrices, boxes, lines = [], [], []
     for factor in factors:
         by_factor = splits.split(dataset, factor)
-        lines.append(correlation.speed_ups(dataset, by_factor, correlation.reference_of(by_factor, references)))
+        reference = correlation.reference_of(by_factor, references)
+        if references.get(factor, reference) != reference:
+            left_out.append((f"speed-up relative to {factor}={references[factor]}",
+                             f"none of these records has that level; relative to {reference} instead"))
+        lines.append(correlation.speed_ups(dataset, by_factor, reference))
         matrix = correlation.correlations(dataset, by_factor)
         box = correlation.box(matrix)
         if box:

@@ -4,8 +4,9 @@ have (the paper's Figures 4, 5, 11, 12, 13), and speed-ups by lines through the 
 import numpy as np
 import pandas as pd
 
-from .dataset import require_level
+from .dataset import natural_order
 from .splits import Split, scope, split
+from .tables import InputError
 
 # Fewer pairs say nothing: two points always lie on a line, and three nearly do by chance.
 LEAST_PAIRS = 4
@@ -76,12 +77,20 @@ def speed_ups(dataset, of_split, reference):
     return pd.DataFrame(rows, columns=columns)
 
 
+def require_references(datasets, references):
+    """Raises InputError for a reference that no data set has: a level of one suite's need not be one of another's."""
+    for factor, level in references.items():
+        levels = {each for data in datasets for each in split(data, factor).levels}
+        if not levels:
+            raise InputError(f"reference {factor}={level}: no record has a factor {factor}")
+        if level not in levels:
+            raise InputError(f"reference {factor}={level}: that factor's levels are {', '.join(natural_order(levels))}")
+
+
 def reference_of(of_split, references):
+    """The level asked for where there is one, else the first."""
     asked = references.get(of_split.factor)
-    if asked is None:
-        return of_split.levels[0]
-    require_level(of_split.levels, of_split.factor, asked)
-    return asked
+    return asked if asked in of_split.levels else of_split.levels[0]
 
 
 def stacks(dataset):

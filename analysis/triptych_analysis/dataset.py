@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import pandas as pd
 
-from .tables import COST, FACTOR, InputError
+from .tables import COST, FACTOR
 
 # Instructions of a frame that repeat and are judged; libc's and the program's are neither.
 COST_PARTS = ("device_code", "driver")
@@ -214,8 +214,3 @@ def _factors(fit):
         factors[name] = factor_of(texts)
     factors["device"] = factor_of(fit["level"])
     return dict(sorted(factors.items()))
-
-
-def require_level(levels, factor, level):
-    if level not in levels:
-        raise InputError(f"reference {factor}={level}: that factor's levels are {', '.join(levels)}")

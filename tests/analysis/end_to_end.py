@@ -25,6 +25,7 @@ VOLUME = {"suite": "volume", "technique": ["raycast"],
 PARTICLES = {"suite": "particles", "technique": ["quad_ray", "quad_screen", "tiles"], "culling": ["none"],
              "data": ["generate:uniform:10", "generate:uniform:20", "generate:droplets:20"],
              "camera": CAMERAS + ["random:1"], "viewport": [8]}
+REFERENCE = ["--reference", "data=generate:uniform:10"]  # of one suite alone
 FIGURES = {"volume": ["figure_03_distribution", "figure_04_correlation_boxes", "figure_05_correlation_device",
                       "figure_06_speed_up_device", "figure_07_speed_up_camera_path", "figure_08_mean_data_camera_path",
                       "camera_paths", "correlation_camera_distance", "correlation_camera_rotation", "prediction",
@@ -50,7 +51,7 @@ class EndToEnd(unittest.TestCase):
         cls.triptych("run", "volume.yaml", "particles.yaml", "--device", "null:*", "--store", "s.sqlite")
         cls.triptych("export", "s.sqlite", "--out", "tables")
         cls.out = os.path.join(cls.folder, "out")
-        cls.code = analyze.main([os.path.join(cls.folder, "tables"), "--out", cls.out])
+        cls.code = analyze.main([os.path.join(cls.folder, "tables"), "--out", cls.out, *REFERENCE])
         cls.times = cls.raw_times()
 
     @classmethod
@@ -127,6 +128,11 @@ class EndToEnd(unittest.TestCase):
         self.assertAlmostEqual(float(row["speed_up"]), statistics.linear_regression(level, base).slope, places=9)
         self.assertAlmostEqual(float(row["speed_up"]), 1 / 1.7, delta=0.05)  # as the script has it
 
+    def test_a_reference_of_one_suite(self):
+        self.row("particles", "speed_ups", factor="data", level="generate:uniform:20", reference="generate:uniform:10")
+        told = self.row("volume", "left_out", analysis="speed-up relative to data=generate:uniform:10")
+        self.assertIn("relative to generate:gaussian_blob:8 instead", told["reason"])
+
     @staticmethod
     def path_and_position(factors):
         factors["path"], _, factors["position"] = factors.pop("camera").partition(":")
@@ -187,7 +193,7 @@ class EndToEnd(unittest.TestCase):
 
     def test_the_store_itself_says_the_same(self):
         again = os.path.join(self.folder, "again")
-        self.assertEqual(analyze.main([os.path.join(self.folder, "s.sqlite"), "--out", again]), 0)
+        self.assertEqual(analyze.main([os.path.join(self.folder, "s.sqlite"), "--out", again, *REFERENCE]), 0)
         files = sorted(glob.glob(os.path.join(self.out, "*", "time", "*")))
         self.assertGreater(len(files), 40)
         for file in files:
@@ -219,7 +225,7 @@ class EndToEnd(unittest.TestCase):
     def test_wrong_words_end_with_3(self):
         tables = os.path.join(self.folder, "tables")
         for words in (["--nonsense"], [tables], ["none", "--out", "x"], [tables, "--out", "x", "--reference", "step"],
-                      [tables, "--out", "x", "--plan", "none"]):
+                      [tables, "--out", "x", "--reference", "data=none"], [tables, "--out", "x", "--plan", "none"]):
             self.assertEqual(analyze.main(words), 3, words)
 
 

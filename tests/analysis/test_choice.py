@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 import synthetic
-from triptych_analysis import analysis, choice, tables
+from triptych_analysis import analysis, choice, correlation, tables
 
 
 def spheres(**more):
@@ -80,11 +80,21 @@ class Whole(unittest.TestCase):
         self.assertGreaterEqual(len(of.left_out), 5)
         self.assertTrue(all(why for _, why in of.left_out))
 
-    def test_a_reference_that_is_no_level_is_refused(self):
-        with self.assertRaisesRegex(tables.InputError, "reference device=z: that factor's levels are x, y"):
-            analysis.analyse(synthetic.anscombe(), {"device": "z"})
+    def test_a_reference_that_no_data_set_has_is_refused(self):
+        both = [synthetic.anscombe(), synthetic.factorial({"device": ["v", "w"], "step": ["1"]}, lambda at: 1.0)]
+        for references, says in (({"device": "z"}, "reference device=z: that factor's levels are v, w, x, y"),
+                                 ({"stop": "1"}, "reference stop=1: no record has a factor stop")):
+            with self.assertRaisesRegex(tables.InputError, says):
+                correlation.require_references(both, references)
+        correlation.require_references(both, {"device": "w", "step": "1"})
+
+    def test_a_reference_that_another_suite_has_is_told(self):
         of = analysis.analyse(synthetic.anscombe(), {"device": "y"})
         self.assertIn("y", set(of.table("speed_ups")["reference"]))
+        of = analysis.analyse(synthetic.anscombe(), {"device": "w"})
+        self.assertEqual(set(of.table("speed_ups")["reference"]) & set("xyw"), {"x"})
+        self.assertIn(("speed-up relative to device=w", "none of these records has that level; relative to x instead"),
+                      of.left_out)
 
 
 if __name__ == "__main__":
