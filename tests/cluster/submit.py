@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What ci/cluster/submit asks of a Slurm, whose commands are stand-ins."""
+"""What ci/cluster/submit asks of a Slurm, whose commands are stand-ins: how many jobs, and what is left where Slurm
+refuses one."""
 
 import os
 import pathlib
@@ -8,9 +9,10 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Each appends its words to $CALLS.
+# Each appends its words to $CALLS; sbatch refuses the job of number $REFUSED.
 STAND_INS = {
-    "sbatch": 'echo "sbatch $*" >>"$CALLS"; n=$(grep -c ^sbatch "$CALLS"); echo "$n"',
+    "sbatch": 'echo "sbatch $*" >>"$CALLS"; n=$(grep -c ^sbatch "$CALLS"); [ "$n" != "${REFUSED:-}" ] || exit 1; echo "$n"',
+    "scancel": 'echo "scancel $*" >>"$CALLS"',
     "squeue": "",
     "triptych": '[ "$1" = list ] && seq "${2#plan}"',  # plan340 has 340 configurations; no store is complete
 }
@@ -32,6 +34,9 @@ class Submit(unittest.TestCase):
             env={**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}", "TRIPTYCH": str(self.folder / "triptych"),
                  "CALLS": str(self.folder / "calls"), **environment})
 
+    def calls(self, program):
+        return [line for line in (self.folder / "calls").read_text().splitlines() if line.startswith(program)]
+
     def shards_of(self, *words):
         with tempfile.TemporaryDirectory(dir=self.folder) as farm:
             done = self.submit("--folder", farm, *words)
@@ -45,6 +50,25 @@ class Submit(unittest.TestCase):
         self.assertEqual(self.shards_of("plan101", "plan299"), 3)
         # Never more than the largest has: further jobs had nothing to do.
         self.assertEqual(self.shards_of(*["plan2"] * 500), 2)
+
+    def test_what_slurm_refuses_leaves_nothing(self):
+        plans = "--folder", self.farm, "--device", "a:*", "--device", "b:*", "plan340"
+        for refused, cancelled in (("1", []), ("2", ["scancel 1"]), ("3", ["scancel 1 2"])):
+            done = self.submit(*plans, REFUSED=refused)
+            self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+            self.assertIn("submit: sbatch refused", done.stderr)
+            self.assertEqual(self.calls("scancel"), cancelled)
+        self.assertEqual(self.submit(*plans).returncode, 0)
+        self.assertIn("--dependency=afterany:1:2 ", self.calls("sbatch")[-1])
+
+    def test_what_slurm_refuses_again_can_be_sent_again(self):
+        self.assertEqual(self.submit("--folder", self.farm, "plan340").returncode, 0)
+        done = self.submit("--again", self.farm, REFUSED="2")
+        self.assertEqual((done.returncode, self.calls("scancel")), (3, ["scancel 1"]))
+        self.assertEqual(self.submit("--again", self.farm).returncode, 0)
+
+    def test_a_folder_that_cannot_be_made_ends_with_3(self):
+        self.assertEqual(self.submit("--folder", "/proc/none", "plan340").returncode, 3)
 
 
 if __name__ == "__main__":
