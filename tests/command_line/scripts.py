@@ -1,0 +1,56 @@
+"""Scripts of ci/ in a checkout of their own, what they call replaced by stand-ins: what they leave, where, and what
+they say outside it. No root, no network and no build is needed."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+# unshare: what ci/root has it do in a Debian is done in the folder itself.
+UNSHARE = """while [ "$1" != root ]; do shift; done
+root=$2 count=$3
+shift 3
+printf '%s\\n' "${@:1:count}" >"$CALLS"
+shift "$count"
+words=("${@//"/triptych"/"$root/triptych"}")
+if [ "$1" = env ]; then words=("$@"); fi
+exec "${words[@]}"
+"""
+# mmdebstrap: a Debian of nothing.
+STAND_INS = {"unshare": UNSHARE, "mmdebstrap": 'mkdir "${@: -1}/etc" 2>/dev/null || mkdir "${@: -2:1}/etc"',
+             "id": "echo 0", "chroot": "", "arch-test": "", "apt-get": ""}
+
+
+class Scripts(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())).resolve()
+        self.checkout = self.folder / "checkout"
+        for script in ("gate", "fresh", "root", "arm64", "setup", "package", "fuzz"):
+            self.put(f"checkout/ci/{script}", (ROOT / "ci" / script).read_text(encoding="utf-8"))
+        for name, text in STAND_INS.items():
+            self.put(f"bin/{name}", f"#!/bin/bash\n{text}\n")
+
+    def put(self, name, text):
+        file = self.folder / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+        file.chmod(0o755)
+
+    def run_script(self, script, *words, folder=None):
+        return subprocess.run([script, *map(str, words)], cwd=folder or self.checkout, capture_output=True, text=True,
+                              env={**os.environ, "PATH": f"{self.folder}/bin:{os.environ['PATH']}", "TMPDIR": str(self.folder),
+                                   "CALLS": str(self.folder / "calls")})
+
+    def test_help_and_usage_from_anywhere(self):
+        for script in ("setup", "package", "fuzz"):
+            for word, code in (("--help", 0), ("--nonsense", 3)):
+                done = self.run_script(f"checkout/ci/{script}", word, folder=self.folder)
+                self.assertEqual(done.returncode, code, script + done.stderr)
+                self.assertIn(f"ci/{script} [", done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
