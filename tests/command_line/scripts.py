@@ -51,6 +51,14 @@ class Scripts(unittest.TestCase):
                 self.assertEqual(done.returncode, code, script + done.stderr)
                 self.assertIn(f"ci/{script} [", done.stdout + done.stderr)
 
+    def test_a_gate_that_ends_early_leaves_no_earlier_verdict(self):
+        self.put("checkout/ci/setup", "#!/bin/sh\nexit 3\n")
+        told = ["summary.md", "report.html", "gate.log", "benchmark.json", "gate.sqlite", "gate.sqlite-wal", "volume-quick.xml"]
+        for name in [*told, "mine.xml"]:
+            self.put(f"checkout/out/{name}", "PASS")
+        self.assertEqual(self.run_script("ci/gate").returncode, 3)
+        self.assertEqual([each.name for each in (self.checkout / "out").iterdir()], ["mine.xml"])
+
 
 if __name__ == "__main__":
     unittest.main()
