@@ -59,6 +59,16 @@ class Scripts(unittest.TestCase):
         self.assertEqual(self.run_script("ci/gate").returncode, 3)
         self.assertEqual([each.name for each in (self.checkout / "out").iterdir()], ["mine.xml"])
 
+    def test_a_package_made_in_a_fresh_debian_stays(self):
+        self.put("checkout/ci/package", "#!/bin/sh\nmkdir -p out && echo made >out/triptych_1.deb\n")
+        for words in ("init -q", "add ci", "-c user.name=x -c user.email=x commit -qm x"):
+            subprocess.run(["git", *words.split()], cwd=self.checkout, check=True)
+        done = self.run_script("ci/fresh", "trixie", "ci/package")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual((self.checkout / "out/triptych_1.deb").read_text(), "made\n")
+        self.assertIn("fresh: out/triptych_1.deb\n", done.stdout)
+        self.assertEqual(list(self.folder.glob("triptych-trixie.*")), [])
+
 
 if __name__ == "__main__":
     unittest.main()
