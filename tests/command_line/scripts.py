@@ -69,6 +69,17 @@ class Scripts(unittest.TestCase):
         self.assertIn("fresh: out/triptych_1.deb\n", done.stdout)
         self.assertEqual(list(self.folder.glob("triptych-trixie.*")), [])
 
+    def test_a_package_for_arm64_goes_where_it_is_asked_for(self):
+        (self.checkout / "build/arm64-root").mkdir(parents=True)
+        for name, text in (("setup", ""), ("build", ""), ("package", 'echo "$*"')):
+            self.put(f"checkout/ci/{name}", f"#!/bin/sh\n{text}\n")
+        elsewhere = self.folder / "elsewhere"
+        for word, folder in ((elsewhere, elsewhere), (None, self.checkout / "out")):
+            done = self.run_script("ci/arm64", "--package", *([word] if word else []))
+            self.assertEqual(done.stdout, f"--built arm64 {folder}\n", done.stderr)
+            self.assertTrue(folder.is_dir())
+            self.assertEqual((self.folder / "calls").read_text().splitlines(), [str(self.checkout), str(folder)])
+
 
 if __name__ == "__main__":
     unittest.main()
