@@ -26,10 +26,10 @@ class Publish(unittest.TestCase):
         self.plan = self.folder / "small.yaml"
         self.plan.write_text(PLAN, encoding="utf-8")
 
-    def publish(self, *words):
+    def publish(self, *words, program=os.environ["TRIPTYCH_PROGRAM"]):
         return subprocess.run(
             [ROOT / "ci/publish", self.folder / "out", "--counted", "--timed", self.plan, "--device", "null:*", "--shares", "4", *words],
-            capture_output=True, text=True, env={**os.environ, "TRIPTYCH": os.environ["TRIPTYCH_PROGRAM"], "TRIPTYCH_DATA": "",
+            capture_output=True, text=True, env={**os.environ, "TRIPTYCH": str(program), "TRIPTYCH_DATA": "",
                                                  "TRIPTYCH_NULL_SCRIPT": DEVICES})
 
     def archive(self):
@@ -65,6 +65,19 @@ class Publish(unittest.TestCase):
         self.assertIn("48 of 192 configurations", readme.read_text())
         self.assertEqual(self.publish().returncode, 0)
         self.assertIn("192 of 192 configurations", readme.read_text())
+
+    def test_what_cannot_be_made_leaves_the_earlier_one(self):
+        self.assertEqual(self.publish("--hours", "0.00001").returncode, 0)
+        first = self.archive()
+        # In the middle of it: the tables are there, the analysis is not.
+        stand_in = self.folder / "triptych"
+        stand_in.write_text('#!/bin/sh\n"$TRIPTYCH_PROGRAM" "$@" || exit\n'
+                            '[ "$1" != export ] || rm "$4/dictionary.json"\n', encoding="utf-8")
+        stand_in.chmod(0o755)
+        self.assertEqual(self.publish(program=stand_in).returncode, 3)
+        self.assertEqual(self.archive(), first)
+        self.assertIn("48 of 192", (self.folder / "out/triptych-results/README.md").read_text())
+        self.assertEqual({each.name for each in (self.folder / "out").iterdir()}, {"work", "triptych-results", "triptych-results.tar.xz"})
 
     def test_nothing_measured_is_no_result(self):
         done = self.publish("--device", "nobody:*")
