@@ -79,6 +79,13 @@ class Publish(unittest.TestCase):
         self.assertIn("48 of 192", (self.folder / "out/triptych-results/README.md").read_text())
         self.assertEqual({each.name for each in (self.folder / "out").iterdir()}, {"work", "triptych-results", "triptych-results.tar.xz"})
 
+    def test_wrong_words_end_with_3(self):
+        for words in ([], ["--nonsense"], ["/proc/none"]):
+            done = subprocess.run([ROOT / "ci/publish", *words], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+        self.assertEqual(subprocess.run([ROOT / "ci/publish", "--help"], stdout=subprocess.DEVNULL).returncode, 0)
+
     def test_nothing_measured_is_no_result(self):
         done = self.publish("--device", "nobody:*")
         self.assertEqual(done.returncode, 3, done.stderr)
