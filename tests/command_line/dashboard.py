@@ -78,6 +78,13 @@ class Dashboard(unittest.TestCase):
         self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
         self.assertIn("could not be submitted to http://127.0.0.1", done.stderr)
 
+    def test_wrong_words_end_with_3(self):
+        for words, says in ((["--build"], "--build needs a value"), (["--track"], "--track needs a value"),
+                            (["--build", "/no/such", "url"], "no tests in /no/such"), (["--nonsense"], "no option --nonsense")):
+            done = subprocess.run([ROOT / "ci/dashboard", *words], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn(says, done.stderr)
+
     def test_what_runs_nothing_submits_nothing(self):
         done = self.submit(label="no-such-label")
         self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
