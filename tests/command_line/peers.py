@@ -1,0 +1,56 @@
+"""What the comparisons of ci/peers share, but VTK: our side on a scripted device, and the ratio from both sides' cases.
+The program is $TRIPTYCH_PROGRAM."""
+
+import argparse
+import contextlib
+import io
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "ci/peers"))
+sys.dont_write_bytecode = True
+import peer  # noqa: E402
+
+
+def ratio(ours, vtk, error):
+    with contextlib.redirect_stdout(io.StringIO()) as said:
+        reached = peer.print_ratio("a scene", ours, vtk, error)
+    return reached, said.getvalue().splitlines()
+
+
+class Peers(unittest.TestCase):
+    def test_our_side_tells_times_and_errors(self):
+        os.environ.update(TRIPTYCH_NULL_SCRIPT='{"base_ns": 1e5, "factors": {"*step=2*": 0.5}}', TRIPTYCH_DATA="")
+        arguments = argparse.Namespace(triptych=os.environ["TRIPTYCH_PROGRAM"], device="null:scripted")
+        with tempfile.TemporaryDirectory() as folder:
+            ours = peer.Ours(arguments, pathlib.Path(folder), {"suite": "volume", "data": "generate:gaussian_blob:8",
+                                                               "technique": "raycast", "viewport": 8, "step": [1, 2]})
+            self.assertEqual(set(ours.frame()["camera"]) & {"eye", "forward", "up", "fov_y_deg", "near", "far"},
+                             {"eye", "forward", "up", "fov_y_deg", "near", "far"})
+            cases = peer.short_names(ours.measure())
+        self.assertEqual(set(cases), {"", "step=2"})
+        self.assertLess(cases["step=2"][0], cases[""][0])
+        self.assertTrue(all(error > 0 for _, error in cases.values()))  # no picture of that scene
+
+    def test_each_side_keeps_its_least_time(self):
+        times = iter([5, 7, 3, 9])
+        ours, vtk = peer.by_turns(2, lambda: {"a": (next(times), 0.1)}, lambda: {"b": (next(times), 0.2)})
+        self.assertEqual((ours, vtk), ({"a": (3, 0.1)}, {"b": (7, 0.2)}))
+
+    def test_the_ratio_is_of_the_fastest_within_the_error(self):
+        ours = {"step=1": (4e6, 0.01), "step=2": (2e6, 0.02), "step=4": (1e6, 0.5)}
+        reached, said = ratio(ours, {"VTK": (8e6, 0.015)}, 0.02)
+        self.assertTrue(reached)
+        self.assertEqual(said[-1], "  time to RMSE 0.02000: ours 2.000 ms (step=2), VTK 8.000 ms (VTK): 0.250")
+
+    def test_who_does_not_reach_the_error_is_told(self):
+        reached, said = ratio({"a": (1e6, 0.01)}, {"VTK": (1e6, 0.5)}, 0.02)
+        self.assertFalse(reached)
+        self.assertEqual(said[-1], "  no ratio: VTK does not reach RMSE 0.02000")
+
+
+if __name__ == "__main__":
+    unittest.main()
