@@ -3,7 +3,6 @@ they say outside it. No root, no network and no build is needed."""
 
 import os
 import pathlib
-import shutil
 import subprocess
 import tempfile
 import unittest
