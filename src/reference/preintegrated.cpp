@@ -70,15 +70,16 @@ void Preintegration::add(const PathPiece& piece, int level, Light& light) {
                                                  0.3260725774312731, 0.1739274225687269};
   const double opacity = opacity_of(depth);
   const double front = std::exp(-light.depth);
-  if (opacity > 0.0) {
+  if (!std::isfinite(depth)) {  // opaque throughout: nothing behind its front is seen
+    for (std::size_t i = 0; i < 3; ++i) light.colour[i] += front * piece.a[i];
+  } else if (opacity > 0.0) {
     std::array<double, 3> colour{};
     double whole = 0.0;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const double s = nodes[k];
       const double alpha = piece.a[3] + s * (piece.b[3] - piece.a[3]);
       const double passed = s * piece.length * mean_extinction(piece.a[3], alpha);
-      double weight = weights[k] * -std::log1p(-std::min(alpha, 1.0)) * std::exp(-passed);
-      if (!std::isfinite(weight)) weight = weights[k];
+      const double weight = weights[k] * -std::log1p(-alpha) * std::exp(-passed);
       whole += weight;
       for (std::size_t i = 0; i < 3; ++i) {
         colour[i] += weight * (piece.a[i] + s * (piece.b[i] - piece.a[i]));

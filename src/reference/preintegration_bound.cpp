@@ -253,12 +253,15 @@ double PreintegrationBound::colour_error(std::size_t i, const StepOpacity& opaci
   if (widening_ == 0.0) {
     const double cells =
         around_.slope[i] * std::min(2.0 * depth_of(path_.length.longest, around_.bend()), most);
-    return error + (weights + range * std::min(cut_off(most_depth()), most) + cells) / most;
+    const double cut_offs = range * std::min(cut_off(most_depth()), most);
+    return error + std::min(weights + cut_offs + cells, range * most + cut_offs) / most;
   }
   const double chunks =
       range * std::min(cut_off(most_depth()), cut_off_of_chunk * most + least_left);
   const double cut_offs = std::min(chunks + deep_cells_[i], range * most);
-  return error + (weights + cut_offs + std::min(ends_[i], 2.0 * around_.slope[i] * most)) / most;
+  const double ends = std::min(ends_[i], 2.0 * around_.slope[i] * most);
+  // But for what is cut off, a device's colour is a mean of those along the path, as the true one.
+  return error + std::min(weights + cut_offs + ends, range * most + cut_offs) / most;
 }
 
 }  // namespace triptych::reference

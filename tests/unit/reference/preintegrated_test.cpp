@@ -26,6 +26,35 @@ Segment segment(const Table& table, double from, double to, double length) {
                                       {length, length, length});
 }
 
+// Of colours between opaque entries the front's alone is seen; beside one they fade.
+TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
+  scene::TransferFunction function;
+  for (std::size_t k = 0; k < 256; ++k) {
+    function.entries[k] = {k % 2 == 0 ? 1.0F : 0.0F, static_cast<float>(k) / 255, 0.5F,
+                           k < 120 || k > 140 ? 0.0F : 1.0F};
+  }
+  const Table table(function, 0);
+  for (const auto& [from, to] : {std::pair{121.25, 133.5}, {133.5, 121.25}, {125.25, 125.75}}) {
+    const Segment found = segment(table, from, to, 0.07);
+    EXPECT_EQ(found.opacity.nominal, 1);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(found.looked.colour[i], table.at(from)[i], 1e-12) << from << ' ' << to;
+    }
+  }
+  // From entry 119 on by ∫ c·τT: deep in the cell before, little is left for the opaque entry.
+  const Segment ramp = segment(table, 119, 130, 11);
+  double seen = 0;
+  double left = 1;
+  constexpr int parts = 1'000'000;
+  for (int n = 0; n < parts; ++n) {
+    const double alpha = (n + 0.5) / parts;
+    const double opacity = step_opacity(alpha, 1.0 / parts);
+    seen += left * opacity * alpha;  // red rises from 0 to 1 as the opacity does
+    left -= left * opacity;
+  }
+  EXPECT_NEAR(ramp.looked.colour[0], seen + left, 1e-6);
+}
+
 // Extinction and colour straight: V3. The table holds opacity, so between entries extinction bends
 // by 1e-7.
 TEST(PreintegratedStep, IsV3WhereTheTableIsARamp) {
