@@ -87,6 +87,15 @@ std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
       cell_passes(scene, 0));
 }
 
+// Samples are counted in integers of 32 bits; voxels flat enough make more of them, and of no use.
+std::optional<std::string> count_reason(const scene::VolumeScene& scene) {
+  const scene::Box box = scene.box();
+  const double samples = glm::length(box.hi - box.lo) / scene.step_world();
+  if (samples < 1 << 30) return std::nullopt;
+  return fmt::format(
+      "rays would take up to {:.2g} samples, devices count to 2³⁰: take a longer step", samples);
+}
+
 }  // namespace
 
 std::string_view name_of(Sampler sampler) {
@@ -148,6 +157,8 @@ std::optional<std::string> raycast_reason(std::string_view technique,
   }
   if (scene.quadrature == scene::Quadrature::cells) {
     if (auto reason = cells_reason(scene, options)) return reason;
+  } else if (auto reason = count_reason(scene)) {
+    return reason;
   }
   if (auto reason = adapt_reason(technique, scene, options)) return reason;
   if (options.precision == Precision::fp32) return std::nullopt;

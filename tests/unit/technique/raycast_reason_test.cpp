@@ -1,0 +1,39 @@
+// Why a scene cannot be raycast, told before anything is drawn.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene/generators.hpp"
+#include "technique/volume/raycast_parameters.hpp"
+
+namespace triptych::technique {
+namespace {
+
+using testing::HasSubstr;
+
+// A cube of side 1 but for `flat`, the thickness of a voxel.
+scene::VolumeScene scene_of(double flat) {
+  scene::Volume volume = scene::generate_volume("uniform_box", {8, 8, 8});
+  volume.spacing = {0.125, 0.125, flat};
+  return {.grid = std::make_shared<const scene::VoxelGrid>(
+              scene::encode(std::move(volume), scene::VoxelFormat::f32))};
+}
+
+TEST(RaycastReason, SamplesAreCountedInIntegersOfADevice) {
+  EXPECT_FALSE(raycast_reason("raycast", scene_of(1e-8), {}));
+  scene::VolumeScene scene = scene_of(1e-10);
+  EXPECT_THAT(raycast_reason("raycast", scene, {}).value_or(""),
+              HasSubstr("1.4e+10 samples, devices count to 2³⁰: take a longer step"));
+  scene.step_voxels = 4096;
+  EXPECT_FALSE(raycast_reason("raycast", scene, {}));
+}
+
+// They go from plane to plane, of which there are few.
+TEST(RaycastReason, OfCellsHasNoSamplesToCount) {
+  scene::VolumeScene scene = scene_of(1e-10);
+  scene.quadrature = scene::Quadrature::cells;
+  EXPECT_FALSE(raycast_reason("raycast", scene, {}));
+}
+
+}  // namespace
+}  // namespace triptych::technique
