@@ -135,7 +135,10 @@ class NullDevice final : public measure::Device {
   }
 
   measure::VolumePath default_path(const measure::VolumeKind& volume) const override {
-    return {.voxel = volume.native, .sampler = technique::Sampler::manual};
+    // As elsewhere, samples and cells of one scene may take different ones.
+    return {.voxel = volume.native,
+            .sampler = volume.filter_suffices ? technique::Sampler::manual
+                                              : technique::Sampler::packed};
   }
 
   double filter_weight_error(const measure::VolumePath& path) const override {

@@ -92,6 +92,19 @@ TEST(Error, OutOfReachInOneSceneIsToldAndAllOthersAreMeasured) {
   EXPECT_NE(result.output.find("of 1e-12:max"), std::string::npos) << result.output;
 }
 
+// Cells take another sampler than midpoints where the plan leaves it to the device.
+TEST(Error, OfASceneHasOneAnswerWhateverSamplerItsCandidatesTake) {
+  const Program program;
+  const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.0001",
+                                  drawing_the_limit(program, {blob}, "16"));
+  EXPECT_EQ(kept.code, 0) << kept.output;
+  EXPECT_NE(kept.output.find("cells keeps it with step"), std::string::npos) << kept.output;
+  const std::string answer = ": adapt=0, ";
+  const std::size_t first = kept.output.find(answer);
+  EXPECT_NE(first, std::string::npos) << kept.output;
+  EXPECT_EQ(kept.output.find(answer, first + 1), std::string::npos) << kept.output;
+}
+
 TEST(Error, OfAStressCaseIsRefusedForItHasNoLimit) {
   const Program program;
   const Result result = program.run(

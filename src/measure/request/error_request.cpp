@@ -13,6 +13,7 @@
 #include "accuracy/choice.hpp"
 #include "core/error.hpp"
 #include "measure/contract/factor.hpp"
+#include "record/factor_list.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -237,7 +238,9 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
   std::map<std::pair<std::string, std::string>, Group> groups;
   for (const record::Record& record : records) {
     if (record.outcome == record::Outcome::skipped) continue;
-    Group& group = groups[{record.device, scene_of(suite, record.factors)}];
+    // As it was asked for: candidates may take other levels where it says "auto".
+    const auto asked = record::parse_factor_list(record.configuration);
+    Group& group = groups[{record.device, scene_of(suite, asked)}];
     if (record.outcome != record::Outcome::measured || record.image.empty()) continue;
     const accuracy::LimitPicture* limit = truths.limit_of(record);
     if (limit == nullptr) continue;
