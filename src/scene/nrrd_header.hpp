@@ -1,0 +1,52 @@
+#pragma once
+// The header of an NRRD file, field by field; what the fields mean is nrrd.cpp's.
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+
+namespace triptych::scene::nrrd {
+
+struct Field {
+  std::string value;
+  core::FilePlace place;
+};
+
+// The fields of a header by their canonical names.
+class Header {
+ public:
+  // Throws InputError with the line for what is no header of ours, or has a field twice; IoError.
+  explicit Header(const std::filesystem::path& file);
+
+  [[nodiscard]] const Field* find(const std::string& name) const {
+    const auto found = fields_.find(name);
+    return found == fields_.end() ? nullptr : &found->second;
+  }
+  [[nodiscard]] const Field& require(const std::string& name) const {
+    const Field* field = find(name);
+    if (field == nullptr) {
+      throw core::InputError({.file = file_}, fmt::format("the header has no field '{}'", name));
+    }
+    return *field;
+  }
+  // Where the blank line ends, if there is one.
+  [[nodiscard]] std::optional<std::uint64_t> data_start() const noexcept { return data_start_; }
+  [[nodiscard]] core::FilePlace last_line() const { return {.file = file_, .line = lines_}; }
+
+ private:
+  void add(std::string_view line, const core::FilePlace& place);
+
+  std::string file_;
+  std::map<std::string, Field> fields_;
+  std::optional<std::uint64_t> data_start_;
+  int lines_ = 0;
+};
+
+}  // namespace triptych::scene::nrrd
