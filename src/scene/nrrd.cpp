@@ -132,6 +132,71 @@ std::array<double, 3> parse_directions(const Field& field, const std::array<int,
   return spacing;
 }
 
+// Where the axes begin or end, NaN where that is not known.
+Vector parse_ends(const Field& field) {
+  const auto words = split_words(field.value);
+  Vector ends{};
+  if (words.size() != ends.size()) {
+    throw core::InputError(field.place,
+                           fmt::format("expected 3 ends of axes, got {}", words.size()));
+  }
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const auto number = parse_number<double>(words[i]);
+    if (!number) {
+      throw core::InputError(field.place,
+                             fmt::format("'{}'; expected a number", quotable(words[i])));
+    }
+    ends.at(i) = *number;
+  }
+  return ends;
+}
+
+// Whether samples stand at the ends of an axis; else they are the middles of cells, as the format's
+// own library has it where nothing is said.
+std::array<bool, 3> parse_node_centred(const Field* field) {
+  std::array<bool, 3> node{};
+  if (field == nullptr) return node;
+  const auto words = split_words(field->value);
+  if (words.size() != node.size()) {
+    throw core::InputError(field->place,
+                           fmt::format("expected 3 centerings, got {}", words.size()));
+  }
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const std::string name = lower_case(words[i]);
+    node.at(i) = name == "node";
+    if (node.at(i) || name == "cell" || name == "none" || name == "???") continue;
+    throw core::InputError(
+        field->place,
+        fmt::format("centering '{}' of axis {}; expected cell or node", quotable(words[i]), i));
+  }
+  return node;
+}
+
+// From where the axes begin and end; nothing where that is not known of any.
+std::optional<Vector> spacing_of_ends(const Header& header, const std::array<int, 3>& size) {
+  const Field* lowest = header.find("axis mins");
+  const Field* highest = header.find("axis maxs");
+  if (lowest == nullptr || highest == nullptr) return std::nullopt;
+  const Vector begin = parse_ends(*lowest);
+  const Vector end = parse_ends(*highest);
+  const auto is_nan = [](double each) { return std::isnan(each); };
+  if (std::ranges::all_of(begin, is_nan) && std::ranges::all_of(end, is_nan)) return std::nullopt;
+  const std::array<bool, 3> node = parse_node_centred(header.find("centerings"));
+  Vector spacing{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double length = std::abs(end.at(i) - begin.at(i));
+    const int steps = node.at(i) ? size.at(i) - 1 : size.at(i);
+    if (steps == 0) {
+      throw core::InputError(
+          highest->place, fmt::format("axis {} has one sample, a node: its ends give no spacing; "
+                                      "expected 'spacings'",
+                                      i));
+    }
+    spacing.at(i) = usable_spacing(length / steps, size.at(i), highest->place);
+  }
+  return spacing;
+}
+
 std::array<double, 3> parse_spacing(const Header& header, const std::array<int, 3>& size) {
   const Field* spacings = header.find("spacings");
   const Field* directions = header.find("space directions");
@@ -141,7 +206,23 @@ std::array<double, 3> parse_spacing(const Header& header, const std::array<int, 
   }
   if (directions != nullptr) return parse_directions(*directions, size);
   if (spacings != nullptr) return parse_spacings(spacings->value, size, spacings->place);
-  return {1, 1, 1};
+  return spacing_of_ends(header, size).value_or(Vector{1, 1, 1});
+}
+
+// Colours or vectors along an axis would be drawn as if they were places.
+void require_places(const Field& kinds) {
+  const auto words = split_words(kinds.value);
+  if (words.size() != 3) {
+    throw core::InputError(kinds.place, fmt::format("expected 3 kinds, got {}", words.size()));
+  }
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string name = lower_case(words[i]);
+    if (name == "domain" || name == "space" || name == "none" || name == "???") continue;
+    throw core::InputError(
+        kinds.place, fmt::format("kind '{}' of axis {}; expected domain or space: only volumes of "
+                                 "one value a voxel are supported",
+                                 quotable(words[i]), i));
+  }
 }
 
 void require_three_axes(const Field& dimension) {
@@ -208,6 +289,7 @@ RawVoxels locate(const Header& header, const std::filesystem::path& file) {
 Volume read_nrrd(const std::filesystem::path& file) {
   const Header header(file);
   require_three_axes(header.require("dimension"));
+  if (const Field* kinds = header.find("kinds")) require_places(*kinds);
   Volume volume;
   volume.type = parse_type(header.require("type"));
   const Field& sizes = header.require("sizes");

@@ -98,6 +98,26 @@ TEST(Nrrd, SpaceDirectionsGiveTheLengths) {
   EXPECT_NEAR(turned.spacing[1], 1, 1e-15);
 }
 
+// Where nothing states the spacing itself. Cells are what the format's own library takes samples
+// for.
+TEST(Nrrd, SpacingFollowsFromWhereAxesBeginAndEnd) {
+  std::string head = minimal;
+  head.replace(head.find("2 1 1"), 5, "2 3 1");
+  const auto spacing = [&](const std::string& fields) {
+    return read_text(head + fields + "\n\nABCDEF").spacing;
+  };
+  const std::string ends = "axis mins: 1 -3 0\naxismaxs: 2 3 4";
+  using Lengths = std::array<double, 3>;
+  EXPECT_EQ(spacing(ends), (Lengths{0.5, 2, 4}));
+  EXPECT_EQ(spacing(ends + "\ncenterings: cell ??? none"), (Lengths{0.5, 2, 4}));
+  EXPECT_EQ(spacing(ends + "\ncenters: Node node cell"), (Lengths{1, 3, 4}));
+  EXPECT_EQ(spacing("axis mins: 2 3 4\naxis maxs: 1 -3 0"), (Lengths{0.5, 2, 4})) << "backwards";
+  EXPECT_EQ(spacing(ends + "\nspacings: 7 8 9"), (Lengths{7, 8, 9}));
+  EXPECT_EQ(spacing(ends + "\nspace directions: (7,0,0) (0,8,0) (0,0,9)"), (Lengths{7, 8, 9}));
+  EXPECT_EQ(spacing("axis mins: 1 -3 0"), (Lengths{1, 1, 1})) << "no length";
+  EXPECT_EQ(spacing("axis mins: nan nan nan\naxis maxs: NaN nan nan"), (Lengths{1, 1, 1}));
+}
+
 TEST(Nrrd, AllowsWhatTheFormatAllows) {
   const Volume volume = read_text(
       "NRRD0004\r\n# comment\r\nContent: a: b\r\nTYPE: unsigned char\r\ndimension: 3\r\n"
@@ -107,6 +127,12 @@ TEST(Nrrd, AllowsWhatTheFormatAllows) {
       "sample units: HU\r\n\r\nAB");
   EXPECT_EQ(volume.value(0), 'A');
   EXPECT_EQ(volume.value(1), 'B');
+}
+
+TEST(Nrrd, AxesAreSpace) {
+  for (const char* kinds : {"domain domain domain", "space Space none", "??? ??? ???"}) {
+    EXPECT_EQ(read_text(minimal + "kinds: " + kinds + "\n\nAB").value(0), 'A') << kinds;
+  }
 }
 
 TEST(Nrrd, SkipsLinesThenBytes) {
@@ -203,6 +229,9 @@ TEST(Nrrd, BrokenHeadersNameTheirLine) {
       {with_line("space directions: (1,0,0) (0,0,0) (0,0,1)"), ":3: spacing 0"},
       {with_line("space directions: (1,0,0) (1,1,0) (0,0,1)"), ":3: axes 0 and 1 are not perpend"},
       {with_line("space directions: (1,0,0) (0,1,0) (0,0,1) 4"), ":3: unexpected ' 4'"},
+      {with_line("kinds: RGB-color domain domain"), ":3: kind 'RGB-color' of axis 0; expected"},
+      {with_line("kinds: domain domain scalar"), ":3: kind 'scalar' of axis 2; expected domain"},
+      {with_line("kinds: domain domain"), ":3: expected 3 kinds, got 2"},
       {with_line("encoding: bzip2"), ":3: encoding 'bzip2' is not supported; expected raw or gzip"},
       {with_line("encoding: txt"), ":3: encoding 'txt'"},
       {with_line("encodng: raw"), ":3: unknown NRRD field 'encodng'"},
@@ -221,6 +250,14 @@ TEST(Nrrd, BrokenHeadersNameTheirLine) {
       {"NRRD0004\ntype: uint8\ntype: uint8\n", ":3: field 'type' is given twice"},
       {minimal + "space directions: (1,0,0) (0,1,0) (0,0,1)\nspacings: 1 1 1\n\nAB",
        ":6: 'space directions' and 'spacings' exclude each other"},
+      {minimal + "axis mins: 0 0 0\naxis maxs: 1 1 0\n\nAB", ":7: spacing 0; expected"},
+      {minimal + "axis mins: 0 0 0\naxis maxs: 1 1 nan\n\nAB", ":7: spacing nan; expected"},
+      {minimal + "axis mins: 0 0 0\naxis maxs: 1 1\n\nAB", ":7: expected 3 ends of axes, got 2"},
+      {minimal + "axis mins: 0 0 x\naxis maxs: 1 1 1\n\nAB", ":6: 'x'; expected a number"},
+      {minimal + "axis mins: 0 0 0\naxis maxs: 1 1 1\ncenterings: cell mid cell\n\nAB",
+       ":8: centering 'mid' of axis 1; expected cell or node"},
+      {minimal + "axis mins: 0 0 0\naxis maxs: 1 1 1\ncenterings: node node cell\n\nAB",
+       ":7: axis 1 has one sample, a node"},
       {"NRRD0004\ntype: float\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n\n....",
        ":2: values of several bytes need a field 'endian'"},
       {"NRRD0004\ntype: float\ndimension: 3\nsizes: 1 1 1\nencoding: raw\nendian: up\n\n....",
