@@ -257,12 +257,25 @@ std::uint64_t skip_lines(const std::filesystem::path& file, std::uint64_t start,
   return static_cast<std::uint64_t>(in.tellg());
 }
 
+// "LIST …" or a pattern, "FORMAT MIN MAX STEP" with perhaps a dimension behind. A name alone may
+// have a '%' in it.
+bool is_several_files(std::string_view name) {
+  const auto words = split_words(name);
+  if (!words.empty() && words[0] == "LIST") return true;
+  if (words.size() < 4) return false;
+  const auto range = words.end() - 3;
+  return std::all_of(range, words.end(),
+                     [](auto word) { return parse_number<int>(word).has_value(); }) &&
+         std::any_of(words.begin(), range,
+                     [](auto word) { return word.find('%') != std::string_view::npos; });
+}
+
 RawVoxels locate(const Header& header, const std::filesystem::path& file) {
   RawVoxels source;
   source.encoding = parse_encoding(header.require("encoding"));
   source.sizes_place = header.require("sizes").place;
   if (const Field* data = header.find("data file")) {
-    if (data->value == "LIST" || data->value.find('%') != std::string::npos) {
+    if (is_several_files(data->value)) {
       throw core::InputError(data->place, "data spread over several files are not supported");
     }
     source.file = data_file_beside(file, data->value, data->place);

@@ -135,6 +135,16 @@ TEST(Nrrd, AxesAreSpace) {
   }
 }
 
+TEST(Nrrd, ADataFilesNameMayHaveAPercentSign) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"50%dose.raw", "at 50% 1 2", "%d 1 2"}) {
+    folder.write(name, "AB");
+    EXPECT_EQ(read_nrrd(folder.write("a.nhdr", minimal + "data file: " + name + "\n")).value(1),
+              'B')
+        << name;
+  }
+}
+
 TEST(Nrrd, SkipsLinesThenBytes) {
   EXPECT_EQ(read_text(minimal + "line skip: 2\nbyteskip: 3\n\none\ntwo\nxyzAB").value(0), 'A');
   EXPECT_EQ(read_text(minimal + "byte skip: -1\n\nany number of bytesAB").value(1), 'B');
@@ -246,7 +256,9 @@ TEST(Nrrd, BrokenHeadersNameTheirLine) {
       {with_line("line skip: 5"), ":3: a.nrrd has only 0 lines to skip"},
       {with_line("data file: nothing.raw"), ":3: the data file 'nothing.raw' is not there"},
       {with_line("data file: LIST"), ":3: data spread over several files"},
+      {with_line("data file: LIST 2"), ":3: data spread over several files"},
       {with_line("data file: slice%03d.raw 1 9 1"), ":3: data spread over several files"},
+      {with_line("data file: slice %03d.raw 1 9 -1 2"), ":3: data spread over several files"},
       {"NRRD0004\ntype: uint8\ntype: uint8\n", ":3: field 'type' is given twice"},
       {minimal + "space directions: (1,0,0) (0,1,0) (0,0,1)\nspacings: 1 1 1\n\nAB",
        ":6: 'space directions' and 'spacings' exclude each other"},
