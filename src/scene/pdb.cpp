@@ -43,7 +43,8 @@ void add_atom(Atoms& atoms, std::string_view line, const LineReader& reader) {
 
 ParticleSet read_pdb(LineReader& reader, std::uint64_t frame, ColourKind colour) {
   Atoms atoms;
-  std::uint64_t models = 0;  // that have begun
+  std::uint64_t frames = 0;  // that have begun
+  bool has_models = false;
   bool in_model = false;
   bool is_entry = false;     // of the PDB
   bool has_heading = false;  // of a whole structure; those with models may leave it at their ends
@@ -51,14 +52,17 @@ ParticleSet read_pdb(LineReader& reader, std::uint64_t frame, ColourKind colour)
   while (const auto line = reader.next()) {
     const std::string_view record = trimmed(columns(*line, 1, 6));
     if (record == "ATOM" || record == "HETATM") {
-      // Atoms outside of models are the only frame of a file without models.
-      const std::uint64_t current = in_model ? models - 1 : 0;
-      if (models > 0 && !in_model) reader.reject("expected MODEL before further atoms");
-      if (current == frame) add_atom(atoms, *line, reader);
+      if (has_models && !in_model) reader.reject("expected MODEL before further atoms");
+      // Where nobody writes models, as VMD, END is the end of a frame.
+      if (!in_model && (frames == 0 || ended)) ++frames;
+      ended = false;
+      if (frames - 1 == frame) add_atom(atoms, *line, reader);
     } else if (record == "MODEL") {
       if (in_model) reader.reject("expected ENDMDL before the next MODEL");
-      in_model = true;
-      ++models;
+      if (frames > 0 && !has_models)
+        reader.reject("expected no MODEL after atoms outside of models");
+      has_models = in_model = true;
+      ++frames;
     } else if (record == "ENDMDL") {
       if (!in_model) reader.reject("ENDMDL without a MODEL");
       in_model = false;
@@ -71,11 +75,11 @@ ParticleSet read_pdb(LineReader& reader, std::uint64_t frame, ColourKind colour)
     }
   }
   if (in_model) reader.reject("the file ends here, where ENDMDL was expected");
-  const bool needs_end = is_entry || (has_heading && models == 0);
+  const bool needs_end = is_entry || (!has_models && (has_heading || frames > 1));
   if (needs_end && !ended) reader.reject("the file ends here, where END was expected");
-  if (frame > 0 && frame >= models) {
+  if (frame > 0 && frame >= frames) {
     reader.reject(fmt::format("there is no frame {}; the file has {}", frame,
-                              std::max<std::uint64_t>(models, 1)));
+                              std::max<std::uint64_t>(frames, 1)));
   }
   if (atoms.places.empty()) reader.reject("expected ATOM or HETATM records, found none");
   return to_particles(std::move(atoms), colour, reader);

@@ -77,6 +77,24 @@ TEST(Pdb, FramesAreModels) {
   expect_refused("a.pdb", text.substr(0, text.size() - 7), ":6", "ENDMDL was expected");
 }
 
+// VMD writes no models: each frame ends with END, and may have a heading of its own.
+TEST(Pdb, FramesWithoutModelsEndWithEnd) {
+  const auto frame = [](int x) {
+    return "CRYST1   52.000   58.600   61.900\nATOM      1  CA  THR A   1       " +
+           std::to_string(x) + ".000   2.000   3.000\nEND\n";
+  };
+  const std::string text = frame(1) + frame(2) + "END\n" + frame(3);
+  EXPECT_THAT(load("a.pdb", text).spheres, ElementsAre(Sphere{1, 2, 3, 1.7F}));
+  EXPECT_THAT(load("a.pdb", text, ColourKind::rgba8, "@2").spheres,
+              ElementsAre(Sphere{3, 2, 3, 1.7F}));
+  expect_refused("a.pdb", text, "", "no frame 3; the file has 3", "@3");
+  // A last frame that is cut off, whichever is asked for.
+  const std::string atoms = replaced(frame(1), "CRYST1   52.000   58.600   61.900\n", "");
+  expect_refused("a.pdb", atoms + atoms.substr(0, atoms.size() - 4), ":3:", "END was expected");
+  const std::string model = "MODEL        1\n" + atoms.substr(0, atoms.size() - 4) + "ENDMDL\n";
+  expect_refused("a.pdb", atoms + model, ":3:", "expected no MODEL after atoms outside of models");
+}
+
 TEST(Pdb, RefusesBrokenFiles) {
   expect_refused("a.pdb", replaced(pdb, "12.784", "12.x84"),
                  ":3:", "y in columns 39 to 46: expected a number, found '12.x84'");
