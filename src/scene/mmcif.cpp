@@ -40,11 +40,13 @@ class Tokens {
   }
   void take() { ahead_.reset(); }
   // Whether a line that begins with '#' came before the word, or the end, that was last seen.
-  [[nodiscard]] bool after_mark() const { return after_mark_; }
+  [[nodiscard]] bool after_mark() const { return marks_ > 0; }
+  // Whether just one did, and said nothing.
+  [[nodiscard]] bool after_lone_mark() const { return marks_ == 1 && bare_mark_; }
 
  private:
   std::optional<Token> read() {
-    after_mark_ = false;
+    marks_ = 0;
     for (;;) {
       const std::size_t begin = rest_.find_first_not_of(" \t");
       if (begin != std::string_view::npos && rest_[begin] != '#') {
@@ -57,7 +59,10 @@ class Tokens {
         return std::nullopt;
       }
       rest_ = *line;
-      if (rest_.starts_with('#')) after_mark_ = true;
+      if (rest_.starts_with('#')) {
+        ++marks_;
+        bare_mark_ = trimmed(rest_) == "#";
+      }
       if (rest_.starts_with(';')) return text_field();
     }
   }
@@ -96,7 +101,8 @@ class Tokens {
   std::string_view rest_;  // of the current line
   std::optional<Token> ahead_;
   bool ended_ = false;
-  bool after_mark_ = false;
+  int marks_ = 0;
+  bool bare_mark_ = false;  // the last of them
 };
 
 // Where the columns that matter stand in a row.
@@ -186,8 +192,9 @@ ParticleSet read_mmcif(LineReader& reader, std::uint64_t frame, ColourKind colou
   while (tokens.peek()) {
     const std::string word = tokens.peek()->is_keyword() ? lower_case(tokens.peek()->text) : "";
     tokens.take();
-    // Whoever closes the heading with '#' closes every part; others only put it before each.
-    if (word.starts_with("data_")) closes_parts = tokens.peek() && tokens.after_mark();
+    // Whoever closes the heading with '#' closes every part; others only put it before each, or
+    // say there who they are.
+    if (word.starts_with("data_")) closes_parts = tokens.peek() && tokens.after_lone_mark();
     if (word != "loop_") continue;
     if (const auto columns = read_columns(tokens)) {
       ParticleSet set = read_rows(tokens, *columns, frame, colour, reader);

@@ -162,6 +162,11 @@ TEST(Mmcif, RefusesALoopThatIsCutOff) {
   // Others only put it between parts, or nowhere.
   EXPECT_EQ(load("a.cif", "# made by hand\n#\ndata_X\n_entry.id X\n#\n" + loop).count(), 2U);
   EXPECT_EQ(load("a.cif", "data_X\n" + loop).count(), 2U);
+  // OpenMM says who wrote it.
+  for (const std::string marks : {"# Created with OpenMM 8.1\n#\n", "# by hand\n", "#\n#\n"}) {
+    EXPECT_EQ(load("a.cif", "data_cell\n" + marks + "_cell.length_a 1\n#\n" + loop).count(), 2U)
+        << marks;
+  }
 }
 
 const std::string gro =
