@@ -20,8 +20,9 @@ struct Style {
   std::size_t place;
   std::optional<std::size_t> diameter;
 
+  [[nodiscard]] bool has_flags(std::size_t words) const { return words == place + 6; }
   [[nodiscard]] bool fits(std::size_t words) const {
-    return words == place + 3 || words == place + 6;
+    return words == place + 3 || has_flags(words);
   }
 };
 
@@ -50,15 +51,19 @@ const Style* named_style(std::string_view comment, const LineReader& reader) {
   return &*found;
 }
 
-// Without a comment the number of columns must do: 5 are atomic, 7 full (sphere has as many, but
-// says so); 6 could be two things, and 8 atomic with image flags.
-const Style& guessed_style(std::size_t words, const LineReader& reader) {
-  if (styles[0].fits(words)) return styles[0];
-  if (styles[5].fits(words)) return styles[5];
+// Without a comment the columns must do: 5 are atomic, and so are 8 that end in image flags (an
+// electron's or a line's are its place); 6 and 7 could be two things.
+const Style& guessed_style(const Words& words, const LineReader& reader) {
+  const Style& atomic = styles[0];
+  const bool has_flags = atomic.has_flags(words.size()) &&
+                         std::all_of(words.end() - 3, words.end(), [](std::string_view word) {
+                           return parse_number<std::int64_t>(word).has_value();
+                         });
+  if (words.size() == atomic.place + 3 || has_flags) return atomic;
   reader.reject(
       fmt::format("expected the style of {} columns in a comment, such as 'Atoms # charge' or "
                   "'Atoms # molecular'",
-                  words));
+                  words.size()));
 }
 
 // Reads the header up to the Atoms section, whose style comment it returns.
@@ -87,6 +92,13 @@ void add_atom(Atoms& atoms, const Words& words, const Style& style, const LineRe
   atoms.add({reader.number(words[style.place], "x"), reader.number(words[style.place + 1], "y"),
              reader.number(words[style.place + 2], "z")},
             atoms.kind(words[style.type]));
+  if (style.has_flags(words.size())) {
+    constexpr std::array<std::string_view, 3> names{"image flag in x", "image flag in y",
+                                                    "image flag in z"};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      static_cast<void>(reader.integer(words[style.place + 3 + i], names.at(i)));
+    }
+  }
   if (style.diameter) {
     atoms.radii.push_back(reader.number(words[*style.diameter], "diameter") / 2);
   }
@@ -115,7 +127,7 @@ ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame, ColourKind
     if (words.empty()) {
       reader.reject(fmt::format("the section ends after {} atoms, expected {}", i, *count));
     }
-    if (style == nullptr) style = &guessed_style(words.size(), reader);
+    if (style == nullptr) style = &guessed_style(words, reader);
     add_atom(atoms, words, *style, reader);
   }
   // What follows is blank or nothing: else the count was too small.

@@ -116,7 +116,7 @@ TEST(LammpsData, ReadsEveryStyle) {
   check("Atoms # molecular", "2 9 2 1 2 7\n1 9 1 1 2 3\n");
   check("Atoms # bond", "2 9 2 1 2 7\n1 9 1 1 2 3\n");
   check("Atoms # full", "2 9 2 0.1 1 2 7 0 0 0\n1 9 1 0.1 1 2 3 0 0 0\n");
-  check("Atoms", "2 9 2 0.1 1 2 7\n1 9 1 0.1 1 2 3\n");
+  check("Atoms", "2 2 1 2 7 0 0 1\n1 1 1 2 3 -1 0 0\n");
   check("Atoms # sphere", "2 2 4 1 1 2 7\n1 1 4 1 1 2 3\n");
 }
 
@@ -131,6 +131,20 @@ TEST(LammpsData, RefusesBrokenFiles) {
   expect_refused("a.data", data("Atoms # full", rows), ":14:", "expected 7 or");
   expect_refused("a.data", data("Atoms", "1 1 0.5 1 2 3\n2 1 0.5 1 2 3\n"),
                  ":14:", "expected the style of 6 columns in a comment");
+  // Full or sphere, with image flags or without.
+  for (const std::string row : {"1 9 1 0.1 1 2 3", "1 9 1 0.1 1 2 3 0 0 0"}) {
+    expect_refused("a.data", data("Atoms", row + "\n", "1"), ":14:", "in a comment, such as");
+  }
+  // An electron has eight columns, its place last.
+  const std::string electron = "1 1 0.5 1 1.0 1.5 2.5 3.5\n";
+  expect_refused("a.data", data("Atoms", electron, "1"),
+                 ":14:", "expected the style of 8 columns in a comment");
+  expect_refused("a.data", data("Atoms # atomic", electron, "1"),
+                 ":14:", "image flag in x: expected a whole number, found '1.5'");
+  expect_refused("a.data", data("Atoms # full", "1 9 1 0.1 1 2 3 0 0 0.5\n", "1"),
+                 ":14:", "image flag in z: expected a whole number, found '0.5'");
+  expect_refused("a.data", data("Atoms", "1 1 1 2 3 0 0 0\n2 1 1 2 3 0 x 0\n"),
+                 ":15:", "image flag in y: expected a whole number, found 'x'");
   expect_refused("a.data", data("Atoms", "1 1 1 2 7\n1 1 1 2 3\n"),
                  ":15:", "atom 1 is there twice");
   expect_refused("a.data", data("Atoms", "1 1 1 2 7\n2 1 1 - 3\n"), ":15:", "y: expected a number");
