@@ -6,7 +6,8 @@
 
 namespace triptych::scene {
 
-// XYZ: count, comment, then element (symbol or atomic number), x, y, z and whatever else; frames
+// XYZ: count, comment, then element (symbol or atomic number), x, y, z and whatever else; extended
+// XYZ, whose comment has Properties=NAME:TYPE:COUNT:…, with species and pos in any columns. Frames
 // follow one another. Ångström. Throws InputError with file and line.
 [[nodiscard]] ParticleSet read_xyz(LineReader& reader, std::uint64_t frame, ColourKind colour);
 

@@ -221,6 +221,35 @@ TEST(Xyz, OneElementHasTheRankAsIntensity) {
       ElementsAre(0.F, 0.25F, 0.75F));
 }
 
+// Extended XYZ says in its comment what its columns are.
+TEST(Xyz, TakesColumnsFromProperties) {
+  const std::string rows = "7 0.5 1 2 3 C\n8 0.5 4 5 6 O\n";
+  const auto with = [&](const std::string& comment) { return "2\n" + comment + "\n" + rows; };
+  const std::string list = "id:I:1:charge:R:1:pos:R:3:species:S:1";
+  const auto expected = ElementsAre(Sphere{1, 2, 3, 1.7F}, Sphere{4, 5, 6, 1.52F});
+  for (const std::string& comment :
+       {"Properties=" + list, "Lattice=\"9 0 0 0 9 0 0 0 9\" Properties=" + list + " energy=-1",
+        "pbc=\"T T F\" properties=\"" + list + "\"", "note=\"Properties=x\" Properties=" + list}) {
+    EXPECT_THAT(load("a.xyz", with(comment)).spheres, expected) << comment;
+  }
+  EXPECT_EQ(load("a.xyz", "1\nNo Properties, \"Properties=x\"\nC 1 2 3 4\n").count(), 1U);
+  // Of each frame its own.
+  const std::string frames =
+      with("Properties=" + list) + "1\nProperties=species:S:1:pos:R:3\nO 1 2 3\n";
+  EXPECT_THAT(load("a.xyz", frames, ColourKind::rgba8, "@1").spheres,
+              ElementsAre(Sphere{1, 2, 3, 1.52F}));
+
+  expect_refused("a.xyz", with("Properties=" + list + ":mass:R:1"),
+                 ":3:", "expected 7 columns, as Properties says, found 6");
+  expect_refused("a.xyz", with("Properties=id:I:1:pos:R:3"),
+                 ":2:", "expected Properties with species (1 column) and pos (3)");
+  expect_refused("a.xyz", with("Properties=species:S:1:pos:R:2"), ":2:", "and pos (3)");
+  for (const char* broken : {"", "species:S", "species:S:1:pos:R:three", "species:S:0:pos:R:3"}) {
+    expect_refused("a.xyz", with(std::string("Properties=") + broken),
+                   ":2:", "expected Properties=NAME:TYPE:COUNT:…");
+  }
+}
+
 TEST(Xyz, RefusesBrokenFiles) {
   expect_refused("a.xyz", replaced(xyz, "3\n", "2\n"), ":5:", "the next frame's number of atoms");
   expect_refused("a.xyz", replaced(xyz, "3\n", "4\n"),
