@@ -125,6 +125,12 @@ ParticleSet load_particles(std::string_view data, ColourKind colour,
     throw core::IoError(fmt::format("{}: not found (looked here{})", data, where));
   }
   ParticleSet set = read(*source, colour, progress);
+  if (set.count() == 0 && set.dropped > 0) {
+    throw core::InputError({.file = source->file.string()},
+                           fmt::format("none of its {} particles can be drawn; expected finite "
+                                       "places and a radius above 0",
+                                       set.dropped));
+  }
   set.name = data;
   set.hash = particle_hash(set);
   if (progress) progress(1);

@@ -68,7 +68,7 @@ using Progress = std::function<void(double share)>;
 // those in the file over the number of them, and the rank in between where there is only one.
 //
 // Throws InputError with file, line and what was expected; IoError when nothing is there; an empty
-// file is an InputError.
+// file is an InputError, and so is one all of whose particles are dropped.
 [[nodiscard]] ParticleSet load_particles(std::string_view data, ColourKind colour,
                                          const std::vector<std::filesystem::path>& folders = {},
                                          const Progress& progress = {});

@@ -303,6 +303,13 @@ TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
                core::InputError);
 }
 
+// Nothing to see is a picture too, and a right one.
+TEST(ParticleFiles, WithoutAnyUsableParticleAreRefused) {
+  expect_refused("a.xyz", "2\n\nC nan 0 0\nC 0 inf 0\n", ": ",
+                 "none of its 2 particles can be drawn");
+  EXPECT_EQ(load("a.xyz", "2\n\nC nan 0 0\nC 0 0 0\n").dropped, 1U);
+}
+
 TEST(ParticleFiles, UnpackNoMoreThanIsAllowed) {
   const TemporaryFolder folder;
   const auto file = folder.write("a.pdb.gz", gzipped(std::string(std::size_t{3} << 20, ' ')));

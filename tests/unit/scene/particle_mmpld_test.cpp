@@ -165,6 +165,14 @@ TEST(Mmpld, DropsAndCountsWhatIsNoSphere) {
   EXPECT_THAT(set.intensity, ElementsAre(0.1F, 0.6F));
 }
 
+TEST(Mmpld, WithoutASphereIsRefused) {
+  const std::string flat = list(100, 1, 0, pack(0.F, 0), 3, std::string(36, '\0'));
+  EXPECT_THAT([&] { load(file(100, {frame(100, {flat})})); },
+              ThrowsMessage<core::InputError>(
+                  AllOf(HasSubstr("a.mmpld: none of its 3 particles can be drawn"),
+                        HasSubstr("radius above 0"))));
+}
+
 TEST(Mmpld, RefusesEveryTruncation) {
   const std::string bytes =
       file(103, {frame(103, {list(103, 1, 3, pack(1.F, 0.F, 1.F), 1, pack(0.F, 0.F, 0.F, 1.F))})});
