@@ -46,6 +46,13 @@ struct Inflater::Stream {
     return zlib.avail_in > 0;
   }
 
+  // Zero bytes behind a member, with which tapes and block devices fill up; no member begins so.
+  void drop_padding() {
+    bool padded = false;
+    for (; has_input() && *zlib.next_in == 0; ++zlib.next_in, --zlib.avail_in) padded = true;
+    if (padded && has_input()) reject("more behind zero bytes");
+  }
+
   void step() {
     if (ended) {  // another member follows
       inflateReset(&zlib);
@@ -75,6 +82,7 @@ Inflater::~Inflater() = default;
 std::size_t Inflater::read(std::span<std::byte> out) {
   std::size_t filled = 0;
   while (filled < out.size()) {
+    if (stream_->ended) stream_->drop_padding();
     if (!stream_->has_input()) {
       if (stream_->ended) break;
       stream_->reject("ends too early");

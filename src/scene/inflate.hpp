@@ -15,8 +15,8 @@ inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{1} << 30;
 // Throws InputError: the file unpacks to more than `most` bytes.
 [[noreturn]] void refuse_unpacked(const std::string& file, std::uint64_t most);
 
-// Decompresses a gzip stream (RFC 1952, one member or several) piece by piece into the caller's
-// memory.
+// Decompresses a gzip stream (RFC 1952, one member or several, then zero bytes or none) piece by
+// piece into the caller's memory.
 class Inflater {
  public:
   // `source` fills a buffer and returns how many bytes were left, 0 at the end. `name` is the file

@@ -361,6 +361,7 @@ TEST(Nrrd, BrokenGzipStreamsAreBadInput) {
       {header, ": broken gzip stream: ends too early"},
       {header + bad_sum, ": broken gzip stream: incorrect data check"},
       {header + good + "garbage", ": broken gzip stream: incorrect header check"},
+      {header + good + std::string("\0x", 2), ": broken gzip stream: more behind zero bytes"},
   });
 }
 

@@ -310,6 +310,14 @@ TEST(ParticleFiles, WithoutAnyUsableParticleAreRefused) {
   EXPECT_EQ(load("a.xyz", "2\n\nC nan 0 0\nC 0 0 0\n").dropped, 1U);
 }
 
+// Tapes and block devices fill their last block.
+TEST(ParticleFiles, ZeroBytesBehindGzipAreSkipped) {
+  const std::string padded = gzipped(xyz) + std::string(100'000, '\0');
+  EXPECT_EQ(load("a.xyz.gz", padded).hash, load("a.xyz.gz", gzipped(xyz)).hash);
+  expect_refused("a.xyz.gz", padded + "x", ": ", "broken gzip stream: more behind zero bytes");
+  expect_refused("a.xyz.gz", padded + gzipped(xyz), ": ", "more behind zero bytes");
+}
+
 TEST(ParticleFiles, UnpackNoMoreThanIsAllowed) {
   const TemporaryFolder folder;
   const auto file = folder.write("a.pdb.gz", gzipped(std::string(std::size_t{3} << 20, ' ')));
