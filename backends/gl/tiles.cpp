@@ -11,6 +11,7 @@
 #include "backends/gl/prepared.hpp"
 #include "backends/gl/techniques.hpp"
 #include "backends/gl/tile_buffers.hpp"
+#include "core/error.hpp"
 #include "technique/particles/particle_counts.hpp"
 #include "technique/particles/tile_rounds.hpp"
 
@@ -136,10 +137,12 @@ class TilesDrawing final : public Drawing {
 
   static technique::TileRounds rounds_of(const Api& gl, const scene::ParticleScene& scene,
                                          const technique::Arrangement& arrangement) {
-    return technique::tile_rounds(
+    technique::TileRounds rounds = technique::tile_rounds(
         scene, arrangement,
         static_cast<std::uint32_t>(gl.limit(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0)),
         TileBuffers::wanted_entries);
+    if (const auto reason = technique::passes_reason(rounds)) throw core::NotSupported(*reason);
+    return rounds;
   }
 
   // What is written is read as texels, images or storage.

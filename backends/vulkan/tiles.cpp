@@ -85,6 +85,7 @@ technique::TileRounds rounds_of(const Gpu& gpu, const measure::ParticleWork& wor
       gpu.properties.limits.maxStorageBufferRange / sizeof(std::uint32_t) / times;
   technique::TileRounds rounds =
       technique::tile_rounds(work.scene, arrangement, most_cells, std::min(most, enough_entries));
+  if (const auto reason = technique::passes_reason(rounds)) throw core::NotSupported(*reason);
   if (rounds.entries > most) {
     throw core::NotSupported(
         fmt::format("one cell of particles needs {} entries in tiles; maxStorageBufferRange = {}",

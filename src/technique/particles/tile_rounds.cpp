@@ -1,6 +1,9 @@
 #include "technique/particles/tile_rounds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -16,12 +19,14 @@ struct Need {
   double entries = 0;  // of large spheres: one in each tile
   std::uint64_t large = 0;
   bool small = false;  // one may be small
+  double passes = 0;   // of the invocation that makes most, over pixels of small and tiles of large
 
   void add(const Need& more) {
     pixels += more.pixels;
     entries += more.entries;
     large += more.large;
     small = small || more.small;
+    passes = std::max(passes, more.passes);
   }
 };
 
@@ -38,9 +43,15 @@ class NeedBound {
 
   [[nodiscard]] Need of(const Arrangement& arrangement, const Cell& cell) const {
     Need all;
-    for (std::size_t k = cell.begin; k < cell.begin + cell.count; ++k) {
-      all.add(of(arrangement.sphere(k)));
+    std::array<double, 64> passes{};  // of the work group of tiles_bin
+    for (std::size_t k = 0; k < cell.count; ++k) {
+      const Need need = of(arrangement.sphere(cell.begin + k));
+      all.add(need);
+      // Its entry counts twice, as tiles_fill takes two spheres of a round.
+      all.passes = std::max(all.passes, 2 * need.entries);
+      passes[k % passes.size()] += 1 + need.entries + (need.small ? small_edge * small_edge : 0);
     }
+    all.passes = std::max(all.passes, *std::ranges::max_element(passes));
     return all;
   }
 
@@ -107,6 +118,7 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
     out.rounds.push_back(round);
     out.entries = std::max(out.entries, round.entries);
     out.small = out.small || need.small;
+    out.passes = std::max(out.passes, static_cast<std::uint64_t>(need.passes));
     covered += need.pixels;
     round = {.first = round.first + round.cells};
     need = {};
@@ -125,6 +137,15 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
   constexpr double few = 2;  // spheres a pixel
   out.at_once = out.rounds.size() == 1 && covered <= few * pixels;
   return out;
+}
+
+std::optional<std::string> passes_reason(const TileRounds& rounds) {
+  constexpr std::uint64_t most = 65'000;
+  if (rounds.passes <= most) return std::nullopt;
+  return fmt::format(
+      "tiles would make {} passes through a loop, as spheres cover so many of its tiles, and some "
+      "drivers end loops of so many: take a smaller viewport, or another technique",
+      rounds.passes);
 }
 
 }  // namespace triptych::technique

@@ -2,6 +2,8 @@
 // In which steps `tiles` goes through the cells (tiles.glsl). Made when a scene is prepared.
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "scene/particle_scene.hpp"
@@ -24,6 +26,7 @@ struct TileRounds {
   std::uint64_t entries = 0;      // (tile, large sphere) pairs that a round may have at most
   bool small = false;             // there may be small spheres
   bool at_once = false;           // one round of so few that the last pass draws the large ones
+  std::uint64_t passes = 0;       // through loops that an invocation of tiles_bin or _fill may make
 
   // Whether passes before the last draw large spheres.
   [[nodiscard]] bool resolved() const noexcept { return entries > 0 && !at_once; }
@@ -51,5 +54,9 @@ inline constexpr std::uint64_t most_large_spheres = 32000;
 [[nodiscard]] TileRounds tile_rounds(const scene::ParticleScene& scene,
                                      const Arrangement& arrangement, std::uint32_t most_cells,
                                      std::uint64_t most_entries);
+
+// Why such a scene cannot be drawn: Mesa ends loops in silence (long_rays.hpp), and an invocation
+// goes through the tiles of up to 32 spheres.
+[[nodiscard]] std::optional<std::string> passes_reason(const TileRounds& rounds);
 
 }  // namespace triptych::technique

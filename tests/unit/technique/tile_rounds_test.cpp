@@ -41,6 +41,20 @@ TEST(TileRounds, HoldEveryCellOnceAndKeepTheirLimits) {
   }
 }
 
+// Of 2,048 spheres around the eye an invocation takes 32, each of which is in every tile.
+TEST(TileRounds, SpheresAroundTheEyeMakeAsManyPassesAsTheyHaveTiles) {
+  scene::ParticleScene scene = uniform(2048, 1000);
+  scene.camera.eye = {0.5, 0.5, 0.5};
+  const TileRounds small = tile_rounds(scene, arrange(scene), 65535, 1U << 24U);
+  EXPECT_GE(small.passes, 32U * 256);
+  EXPECT_LE(small.passes, 32U * 300);
+  EXPECT_FALSE(passes_reason(small));
+  scene.width = scene.height = 768;
+  const TileRounds large = tile_rounds(scene, arrange(scene), 65535, 1U << 24U);
+  EXPECT_GE(large.passes, 32U * 48 * 48);
+  EXPECT_TRUE(passes_reason(large));
+}
+
 TEST(TileRounds, SmallSpheresNeedNoEntries) {
   const scene::ParticleScene scene = uniform(20000, 0.2);
   const TileRounds rounds = tile_rounds(scene, arrange(scene), 65535, 1000);
