@@ -78,8 +78,11 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
             .begins = make_buffer(table_.bins + 1),
             .depths = make_buffer(pixels_),
             .winners = make_buffer(pixels_)};
+  // Enough for every cell in view, whatever the stride: later fewer are shown, and others of them.
+  Pass whole = pass;
+  whole.stride = 1;
   std::vector<Launch> launches{cull(programs)};
-  add_binning(programs, pass, drawn_first, launches);
+  add_binning(programs, whole, drawn_first, launches);
   std::vector<cl::Event> events;
   run(session_, launches, events);
   std::vector<cl_uint> totals(table_.bins);
