@@ -34,6 +34,14 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
     return fmt::format("the picture is {}x{}, this rasterizer reaches {}x{}", work.scene.width,
                        work.scene.height, most_pixels, most_pixels);
   }
+  const auto items =
+      checked([&] { return session.device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(); });
+  if (items < scan_items) {
+    return fmt::format(
+        "sprites are binned by groups of {} work items, "
+        "CL_DEVICE_MAX_WORK_GROUP_SIZE is {}",
+        scan_items, items);
+  }
   const auto most = checked([&] { return session.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(); });
   const auto total = checked([&] { return session.device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(); });
   const std::uint64_t count = work.scene.particles->count();
