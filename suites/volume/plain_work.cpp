@@ -20,12 +20,13 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
   } else if (work.options.ert > 0) {
     plain.why["ert"] = "speed_of_light ends no ray";
   }
-  if (work.options.skip == technique::Skip::distance &&
+  const bool cells = work.scene.quadrature == scene::Quadrature::cells;
+  // With cells a ray looks at a brick even so, and counts it.
+  if (!cells && work.options.skip == technique::Skip::distance &&
       no_brick_is_empty(work.scene, work.options.skip)) {
     plain.levels["skip"] = technique::name_of(technique::Skip::none);
     plain.why["skip"] = "no brick of this scene is empty";
   }
-  const bool cells = work.scene.quadrature == scene::Quadrature::cells;
   if (cells && work.scene.step_voxels > 1) {
     plain.levels["step"] = "1";
     plain.why["step"] = "a step longer than a cell cuts none of it";

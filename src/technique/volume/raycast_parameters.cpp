@@ -48,12 +48,15 @@ BasicRaycastParameters<Real> parameters_of(const scene::VolumeScene& scene,
   const BrickLayout layout = brick_layout(scene, options.skip);
   const auto bricks = brick_counts(grid.size, layout);
   const double plane = ray_plane(scene);
+  // A step longer than a cell cuts none of it: one picture, to the last bit.
+  const bool cells = scene.quadrature == scene::Quadrature::cells;
+  const double step_voxels = cells ? std::min(scene.step_voxels, 1.0) : scene.step_voxels;
   const scene::Shading& light = scene.shading;
   const auto& background = scene.background;
   return {
       .eye = pack<Real>((scene.camera.eye + plane * scene.camera.forward) / spacing,
-                        scene.step_world()),
-      .ray_centre = pack<Real>(scene.camera.forward, scene.step_voxels),
+                        step_voxels * scene.smallest_spacing()),
+      .ray_centre = pack<Real>(scene.camera.forward, step_voxels),
       .ray_right = pack<Real>(scene.camera.right() * (half * aspect), options.ert),
       .ray_up = pack<Real>(scene.camera.up * half, light.gradient_floor),
       .inverse_spacing = pack<Real>(1.0 / spacing, scene.smallest_spacing()),

@@ -1,4 +1,4 @@
-// Why a scene cannot be raycast, told before anything is drawn.
+// What a raycaster is given, and why a scene cannot be raycast, told before anything is drawn.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -33,6 +33,16 @@ TEST(RaycastReason, OfCellsHasNoSamplesToCount) {
   scene::VolumeScene scene = scene_of(1e-10);
   scene.quadrature = scene::Quadrature::cells;
   EXPECT_FALSE(raycast_reason("raycast", scene, {}));
+}
+
+TEST(RaycastParameters, OfCellsAreTheSameForEveryStepFromACellOn) {
+  scene::VolumeScene scene = scene_of(0.5);
+  scene.quadrature = scene::Quadrature::cells;
+  const auto one = raycast_parameters(scene, {}, 1);
+  scene.step_voxels = 7;
+  EXPECT_EQ(raycast_parameters(scene, {}, 1), one);
+  scene.quadrature = scene::Quadrature::midpoint;
+  EXPECT_NE(raycast_parameters(scene, {}, 1), one);
 }
 
 }  // namespace

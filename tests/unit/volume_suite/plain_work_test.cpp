@@ -35,6 +35,14 @@ TEST(PlainVolumeWork, LeapsOverNothingAreNone) {
   EXPECT_EQ(full.levels, plain("uniform_box", technique::Skip::none).levels);
 }
 
+// A ray counts the brick by which it sees that.
+TEST(PlainVolumeWork, OfCellsLeapsOverNothingAreWork) {
+  measure::VolumeWork work = work_of("uniform_box", technique::Skip::distance);
+  work.scene.quadrature = scene::Quadrature::cells;
+  const auto plain = plain_work({{"technique", "raycast"}, {"skip", "distance"}}, work);
+  EXPECT_EQ(plain.levels.at("skip"), "distance");
+}
+
 TEST(PlainVolumeWork, AWalkIsWorkEvenThroughAFullVolume) {
   EXPECT_EQ(plain("uniform_box", technique::Skip::bricks).levels.at("skip"), "bricks");
 }
