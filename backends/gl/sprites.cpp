@@ -108,6 +108,7 @@ class SpriteDrawing final : public Drawing {
 
   void bind(const Api& gl, Purpose purpose) override {
     if (purpose == Purpose::counters) {
+      if (occlusion_) settle(gl);
       if (!counting_) {
         ParticleConstants constants = constants_;
         constants.count = true;
@@ -153,6 +154,13 @@ class SpriteDrawing final : public Drawing {
     prepare_state(gl);
     submit(gl, Purpose::statistics);
     if (work.camera_before) data_.look_from(gl, work, arrangement);
+  }
+
+  // What is hidden depends on the frames before. The first after a jump draws all that is seen, the
+  // second knows what is hidden by that, and what follows is like it.
+  void settle(const Api& gl) {
+    prepare_state(gl);
+    for (int frame = 0; frame < 2; ++frame) submit(gl, Purpose::statistics);
   }
 
   void prepare_state(const Api& gl) const {

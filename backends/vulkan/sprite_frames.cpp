@@ -69,6 +69,14 @@ void SpriteFrames::draw_before(const measure::ParticleWork& work) const {
   if (work.camera_before) data_.look_from(work);
 }
 
+// What is hidden depends on the frames before. The first after a jump draws all that is seen, the
+// second knows what is hidden by that, and what follows is like it.
+void SpriteFrames::settle() const {
+  for (int frame = 0; frame < 2; ++frame) {
+    static_cast<void>(frames_.submit(measure::Purpose::timing));
+  }
+}
+
 void SpriteFrames::bind() {
   const bool instanced = technique_.draw.instanced || technique_.rest.has_value();
   data_.bind(set_, instanced ? Fetch::by_index : Fetch::attributes);
@@ -201,6 +209,7 @@ measure::Frame SpriteFrames::frame(measure::Purpose purpose) {
         record(commands, counting_draws_, true);
       });
     }
+    if (counting && occlusion_) settle();
     measure::Frame frame = frames_.submit(purpose);
     if (counting) {
       frame.counts = data_.counts(technique::Work::draw, options_.culling, target_.read(gpu_));

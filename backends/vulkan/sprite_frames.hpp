@@ -71,6 +71,7 @@ class SpriteFrames final : public measure::Prepared {
   void bind_vertices(const vk::raii::CommandBuffer& commands, const Draws& draws) const;
   void bind();
   void draw_before(const measure::ParticleWork& work) const;
+  void settle() const;
   void draw_run(const vk::raii::CommandBuffer& commands, bool instanced, ParticleRun run) const;
   void draw_again(const vk::raii::CommandBuffer& commands) const;
 
