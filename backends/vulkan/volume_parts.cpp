@@ -14,13 +14,15 @@ namespace triptych::vulkan_backend {
 namespace {
 
 technique::Room image_room(const Gpu& gpu, const technique::Layers& slices,
-                           scene::VoxelFormat format) {
+                           scene::VoxelFormat format) try {
   const auto image = gpu.physical.getImageFormatProperties(
       texture_format(format), vk::ImageType::e3D, vk::ImageTiling::eOptimal,
       vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
   const std::uint64_t deepest = slices.bytes * gpu.properties.limits.maxImageDimension3D;
   if (deepest < image.maxResourceSize) return {deepest, "the reach of maxImageDimension3D"};
   return {image.maxResourceSize, "maxResourceSize"};
+} catch (const vk::FormatNotSupportedError&) {
+  return {0, "the reach of images of this format, of which the device has none"};
 }
 
 // What the voxels of a device may take.
