@@ -208,6 +208,28 @@ TEST(Particles, AfterAJumpOfTheEyeNothingIsStale) {
   on_every_device([&](measure::Device& device) { expect_all_true(device, work); });
 }
 
+// What is counted is the state that frames tend to, however many were drawn before.
+TEST(Particles, AfterAJumpOfTheEyeCountsAreThoseOfLaterFrames) {
+  using namespace particles_suite;
+  StressScene jump = stress_scene(*stress_data("stress:jump"), scene::ColourKind::rgba8);
+  ParticleWork work =
+      particle_work(std::move(jump.particles), jump.camera, jump.width, jump.height);
+  work.options.culling = Culling::occlusion;
+  work.camera_before = jump.camera_before;
+  on_every_device([&](measure::Device& device) {
+    with_every_technique(device, work, [&](const measure::Work& whole) {
+      const auto counted_after = [&](int frames) {
+        const auto prepared = device.prepare(whole);
+        for (int n = 0; n < frames; ++n) {
+          static_cast<void>(prepared->frame(measure::Purpose::timing));
+        }
+        return prepared->frame(measure::Purpose::counters).counts;
+      };
+      EXPECT_EQ(counted_after(0), counted_after(4));
+    });
+  });
+}
+
 // Wider than textures and points may be: drawn, or refused with the size that was asked for.
 TEST(Particles, APictureOverADevicesLimitIsRefusedOrDrawn) {
   on_every_device([](measure::Device& device) {
