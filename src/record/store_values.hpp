@@ -1,5 +1,6 @@
 #pragma once
-// Values in and out of SQL statements. Used by store.cpp and store_records.cpp alone.
+// Values in and out of SQL statements. Used by store.cpp, store_records.cpp and
+// store_runs.cpp alone.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>

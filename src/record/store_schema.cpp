@@ -1,0 +1,229 @@
+#include "record/store_schema.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "core/error.hpp"
+#include "record/store.hpp"
+
+namespace triptych::record {
+namespace {
+
+constexpr int application_id = 0x54524950;  // "TRIP": tells a store from other SQLite files
+
+// docs/store.md explains the tables. STRICT keeps a column to its type for whoever else writes
+// here. A number that is NaN is kept as NULL, which is what SQLite makes of it.
+constexpr const char* schema = R"sql(
+CREATE TABLE run (
+  seq INTEGER PRIMARY KEY,
+  id TEXT NOT NULL UNIQUE,
+  plan TEXT NOT NULL,
+  started_at TEXT NOT NULL,
+  system TEXT NOT NULL,
+  checks TEXT NOT NULL,
+  plan_hash TEXT NOT NULL,
+  configurations INTEGER NOT NULL,
+  seal TEXT NOT NULL
+) STRICT;
+CREATE INDEX run_of_plan ON run (plan, seq);
+
+CREATE TABLE device (
+  seq INTEGER PRIMARY KEY,
+  run TEXT NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+  id TEXT NOT NULL,
+  api TEXT NOT NULL,
+  name TEXT NOT NULL,
+  vendor TEXT NOT NULL,
+  driver TEXT NOT NULL,
+  driver_version TEXT NOT NULL,
+  api_version TEXT NOT NULL,
+  cpu_features TEXT NOT NULL,
+  key TEXT NOT NULL,
+  key_hash TEXT NOT NULL,
+  environment TEXT NOT NULL,
+  limits TEXT NOT NULL,
+  seal TEXT NOT NULL,
+  UNIQUE (run, id)
+) STRICT;
+
+CREATE TABLE clock (
+  seq INTEGER PRIMARY KEY,
+  device INTEGER NOT NULL REFERENCES device (seq) ON DELETE CASCADE,
+  work TEXT NOT NULL,
+  offered INTEGER NOT NULL,
+  trusted INTEGER NOT NULL,
+  ratio REAL,
+  ratio_low REAL,
+  ratio_high REAL,
+  verdict TEXT NOT NULL
+) STRICT;
+CREATE INDEX clock_of_device ON clock (device);
+
+CREATE TABLE record (
+  seq INTEGER PRIMARY KEY,
+  run TEXT NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+  suite TEXT NOT NULL,
+  plan TEXT NOT NULL,
+  configuration TEXT NOT NULL,
+  scene TEXT NOT NULL,
+  technique TEXT NOT NULL,
+  device TEXT NOT NULL,
+  outcome TEXT NOT NULL,
+  reason TEXT NOT NULL,
+  injected TEXT NOT NULL,
+  clock TEXT NOT NULL,
+  frames INTEGER NOT NULL,
+  median_ns REAL,
+  median_wall_ns REAL,
+  median_device_ns REAL,
+  device_clock_trusted INTEGER NOT NULL,
+  warm_up_frames INTEGER NOT NULL,
+  frames_per_100ms INTEGER NOT NULL,
+  loop_wall_ns REAL,
+  loop_frames INTEGER NOT NULL,
+  prepare_ns REAL,
+  overhead_ns REAL,
+  peak_memory_bytes INTEGER NOT NULL,
+  image TEXT NOT NULL,
+  data_hash TEXT NOT NULL,
+  kernel_hash TEXT NOT NULL,
+  counted_by TEXT NOT NULL,
+  benchmark_json TEXT NOT NULL,
+  seal TEXT NOT NULL,
+  UNIQUE (run, configuration, device)
+) STRICT;
+
+CREATE TABLE sample (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  clock TEXT NOT NULL,
+  frame INTEGER NOT NULL,
+  ns REAL,
+  PRIMARY KEY (record, clock, frame)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE factor (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  value TEXT NOT NULL,
+  PRIMARY KEY (record, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE counter (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  value INTEGER NOT NULL,
+  PRIMARY KEY (record, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE cost (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  value INTEGER NOT NULL,
+  PRIMARY KEY (record, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE prepare_cost (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  value INTEGER NOT NULL,
+  PRIMARY KEY (record, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE memory (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  value INTEGER NOT NULL,
+  PRIMARY KEY (record, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE energy (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  value INTEGER NOT NULL,
+  PRIMARY KEY (record, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE statistic (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  value INTEGER NOT NULL,
+  PRIMARY KEY (record, name)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE precision (
+  record INTEGER NOT NULL REFERENCES record (seq) ON DELETE CASCADE,
+  name TEXT NOT NULL,
+  value REAL,
+  PRIMARY KEY (record, name)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE image (
+  hash TEXT PRIMARY KEY,
+  exr BLOB NOT NULL,
+  seal TEXT NOT NULL
+) STRICT;
+CREATE TABLE truth (
+  scene TEXT NOT NULL,
+  version TEXT NOT NULL,
+  image BLOB NOT NULL,
+  bound BLOB NOT NULL,
+  seal TEXT NOT NULL,
+  PRIMARY KEY (scene, version)
+) STRICT;
+
+CREATE TABLE statistics_calibration (
+  device INTEGER NOT NULL REFERENCES device (seq) ON DELETE CASCADE,
+  statistic TEXT NOT NULL,
+  verdict TEXT NOT NULL,
+  PRIMARY KEY (device, statistic)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE same_as (
+  record INTEGER PRIMARY KEY REFERENCES record (seq) ON DELETE CASCADE,
+  configuration TEXT NOT NULL
+) STRICT;
+CREATE TABLE begun (
+  run TEXT NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+  configuration TEXT NOT NULL,
+  device TEXT NOT NULL,
+  times INTEGER NOT NULL,
+  PRIMARY KEY (run, configuration, device)
+) STRICT, WITHOUT ROWID;
+)sql";
+
+int pragma(const SQLite::Database& database, const std::string& name) {
+  SQLite::Statement query(database, "PRAGMA " + name);
+  query.executeStep();
+  return query.getColumn(0).getInt();
+}
+
+}  // namespace
+
+bool is_blank(const SQLite::Database& database) {
+  SQLite::Statement query(database, "SELECT count(*) FROM sqlite_schema");
+  query.executeStep();
+  return query.getColumn(0).getInt() == 0 && pragma(database, "application_id") == 0 &&
+         pragma(database, "user_version") == 0;
+}
+
+void require_our_schema(const SQLite::Database& database, const std::filesystem::path& file) {
+  if (pragma(database, "application_id") != application_id) {
+    throw core::InputError({.file = file.string()},
+                           is_blank(database)
+                               ? "is empty, not a Triptych store; 'triptych run' makes one"
+                               : "is an SQLite file, but not a Triptych store");
+  }
+  const int found = pragma(database, "user_version");
+  if (found == Store::schema_version) return;
+  throw core::InputError(
+      {.file = file.string()},
+      fmt::format("store of schema version {}, but this program reads version {}: {}, or give "
+                  "another file with --store",
+                  found, Store::schema_version,
+                  found > Store::schema_version ? "use the newer Triptych that wrote it"
+                                                : "measure again, or use the older Triptych"));
+}
+
+// Two processes may find the same blank file: the second waits for the lock and finds it filled.
+void create_schema(SQLite::Database& database) {
+  SQLite::Transaction transaction(database, SQLite::TransactionBehavior::EXCLUSIVE);
+  if (!is_blank(database)) return;
+  database.exec(schema);
+  database.exec(fmt::format("PRAGMA application_id = {}", application_id));
+  database.exec(fmt::format("PRAGMA user_version = {}", Store::schema_version));
+  transaction.commit();
+}
+
+}  // namespace triptych::record
