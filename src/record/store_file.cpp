@@ -128,6 +128,17 @@ SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode 
   });
 }
 
+SQLite::Database open_new_store_file(const std::filesystem::path& file) {
+  SQLite::Database database(file_name(file),
+                            SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE | one_thread);
+  for (const char* pragma : {"journal_mode = OFF", "synchronous = OFF", "locking_mode = EXCLUSIVE",
+                             "foreign_keys = OFF"}) {
+    database.exec(std::string("PRAGMA ") + pragma);
+  }
+  if (is_blank(database)) create_schema(database);
+  return database;
+}
+
 void require_file(const std::filesystem::path& file, SQLite::Database& database) {
   int moved = 0;
   const int answer =

@@ -20,6 +20,11 @@ namespace triptych::record {
 [[nodiscard]] SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode mode,
                                                std::chrono::milliseconds busy_limit);
 
+// A connection to a store under way that nobody else sees, its tables made where there are none. It
+// has no log and waits for no disk: where anything fails, the file is to be removed. Throws
+// SQLite::Exception, as the file goes by a name that nobody asked for.
+[[nodiscard]] SQLite::Database open_new_store_file(const std::filesystem::path& file);
+
 // Throws IoError when the name no longer leads to the file that was opened under it, or the log
 // that holds what was added last is gone.
 void require_file(const std::filesystem::path& file, SQLite::Database& database);

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
 #include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
 #include "record/merge/merged_runs.hpp"
 #include "record/store_file.hpp"
+#include "record/store_runs.hpp"
 
 namespace triptych::record {
 namespace {
@@ -54,25 +54,31 @@ class Aside {
   std::vector<fs::path> files_;
 };
 
+// Errors of writing are said of the name that was asked for: what is written aside is removed.
+template <typename Action>
+decltype(auto) on_new_store(const fs::path& out, Action&& action) {
+  try {
+    return std::forward<Action>(action)();
+  } catch (const SQLite::Exception& error) {
+    if (error.getErrorCode() == SQLITE_FULL) {
+      throw core::IoError(fmt::format("{}: the disk is full; nothing was merged", out.string()));
+    }
+    throw_store_error(out, error);
+  }
+}
+
 // A file to merge from, by the run that it has for each plan.
 struct Input {
   fs::path file;
   std::vector<std::string> runs;
 };
 
-// One merge into one file, which nobody else sees.
+// One merge into one file aside, on the way to `out`.
 class Writing {
  public:
-  Writing(const std::vector<Input>& inputs, const fs::path& out) : out_file_(out) {
-    static_cast<void>(open_store_file(out, Store::Mode::append, busy_limit));  // makes the tables
-    out_.emplace(open_store_file(out, Store::Mode::append, busy_limit));
-    // What ends before its end is thrown away as a whole.
-    for (const std::string& pragma :
-         {std::string("foreign_keys = OFF"), std::string("journal_mode = OFF"),
-          std::string("synchronous = OFF"), std::string("locking_mode = EXCLUSIVE"),
-          fmt::format("cache_size = -{}", out_cache_kib)}) {
-      out_->exec("PRAGMA " + pragma);
-    }
+  Writing(const std::vector<Input>& inputs, const fs::path& file, const fs::path& out)
+      : out_file_(out), out_(on_new_store(out, [&] { return open_new_store_file(file); })) {
+    on_new_store(out, [&] { out_.exec(fmt::format("PRAGMA cache_size = -{}", out_cache_kib)); });
     sources_.reserve(inputs.size());
     const int share = source_cache_kib / static_cast<int>(std::max<std::size_t>(1, inputs.size()));
     for (const Input& each : inputs) {
@@ -89,11 +95,11 @@ class Writing {
   // What becomes of the records of each run.
   std::vector<RecordCounts> write(const std::vector<Input>& inputs, const std::vector<Run>& runs,
                                   DataSeen& data, const RecordCopy::Tell& tell) {
-    return on_store(out_file_, [&] {
-      out_->exec("BEGIN");
+    return on_new_store(out_file_, [&] {
+      out_.exec("BEGIN");
       std::vector<RecordCounts> counts;
       {
-        RecordCopy copy(sources_, *out_, data, tell);
+        RecordCopy copy(sources_, out_, data, tell);
         for (std::size_t i = 0; i < runs.size(); ++i) {
           std::vector<std::string> parts;
           parts.reserve(inputs.size());
@@ -104,7 +110,7 @@ class Writing {
       }
       copy_named("image", {"hash"}, {"exr"});
       copy_named("truth", {"scene", "version"}, {"image", "bound"});
-      out_->exec("COMMIT");
+      out_.exec("COMMIT");
       return counts;
     });
   }
@@ -117,7 +123,7 @@ class Writing {
         "SELECT configuration, device, times FROM begun WHERE run = ?1 ORDER BY configuration, "
         "device",
         2, [](const Query& a, const Query& b) { return a.integer(2) > b.integer(2); }, parts);
-    Query insert(*out_,
+    Query insert(out_,
                  "INSERT INTO begun SELECT ?1, ?2, ?3, ?4 WHERE NOT EXISTS (SELECT 1 FROM record "
                  "WHERE run = ?1 AND configuration = ?2 AND device = ?3)");
     while (const MergedRows::Row* row = rows.next()) {
@@ -141,8 +147,8 @@ class Writing {
     const std::string columns = fmt::format("{}, {}, seal", names, fmt::join(content, ", "));
     const int count = keys + static_cast<int>(content.size()) + 1;
     const std::vector<std::string> places(static_cast<std::size_t>(count), "?");
-    Query insert(*out_, fmt::format("INSERT INTO {} ({}) VALUES ({})", table, columns,
-                                    fmt::join(places, ", ")));
+    Query insert(out_, fmt::format("INSERT INTO {} ({}) VALUES ({})", table, columns,
+                                   fmt::join(places, ", ")));
     while (const MergedRows::Row* row = rows.next()) {
       const Source& source = sources_[row->source];
       on_store(source.file, [&] {
@@ -157,7 +163,7 @@ class Writing {
   }
 
   fs::path out_file_;
-  std::optional<SQLite::Database> out_;
+  SQLite::Database out_;
   std::vector<Source> sources_;
 };
 
@@ -190,6 +196,7 @@ void add(const std::vector<RecordCounts>& part, std::vector<RecordCounts>& sum) 
 struct Stepwise {
   const std::vector<Run>& runs;
   const RecordCopy::Tell& tell;
+  const fs::path& out;
   Aside& aside;
   DataSeen data;
   std::vector<RecordCounts> counts;  // of what was left out in any step, of records in the last
@@ -211,10 +218,29 @@ struct Stepwise {
 
   fs::path step(const std::vector<Input>& inputs) {
     fs::path file = aside.add();
-    add(Writing(inputs, file).write(inputs, runs, data, tell), counts);
+    add(Writing(inputs, file, out).write(inputs, runs, data, tell), counts);
     return file;
   }
 };
+
+// Last, as only records tell how many configurations there are. Without a log, which the file would
+// have to be made whole from; it gets the mode in which others append to it, and from then on
+// outlives a loss of power.
+void add_runs(const fs::path& file, const fs::path& out, const std::vector<MergedRun>& runs) {
+  on_new_store(out, [&] {
+    SQLite::Database store = open_new_store_file(file);
+    store.exec("BEGIN");
+    for (const MergedRun& each : runs) {
+      insert_run(store, each.run);
+      for (const auto& [device, clocks] : each.devices) {
+        insert_device(store, each.run.id, device, clocks);
+      }
+    }
+    store.exec("COMMIT");
+    store.exec("PRAGMA synchronous = FULL");
+    store.exec("PRAGMA journal_mode = WAL");
+  });
+}
 
 }  // namespace
 
@@ -247,20 +273,15 @@ MergeResult merge_stores(const std::vector<fs::path>& stores, const fs::path& ou
     runs.push_back(each.run);
   }
   Aside aside(out);
-  Stepwise steps{runs, tell, aside, {}, std::vector<RecordCounts>(runs.size())};
+  Stepwise steps{runs, tell, out, aside, {}, std::vector<RecordCounts>(runs.size())};
   const fs::path file = steps.merge(std::move(inputs));
   MergeResult result{.plans = {}, .older_runs = merged.older};
-  {
-    Store store(file, Store::Mode::append);
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      runs[i].configurations = std::max(runs[i].configurations, steps.counts[i].configurations);
-      store.add_run(runs[i]);
-      for (const auto& [device, clocks] : merged.runs[i].devices) {
-        store.add_device(runs[i].id, device, clocks);
-      }
-      result.plans.push_back({runs[i], std::move(steps.counts[i])});
-    }
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    Run& run = merged.runs[i].run;
+    run.configurations = std::max(run.configurations, steps.counts[i].configurations);
+    result.plans.push_back({run, std::move(steps.counts[i])});
   }
+  add_runs(file, out, merged.runs);
   require_no_store(out);
   fs::rename(file, out);
   return result;

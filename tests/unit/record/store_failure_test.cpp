@@ -4,9 +4,6 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sched.h>
-#include <sys/mount.h>
-#include <sys/resource.h>
 
 #include <csignal>
 #include <cstdio>
@@ -289,23 +286,10 @@ std::string fill(const std::filesystem::path& file) {
 
 TEST_F(StoreTest, FileSizeLimit) {
   const std::string answer = in_child([&] {
-    std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{.rlim_cur = 1'000'000, .rlim_max = 1'000'000};
-    setrlimit(RLIMIT_FSIZE, &limit);
+    limit_files(1'000'000);
     return fill(file_);
   });
   EXPECT_THAT(answer, AllOf(StartsWith(file_.string()), HasSubstr("I/O error")));
-}
-
-// A disk of 1 MiB that only this process sees; needs no root where users may have namespaces.
-bool mount_small_disk(const std::filesystem::path& folder) {
-  const uid_t user = geteuid();
-  if (unshare(CLONE_NEWNS) != 0) {
-    if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
-    std::ofstream("/proc/self/uid_map") << "0 " << user << " 1";
-  }
-  return mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
-         mount("none", folder.c_str(), "tmpfs", 0, "size=1m") == 0;
 }
 
 TEST_F(StoreTest, FullDisk) {

@@ -2,13 +2,18 @@
 // A folder for stores, and processes to misuse them from.
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 
@@ -22,6 +27,26 @@ inline void make_store(const std::filesystem::path& file) {
   Store store(file, Store::Mode::append);
   store.add_run(sample_run());
   store.add_record(sample_record());
+}
+
+inline  // A disk of 1 MiB that only this process sees; needs no root where users may have
+        // namespaces.
+    bool
+    mount_small_disk(const std::filesystem::path& folder) {
+  const uid_t user = geteuid();
+  if (unshare(CLONE_NEWNS) != 0) {
+    if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
+    std::ofstream("/proc/self/uid_map") << "0 " << user << " 1";
+  }
+  return mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+         mount("none", folder.c_str(), "tmpfs", 0, "size=1m") == 0;
+}
+
+// From here on no file of this process grows beyond so many bytes.
+inline void limit_files(rlim_t bytes) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{.rlim_cur = bytes, .rlim_max = bytes};
+  setrlimit(RLIMIT_FSIZE, &limit);
 }
 
 class StoreTest : public ::testing::Test {
