@@ -24,6 +24,10 @@ struct MergeArguments {
 
 void tell_left_out(const record::RecordCounts& counts) {
   if (counts.repeated > 0) fmt::print("  {} records were in several stores\n", counts.repeated);
+  if (counts.injected > 0) {
+    fmt::print("  {} had an injected fault and none in another store: that is kept\n",
+               counts.injected);
+  }
   if (counts.measured_anew > 0) {
     fmt::print("  {} that had failed or were skipped are measured in another store: that is kept\n",
                counts.measured_anew);

@@ -1,5 +1,6 @@
 // Shards measured by themselves and merged: judged as a run by one machine is.
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,6 +64,18 @@ TEST_F(MergeCommand, AShardTooFewIsMissed) {
   const Result merged = run("merge 1.sqlite 2.sqlite --out m.sqlite");
   EXPECT_EQ(merged.code, 0) << merged.output;
   EXPECT_THAT(run("gate p.yaml --baselines b --store m.sqlite").output, HasSubstr("missing rows"));
+}
+
+TEST_F(MergeCommand, SaysThatAnInjectedFaultIsNotKept) {
+  ASSERT_EQ(
+      run("run p.yaml --device 'null:*' --store 4.sqlite --shard 1/3 --inject lost_counter").code,
+      0);
+  const Result merged = run("merge 4.sqlite 1.sqlite 2.sqlite 3.sqlite --out m.sqlite");
+  EXPECT_EQ(merged.code, 0) << merged.output;
+  EXPECT_THAT(merged.output,
+              HasSubstr("  6 had an injected fault and none in another store: that is kept\n"));
+  SQLite::Database out((program.folder() / "m.sqlite").string(), SQLite::OPEN_READONLY);
+  EXPECT_EQ(out.execAndGet("SELECT count(*) FROM record WHERE injected != ''").getInt(), 0);
 }
 
 TEST_F(MergeCommand, CheckNamesWhatIsNotComplete) {

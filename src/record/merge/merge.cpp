@@ -187,6 +187,7 @@ void add(const std::vector<RecordCounts>& part, std::vector<RecordCounts>& sum) 
     sum[i].configurations = part[i].configurations;
     sum[i].records = part[i].records;
     sum[i].repeated += part[i].repeated;
+    sum[i].injected += part[i].injected;
     sum[i].not_chosen += part[i].not_chosen;
     sum[i].measured_anew += part[i].measured_anew;
   }

@@ -32,10 +32,10 @@ struct MergeResult {
 };
 
 // Writes a store of one run for each plan: its id and start are the earliest of its parts', its
-// system's facts are all of theirs. Of two records of one configuration and device one that was
-// measured is kept, else the one of the smaller seal; of a device's clocks likewise. Which stores
-// are merged first, or twice, makes no difference to a byte. Memory does not grow with records, nor
-// with stores.
+// system's facts are all of theirs. Of two records of one configuration and device one without
+// an injected fault is kept, then one that was measured, else the one of the smaller seal; of a
+// device's clocks likewise. Which stores are merged first, or twice, makes no difference to a byte.
+// Memory does not grow with records, nor with stores.
 //
 // `out` appears when all is written; one that is there already is refused. Throws InputError where
 // stores have different texts of a plan, or checks; a device that is another; or data of one name

@@ -15,10 +15,10 @@ namespace triptych::record {
 namespace {
 
 // Columns that the merge looks at, in front of the others.
-constexpr std::array<std::string_view, 7> named{"configuration", "device", "outcome", "seal",
-                                                "data_hash",     "suite",  "seq"};
+constexpr std::array<std::string_view, 8> named{"configuration", "device",    "outcome", "injected",
+                                                "seal",          "data_hash", "suite",   "seq"};
 namespace column {
-enum : int { configuration, device, outcome, seal, data_hash, suite, seq };
+enum : int { configuration, device, outcome, injected, seal, data_hash, suite, seq };
 }
 
 std::vector<std::string> texts(const SQLite::Database& database, const std::string& sql) {
@@ -50,9 +50,15 @@ int rank_of(std::string_view outcome) {
   return outcome == "skipped" ? 1 : 2;
 }
 
-// A record that was measured counts more than one that was not: a job is sent again for that. Else
-// any rule will do that has no order of stores in it.
+bool has_fault(const Query& record) {
+  return !record.text(column::injected).empty();
+}
+
+// What a device did counts more than what it did with an injected fault, measured or not. A record
+// that was measured counts more than one that was not: a job is sent again for that. Else any rule
+// will do that has no order of stores in it.
 bool is_before(const Query& a, const Query& b) {
+  if (has_fault(a) != has_fault(b)) return has_fault(b);
   const int rank_a = rank_of(a.text(column::outcome));
   const int rank_b = rank_of(b.text(column::outcome));
   return rank_a != rank_b ? rank_a < rank_b : a.text(column::seal) < b.text(column::seal);
@@ -219,6 +225,8 @@ void RecordCopy::count(const MergedRows& rows, const MergedRows::Row& row,
     const Query& other = rows.query(each);
     if (other.text(column::seal) == taken.text(column::seal)) {
       ++counts.repeated;
+    } else if (has_fault(other) && !has_fault(taken)) {
+      ++counts.injected;
     } else if (rank_of(other.text(column::outcome)) > rank_of(taken.text(column::outcome))) {
       ++counts.measured_anew;
     } else {

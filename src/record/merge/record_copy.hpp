@@ -35,6 +35,7 @@ struct RecordCounts {
   std::map<std::string, std::uint64_t> records;  // by device
   // Not taken, as there was another of the same configuration and device:
   std::uint64_t repeated = 0;       // the same record
+  std::uint64_t injected = 0;       // one with an injected fault, where the one taken has none
   std::uint64_t not_chosen = 0;     // another, which did not fail where the one taken was measured
   std::uint64_t measured_anew = 0;  // one that failed or was skipped, where the one taken did not
 };

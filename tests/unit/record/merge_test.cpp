@@ -154,6 +154,7 @@ TEST_F(Merge, AnyOrderAndGroupingMakesTheSameBytes) {
       if (random.uniform() < 0.5) continue;
       records.push_back(random.uniform() < 0.1 ? failed(number) : record_of(number, i % 3));
       records.back().device = i == 3 ? second.id : "null:scripted";
+      if (random.uniform() < 0.3) records.back().injected = "";
     }
     files.push_back(shard(i, records, i == 3 ? second : sample_device()));
     Store store(files.back(), Mode::append);
@@ -188,6 +189,28 @@ TEST_F(Merge, OfTwoRecordsOneThatWasMeasuredIsKept) {
   EXPECT_EQ(counts.repeated, 1U);
   EXPECT_EQ(counts.configurations, 4U);
   EXPECT_EQ(merged_records().at(0).outcome, Outcome::measured);
+}
+
+// A fault that was injected for a trial is not what the device does, measured or not.
+TEST_F(Merge, OneWithoutAnInjectedFaultIsKept) {
+  const auto clean = [](Record record) {
+    record.injected = "";
+    return record;
+  };
+  const Files files{shard(1, {record_of(1, 5), clean(record_of(2)), record_of(3)}),
+                    shard(2, {clean(record_of(1, 6)), record_of(2, 7), record_of(4)}),
+                    shard(3, {clean(failed(3)), record_of(4, 8)})};
+  const RecordCounts counts = merge(files).plans.at(0).counts;
+  EXPECT_EQ(counts.injected, 3U);
+  EXPECT_EQ(counts.not_chosen, 1U) << "two with a fault";
+  EXPECT_EQ(counts.measured_anew, 0U);
+  const std::vector<Record> records = merged_records();
+  ASSERT_THAT(records, SizeIs(4));
+  EXPECT_EQ(text_of(records[0]), text_of(clean(record_of(1, 6))));
+  EXPECT_EQ(text_of(records[1]), text_of(clean(record_of(2))));
+  EXPECT_EQ(text_of(records[2]), text_of(clean(failed(3))));
+  const std::string expected = core::content_hash(core::read_file(folder_ / "out"));
+  EXPECT_EQ(hash_of_merged({files[2], files[1], files[0]}, "out"), expected);
 }
 
 TEST_F(Merge, OtherTextOfAPlanIsRefused) {
