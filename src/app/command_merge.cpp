@@ -68,20 +68,23 @@ std::vector<std::string> gaps_in(const record::Store& store,
   return told;
 }
 
-core::ExitCode check(const MergeArguments& arguments) {
-  core::ExitCode code = core::ExitCode::pass;
+// Whether no store has a gap; names those there are.
+bool tell_gaps(const MergeArguments& arguments) {
+  bool complete = true;
   for (const std::string& file : arguments.stores) {
     const record::Store store(file, record::Store::Mode::read);
     for (const std::string& gap : gaps_in(store, arguments.plans)) {
       fmt::print("{}: {}\n", file, gap);
-      code = core::ExitCode::cannot_judge;
+      complete = false;
     }
   }
-  return code;
+  return complete;
 }
 
 core::ExitCode merge(const MergeArguments& arguments) {
-  if (arguments.check) return check(arguments);
+  if (arguments.check) {
+    return tell_gaps(arguments) ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+  }
   if (arguments.out.empty()) throw core::InputError("--out is required: the store to be written");
   core::require_writable(std::filesystem::path(arguments.out).parent_path());
   // On a terminal, now and then.
@@ -99,6 +102,10 @@ core::ExitCode merge(const MergeArguments& arguments) {
   if (result.older_runs > 0) {
     fmt::print("{} older runs were left out: of each plan a store gives its latest\n",
                result.older_runs);
+  }
+  // What no device of a shard has is no gap in the whole.
+  if (!tell_gaps(arguments)) {
+    fmt::print("What these lack is in {} only where another store has it\n", arguments.out);
   }
   return core::ExitCode::pass;
 }

@@ -66,6 +66,22 @@ TEST_F(MergeCommand, AShardTooFewIsMissed) {
   EXPECT_THAT(run("gate p.yaml --baselines b --store m.sqlite").output, HasSubstr("missing rows"));
 }
 
+// What no device of a shard has leaves no gap in what the shards become.
+TEST_F(MergeCommand, NamesWhatItsPartsLack) {
+  SQLite::Database((program.folder() / "2.sqlite").string(), SQLite::OPEN_READWRITE)
+      .exec("DELETE FROM record WHERE configuration = (SELECT min(configuration) FROM record)");
+  const Result merged = run("merge 1.sqlite 2.sqlite 3.sqlite --out m.sqlite");
+  EXPECT_EQ(merged.code, 0) << merged.output;
+  EXPECT_THAT(merged.output,
+              AllOf(HasSubstr(" in m.sqlite: 7 configurations\n"),
+                    testing::ContainsRegex("\n2.sqlite: .* on null:scripted: 2 of 3 configurations"
+                                           "\n2.sqlite: .* on null:scripted#2: 2 of 3 config"),
+                    HasSubstr("\nWhat these lack is in m.sqlite only where another store has it"),
+                    Not(HasSubstr("\n1.sqlite")), Not(HasSubstr("\n3.sqlite"))));
+  fs::remove(program.folder() / "m.sqlite");
+  EXPECT_THAT(run("merge 1.sqlite 3.sqlite --out m.sqlite").output, Not(HasSubstr("lack")));
+}
+
 TEST_F(MergeCommand, SaysThatAnInjectedFaultIsNotKept) {
   ASSERT_EQ(
       run("run p.yaml --device 'null:*' --store 4.sqlite --shard 1/3 --inject lost_counter").code,
