@@ -266,6 +266,19 @@ void report_what_is_there(const RunView& view, GateResult& result) {
   if (!view.baselines.present()) report_no_baselines(view, result.findings);
 }
 
+// A device that measured and of which all is advice or skips has not passed. Without baselines that
+// is said of all of them.
+void report_nothing_decided(const RunView& view, GateResult& result) {
+  if (!view.baselines.present()) return;
+  for (const std::string& device : result.nothing_decided()) {
+    result.findings.push_back(finding_about(
+        view, view.devices.at(device), *view.checks.begin(), Verdict::cannot_judge,
+        fmt::format("nothing was decided of {}: all that is said of it is advice or skips; judge "
+                    "more checks, or accept what it measured: {}",
+                    device, view.accept_command())));
+  }
+}
+
 // What was right before, by the program as it is, tells a driver's fault from one of ours.
 void tell_where_accepted(const RunView& view, std::vector<Finding>& findings) {
   if (!view.baselines.present()) return;
@@ -311,6 +324,7 @@ GateResult judge_run(const record::Store& store, const std::string& run, const B
   if (judges_times(view)) append(result.findings, check_timings(view, wrong));
   apply_waivers(view, result.findings);
   apply_known(view, result.findings);
+  report_nothing_decided(view, result);
   tell_where_accepted(view, result.findings);
   sort_findings(result.findings);
   return result;

@@ -76,6 +76,22 @@ TEST_F(GateTest, RequiredDeviceMustHaveMeasured) {
               HasSubstr("the required device gl:softpipe"));
 }
 
+// Its driver is new, of which there is advice alone: the code is 2, and why has to stand there.
+TEST_F(GateTest, ADeviceOfWhichNothingIsDecidedIsNamed) {
+  accept_first();
+  driver_versions_["vulkan:lavapipe"] = "99";
+  add_run("b");
+  request_.checks = {Check::statistics};
+  request_.devices = {"gl:*", "vulkan:*"};
+  const GateResult result = gate("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
+  const auto open = with(result, Verdict::cannot_judge);
+  ASSERT_EQ(open.size(), 1U) << text(result);
+  EXPECT_EQ(open[0].device, "vulkan:lavapipe");
+  EXPECT_THAT(open[0].message, AllOf(HasSubstr("nothing was decided of vulkan:lavapipe"),
+                                     HasSubstr("triptych accept volume/quick --reason")));
+}
+
 TEST_F(GateTest, MissingRowsAreNamed) {
   add_run("a");
   (void)accept_run("a");
