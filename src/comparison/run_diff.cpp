@@ -103,6 +103,11 @@ RunDiff diff_runs(const RunSide& a, const RunSide& b, measure::Truths& truths, b
   return diff;
 }
 
+std::string nothing_compared(const std::string& reason) {
+  return fmt::format("nothing was compared: no configuration was measured on both sides{}\n",
+                     reason.empty() ? "" : "; " + reason);
+}
+
 void DifferenceGroups::add(const std::vector<Difference>& differences, const std::string& where) {
   for (const Difference& each : differences) add(each, where);
 }

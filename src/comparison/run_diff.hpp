@@ -41,6 +41,10 @@ struct RunDiff {
 [[nodiscard]] RunDiff diff_runs(const RunSide& a, const RunSide& b, measure::Truths& truths,
                                 bool same_setup);
 
+// A line for where nothing differs because nothing was measured; `reason`: of the first
+// configuration.
+[[nodiscard]] std::string nothing_compared(const std::string& reason);
+
 // Differences of one kind about one thing, told once.
 struct DifferenceGroup {
   std::string text;   // of the one that changed most, else of the first

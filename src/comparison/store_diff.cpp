@@ -109,6 +109,18 @@ class Diffing {
   std::set<std::string> only_one_;
 };
 
+bool was_measured(const DeviceChange& change) {
+  return std::ranges::any_of(change.configurations,
+                             [](const ConfigurationDiff& each) { return !each.ended; });
+}
+
+// Where no difference was found: because there is none, or because neither side measured anything.
+std::string no_difference(const DeviceChange& change) {
+  if (was_measured(change)) return "nothing differs\n";
+  return nothing_compared(change.configurations.empty() ? std::string()
+                                                        : change.configurations.front().void_time);
+}
+
 std::string text_of(const DeviceChange& change) {
   const DifferenceGroups groups = groups_of(change);
   const auto version = [](const record::Device& device) {
@@ -116,7 +128,7 @@ std::string text_of(const DeviceChange& change) {
   };
   return fmt::format("{}, {} configurations\na: {}\nb: {}\n{}\n", change.a.id,
                      change.configurations.size(), version(change.a), version(change.b),
-                     groups.empty() ? "nothing differs\n" : groups.text());
+                     groups.empty() ? no_difference(change) : groups.text());
 }
 
 }  // namespace
@@ -143,7 +155,8 @@ core::ExitCode StoreDiff::exit_code() const {
     return std::ranges::any_of(devices, [kind](const auto& each) { return each.has(kind); });
   };
   if (any(DifferenceKind::regression)) return core::ExitCode::regression;
-  const bool all = !devices.empty() && only_one.empty() && !any(DifferenceKind::unjudged);
+  const bool measured = std::ranges::any_of(devices, was_measured);
+  const bool all = measured && only_one.empty() && !any(DifferenceKind::unjudged);
   return all ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 

@@ -28,7 +28,8 @@ struct StoreDiff {
   std::vector<DeviceChange> devices;
   std::vector<std::string> only_one;  // plans and devices of which one store has nothing
 
-  // Of no device that both have, and of what only one has, nothing can be told.
+  // Of no device that both have, of what only one has, and where neither measured anything, nothing
+  // can be told.
   [[nodiscard]] core::ExitCode exit_code() const;
 };
 

@@ -115,6 +115,12 @@ std::string differences_text(const ComparisonResult& result) {
     groups.add(compared.differences, compared.key);
   }
   if (!groups.empty()) return groups.text();
+  const bool looked =
+      std::ranges::any_of(result.configurations, [](const Compared& each) { return !each.ended; });
+  if (!looked) {
+    return nothing_compared(result.configurations.empty() ? std::string()
+                                                          : result.configurations.front().reason);
+  }
   const bool timed = std::ranges::any_of(result.configurations,
                                          [](const Compared& each) { return each.blocks > 0; });
   return timed ? "nothing differs but time\n" : "nothing differs\n";

@@ -61,6 +61,19 @@ TEST_F(Diff, WhatOnlyOneHasCannotBeJudged) {
   EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy: only b has it"));
 }
 
+// The driver can do none of it, before and after: no pass.
+TEST_F(Diff, WhatNeitherMeasuredCannotBeJudged) {
+  for (const char* store : {"old.sqlite", "new.sqlite"}) {
+    const Result run =
+        program.run(fmt::format("run volume/quick --untimed --store {} {}", store, tiny),
+                    R"({"failures": [{"kind": "not_supported", "at": "frame", "only": "*"}]})");
+    ASSERT_EQ(run.code, 2) << run.output;
+  }
+  const Result result = diff();
+  EXPECT_EQ(result.code, 2) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("nothing was compared: no configuration was measured"));
+}
+
 TEST_F(Diff, DevicesThatAreNotAskedForAreLeftOut) {
   measure("old.sqlite");
   measure("new.sqlite");

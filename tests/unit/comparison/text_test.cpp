@@ -2,10 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include "comparison/store_diff.hpp"
+
 namespace triptych::comparison {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 record::Device device(std::string id, std::map<std::string, std::string> environment = {}) {
   return {.id = std::move(id),
@@ -41,6 +45,36 @@ TEST(ComparisonText, NamesTheVariablesOfASide) {
               HasSubstr("API 1.3; WIDTH=128\nb: the same, but without WIDTH=128\n"));
   EXPECT_THAT(sides_of(one, device("vulkan:x", {{"WIDTH", "256"}})),
               HasSubstr("WIDTH=128\nb: the same, but WIDTH=256\n"));
+}
+
+// One configuration, of which neither side can do anything.
+TEST(ComparisonText, SaysWhyNothingWasCompared) {
+  ComparisonResult result;
+  Compared skipped;
+  skipped.ended = record::Outcome::skipped;
+  skipped.reason = "b skipped: no compute shaders";
+  result.configurations = {skipped};
+  EXPECT_EQ(result.exit_code(), core::ExitCode::cannot_judge);
+  EXPECT_THAT(to_text(result, {.plan = "volume/quick", .sides = "", .varied = {}}),
+              AllOf(HasSubstr("nothing was compared: no configuration was measured on both sides; "
+                              "b skipped: no compute shaders\n"),
+                    Not(HasSubstr("nothing differs"))));
+}
+
+TEST(StoreDiff, OfWhatNeitherStoreMeasuredIsNoPass) {
+  ConfigurationDiff skipped;
+  skipped.ended = record::Outcome::skipped;
+  skipped.void_time = "b skipped: no compute shaders";
+  StoreDiff diff;
+  diff.devices.push_back(
+      {.a = device("gl:x"), .b = device("gl:x"), .device = {}, .configurations = {skipped}});
+  EXPECT_EQ(diff.exit_code(), core::ExitCode::cannot_judge);
+  EXPECT_THAT(to_text(diff),
+              HasSubstr("nothing was compared: no configuration was measured on both "
+                        "sides; b skipped: no compute shaders\n"));
+  diff.devices.front().configurations.push_back({});
+  EXPECT_EQ(diff.exit_code(), core::ExitCode::pass);
+  EXPECT_THAT(to_text(diff), HasSubstr("nothing differs"));
 }
 
 }  // namespace
