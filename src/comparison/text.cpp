@@ -37,9 +37,27 @@ std::string ratio_of(const Shift& shift) {
                      std::exp(shift.interval.low), std::exp(shift.interval.high));
 }
 
+// Else its shift is no number of anything.
+bool has_time(const Compared& compared) {
+  return compared.blocks > 0 && !compared.ended;
+}
+
+// "+1.20 % samples, +0.31 % time for each", the second where it has a time; empty where the work is
+// the same.
+std::string work_of(const Compared& compared) {
+  const auto& work = compared.work;
+  if (!work || work->log_ratio == 0) return {};
+  const auto percent = [](double ln) { return fmt::format("{:+.2f} %", 100 * std::expm1(ln)); };
+  std::string text = fmt::format("{} {}", percent(work->log_ratio), work->unit);
+  if (has_time(compared)) {
+    text += fmt::format(", {} time for each", percent(compared.shift.estimate - work->log_ratio));
+  }
+  return text;
+}
+
 std::string line_of(const Compared& compared, const ComparisonCommand& command) {
   std::string line = fmt::format("{:<12}", compared.verdict_name());
-  if (compared.blocks > 0 && !compared.ended) {
+  if (has_time(compared)) {
     line += fmt::format("{}  {} blocks", ratio_of(compared.shift), compared.blocks);
     if (compared.process_runs > 0)
       line += fmt::format(" and {} fresh process runs", compared.process_runs);
@@ -47,13 +65,10 @@ std::string line_of(const Compared& compared, const ComparisonCommand& command) 
   }
   line += fmt::format("  {:.1f} s  {}", compared.seconds, compared.key);
   if (!compared.reason.empty()) line += "\n              " + compared.reason;
-  const bool undecided = !compared.ended && compared.verdict == PairVerdict::undecided;
-  if (undecided && compared.blocks > 0) line += "; settle it: " + settle(compared, command);
-  const auto& work = compared.work;
-  if (work && work->log_ratio != 0) {
-    line += fmt::format("\n              {:+.2f} % {}, {:+.2f} % time for each",
-                        100 * std::expm1(work->log_ratio), work->unit,
-                        100 * std::expm1(compared.shift.estimate - work->log_ratio));
+  const bool undecided = has_time(compared) && compared.verdict == PairVerdict::undecided;
+  if (undecided) line += "; settle it: " + settle(compared, command);
+  if (const std::string work = work_of(compared); !work.empty()) {
+    line += "\n              " + work;
   }
   return line + "\n";
 }
@@ -159,7 +174,7 @@ core::Json to_json(const Compared& compared, bool timed, const ComparisonCommand
     if (!compared.why_wall.empty()) json["why_wall"] = compared.why_wall;
     if (compared.process_runs > 0) json["process_runs"] = compared.process_runs;
   }
-  if (compared.blocks > 0 && !compared.ended) {
+  if (has_time(compared)) {
     const auto set = [&json](const char* name, double ln) {
       if (std::isfinite(ln)) json[name] = std::exp(ln);
     };
@@ -171,9 +186,10 @@ core::Json to_json(const Compared& compared, bool timed, const ComparisonCommand
     }
   }
   if (compared.work) {
-    json["work"] = {{"counter", compared.work->unit},
-                    {"ln_work", compared.work->log_ratio},
-                    {"ln_time_per_work", compared.shift.estimate - compared.work->log_ratio}};
+    json["work"] = {{"counter", compared.work->unit}, {"ln_work", compared.work->log_ratio}};
+    if (has_time(compared)) {
+      json["work"]["ln_time_per_work"] = compared.shift.estimate - compared.work->log_ratio;
+    }
   }
   json["differences"] = comparison::to_json(compared.differences);
   return json;

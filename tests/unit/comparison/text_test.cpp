@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "comparison/store_diff.hpp"
+#include "core/json.hpp"
 
 namespace triptych::comparison {
 namespace {
@@ -59,6 +62,28 @@ TEST(ComparisonText, SaysWhyNothingWasCompared) {
               AllOf(HasSubstr("nothing was compared: no configuration was measured on both sides; "
                               "b skipped: no compute shaders\n"),
                     Not(HasSubstr("nothing differs"))));
+}
+
+// Its shift is 0 as long as nobody measured it: no number to split by the work.
+TEST(ComparisonText, TellsNoTimePerWorkWhereNoTimeWasTaken) {
+  ComparisonResult result;
+  result.timed = true;
+  Compared wrong;
+  wrong.reason = "the picture of b is wrong, so its time means nothing";
+  wrong.work = judge::WorkChange{.log_ratio = std::log(1.167), .unit = "samples"};
+  result.configurations = {wrong};
+  const ComparisonCommand command{.plan = "volume/quick", .sides = "", .varied = {}};
+  EXPECT_THAT(to_text(result, command),
+              AllOf(HasSubstr("+16.70 % samples\n"), Not(HasSubstr("time for each"))));
+  const auto work_in = [&] { return to_json(result, command)["configurations"][0]["work"]; };
+  EXPECT_FALSE(work_in().contains("ln_time_per_work"));
+  result.configurations[0].blocks = 12;
+  result.configurations[0].shift.estimate = std::log(1.2);
+  EXPECT_THAT(to_text(result, command), HasSubstr("+16.70 % samples, +2.83 % time for each\n"));
+  EXPECT_NEAR(work_in().at("ln_time_per_work"), std::log(1.2 / 1.167), 1e-12);
+  result.configurations[0].ended = record::Outcome::crashed;
+  EXPECT_THAT(to_text(result, command), Not(HasSubstr("time for each")));
+  EXPECT_FALSE(work_in().contains("ln_time_per_work"));
 }
 
 TEST(StoreDiff, OfWhatNeitherStoreMeasuredIsNoPass) {
