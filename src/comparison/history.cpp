@@ -22,7 +22,7 @@ std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& st
     store.visit_records(run.id, [&](const record::Record& record) {
       Measured& here = devices[record.device][run.plan + " " + record.configuration];
       if (record.outcome != record::Outcome::measured) return;
-      const auto time = record::summarise(record.time_ns());
+      const auto time = record::summarise(record.wall_ns);  // from store to store one clock
       here = {record.instructions(), time ? std::optional(time->median) : std::nullopt};
     });
   }

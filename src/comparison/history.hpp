@@ -21,7 +21,7 @@ struct HistoryPoint {
   // Of the first point, by the geometric mean over the configurations that were there before, each
   // since the last store that told it, multiplied from point to point; empty where none was.
   std::optional<double> cost;  // instructions of generated code and driver
-  std::optional<double> time;  // median of the frames
+  std::optional<double> time;  // median of the frames by the wall clock, which all have
   // Of each configuration against the last store that has it, as `diff` tells; empty: nothing.
   std::string changes;
   bool worse = false;  // a regression is among them

@@ -24,9 +24,15 @@ double instructions_of(const record::Record& record) {
   return judge::frame_of(record.cost);
 }
 
-double time_of(const record::Record& record) {
-  const auto summary = record::summarise(record.time_ns());
+double time_by(const record::Record& record, std::string_view clock) {
+  const auto summary = record::summarise(record.time_ns_by(clock));
   return summary ? summary->median : 0;
+}
+double device_time_of(const record::Record& record) {
+  return time_by(record, "device");
+}
+double wall_time_of(const record::Record& record) {
+  return time_by(record, "wall");
 }
 
 // Technique → configuration → those that several devices measured.
@@ -77,8 +83,15 @@ SideBySide::Row row_of(const std::string& technique, const std::vector<ByDevice>
   return row;
 }
 
+// Times on different clocks are never compared.
+bool all_by_device_clock(std::span<const record::Record> records) {
+  return std::ranges::all_of(records, [](const record::Record& each) {
+    return each.time_ns().empty() || each.clock() == "device";
+  });
+}
+
 SideBySide table_of(std::span<const record::Record> records, std::string unit, Value value) {
-  SideBySide table{.unit = std::move(unit), .devices = {}, .rows = {}};
+  SideBySide table{.unit = std::move(unit), .clock = {}, .devices = {}, .rows = {}};
   std::set<std::string> all;
   for (auto& [technique, configurations] : measured_by(records, value)) {
     std::set<std::string> devices;
@@ -148,7 +161,11 @@ std::string aligned(const std::vector<std::vector<std::string>>& lines) {
 
 std::optional<SideBySide> side_by_side(std::span<const record::Record> records) {
   SideBySide table = table_of(records, "instructions", instructions_of);
-  if (table.devices.empty()) table = table_of(records, "ns", time_of);
+  if (table.devices.empty()) {
+    const bool by_device = all_by_device_clock(records);
+    table = table_of(records, "ns", by_device ? device_time_of : wall_time_of);
+    table.clock = by_device ? "device" : "wall";
+  }
   if (table.rows.empty()) return std::nullopt;
   return table;
 }
@@ -195,13 +212,15 @@ std::string to_text(const SideBySide& table) {
     line.push_back(fmt::to_string(row.configurations));
   }
   lines.push_back(std::move(least));
-  return aligned(lines) + fmt::format("\n{} a frame over the best device's. {}.\n",
-                                      table.unit == "ns" ? "Time of" : "Instructions of",
-                                      table.sentence());
+  return aligned(lines) +
+         fmt::format("\n{} of a frame over the best device's. {}.\n",
+                     table.clock.empty() ? "Instructions" : "Time by the " + table.clock + " clock",
+                     table.sentence());
 }
 
 nlohmann::json to_json(const SideBySide& table) {
   nlohmann::json json{{"unit", table.unit}, {"sentence", table.sentence()}};
+  if (!table.clock.empty()) json["clock"] = table.clock;
   for (const auto& row : table.rows) {
     nlohmann::json cells = nlohmann::json::object();
     for (const auto& [device, cell] : row.cells) {

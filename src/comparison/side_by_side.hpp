@@ -26,7 +26,8 @@ struct SideBySide {
     std::string best;                   // device
     std::map<std::string, Cell> cells;  // by device; not there where it has no such technique
   };
-  std::string unit;  // "instructions" or "ns"
+  std::string unit;   // "instructions" or "ns"
+  std::string clock;  // of times "device" or "wall"
   std::vector<std::string> devices;
   std::vector<Row> rows;
 
@@ -35,8 +36,9 @@ struct SideBySide {
   [[nodiscard]] std::string sentence() const;
 };
 
-// Of one run. Instructions where they were counted on two devices at least, else the times that
-// count; nothing where fewer than two devices measured one configuration.
+// Of one run. Instructions where they were counted on two devices at least, else times: by the
+// device clock where that counts for all of them, else by the wall clock; nothing where fewer than
+// two devices measured one configuration.
 [[nodiscard]] std::optional<SideBySide> side_by_side(std::span<const record::Record> records);
 
 [[nodiscard]] std::string to_text(const SideBySide& table);

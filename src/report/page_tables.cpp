@@ -51,6 +51,11 @@ std::vector<const record::Record*> measured(const PlanData& plan) {
   return records;
 }
 
+// Times on different clocks are never compared.
+std::string_view clock_of_both(const record::Record& a, const record::Record& b) {
+  return a.clock() == b.clock() ? a.clock() : "wall";
+}
+
 // What took over another configuration's frames, and why it could.
 std::string taken_over(const PlanData& plan) {
   Rows rows{{"configuration", "device", "measured as", "why"}};
@@ -109,22 +114,23 @@ std::string times_section(const PlanData& plan) {
 }
 
 std::string speed_of_light_section(const PlanData& plan) {
-  // Median by device and scene of the bare fetches.
-  std::map<std::pair<std::string, std::string>, double> bound;
+  // By device and scene the bare fetches.
+  std::map<std::pair<std::string, std::string>, const record::Record*> bounds;
   for (const record::Record* record : measured(plan)) {
     if (record->technique == "speed_of_light") {
-      bound[{record->device, scene_title(plan, *record)}] =
-          record::percentile(record->time_ns(), 0.5);
+      bounds[{record->device, scene_title(plan, *record)}] = record;
     }
   }
-  Rows rows{{"scene", "device", "technique", "time", "speed of light", "times as long"}};
+  Rows rows{{"scene", "device", "technique", "clock", "time", "speed of light", "times as long"}};
   for (const record::Record* record : measured(plan)) {
-    const auto found = bound.find({record->device, scene_title(plan, *record)});
-    if (record->technique == "speed_of_light" || found == bound.end()) continue;
-    const double time = record::percentile(record->time_ns(), 0.5);
+    const auto found = bounds.find({record->device, scene_title(plan, *record)});
+    if (record->technique == "speed_of_light" || found == bounds.end()) continue;
+    const std::string_view clock = clock_of_both(*record, *found->second);
+    const double time = record::percentile(record->time_ns_by(clock), 0.5);
+    const double bound = record::percentile(found->second->time_ns_by(clock), 0.5);
     rows.push_back({escape(scene_title(plan, *record)), escape(record->device),
-                    escape(record->technique), duration(time), duration(found->second),
-                    fmt::format("{:.2f}", time / found->second)});
+                    escape(record->technique), std::string(clock), duration(time), duration(bound),
+                    fmt::format("{:.2f}", time / bound)});
   }
   if (rows.size() == 1) return {};
   return folded(

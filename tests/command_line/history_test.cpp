@@ -54,6 +54,18 @@ TEST_F(History, TellsWhatMovedAndTheFirstThatWasWorse) {
   EXPECT_THAT(history.at("first_worse").get<std::string>(), HasSubstr("3.sqlite"));
 }
 
+// The second store's device clock cannot be believed; its frames took as long.
+TEST_F(History, ComparesTimesOnOneClock) {
+  measure("1.sqlite", "1e5", R"(, "device_over_wall": 0.91)");
+  measure("2.sqlite", "1e5", R"(, "device_over_wall": 0.1)");
+  measure("3.sqlite", "2e5", R"(, "device_over_wall": 0.91)");
+  const Result told = program.run("history 1.sqlite 2.sqlite 3.sqlite --json");
+  const core::Json points = core::Json::parse(told.output).at(0).at("points");
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_NEAR(points[1].at("time").get<double>(), 1, 0.05);
+  EXPECT_NEAR(points[2].at("time").get<double>(), 2, 0.2);
+}
+
 // The one between tells no time, but pictures.
 TEST_F(History, GoesOnBehindAGap) {
   const std::string wrong = R"(, "failures": [{"kind": "wrong_image", "at": "image"}])";

@@ -57,6 +57,23 @@ TEST(SideBySide, TakesTimesWhereNothingWasCountedAndSaysWhatIsMissing) {
   EXPECT_THAT(to_text(*table), HasSubstr("\nthe least  a 10 ms  a 20 ms  b 20 ms  \n"));
 }
 
+// The device's clock tells less of a frame than the wall clock: one on either is no race.
+TEST(SideBySide, ComparesTimesOnOneClock) {
+  std::vector<record::Record> records{measured("gl:x", "a", "1", 10),
+                                      measured("gl:y", "a", "1", 20)};
+  for (record::Record& each : records) {
+    each.cost.clear();
+    each.device_ns = {4e6};
+  }
+  records[1].device_clock_trusted = true;
+  EXPECT_EQ(side_by_side(records)->rows.at(0).best, "gl:x");
+  EXPECT_THAT(to_text(*side_by_side(records)), HasSubstr("Time by the wall clock of a frame"));
+  records[0].device_clock_trusted = true;
+  records[0].device_ns = {5e6};
+  EXPECT_EQ(side_by_side(records)->rows.at(0).best, "gl:y");
+  EXPECT_EQ(to_json(*side_by_side(records))["clock"], "device");
+}
+
 TEST(SideBySide, OneDeviceIsNoTable) {
   const std::vector<record::Record> records{measured("gl:x", "a", "1", 10)};
   EXPECT_FALSE(side_by_side(records));

@@ -74,6 +74,26 @@ TEST(TimeChart, HasAFigureForEachSceneAndARowForEachDevice) {
   EXPECT_EQ(time_chart({}), "");
 }
 
+// Compute and draws have clocks of their own, and one of them may not be believed.
+TEST(SpeedOfLight, DividesTimesOnOneClock) {
+  PlanData plan;
+  for (const char* technique : {"raycast", "speed_of_light"}) {
+    record::Record record;
+    record.device = "gl:x";
+    record.technique = technique;
+    record.configuration = std::string("step=1,technique=") + technique;
+    record.outcome = record::Outcome::measured;
+    const bool bound = record.technique == "speed_of_light";
+    record.wall_ns = {bound ? 5e6 : 6e6};
+    record.device_ns = {bound ? 1e6 : 4e6};
+    record.device_clock_trusted = bound;
+    plan.records.push_back(record);
+  }
+  EXPECT_THAT(speed_of_light_section(plan), HasSubstr(">1.20<"));
+  plan.records[0].device_clock_trusted = true;
+  EXPECT_THAT(speed_of_light_section(plan), HasSubstr(">4.00<"));
+}
+
 // What moved stands in sight, the other pairs are folded away.
 TEST(CorrelationSection, FoldsPairsInWhichNothingMoved) {
   judge::CorrelationPair moved{.device_a = "gl:x", .device_b = "gl:y", .signal = "cost"};
