@@ -50,8 +50,8 @@ core::ExitCode history(const HistoryArguments& arguments) {
     print(json);
   } else {
     fmt::print("{}", comparison::to_text(builder.devices()));
+    if (!arguments.out.empty()) fmt::print("{}\n", arguments.out);
   }
-  if (!arguments.out.empty()) fmt::print("{}\n", arguments.out);
   return core::ExitCode::pass;
 }
 

@@ -114,6 +114,8 @@ TEST_F(History, WritesAPage) {
   EXPECT_THAT(page, HasSubstr("<svg"));
   EXPECT_THAT(page, HasSubstr("First worse"));
   EXPECT_THAT(page, Not(HasSubstr("<script")));
+  const Result json = program.run("history 1.sqlite 2.sqlite --json --out history.html");
+  EXPECT_TRUE(core::Json::accept(json.output)) << json.output;
 }
 
 TEST_F(History, WhatIsNoStoreOrWouldBeOverwrittenIsRefused) {
