@@ -107,7 +107,7 @@ std::string times_section(const PlanData& plan) {
          duration(record->prepare_ns)});
   }
   return folded(
-      "Times: shown, not judged",
+      plan.verdict->times_decided ? "Times: judged" : "Times: shown, not judged",
       "<p>Every timed frame is a stroke, its quartiles a box. “In a loop” is the wall clock "
       "of frames drawn back to back.</p>" +
           time_chart(plan) + folded("The numbers", table(rows, "times")) + taken_over(plan));

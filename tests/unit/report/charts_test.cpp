@@ -94,6 +94,17 @@ TEST(SpeedOfLight, DividesTimesOnOneClock) {
   EXPECT_THAT(speed_of_light_section(plan), HasSubstr(">4.00<"));
 }
 
+TEST(TimesSection, SaysWhetherTimesDecided) {
+  record::Record record;
+  record.outcome = record::Outcome::measured;
+  record.wall_ns = {1e6, 2e6};
+  judge::GateResult verdict;
+  const PlanData plan{.prefix = "plan", .devices = {}, .records = {record}, .verdict = &verdict};
+  EXPECT_THAT(times_section(plan), HasSubstr("Times: shown, not judged"));
+  verdict.times_decided = true;
+  EXPECT_THAT(times_section(plan), Not(HasSubstr("not judged")));
+}
+
 // What moved stands in sight, the other pairs are folded away.
 TEST(CorrelationSection, FoldsPairsInWhichNothingMoved) {
   judge::CorrelationPair moved{.device_a = "gl:x", .device_b = "gl:y", .signal = "cost"};
