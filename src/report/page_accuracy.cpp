@@ -68,8 +68,28 @@ std::string to_error(const AccuracyScene& scene, double goal) {
   const auto instructions = [](const accuracy::AccuracyCase& each) -> std::optional<double> {
     return each.instructions;
   };
+  const auto counted = [](const accuracy::AccuracyCase& each) {
+    return each.instructions.has_value();
+  };
+  if (std::ranges::none_of(scene.cases, counted)) return "";
   const auto cost = accuracy::cost_to_error(scene.cases, scene.families, instructions, goal);
-  return cost ? fmt::format("{:.1f} M instructions", *cost / 1e6) : "";
+  return cost ? fmt::format("{:.1f} M instructions", *cost / 1e6) : "not reached";
+}
+
+// How many stand on the front, and how many are beaten, in time or else in instructions; nothing
+// where neither was told.
+void append_standing(std::vector<std::string>& row, const AccuracyScene& scene) {
+  AccuracyScene told = scene;
+  if (scene.front.empty()) {
+    for (accuracy::AccuracyCase& each : told.cases) each.time_ns = each.instructions;
+    accuracy::evaluate(told);
+  }
+  if (told.front.empty()) {
+    row.insert(row.end(), 2, "");
+    return;
+  }
+  row.push_back(fmt::to_string(told.front.size()));
+  row.push_back(fmt::format("{} of {}", told.dominated.size(), told.cases.size()));
 }
 
 std::string summary_table(const std::vector<AccuracyScene>& scenes) {
@@ -84,8 +104,7 @@ std::string summary_table(const std::vector<AccuracyScene>& scenes) {
       row.push_back(to_error(scene, goal));
     }
     append_area(row, scenes, scene);
-    row.push_back(fmt::format("{}", scene.front.size()));
-    row.push_back(fmt::format("{} of {}", scene.dominated.size(), scene.cases.size()));
+    append_standing(row, scene);
     rows.push_back(std::move(row));
   }
   return table(rows);

@@ -34,9 +34,8 @@ accuracy::AccuracyScene some_scene() {
   return scene;
 }
 
-// Of some_scene where no time was measured.
-std::string untimed_section() {
-  accuracy::AccuracyScene scene = some_scene();
+// Of a scene where no time was measured.
+std::string untimed_section(accuracy::AccuracyScene scene = some_scene()) {
   for (accuracy::AccuracyCase& each : scene.cases) each.time_ns.reset();
   accuracy::evaluate(scene);
   judge::GateResult verdict;
@@ -97,6 +96,16 @@ TEST(AccuracySection, TellsInstructionsWhereThereAreNoTimes) {
   EXPECT_THAT(text, HasSubstr("1.0 M instructions"));  // to 1/255
   EXPECT_THAT(text, HasSubstr("3.2 M instructions"));  // to 1e-4, between two steps
   EXPECT_THAT(text, testing::Not(HasSubstr("time of a frame, ms")));
+}
+
+TEST(AccuracySection, RanksByInstructionsWhereThereAreNoTimes) {
+  EXPECT_THAT(untimed_section(), testing::AllOf(HasSubstr(">4</td>"), HasSubstr(">1 of 5</td>")));
+  accuracy::AccuracyScene coarse = some_scene();
+  coarse.cases.resize(1);
+  EXPECT_THAT(untimed_section(coarse), HasSubstr(">not reached</td>"));
+  for (accuracy::AccuracyCase& each : coarse.cases) each.instructions.reset();
+  EXPECT_THAT(untimed_section(coarse), testing::AllOf(testing::Not(HasSubstr("not reached")),
+                                                      testing::Not(HasSubstr("0 of 1"))));
 }
 
 TEST(AccuracySection, ComparesDevicesByTheArea) {
