@@ -33,8 +33,32 @@ std::string text_of(const std::optional<double>& value) {
   return value ? fmt::format("{:.4f}", *value) : "–";
 }
 
-std::string file_of(const HistoryPoint& point) {
-  return std::filesystem::path(point.store).filename().string();
+// The end of its path by which it is told from the others: the file's name, with folders before it
+// where others have the same.
+std::string name_among(const std::string& store, const std::set<std::string>& stores) {
+  std::filesystem::path name;
+  const std::filesystem::path path(store);
+  for (auto part = path.end(); part != path.begin();) {
+    --part;
+    name = name.empty() ? *part : *part / name;
+    const std::string end = name.string();
+    const bool shared = std::ranges::any_of(stores, [&](const std::string& other) {
+      return other != store && (other == end || other.ends_with("/" + end));
+    });
+    if (!shared) break;
+  }
+  return name.string();
+}
+
+// Of all stores, by their files.
+std::map<std::string, std::string> names_of(const std::vector<DeviceHistory>& history) {
+  std::set<std::string> stores;
+  for (const DeviceHistory& device : history) {
+    for (const HistoryPoint& point : device.points) stores.insert(point.store);
+  }
+  std::map<std::string, std::string> names;
+  for (const std::string& store : stores) names[store] = name_among(store, stores);
+  return names;
 }
 
 }  // namespace
@@ -160,13 +184,15 @@ void HistoryBuilder::add(const record::Store& store, measure::Truths& truths) {
 }
 
 std::string to_text(const std::vector<DeviceHistory>& history) {
+  const auto names = names_of(history);
   std::string text;
   for (const DeviceHistory& device : history) {
     text += fmt::format("{}\n  {:<28} {:<20} {:>9} {:>9}  driver\n", device.device, "store",
                         "begun", "cost", "time");
     for (const HistoryPoint& point : device.points) {
-      text += fmt::format("  {:<28} {:<20} {:>9} {:>9}  {}\n", file_of(point), point.started_at,
-                          text_of(point.cost), text_of(point.time), point.driver_version);
+      text +=
+          fmt::format("  {:<28} {:<20} {:>9} {:>9}  {}\n", names.at(point.store), point.started_at,
+                      text_of(point.cost), text_of(point.time), point.driver_version);
       if (!point.changes.empty()) text += point.changes;
     }
     if (const HistoryPoint* worse = device.first_worse()) {
@@ -177,11 +203,13 @@ std::string to_text(const std::vector<DeviceHistory>& history) {
 }
 
 core::Json to_json(const std::vector<DeviceHistory>& history) {
+  const auto names = names_of(history);
   core::Json json = core::Json::array();
   for (const DeviceHistory& device : history) {
     core::Json points = core::Json::array();
     for (const HistoryPoint& point : device.points) {
       core::Json each{{"store", point.store},
+                      {"name", names.at(point.store)},
                       {"started_at", point.started_at},
                       {"driver_version", point.driver_version},
                       {"triptych", point.triptych},

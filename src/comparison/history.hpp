@@ -87,8 +87,8 @@ class HistoryBuilder {
 
 // Each device with a line per store, then the first store that was worse.
 [[nodiscard]] std::string to_text(const std::vector<DeviceHistory>& history);
-// [{"device", "first_worse", "points": [{"store", "started_at", "driver_version", "triptych",
-// "cost", "time", "changes", "worse"}]}]; what is not known is absent.
+// [{"device", "first_worse", "points": [{"store", "name", "started_at", "driver_version",
+// "triptych", "cost", "time", "changes", "worse"}]}]; what is not known is absent.
 [[nodiscard]] nlohmann::json to_json(const std::vector<DeviceHistory>& history);
 
 }  // namespace triptych::comparison

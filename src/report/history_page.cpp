@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <algorithm>
 #include <vector>
 
 #include "core/json.hpp"
@@ -16,7 +16,28 @@ namespace {
 using core::Json;
 
 std::string name_of_store(const Json& point) {
-  return std::filesystem::path(point.at("store").get<std::string>()).filename().string();
+  return point.at("name").get<std::string>();
+}
+
+// What a frame takes may move by so much before an axis makes a slope of it.
+constexpr double least_span = 0.01;
+
+// Around what is to be drawn, by `least_span` either way at least.
+Axis axis_of(const Json& points) {
+  Axis axis{.title = "of the first store’s"};
+  std::vector<double> values;
+  for (const Json& point : points) {
+    for (const char* key : {"cost", "time"}) {
+      if (point.contains(key)) values.push_back(point.at(key).get<double>());
+    }
+  }
+  if (values.empty()) return axis;
+  const auto [low, high] = std::ranges::minmax(values);
+  const double middle = (low + high) / 2;
+  if (high - low >= 2 * least_span * middle) return axis;
+  axis.low = (1 - least_span) * middle;
+  axis.high = (1 + least_span) * middle;
+  return axis;
 }
 
 std::string number_text(const Json& point, const char* key) {
@@ -29,8 +50,7 @@ std::string figure_of(const Json& device) {
   std::vector<std::string> names;
   for (const Json& point : points) names.push_back(name_of_store(point));
   Figure figure("Cost and time over the stores, the first being 1",
-                {.title = "store", .names = std::move(names)}, {.title = "of the first store’s"},
-                320, 180);
+                {.title = "store", .names = std::move(names)}, axis_of(points), 320, 180);
   struct Series {
     const char* key;
     Style style;

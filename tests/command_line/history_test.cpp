@@ -13,6 +13,7 @@
 namespace triptych::command_line {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -94,6 +95,19 @@ TEST_F(History, HoldsEachConfigurationAgainstTheLastStoreThatHasIt) {
   EXPECT_FALSE(points[1].at("worse").get<bool>());
   EXPECT_TRUE(points[2].at("worse").get<bool>()) << told.output;
   EXPECT_FALSE(points[3].at("worse").get<bool>());
+}
+
+TEST_F(History, TellsStoresOfOneNameApart) {
+  for (const char* store : {"d1/gate.sqlite", "d2/gate.sqlite", "other.sqlite"}) {
+    measure(store, "1e5");
+  }
+  const Result told =
+      program.run("history d1/gate.sqlite d2/gate.sqlite ./other.sqlite --out history.html");
+  const std::string page = program.read("history.html");
+  for (const std::string& text : {told.output, page}) {
+    EXPECT_THAT(text, AllOf(HasSubstr("d1/gate.sqlite"), HasSubstr("d2/gate.sqlite")));
+    EXPECT_THAT(text, Not(HasSubstr("./other.sqlite")));
+  }
 }
 
 TEST_F(History, GoesByTimeWhateverTheOrder) {

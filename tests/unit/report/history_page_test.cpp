@@ -1,0 +1,42 @@
+#include "report/history_page.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/json.hpp"
+
+namespace triptych::report {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// `times`: of stores d0/gate.sqlite, d1/gate.sqlite, …
+std::string page_of(const std::vector<double>& times) {
+  core::Json points = core::Json::array();
+  for (const double time : times) {
+    const std::string name = "d" + std::to_string(points.size()) + "/gate.sqlite";
+    points.push_back({{"store", "/stores/" + name},
+                      {"name", name},
+                      {"started_at", ""},
+                      {"driver_version", ""},
+                      {"changes", ""},
+                      {"worse", false},
+                      {"time", time}});
+  }
+  return history_page(core::Json::array({{{"device", "gl:x"}, {"points", points}}}));
+}
+
+// Two hundredths of a per cent are no cliff.
+TEST(HistoryPage, MakesNoSlopeOfNoise) {
+  EXPECT_THAT(page_of({1, 1.0002}), HasSubstr(">1.01<"));
+  EXPECT_THAT(page_of({1, 1.5}), Not(HasSubstr(">1.01<")));
+}
+
+TEST(HistoryPage, NamesStoresAsTheHistoryDoes) {
+  const std::string page = page_of({1, 1.5});
+  EXPECT_THAT(page, HasSubstr("<td>d1/gate.sqlite</td>"));
+  EXPECT_THAT(page, Not(HasSubstr(">gate.sqlite<")));
+}
+
+}  // namespace
+}  // namespace triptych::report
