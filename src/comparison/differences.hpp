@@ -28,6 +28,7 @@ struct Difference {
   std::string text;   // one line: both values, and why it is of its kind
   // b over a, of a number that both tell and that is no nothing.
   std::optional<double> ratio = {};
+  std::string injected = {};  // faults that `run --inject` put into a side; the text names them
 };
 
 // One side of a comparison: what it measured and on what.

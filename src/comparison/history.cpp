@@ -1,6 +1,7 @@
 #include "comparison/history.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,9 +22,11 @@ std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& st
   for (const record::Run& run : record::latest_runs(store)) {
     store.visit_records(run.id, [&](const record::Record& record) {
       Measured& here = devices[record.device][run.plan + " " + record.configuration];
+      here.injected = record.injected;
       if (record.outcome != record::Outcome::measured) return;
       const auto time = record::summarise(record.wall_ns);  // from store to store one clock
-      here = {record.instructions(), time ? std::optional(time->median) : std::nullopt};
+      here.cost = record.instructions();
+      if (time) here.time = time->median;
     });
   }
   return devices;
@@ -31,6 +34,12 @@ std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& st
 
 std::string text_of(const std::optional<double>& value) {
   return value ? fmt::format("{:.4f}", *value) : "–";
+}
+
+// Nobody shall take it for a driver's.
+std::string injected_text(const HistoryPoint& point) {
+  if (point.injected.empty()) return {};
+  return fmt::format(" [injected: {}]", fmt::join(point.injected, ", "));
 }
 
 // The end of its path by which it is told from the others: the file's name, with folders before it
@@ -177,6 +186,7 @@ void HistoryBuilder::add(const record::Store& store, measure::Truths& truths) {
       point.time = extend(known.time, here->second, &Measured::time);
       for (const auto& [configuration, amounts] : here->second) {
         known.holder[configuration] = &store;
+        if (!amounts.injected.empty()) point.injected.insert(amounts.injected);
       }
     }
     of(id).points.push_back(std::move(point));
@@ -190,9 +200,9 @@ std::string to_text(const std::vector<DeviceHistory>& history) {
     text += fmt::format("{}\n  {:<28} {:<20} {:>9} {:>9}  driver\n", device.device, "store",
                         "begun", "cost", "time");
     for (const HistoryPoint& point : device.points) {
-      text +=
-          fmt::format("  {:<28} {:<20} {:>9} {:>9}  {}\n", names.at(point.store), point.started_at,
-                      text_of(point.cost), text_of(point.time), point.driver_version);
+      text += fmt::format("  {:<28} {:<20} {:>9} {:>9}  {}\n", names.at(point.store),
+                          point.started_at, text_of(point.cost), text_of(point.time),
+                          point.driver_version + injected_text(point));
       if (!point.changes.empty()) text += point.changes;
     }
     if (const HistoryPoint* worse = device.first_worse()) {
@@ -217,6 +227,7 @@ core::Json to_json(const std::vector<DeviceHistory>& history) {
                       {"worse", point.worse}};
       if (point.cost) each["cost"] = *point.cost;
       if (point.time) each["time"] = *point.time;
+      if (!point.injected.empty()) each["injected"] = point.injected;
       points.push_back(std::move(each));
     }
     core::Json entry{{"device", device.device}, {"points", std::move(points)}};

@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct HistoryPoint {
   std::string store;       // its file
   std::string started_at;  // its first run
   std::string driver_version;
-  std::string triptych;  // the program's version
+  std::string triptych;            // the program's version
+  std::set<std::string> injected;  // faults that `run --inject` put into it
   // Of the first point, by the geometric mean over the configurations that were there before, each
   // since the last store that told it, multiplied from point to point; empty where none was.
   std::optional<double> cost;  // instructions of generated code and driver
@@ -35,10 +37,11 @@ struct DeviceHistory {
   [[nodiscard]] const HistoryPoint* first_worse() const;
 };
 
-// Of a configuration on a device, where it was measured.
+// Of a configuration on a device; cost and time where it was measured.
 struct Measured {
   std::optional<double> cost;
   std::optional<double> time;
+  std::string injected;  // as of the record
 };
 using MeasuredByConfiguration = std::map<std::string, Measured>;  // by plan and configuration
 
@@ -88,7 +91,7 @@ class HistoryBuilder {
 // Each device with a line per store, then the first store that was worse.
 [[nodiscard]] std::string to_text(const std::vector<DeviceHistory>& history);
 // [{"device", "first_worse", "points": [{"store", "name", "started_at", "driver_version",
-// "triptych", "cost", "time", "changes", "worse"}]}]; what is not known is absent.
+// "triptych", "injected", "cost", "time", "changes", "worse"}]}]; what is not known is absent.
 [[nodiscard]] nlohmann::json to_json(const std::vector<DeviceHistory>& history);
 
 }  // namespace triptych::comparison

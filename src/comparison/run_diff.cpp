@@ -10,6 +10,17 @@
 namespace triptych::comparison {
 namespace {
 
+// Nobody shall take it for a driver's.
+void name_injected(const record::Record& a, const record::Record& b,
+                   std::vector<Difference>& differences) {
+  const std::string& injected = b.injected.empty() ? a.injected : b.injected;
+  if (injected.empty()) return;
+  for (Difference& each : differences) {
+    each.injected = injected;
+    each.text += fmt::format(" [injected: {}]", injected);
+  }
+}
+
 class Differ {
  public:
   Differ(const RunSide& a, const RunSide& b, measure::Truths& truths, bool same_setup)
@@ -26,6 +37,7 @@ class Differ {
     find_truth(side_a);
     find_truth(side_b);
     Comparison found = find_differences(side_a, side_b, same_setup_);
+    name_injected(a, b, found.differences);
     return {.key = a.configuration,
             .differences = std::move(found.differences),
             .void_time = std::move(found.void_time),
@@ -115,7 +127,7 @@ void DifferenceGroups::add(const std::vector<Difference>& differences, const std
 void DifferenceGroups::add(const Difference& difference, const std::string& where) {
   DifferenceGroup& group =
       groups_
-          .try_emplace({difference.kind, difference.about},
+          .try_emplace({difference.kind, difference.about, difference.injected},
                        DifferenceGroup{.text = difference.text, .where = where, .ratios = {}})
           .first->second;
   ++group.count;
@@ -134,7 +146,8 @@ void DifferenceGroups::add(const Difference& difference, const std::string& wher
 std::string DifferenceGroups::text() const {
   std::string text;
   for (const auto& [key, group] : groups_) {
-    text += fmt::format("{:<12}  {}: ", name_of(key.first), key.second);
+    const auto& [kind, about, injected] = key;
+    text += fmt::format("{:<12}  {}: ", name_of(kind), about);
     if (group.count > 1) {
       if (group.ratios) text += range_of(*group.ratios) + " ";
       text += fmt::format("in {} configurations, {} ", group.count,

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -65,7 +66,8 @@ class DifferenceGroups {
  private:
   void add(const Difference& difference, const std::string& where);
 
-  std::map<std::pair<DifferenceKind, std::string>, DifferenceGroup> groups_;
+  // By kind, what they are about and what was injected.
+  std::map<std::tuple<DifferenceKind, std::string, std::string>, DifferenceGroup> groups_;
 };
 
 }  // namespace triptych::comparison

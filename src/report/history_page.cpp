@@ -1,6 +1,7 @@
 #include "report/history_page.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <vector>
@@ -17,6 +18,15 @@ using core::Json;
 
 std::string name_of_store(const Json& point) {
   return point.at("name").get<std::string>();
+}
+
+// The driver, and what was injected, which is none of its doing.
+std::string driver_of(const Json& point) {
+  std::string text = point.at("driver_version").get<std::string>();
+  if (const auto found = point.find("injected"); found != point.end()) {
+    text += fmt::format(" [injected: {}]", fmt::join(found->get<std::vector<std::string>>(), ", "));
+  }
+  return text;
 }
 
 // What a frame takes may move by so much before an axis makes a slope of it.
@@ -80,8 +90,8 @@ std::string table_of(const Json& device) {
     const std::string_view summary =
         point.at("worse").get<bool>() ? "<b class=\"regression\">worse</b>" : "changed";
     rows.push_back({escape(name_of_store(point)), escape(point.at("started_at").get<std::string>()),
-                    escape(point.at("driver_version").get<std::string>()),
-                    number_text(point, "cost"), number_text(point, "time"),
+                    escape(driver_of(point)), number_text(point, "cost"),
+                    number_text(point, "time"),
                     changes.empty() ? "" : folded(summary, "<pre>" + escape(changes) + "</pre>")});
   }
   return table(rows);

@@ -52,6 +52,18 @@ TEST_F(Diff, WhatIsNewAndWhatIsFixedIsToldEitherWay) {
   EXPECT_THAT(better.output, HasSubstr(R"("kind": "fixed")"));
 }
 
+TEST_F(Diff, WhatWasInjectedIsNoFaultOfADriver) {
+  measure("old.sqlite");
+  const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}}})", picture.string());
+  const std::string run = std::string("run volume/quick --untimed --store new.sqlite ") + tiny +
+                          " --set skip=none,bricks --inject 'crash@*skip=bricks*'";
+  static_cast<void>(program.run(run, script));
+  const Result result = diff();
+  EXPECT_EQ(result.code, 1) << result.output;
+  EXPECT_THAT(result.output, HasSubstr(" [injected: crash]\n"));
+  EXPECT_THAT(diff("--json").output, HasSubstr(" [injected: crash]\""));
+}
+
 TEST_F(Diff, WhatOnlyOneHasCannotBeJudged) {
   measure("old.sqlite");
   measure("new.sqlite");

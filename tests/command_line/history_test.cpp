@@ -120,6 +120,15 @@ TEST_F(History, GoesByTimeWhateverTheOrder) {
   EXPECT_THAT(told.output, Not(HasSubstr("first worse")));
 }
 
+TEST_F(History, NamesWhatWasInjected) {
+  measure("1.sqlite", "1e5");
+  measure("2.sqlite", "1e5", "", "--inject slowdown:50");
+  const Result told = program.run("history 1.sqlite 2.sqlite --out history.html");
+  for (const std::string& text : {told.output, program.read("history.html")}) {
+    EXPECT_THAT(text, HasSubstr(" [injected: slowdown:50]"));
+  }
+}
+
 TEST_F(History, WritesAPage) {
   measure("1.sqlite", "1e5");
   measure("2.sqlite", "1e5", R"(, "failures": [{"kind": "wrong_image", "at": "image"}])");
