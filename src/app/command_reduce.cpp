@@ -99,6 +99,9 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   const Registry registry = make_registry();
   const OneFrame frame = choose_frame(registry, arguments.frame);
   const fs::path out(arguments.frame.out);
+  // Beside no frame it is somebody else's.
+  if (fs::exists(out / "frame.json")) fs::remove(out / "README.md");
+  report::remove_frame(out);
   const core::TemporaryFolder folder;
   record::Store store(folder.path() / "reduce.sqlite", record::Store::Mode::append);
   measure::Truths truths(registry.find_suite(), store);

@@ -111,6 +111,7 @@ core::ExitCode render(const RenderArguments& arguments) {
   const Registry registry = make_registry();
   const auto [suite, plan, device] = choose_frame(registry, arguments.frame);
   const fs::path out(arguments.frame.out);
+  report::remove_frame(out);
   const core::TemporaryFolder folder;
   record::Store store(folder.path() / "render.sqlite", record::Store::Mode::append);
   measure::Truths truths(registry.find_suite(), store);

@@ -33,6 +33,13 @@ core::Json frame_json(core::Json scene, const record::Record& record,
   return frame;
 }
 
+void remove_frame(const std::filesystem::path& folder) {
+  for (const char* file :
+       {"image.exr", "image.png", "truth.exr", "truth.png", "difference.png", "frame.json"}) {
+    std::filesystem::remove(folder / file);
+  }
+}
+
 void write_picture(const std::filesystem::path& folder, const std::string& name,
                    const core::Image& image) {
   core::write_exr(image, folder / (name + ".exr"));

@@ -15,6 +15,10 @@ namespace triptych::report {
 [[nodiscard]] nlohmann::json frame_json(nlohmann::json scene, const record::Record& record,
                                         const record::Device& device);
 
+// Removes what the functions below write, and frame.json: what cannot be drawn shall not leave
+// another frame's pictures to be taken for its own.
+void remove_frame(const std::filesystem::path& folder);
+
 // image.exr and image.png, or truth.exr and truth.png. Throws IoError.
 void write_picture(const std::filesystem::path& folder, const std::string& name,
                    const core::Image& image);
