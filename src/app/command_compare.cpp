@@ -109,6 +109,10 @@ core::ExitCode diff(const DiffArguments& arguments) {
   record::Store b = open_to_judge(arguments.b);
   measure::Truths truths(registry.find_suite(), b);
   const comparison::StoreDiff found = comparison::diff_stores(a, b, arguments.devices, truths);
+  if (found.devices.empty() && found.only_one.empty()) {
+    throw core::NotSupported(fmt::format("{} and {} hold no run{}", arguments.a, arguments.b,
+                                         arguments.devices.empty() ? "" : " of such a device"));
+  }
   if (arguments.json) {
     print(comparison::to_json(found));
   } else {
