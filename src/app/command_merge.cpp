@@ -1,6 +1,7 @@
 // merge: what a farm measured, as if one machine had.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -81,11 +82,19 @@ bool tell_gaps(const MergeArguments& arguments) {
   return complete;
 }
 
+bool holds_a_run(const std::string& file) {
+  return !record::Store(file, record::Store::Mode::read).runs().empty();
+}
+
 core::ExitCode merge(const MergeArguments& arguments) {
   if (arguments.check) {
     return tell_gaps(arguments) ? core::ExitCode::pass : core::ExitCode::cannot_judge;
   }
   if (arguments.out.empty()) throw core::InputError("--out is required: the store to be written");
+  if (std::ranges::none_of(arguments.stores, holds_a_run)) {
+    throw core::NotSupported(
+        fmt::format("nothing to merge: no run is in {}", fmt::join(arguments.stores, ", ")));
+  }
   core::require_writable(std::filesystem::path(arguments.out).parent_path());
   // On a terminal, now and then.
   const auto count = [last =

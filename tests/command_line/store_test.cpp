@@ -1,5 +1,7 @@
 // Where a run's records go: into the file that was named, or the run says that it cannot.
 
+#include "record/store.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,6 +30,17 @@ TEST(StoreName, OneThatMeansMemoryToSqliteIsAFile) {
     EXPECT_EQ(result.code, 0) << result.output;
     EXPECT_EQ(program.read(name).substr(0, 13), "SQLite format") << name;
   }
+}
+
+TEST(EmptyStore, IsNothingToMerge) {
+  const Program program;
+  { const record::Store empty(program.folder() / "empty.sqlite", record::Store::Mode::append); }
+  const Result none = program.run("merge empty.sqlite --out m.sqlite");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_EQ(none.output, "triptych: nothing to merge: no run is in empty.sqlite\n");
+  EXPECT_FALSE(std::filesystem::exists(program.folder() / "m.sqlite"));
+  ASSERT_EQ(program.run(one + " --store s.sqlite").code, 0);
+  EXPECT_EQ(program.run("merge empty.sqlite s.sqlite --out m.sqlite").code, 0);
 }
 
 }  // namespace
