@@ -7,6 +7,7 @@
 #include "app/saying.hpp"
 #include "app/version.hpp"
 #include "core/output_files.hpp"
+#include "measure/plan/plan.hpp"
 #include "record/store.hpp"
 #include "report/export_tables.hpp"
 
@@ -20,6 +21,13 @@ struct ExportArguments {
   bool json = false;
 };
 
+// As the stores name it, or as the file that was run.
+std::string plan_in(const std::vector<record::Store>& stores, const std::string& plan) {
+  const bool named = std::ranges::any_of(
+      stores, [&](const record::Store& each) { return each.latest_run(plan).has_value(); });
+  return named ? plan : measure::plan_name(plan);
+}
+
 core::ExitCode write_tables(const ExportArguments& arguments) {
   std::vector<record::Store> stores;
   for (const std::string& file : arguments.stores) {
@@ -30,7 +38,7 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
   std::ranges::transform(stores, all.begin(), [](const record::Store& each) { return &each; });
   core::require_writable(arguments.out);
   const report::ExportedRows rows = report::export_tables(
-      all, {.plan = arguments.plan,
+      all, {.plan = plan_in(stores, arguments.plan),
             .folder = arguments.out,
             .made_by = "triptych " + version(),
             .begins = [](const record::Run& run) { say("{} of {}\n", run.id, run.plan); }});
@@ -52,7 +60,7 @@ void add_export_command(Commands& commands) {
   command.add_option("STORE", arguments.stores, "SQLite files")->required();
   command.add_option("--out", arguments.out, "Folder for the tables")->required();
   command.add_option("--plan", arguments.plan,
-                     "SUITE/PLAN as it was run (default: all in the stores)");
+                     "SUITE/PLAN or the YAML file, as it was run (default: all in the stores)");
   command.add_flag("--json", arguments.json, "Print what was written as JSON");
 }
 

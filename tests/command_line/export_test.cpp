@@ -47,6 +47,14 @@ TEST_F(Export, IsTheSameTwice) {
   }
 }
 
+TEST_F(Export, TakesAPlanAsOtherCommandsDo) {
+  program.write("p.yaml", tiny_plan);
+  ASSERT_EQ(program.run("run ./p.yaml --device 'null:*' --untimed --store s.sqlite").code, 0);
+  const Result result = program.run("export s.sqlite --out tables --plan ./p.yaml");
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("tables/runs.csv: 1 rows"));
+}
+
 TEST_F(Export, WhatItCannotDoItSays) {
   EXPECT_THAT(program.run("export none.sqlite --out t").output, HasSubstr("none.sqlite"));
   EXPECT_EQ(program.run("export none.sqlite --out t").code, 2);
