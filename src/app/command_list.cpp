@@ -134,8 +134,12 @@ core::ExitCode list(const ListArguments& arguments) {
   const auto suite =
       std::ranges::find(registry.suites, arguments.plan,
                         [](const auto& each) -> std::string { return std::string(each->name()); });
-  return suite == registry.suites.end() ? list_plan(arguments, registry)
-                                        : list_suite(**suite, registry, arguments.json);
+  if (suite == registry.suites.end()) return list_plan(arguments, registry);
+  if (!arguments.choice.set.empty() || !arguments.choice.shard.empty()) {
+    throw core::InputError(fmt::format(
+        "{0} is a suite: --set and --shard are for a plan, such as {0}/quick", arguments.plan));
+  }
+  return list_suite(**suite, registry, arguments.json);
 }
 
 }  // namespace

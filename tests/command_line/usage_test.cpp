@@ -76,6 +76,14 @@ TEST(Usage, AnOverrideThatIsWrong) {
   EXPECT_EQ(program.run("list volume/quick --shard 2/2").code, 0);
 }
 
+TEST(Usage, ASuiteHasNothingToOverride) {
+  const Program program;
+  for (const char* choice : {"--set nonsense=1", "--shard 9/2"}) {
+    expect_refused(program.run(std::string("list volume ") + choice), 3,
+                   "volume is a suite: --set and --shard are for a plan");
+  }
+}
+
 TEST(Usage, AGeneratorThatCannotMakeIt) {
   const Program program;
   program.write("small.yaml",
