@@ -17,12 +17,22 @@ struct ReportArguments {
   std::string benchmark_json;
 };
 
+// Before anything is written: of two files neither or both.
+void require_file(std::string_view option, const std::string& file) {
+  if (file.empty()) return;
+  if (std::filesystem::is_directory(file)) {
+    throw core::InputError(fmt::format("{} {} is a folder: name a file in it", option, file));
+  }
+  core::require_writable(std::filesystem::path(file).parent_path());
+}
+
 core::ExitCode write_report(const ReportArguments& arguments) {
   core::refuse_overwriting(
       {{"--store", arguments.store}},
       {{"--out", arguments.out}, {"--benchmark-json", arguments.benchmark_json}});
   const Registry registry = make_registry();
-  core::require_writable(std::filesystem::path(arguments.out).parent_path());
+  require_file("--out", arguments.out);
+  require_file("--benchmark-json", arguments.benchmark_json);
   record::Store store = open_to_judge(arguments.store);
   measure::Truths truths(registry.find_suite(), store);
   if (store.runs().empty()) {
@@ -33,6 +43,7 @@ core::ExitCode write_report(const ReportArguments& arguments) {
     core::write_text(arguments.benchmark_json, report::benchmark_json(store, latest_runs(store)));
   }
   fmt::print("{}\n", arguments.out);
+  if (!arguments.benchmark_json.empty()) fmt::print("{}\n", arguments.benchmark_json);
   return core::ExitCode::pass;
 }
 

@@ -81,6 +81,17 @@ TEST_F(ReportTest, ReplacesNeitherTheStoreNorItself) {
   EXPECT_THAT(over_page.output, HasSubstr("--benchmark-json x is the file of --out"));
 }
 
+TEST_F(ReportTest, WritesBothFilesOrNeither) {
+  measure(std::string("volume/quick --untimed") + small);
+  std::filesystem::create_directory(program_.folder() / "folder");
+  const std::string command = "report --store s.sqlite --baselines b --out page.html ";
+  const Result refused = program_.run(command + "--benchmark-json folder");
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.output, HasSubstr("--benchmark-json folder is a folder: name a file in it"));
+  EXPECT_FALSE(std::filesystem::exists(program_.folder() / "page.html"));
+  EXPECT_EQ(program_.run(command + "--benchmark-json b.json").output, "page.html\nb.json\n");
+}
+
 // Of one plan alone it would leave out what a store that CI keeps is there for.
 TEST_F(ReportTest, BenchmarkJsonHoldsEveryPlan) {
   measure(std::string("volume/quick") + small);
