@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <set>
 
 #include "app/comparing.hpp"
@@ -41,12 +39,8 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
     const std::string_view after = std::string_view(text).substr(side.device.size() + 1);
     side.environment = measure::parse_environment(after, where + ": after the device");
   }
-  if (!program.empty() && ::access(program.c_str(), X_OK) != 0) {
-    throw core::InputError(fmt::format("{}-program {}: no program to run", option, program));
-  }
-  side.command = program.empty()
-                     ? measure::worker_command()
-                     : measure::worker_command(std::filesystem::absolute(program).string());
+  side.command = program.empty() ? measure::worker_command()
+                                 : worker_of(fmt::format("{}-program", option), program);
   return side;
 }
 

@@ -17,6 +17,7 @@
 #include "core/temporary_folder.hpp"
 #include "measure/protocol/injected_fault.hpp"
 #include "measure/system/environment.hpp"
+#include "measure/system/process.hpp"
 #include "measure/worker/own_program.hpp"
 
 namespace triptych::app {
@@ -87,6 +88,19 @@ class Comparer {
   measure::Truths truths_;
 };
 
+// What a program prints as its version, in so short a time.
+std::string version_told_by(const std::string& program) {
+  constexpr std::chrono::seconds patience{20};
+  std::vector<std::string> environment;
+  for (char** entry = environ; *entry != nullptr; ++entry) environment.emplace_back(*entry);
+  measure::Process process({program, "--version"}, environment);
+  if (!process.wait(patience)) return {};
+  std::string text(4096, '\0');
+  const ssize_t got = ::read(process.log_fd(), text.data(), text.size());
+  text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  return text;
+}
+
 void tell(const std::vector<Told>& all, bool json) {
   if (json) {
     core::Json found = core::Json::array();
@@ -126,6 +140,19 @@ core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool 
   return code;
 }
 
+std::vector<std::string> worker_of(const std::string& option, const std::string& program) {
+  if (::access(program.c_str(), X_OK) != 0 || !fs::is_regular_file(program)) {
+    throw core::InputError(fmt::format("{} {}: no program to run", option, program));
+  }
+  const std::string file = fs::absolute(program).string();
+  // A driver may have printed something before.
+  if (("\n" + version_told_by(file)).find("\ntriptych ") == std::string::npos) {
+    throw core::InputError(
+        fmt::format("{} {}: no triptych: it does not say so on --version", option, program));
+  }
+  return measure::worker_command(file);
+}
+
 std::vector<Comparing> against_base(const std::string& base,
                                     const std::vector<std::string>& devices) {
   const bool program = ::access(base.c_str(), X_OK) == 0 && fs::is_regular_file(base);
@@ -133,7 +160,7 @@ std::vector<Comparing> against_base(const std::string& base,
   std::vector<std::string> command = own;
   std::vector<std::string> environment;
   if (program) {
-    command = measure::worker_command(fs::absolute(base).string());
+    command = worker_of("--base", base);
   } else if (base.find('=') == std::string::npos) {
     throw core::InputError(fmt::format("--base {}: no program to run, nor NAME=VALUE", base));
   } else {

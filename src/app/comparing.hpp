@@ -31,6 +31,11 @@ struct Comparing {
 // Compares, prints what was found and returns the exit code that counts over all.
 [[nodiscard]] core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool json);
 
+// measure::worker_command of another build. Throws InputError naming the option where the file is
+// no program, or one that is no triptych: its device would be blamed for what it does not answer.
+[[nodiscard]] std::vector<std::string> worker_of(const std::string& option,
+                                                 const std::string& program);
+
 // Each device against itself by `base`: the program of another build, or "NAME=VALUE,…".
 [[nodiscard]] std::vector<Comparing> against_base(const std::string& base,
                                                   const std::vector<std::string>& devices);

@@ -109,6 +109,7 @@ TEST_F(Compare, TheGateJudgesByABase) {
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM), 0, "PASS");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --inject crash"), 1, "b crashed");
   expect_verdict(gate("--base nothing"), 3, "--base nothing: no program to run, nor NAME=VALUE");
+  expect_verdict(gate("--base /bin/true"), 3, "--base /bin/true: no triptych");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --measure"), 3, "excludes");
   expect_verdict(gate("--bisect --base " TRIPTYCH_PROGRAM " --measure"), 125, "excludes");
   expect_verdict(gate("--bisect --no-such-option"), 125, "no-such-option");
@@ -143,7 +144,8 @@ TEST_F(Compare, WrongUsageIsOneLine) {
 
 TEST_F(Compare, AnotherProgramServesItsSide) {
   expect_verdict(compare(b_as(1), "--b-program " TRIPTYCH_PROGRAM), 0, "PASS: 1 same");
-  expect_verdict(compare(b_as(1), "--b-program /bin/true"), 2, "cannot be opened");
+  expect_verdict(compare(b_as(1), "--b-program /bin/true"), 3,
+                 "--b-program /bin/true: no triptych");
 }
 
 TEST_F(Compare, SideBySideNeedsAStoreOfTwoDevices) {
