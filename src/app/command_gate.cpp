@@ -164,6 +164,7 @@ void accept_one(const AcceptArguments& arguments, const std::string& typed, reco
   const judge::AcceptRequest request{
       .plan = plan,
       .argument = typed,
+      .store_option = store_option(arguments.store),
       .reason = arguments.reason,
       .only = arguments.only,
       .date = judged.today,

@@ -80,17 +80,17 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
                   name, core::shell_quoted(plan), core::shell_quoted(file)));
 }
 
+std::string store_option(const std::string& file) {
+  return file == standard_store ? std::string() : " --store " + core::shell_quoted(file);
+}
+
 judge::GateResult judge_named(const record::Store& store, const std::string& run,
                               const std::string& baselines, const judge::GateRequest& request) {
   return core::naming(fmt::format("{}: run {}", store.file().string(), run), [&] {
-    const auto option = [](std::string_view name, const std::string& value) {
-      return fmt::format(" {} {}", name, core::shell_quoted(value));
-    };
     judge::GateRequest complete = request;
-    const std::string file = store.file().string();
-    if (file != standard_store) complete.store_option = option("--store", file);
+    complete.store_option = store_option(store.file().string());
     const bool elsewhere = baselines != default_baselines().string();
-    if (elsewhere) complete.baselines_option = option("--baselines", baselines);
+    if (elsewhere) complete.baselines_option = " --baselines " + core::shell_quoted(baselines);
     judge::GateResult result =
         judge::judge_run(store, run, judge::Baselines(baselines, request.plan), complete);
     if (elsewhere) result.baselines = baselines;

@@ -23,6 +23,9 @@ void require_store(const std::filesystem::path& file);
 [[nodiscard]] std::string latest_run_of(const record::Store& store, const std::string& plan,
                                         const std::string& file);
 
+// " --store FILE", what commands have to be told where the store is not the usual one.
+[[nodiscard]] std::string store_option(const std::string& file);
+
 // judge::judge_run, whatever the store's content makes a library throw being an error that names
 // it.
 [[nodiscard]] judge::GateResult judge_named(const record::Store& store, const std::string& run,

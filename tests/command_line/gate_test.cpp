@@ -59,6 +59,19 @@ TEST(Gate, CannotJudgeWithoutBaselines) {
       << judged.output;
 }
 
+TEST(Gate, APartIsFinishedInItsOwnStore) {
+  const Program program;
+  const std::string accept = "accept volume/quick --reason x --baselines baselines --store ";
+  ASSERT_EQ(program.run(measure_into("whole.sqlite") + " --set skip=none,bricks").code, 0);
+  ASSERT_EQ(program.run(accept + "whole.sqlite").code, 0);
+  ASSERT_EQ(program.run(measure_into("part.sqlite") + " --set skip=none").code, 0);
+  const Result refused = program.run(accept + "part.sqlite");
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_NE(refused.output.find("triptych run volume/quick --resume --store part.sqlite, accept"),
+            std::string::npos)
+      << refused.output;
+}
+
 // One name of data, other voxels.
 TEST(Gate, WindowsAndMappingsOfOneVolumeAreNoChangedData) {
   const Program program;

@@ -327,11 +327,12 @@ void refuse_part(const Accepted& accepted, const Baselines& stored, const std::s
   if (missing.empty()) return;
   throw core::InputError(fmt::format(
       "run {} has no record of {} of {} stored configurations ({}{}): finish it with triptych run "
-      "{} --resume, accept what it has with --only GLOB, or drop them with --drop where the plan "
+      "{} --resume{}, accept what it has with --only GLOB, or drop them with --drop where the plan "
       "has them no longer",
       run, missing.size(), known.size(), missing.front(), missing.size() > 1 ? "; …" : "",
       core::shell_quoted(request.argument.empty() ? record::plan_argument(request.plan)
-                                                  : request.argument)));
+                                                  : request.argument),
+      request.store_option));
 }
 
 // Everything that is stored and as it was accepted; nothing where that is to be dropped.

@@ -146,10 +146,11 @@ class Baselines {
 
 struct AcceptRequest {
   std::string plan;
-  std::string argument = {};  // as of GateRequest
-  std::string reason;         // must not be blank
-  std::string only;           // glob over configuration keys; empty: all
-  std::string date;           // ISO
+  std::string argument = {};      // as of GateRequest
+  std::string store_option = {};  // likewise
+  std::string reason;             // must not be blank
+  std::string only;               // glob over configuration keys; empty: all
+  std::string date;               // ISO
   // Stored configurations that the run has no record of go, and so does what is not as it was
   // accepted; else such a run or such files are refused. With `only`: what is stored of
   // configurations goes where their device skips them now.
