@@ -49,6 +49,8 @@ TEST_F(CalibrationGateTest, WhatIsUnsteadyIsNotHeldToWhatIsStored) {
   };
   accept_first();
   EXPECT_EQ(verdict_of("b", "unsteady: 4, and 8 when drawn again"), core::ExitCode::pass);
+  EXPECT_THAT(text(gate("b")),
+              HasSubstr("1 statistics as stored; unsteady, so not compared: fragment_invocations"));
   EXPECT_EQ(verdict_of("c", "exact"), core::ExitCode::regression);
 }
 
