@@ -53,7 +53,7 @@ struct Truth {
                                             int threads = 0);
 
 // Version of this renderer: changes whenever its pictures may.
-inline constexpr const char* volume_version = "2";
+inline constexpr const char* volume_version = "3";
 // And of its limits.
 inline constexpr const char* converged_version = "3";
 
