@@ -65,6 +65,7 @@ judge::GateResult judge_store(const CheckArguments& arguments, const record::Sto
   if (!run) throw core::NotSupported("nothing was measured");
   judge::GateRequest request = request_of(truths, plan);
   request.checks = {judge::check(arguments.check)};
+  request.decides_each_device = false;
   if (!arguments.device.empty()) request.devices = {arguments.device};
   return judge_named(store, run->id, default_baselines().string(), request);
 }

@@ -59,6 +59,22 @@ TEST(Gate, CannotJudgeWithoutBaselines) {
       << judged.output;
 }
 
+// Of a run that read no statistics the gate has to say why it is no pass.
+TEST(Gate, ATestOfACheckThatDecidesNothingIsSkipped) {
+  const Program program;
+  std::filesystem::create_directory(program.folder() / "baselines");
+  ASSERT_EQ(program.run(measure_into("s.sqlite") + " --untimed").code, 0);
+  ASSERT_EQ(program.run("accept volume/quick --reason x --store s.sqlite").code, 0);
+  const Result tested = program.run(
+      "test-check volume/quick --check statistics --device null:scripted --store s.sqlite");
+  EXPECT_EQ(tested.code, 77) << tested.output;
+  const Result judged = program.run(judge_from("s.sqlite") + " --check statistics");
+  EXPECT_EQ(judged.code, 2);
+  EXPECT_NE(judged.output.find("? statistics on null:scripted: nothing was decided of"),
+            std::string::npos)
+      << judged.output;
+}
+
 TEST(Gate, APartIsFinishedInItsOwnStore) {
   const Program program;
   const std::string accept = "accept volume/quick --reason x --baselines baselines --store ";

@@ -269,12 +269,12 @@ void report_what_is_there(const RunView& view, GateResult& result) {
 // A device that measured and of which all is advice or skips has not passed. Without baselines that
 // is said of all of them.
 void report_nothing_decided(const RunView& view, GateResult& result) {
-  if (!view.baselines.present()) return;
+  if (!view.request.decides_each_device || !view.baselines.present()) return;
   for (const std::string& device : result.nothing_decided()) {
     result.findings.push_back(finding_about(
         view, view.devices.at(device), *view.checks.begin(), Verdict::cannot_judge,
-        fmt::format("nothing was decided of {}: all that is said of it is advice or skips; judge "
-                    "more checks, or accept what it measured: {}",
+        fmt::format("nothing was decided of {}: all that is said of it is advice or skips, which "
+                    "say why; judge more checks, or accept what is new: {}",
                     device, view.accept_command())));
   }
 }

@@ -97,6 +97,8 @@ struct GateRequest {
   FindExpectations expectations = {};
   FindOpenCounts open_counts = {};  // asked only where counters differ
   std::string today;                // ISO date, for the expiry of waivers
+  // A device of which all is advice or skips is a finding. A test of one check is skipped instead.
+  bool decides_each_device = true;
   // A configuration that is slower than stored by more than its interval and 2 % is a regression;
   // else times advise.
   bool times_decide = false;
