@@ -66,8 +66,9 @@ std::optional<PictureError> picture_error(const core::Image& picture, const core
   return PictureError{whole.rmse, whole.largest.error, whole.error_99, lattice, arithmetic};
 }
 
-AccuracyCase accuracy_case(const record::Record& record, const PictureError& error) {
-  const auto summary = record::summarise(record.time_ns());
+AccuracyCase accuracy_case(const record::Record& record, const PictureError& error,
+                           std::string_view clock) {
+  const auto summary = record::summarise(record.time_ns_by(clock));
   AccuracyCase result{.configuration = record.configuration,
                       .factors = record.factors,
                       .time_ns = summary ? std::optional(summary->median) : std::nullopt,

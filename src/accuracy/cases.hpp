@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "accuracy/accuracy.hpp"
@@ -52,8 +53,9 @@ struct AccuracyScene {
   std::optional<FrontArea> area;  // where anything was timed
 };
 
-// A record with its errors.
-[[nodiscard]] AccuracyCase accuracy_case(const record::Record& record, const PictureError& error);
+// A record with its errors, its time by this clock.
+[[nodiscard]] AccuracyCase accuracy_case(const record::Record& record, const PictureError& error,
+                                         std::string_view clock);
 
 // A scene without cases, what it has in common with one more record, and what follows from its
 // cases once they are there.

@@ -123,6 +123,28 @@ TEST_F(AccuracyGateTest, AcceptedErrorsPass) {
   EXPECT_EQ(json.at("configurations")[1].at("rmse"), result.accuracies[0].cases[1].rmse);
 }
 
+// By the device's clock where it counts for all that it drew.
+TEST_F(AccuracyGateTest, TimesOfADeviceAreOfOneClock) {
+  const auto timed = [](bool all) {
+    return [all](record::Record& record, core::Image&) {
+      record.wall_ns = {5e6};
+      record.device_ns = {2e6};
+      record.device_clock_trusted = all || record.configuration == plain_;
+    };
+  };
+  add_run("a", timed(false));
+  add_run("b", timed(true));
+  for (const auto& [run, expected] : {std::pair{"a", 5e6}, {"b", 2e6}}) {
+    const GateResult result = gate(run);
+    ASSERT_FALSE(result.accuracies.empty());
+    for (const accuracy::AccuracyScene& scene : result.accuracies) {
+      for (const accuracy::AccuracyCase& each : scene.cases) {
+        EXPECT_EQ(each.time_ns, expected) << run << ' ' << each.configuration;
+      }
+    }
+  }
+}
+
 // Farther from the limit than rounding explains, though within the bound on the picture.
 TEST_F(AccuracyGateTest, ALargerErrorIsARegression) {
   add_run("a");
