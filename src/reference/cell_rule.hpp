@@ -73,7 +73,7 @@ class CellRule {
     const auto take_visible = [&](const Piece& piece) {
       return !piece.visible || take(piece.looked, piece.opacity);
     };
-    const double slack = slack_of(ray);
+    const double slack = ray.slack();
     if (slack > 0.0 && !take_visible(piece_beyond(ray, -slack, 0.0))) return;
     const bool passed = for_each_piece(ray, [&](const Part& part, double from, double to) {
       return take_visible(judged_piece(ray, part, from, to));
@@ -223,14 +223,9 @@ class CellRule {
     return std::minmax({b0, b1, b2, b3});
   }
 
-  // How much sooner or later a device may let the ray begin, and end.
-  [[nodiscard]] static double slack_of(const Ray& ray) {
-    return std::max(ray.longest - ray.length, ray.length - ray.shortest);
-  }
-
   // How much of a piece a device may find outside of the volume.
   [[nodiscard]] static double doubtful_length(const Ray& ray, double from, double to) {
-    const double slack = slack_of(ray);
+    const double slack = ray.slack();
     const double begin = std::max(std::min(to, slack) - from, 0.0);
     const double end = std::max(to - std::max(from, ray.length - slack), 0.0);
     return std::min(begin + end, to - from);
@@ -243,7 +238,7 @@ class CellRule {
 
   // A ray on which nothing is where it is by up to `way`.
   [[nodiscard]] static Ray widened(Ray ray, double way) {
-    ray.position_error += way * glm::abs(ray.voxels_per_unit);
+    ray.position_error = ray.position_error_within(way);
     return ray;
   }
 

@@ -217,13 +217,10 @@ class Counter {
   [[nodiscard]] Sight look_along(const Ray& ray, double i, const glm::dvec3& stride,
                                  const StepLength& length) const {
     const double end = std::min(i + 1, std::max(steps(ray.length), i));
-    glm::dvec3 error = ray.position_error;  // the last step ends where the ray does
-    if (i + 1 > steps(ray.shortest)) {
-      error += std::max(ray.longest - ray.length, ray.length - ray.shortest) *
-               glm::abs(ray.voxels_per_unit);
-    }
+    const bool last = i + 1 > steps(ray.shortest);  // it ends where the ray does
     const Bounded front = field_.at(ray.entry + i * stride, ray.position_error);
-    const Bounded back = field_.at(ray.entry + end * stride, error);
+    const Bounded back =
+        field_.at(ray.entry + end * stride, ray.position_error_within(last ? ray.slack() : 0.0));
     if (segments_.transparent(front, back)) return {};
     const StepOpacity opacity = segments_(front, back, length).opacity;
     return {true, opacity.lo > 0x1.0p-24, opacity};

@@ -3,10 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
 #include <limits>
 #include <utility>
 
 namespace triptych::reference {
+
+double Ray::slack() const {
+  return std::max(longest - length, length - shortest);
+}
+
+glm::dvec3 Ray::position_error_within(double way) const {
+  return position_error + way * glm::abs(voxels_per_unit);
+}
 
 RayMaker::RayMaker(const scene::VolumeScene& scene, double position_error_voxels)
     : scene_(&scene),

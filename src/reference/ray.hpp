@@ -19,6 +19,11 @@ struct Ray {
   double shortest = 0;           // … and the least
   double longest = 0;            // … and most that a device may find
   glm::dvec3 position_error{};   // of a sample's place per axis, the uncertain entry included
+
+  // How much sooner or later a device may let it begin, and end.
+  [[nodiscard]] double slack() const;
+  // Of a place that may lie so far along the ray from where it is looked for.
+  [[nodiscard]] glm::dvec3 position_error_within(double way) const;
 };
 
 // Distances from the entry at which the ray crosses planes of voxel centres of a grid of `size`,

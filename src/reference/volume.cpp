@@ -85,15 +85,14 @@ class Raycaster {
     const double shortest = ray.shortest / smallest_spacing_;
     const double longest = ray.longest / smallest_spacing_;
     const glm::dvec3 stride = ray.voxels_per_unit * scene_.step_world();
-    const double end_error = std::max(ray.longest - ray.length, ray.length - ray.shortest);
     const auto count = static_cast<std::int64_t>(std::ceil(longest / step));
     Bounded front = field_.at(ray.entry, ray.position_error);
     for (std::int64_t i = 0; i < count; ++i) {
       const double begin = static_cast<double>(i);
       const double end = std::min(begin + 1.0, std::max(length / step, begin));
-      glm::dvec3 error = ray.position_error;
-      if ((begin + 1.0) * step > shortest) error += end_error * glm::abs(ray.voxels_per_unit);
-      const Bounded back = field_.at(ray.entry + end * stride, error);
+      const bool last = (begin + 1.0) * step > shortest;
+      const Bounded back =
+          field_.at(ray.entry + end * stride, ray.position_error_within(last ? ray.slack() : 0.0));
       const StepLength part{std::clamp(length - begin * step, 0.0, step),
                             std::clamp(shortest - begin * step, 0.0, step),
                             std::clamp(longest - begin * step, 0.0, step)};
