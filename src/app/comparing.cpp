@@ -88,17 +88,8 @@ class Comparer {
   measure::Truths truths_;
 };
 
-// What a program prints as its version, in so short a time.
-std::string version_told_by(const std::string& program) {
-  constexpr std::chrono::seconds patience{20};
-  std::vector<std::string> environment;
-  for (char** entry = environ; *entry != nullptr; ++entry) environment.emplace_back(*entry);
-  measure::Process process({program, "--version"}, environment);
-  if (!process.wait(patience)) return {};
-  std::string text(4096, '\0');
-  const ssize_t got = ::read(process.log_fd(), text.data(), text.size());
-  text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
-  return text;
+bool is_program(const std::string& file) {
+  return ::access(file.c_str(), X_OK) == 0 && fs::is_regular_file(file);
 }
 
 void tell(const std::vector<Told>& all, bool json) {
@@ -141,12 +132,13 @@ core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool 
 }
 
 std::vector<std::string> worker_of(const std::string& option, const std::string& program) {
-  if (::access(program.c_str(), X_OK) != 0 || !fs::is_regular_file(program)) {
+  if (!is_program(program)) {
     throw core::InputError(fmt::format("{} {}: no program to run", option, program));
   }
   const std::string file = fs::absolute(program).string();
   // A driver may have printed something before.
-  if (("\n" + version_told_by(file)).find("\ntriptych ") == std::string::npos) {
+  const std::string told = measure::output_of({file, "--version"}).value_or("");
+  if (("\n" + told).find("\ntriptych ") == std::string::npos) {
     throw core::InputError(
         fmt::format("{} {}: no triptych: it does not say so on --version", option, program));
   }
@@ -155,7 +147,7 @@ std::vector<std::string> worker_of(const std::string& option, const std::string&
 
 std::vector<Comparing> against_base(const std::string& base,
                                     const std::vector<std::string>& devices) {
-  const bool program = ::access(base.c_str(), X_OK) == 0 && fs::is_regular_file(base);
+  const bool program = is_program(base);
   const std::vector<std::string> own = measure::worker_command();
   std::vector<std::string> command = own;
   std::vector<std::string> environment;

@@ -1,10 +1,8 @@
 #include "measure/counting/emulator.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <filesystem>
 #include <optional>
 
@@ -20,24 +18,6 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 5> environment{
     "LP_NUM_THREADS=0", "POCL_MAX_PTHREAD_COUNT=1", "POCL_CPU_MAX_CU_COUNT=1",
     "POCL_CACHE_DIR={cache}", "MESA_SHADER_CACHE_DIR={cache}"};
-
-// All that a short program prints; nullopt where it cannot be started, fails or takes too long.
-std::optional<std::string> output_of(const std::vector<std::string>& command,
-                                     std::vector<std::string> variables = {}) {
-  constexpr std::chrono::seconds patience{20};
-  try {
-    for (char** entry = environ; *entry != nullptr; ++entry) variables.emplace_back(*entry);
-    Process process(command, variables);
-    const std::optional<Exit> exit = process.wait(patience);
-    if (!exit || exit->code != 0 || exit->signal != 0) return std::nullopt;
-    std::string text(4096, '\0');
-    const ssize_t got = ::read(process.log_fd(), text.data(), text.size());
-    text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
-    return text;
-  } catch (const core::IoError&) {
-    return std::nullopt;
-  }
-}
 
 // "valgrind-3.19.0" → "3.19".
 std::string short_version(std::string_view text) {

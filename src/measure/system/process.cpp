@@ -213,4 +213,21 @@ std::optional<Exit> Process::wait(std::chrono::milliseconds limit) {
   return exit_;
 }
 
+std::optional<std::string> output_of(const std::vector<std::string>& command,
+                                     std::vector<std::string> variables) {
+  constexpr std::chrono::seconds patience{20};
+  try {
+    for (char** entry = environ; *entry != nullptr; ++entry) variables.emplace_back(*entry);
+    Process process(command, variables);
+    const std::optional<Exit> exit = process.wait(patience);
+    if (!exit || exit->code != 0 || exit->signal != 0) return std::nullopt;
+    std::string text(4096, '\0');
+    const ssize_t got = ::read(process.log_fd(), text.data(), text.size());
+    text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+    return text;
+  } catch (const core::IoError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace triptych::measure

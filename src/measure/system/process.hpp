@@ -77,4 +77,9 @@ class Process {
   FileDescriptor pid_fd_;
 };
 
+// The first 4 KiB that a short program prints, in this process's environment and the variables;
+// nullopt where it cannot be started, fails or takes more than 20 seconds.
+[[nodiscard]] std::optional<std::string> output_of(const std::vector<std::string>& command,
+                                                   std::vector<std::string> variables = {});
+
 }  // namespace triptych::measure
