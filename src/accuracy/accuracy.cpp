@@ -56,10 +56,11 @@ std::optional<Order> order_of(std::span<const AccuracyCase> cases,
   return fit_order(points);
 }
 
-// Neither worse on any axis nor equal on both; both were timed.
-bool beats(const AccuracyCase& a, const AccuracyCase& b) {
-  return *a.time_ns <= *b.time_ns && a.rmse <= b.rmse &&
-         (*a.time_ns < *b.time_ns || a.rmse < b.rmse);
+// Neither worse on any axis nor equal on both; both have a cost.
+bool beats(const AccuracyCase& a, const AccuracyCase& b, const CostOf& cost_of) {
+  const double cost_a = *cost_of(a);
+  const double cost_b = *cost_of(b);
+  return cost_a <= cost_b && a.rmse <= b.rmse && (cost_a < cost_b || a.rmse < b.rmse);
 }
 
 // The only factor in which the two differ, if it is one.
@@ -147,15 +148,20 @@ std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases) {
 }
 
 std::vector<Dominated> dominated(std::span<const AccuracyCase> cases,
-                                 std::span<const std::size_t> front) {
+                                 std::span<const std::size_t> front, const CostOf& cost_of) {
   std::vector<Dominated> result;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (!cases[i].time_ns) continue;
+    if (!cost_of(cases[i])) continue;
     const auto by = std::ranges::find_if(
-        front, [&](std::size_t better) { return beats(cases[better], cases[i]); });
+        front, [&](std::size_t better) { return beats(cases[better], cases[i], cost_of); });
     if (by != front.end()) result.push_back({i, *by});
   }
   return result;
+}
+
+std::vector<Dominated> dominated(std::span<const AccuracyCase> cases,
+                                 std::span<const std::size_t> front) {
+  return dominated(cases, front, time_of);
 }
 
 std::vector<AccuracyFamily> accuracy_families(std::span<const AccuracyCase> cases) {

@@ -71,6 +71,9 @@ struct Dominated {
   std::size_t by = 0;
 };
 [[nodiscard]] std::vector<Dominated> dominated(std::span<const AccuracyCase> cases,
+                                               std::span<const std::size_t> front,
+                                               const CostOf& cost_of);
+[[nodiscard]] std::vector<Dominated> dominated(std::span<const AccuracyCase> cases,
                                                std::span<const std::size_t> front);
 
 // Configurations that differ by `step` alone, by falling step.

@@ -59,37 +59,36 @@ void append_area(std::vector<std::string>& row, const std::vector<AccuracyScene>
   }
 }
 
+std::optional<double> instructions_of(const accuracy::AccuracyCase& each) {
+  return each.instructions;
+}
+
 // In time, else in instructions.
 std::string to_error(const AccuracyScene& scene, double goal) {
   if (!scene.front.empty()) {
     const auto time = accuracy::time_to_error(scene.cases, scene.families, goal);
     return time ? duration(*time) : "not reached";
   }
-  const auto instructions = [](const accuracy::AccuracyCase& each) -> std::optional<double> {
-    return each.instructions;
-  };
-  const auto counted = [](const accuracy::AccuracyCase& each) {
-    return each.instructions.has_value();
-  };
-  if (std::ranges::none_of(scene.cases, counted)) return "";
-  const auto cost = accuracy::cost_to_error(scene.cases, scene.families, instructions, goal);
+  if (std::ranges::none_of(scene.cases,
+                           [](const auto& each) { return each.instructions.has_value(); }))
+    return "";
+  const auto cost = accuracy::cost_to_error(scene.cases, scene.families, instructions_of, goal);
   return cost ? fmt::format("{:.1f} M instructions", *cost / 1e6) : "not reached";
 }
 
 // How many stand on the front, and how many are beaten, in time or else in instructions; nothing
 // where neither was told.
 void append_standing(std::vector<std::string>& row, const AccuracyScene& scene) {
-  AccuracyScene told = scene;
-  if (scene.front.empty()) {
-    for (accuracy::AccuracyCase& each : told.cases) each.time_ns = each.instructions;
-    accuracy::evaluate(told);
+  const auto add = [&](std::size_t front, std::size_t beaten) {
+    row.push_back(fmt::to_string(front));
+    row.push_back(fmt::format("{} of {}", beaten, scene.cases.size()));
+  };
+  if (!scene.front.empty()) return add(scene.front.size(), scene.dominated.size());
+  const auto front = accuracy::pareto_front(scene.cases, instructions_of);
+  if (!front.empty()) {
+    return add(front.size(), accuracy::dominated(scene.cases, front, instructions_of).size());
   }
-  if (told.front.empty()) {
-    row.insert(row.end(), 2, "");
-    return;
-  }
-  row.push_back(fmt::to_string(told.front.size()));
-  row.push_back(fmt::format("{} of {}", told.dominated.size(), told.cases.size()));
+  row.insert(row.end(), 2, "");
 }
 
 std::string summary_table(const std::vector<AccuracyScene>& scenes) {
