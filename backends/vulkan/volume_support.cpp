@@ -43,7 +43,8 @@ std::optional<std::string> voxels_reason(const Gpu& gpu, const measure::VolumeWo
         in_parts ? 0 : technique::packed_texels(grid.size, grid.format), buffers,
         {.texels = gpu.properties.limits.maxTexelBufferElements, .name = "maxTexelBufferElements"});
   } else {
-    reason = volume_size_reason(gpu, grid, in_parts);
+    reason = format_reason(gpu, work);
+    if (!reason) reason = volume_size_reason(gpu, grid, in_parts);
   }
   return reason ? reason : cut.reason;
 }
@@ -56,9 +57,6 @@ std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWo
   if (auto reason = technique::raycast_reason(technique, scene, work.options)) return reason;
   if (work.options.precision == technique::Precision::fp64 && !gpu.features.shaderFloat64) {
     return "precision fp64 needs shaderFloat64, which the device lacks";
-  }
-  if (!is_packed(work)) {  // before it is asked how large it may be
-    if (auto reason = format_reason(gpu, work)) return reason;
   }
   technique::RaycastBuffers buffers = technique::raycast_buffers(scene, work.options);
   const technique::Cut cut = cut_of(gpu, technique, work);
