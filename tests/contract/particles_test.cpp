@@ -197,25 +197,25 @@ TEST(Particles, RepeatsAreTheSameBits) {
   });
 }
 
-// The first frame from another place, when all that is known of what is hidden is wrong.
-TEST(Particles, AfterAJumpOfTheEyeNothingIsStale) {
+ParticleWork jump_of_the_eye() {
   using namespace particles_suite;
   StressScene jump = stress_scene(*stress_data("stress:jump"), scene::ColourKind::rgba8);
   ParticleWork work =
       particle_work(std::move(jump.particles), jump.camera, jump.width, jump.height);
   work.options.culling = Culling::occlusion;
   work.camera_before = jump.camera_before;
+  return work;
+}
+
+// The first frame from another place, when all that is known of what is hidden is wrong.
+TEST(Particles, AfterAJumpOfTheEyeNothingIsStale) {
+  const ParticleWork work = jump_of_the_eye();
   on_every_device([&](measure::Device& device) { expect_all_true(device, work); });
 }
 
 // What is counted is the state that frames tend to, however many were drawn before.
 TEST(Particles, AfterAJumpOfTheEyeCountsAreThoseOfLaterFrames) {
-  using namespace particles_suite;
-  StressScene jump = stress_scene(*stress_data("stress:jump"), scene::ColourKind::rgba8);
-  ParticleWork work =
-      particle_work(std::move(jump.particles), jump.camera, jump.width, jump.height);
-  work.options.culling = Culling::occlusion;
-  work.camera_before = jump.camera_before;
+  const ParticleWork work = jump_of_the_eye();
   on_every_device([&](measure::Device& device) {
     with_every_technique(device, work, [&](const measure::Work& whole) {
       const auto counted_after = [&](int frames) {

@@ -18,6 +18,12 @@ inline constexpr std::int64_t most_cell_passes = 32'768;
   return (std::int64_t{nx} + ny + nz) * (1 + std::int64_t{scene.parts_of_cell() + 1} * (1 + more));
 }
 
+// Samples that a ray takes at most.
+[[nodiscard]] inline double most_samples(const scene::VolumeScene& scene) {
+  const scene::Box box = scene.box();
+  return glm::length(box.hi - box.lo) / scene.step_world();
+}
+
 // Whether rays may take so many samples that a pass of the raycaster's loop has to take several
 // (TRI_LONG_RAYS of raycast.glsl): Mesa 22.3's llvmpipe and lavapipe let an invocation make 65,535
 // passes through all its loops together and then end them in silence. A sample makes one, and where
@@ -31,11 +37,9 @@ inline constexpr std::int64_t most_cell_passes = 32'768;
     return scene.shading.enabled && cell_passes(scene, 2 * squarings) > most_cell_passes;
   }
   constexpr double most_passes = 32'768;
-  const scene::Box box = scene.box();
-  const double steps = glm::length(box.hi - box.lo) / scene.step_world();
   const double loops = (scene.shading.enabled ? 1 + squarings : 1) +  //
                        (preintegration_form(scene) == 2 ? 1 : 0);
-  return steps * loops > most_passes;
+  return most_samples(scene) * loops > most_passes;
 }
 
 // Why such rays cannot be drawn by shaders in parts of a volume, whose loop takes a sample a pass.

@@ -92,8 +92,7 @@ std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
 
 // Samples are counted in integers of 32 bits; voxels flat enough make more of them, and of no use.
 std::optional<std::string> count_reason(const scene::VolumeScene& scene) {
-  const scene::Box box = scene.box();
-  const double samples = glm::length(box.hi - box.lo) / scene.step_world();
+  const double samples = most_samples(scene);
   if (samples < 1 << 30) return std::nullopt;
   return fmt::format(
       "rays would take up to {:.2g} samples, devices count to 2³⁰: take a longer step", samples);
