@@ -1,7 +1,7 @@
-"""Every command of triptych that README.md, CONTRIBUTING.md and docs/ show in a block of code runs, page by page and in
-the order of the page, on a scripted device in an empty folder. Devices and plans are replaced by small ones; names of
-commands, options and files stay. Those that a page shows of other programs are listed with what runs them.
-The program is $TRIPTYCH_PROGRAM.
+"""Runs every command of triptych that README.md, CONTRIBUTING.md and docs/ show in a block of code or of program output.
+The commands of a page run in its order, on a scripted device, in an empty folder. Devices and plans are replaced by small
+ones; the names of commands, options and files stay. Commands of other programs must be in ELSEWHERE, which names what runs
+them. $TRIPTYCH_PROGRAM is the program.
 """
 
 import glob
@@ -19,23 +19,25 @@ PLANS = {
     "volume": "suite: volume\ntechnique: [raycast]\ndata: ['generate:gaussian_blob:8']\nviewport: [8]\n",
     "particles": "suite: particles\ntechnique: [quad_ray]\nculling: [none]\ndata: ['generate:uniform:10']\nviewport: [8]\n",
 }
-# What a test of another name, or CI itself, runs.
+# Commands that another test or CI runs.
 ELSEWHERE = {
     "ci/gate": "ci_test and CI", "ci/test": "CI", "ci/build": "ci_test", "ci/setup": "CI", "ci/lint": "CI",
-    "ci/fresh": "needs root and a network", "ci/arm64": "needs root and a network",
+    "ci/fresh": "needs root and a network", "ci/fuzz": "CI", "ci/arm64": "needs root and a network",
     "ci/drivers/fetch": "needs a network", "ci/bench": "takes hours", "ci/cluster/submit": "cluster tests",
     "ci/dashboard": "command_line.dashboard", "ci/ratios": "command_line.ratios", "ci/publish": "analysis.publish", "analysis/analyze": "analysis.end_to_end",
     "apt-get": "examples_test",
-    "ctest": "CI", "cmake": "CI", "git": "the program in it is run", "cat": "", "exit": "", "export": "",
+    "ctest": "CI", "cmake": "CI", "git": "the triptych command in it is run", "cat": "", "exit": "", "export": "",
 }
-BLOCK = re.compile(r"^```(?:sh|bash|console)?\n(.*?)^```", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+LANGUAGES = ("", "sh", "text")  # text: output of a program, which may print a command to paste
 COMMAND = re.compile(r"(?:^|[\s;(/])triptych (?P<words>[a-z][^)\n]*)")
-FORM = re.compile(r"…| {2,}[a-z]")  # "STORE…", an explanation beside it: how it is called, no command
+FORM = re.compile(r"…| {2,}[a-z]")  # "STORE…", or an explanation beside it: a synopsis, not a command
 
 
 def commands(page):
-    """The lines of its blocks; those that end in a backslash go on."""
-    for block in BLOCK.findall(page.read_text(encoding="utf-8")):
+    """The lines of a page's blocks; a line that ends in a backslash continues on the next one."""
+    blocks = BLOCK.findall(page.read_text(encoding="utf-8"))
+    for block in (text for language, text in blocks if language in LANGUAGES):
         for line in re.sub(r"\\\n\s*", "", block).splitlines():
             yield re.split(r"\s+#", line)[0].strip()
 
@@ -82,7 +84,7 @@ class Documented(unittest.TestCase):
         self.assertGreater(self.ran, 20)
 
     def test_what_is_only_named_is_there(self):
-        """Commands and options of the README's list and of what stands in backquotes are in the program's help."""
+        """The program's help has every command and option that a synopsis or a text in backquotes names."""
         helps = {}
         for page in PAGES:
             text = page.read_text(encoding="utf-8")
