@@ -1,5 +1,5 @@
-# Cross compiling for arm64 (preset arm64, ci/arm64): Debian's crossbuild-essential-arm64, against the libraries of a Debian
-# root of that processor, which TRIPTYCH_ARM64_ROOT names. Generators of code are those of this machine.
+# Toolchain for cross-compiling to arm64 (preset arm64, ci/arm64). It uses Debian's crossbuild-essential-arm64 and the libraries of
+# the arm64 Debian system in TRIPTYCH_ARM64_ROOT. Code generators run on this machine.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
@@ -7,7 +7,7 @@ set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
 
 set(TRIPTYCH_ARM64_ROOT "$ENV{TRIPTYCH_ARM64_ROOT}" CACHE PATH "A Debian root of arm64 with the libraries' packages")
 if(NOT EXISTS "${TRIPTYCH_ARM64_ROOT}/usr/lib/aarch64-linux-gnu")
-  message(FATAL_ERROR "TRIPTYCH_ARM64_ROOT is '${TRIPTYCH_ARM64_ROOT}', which is no Debian root of arm64: ci/arm64 makes one")
+  message(FATAL_ERROR "TRIPTYCH_ARM64_ROOT is '${TRIPTYCH_ARM64_ROOT}', which is not an arm64 Debian system: ci/arm64 makes one")
 endif()
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES TRIPTYCH_ARM64_ROOT)
 set(CMAKE_SYSROOT "${TRIPTYCH_ARM64_ROOT}")
@@ -19,8 +19,8 @@ set(ENV{PKG_CONFIG_SYSROOT_DIR} "${TRIPTYCH_ARM64_ROOT}")
 set(ENV{PKG_CONFIG_LIBDIR}
     "${TRIPTYCH_ARM64_ROOT}/usr/lib/aarch64-linux-gnu/pkgconfig:${TRIPTYCH_ARM64_ROOT}/usr/share/pkgconfig")
 
-# What the build itself runs of what it made. Tests run within the root, where the kernel knows what to do: not by
-# CMAKE_CROSSCOMPILING_EMULATOR, which would stand before them, too.
+# How the build runs a program that it has built. CMAKE_CROSSCOMPILING_EMULATOR is not set, because CTest would use it as well, and
+# the tests run inside the arm64 system, where the kernel starts QEMU by itself.
 find_program(TRIPTYCH_QEMU NAMES qemu-aarch64-static qemu-aarch64 REQUIRED)
 set(TRIPTYCH_PATIENCE 20 CACHE STRING "How many times longer than usual a test may take")
 set(TRIPTYCH_RUN_BUILT "${TRIPTYCH_QEMU}" -L "${TRIPTYCH_ARM64_ROOT}")

@@ -1,8 +1,8 @@
 # triptych_techniques(API SOURCES)
-# The techniques that src/technique/catalogue.json has for API. SOURCES becomes their files, ID.cpp each in
-# the current folder. The generated header "technique_list.hpp" holds them for declarations and tables:
-# TRIPTYCH_VOLUME_TECHNIQUES(X) and TRIPTYCH_PARTICLE_TECHNIQUES(X), X(id, needs) for each.
-# A line without its file, and a file's technique called unsupported, end the configuration.
+# Reads the techniques that src/technique/catalogue.json lists for API. Sets SOURCES to their files, which are called ID.cpp and
+# belong to the current folder. Generates the header "technique_list.hpp" with the macros TRIPTYCH_VOLUME_TECHNIQUES(X) and
+# TRIPTYCH_PARTICLE_TECHNIQUES(X), which expand to X(id, needs) for each technique. The configuration fails if a listed technique
+# has no file, or if unsupported.txt names it.
 function(triptych_techniques api sources)
   set(catalogue ${PROJECT_SOURCE_DIR}/src/technique/catalogue.json)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${catalogue} unsupported.txt)
@@ -22,24 +22,24 @@ function(triptych_techniques api sources)
     list(FILTER reason INCLUDE REGEX "^${id}: .")
     if(NOT apis MATCHES "\"${api}\"")
       if(NOT reason)
-        message(FATAL_ERROR "${catalogue} has no ${id} for ${api}: "
-                            "name ${api} among its apis, or the reason in backends/${api}/unsupported.txt")
+        message(FATAL_ERROR "${catalogue} does not list ${api} for the technique ${id}: "
+                            "add ${api} to its apis, or give the reason in backends/${api}/unsupported.txt")
       endif()
       continue()
     endif()
     if(reason)
-      message(FATAL_ERROR "${catalogue} has ${id} for ${api}, backends/${api}/unsupported.txt says that it has not")
+      message(FATAL_ERROR "${catalogue} lists ${api} for the technique ${id}, but backends/${api}/unsupported.txt names it, too")
     endif()
     if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${id}.cpp)
-      message(FATAL_ERROR "${catalogue} has ${id} for ${api}: write backends/${api}/${id}.cpp, "
-                          "or the reason why not in backends/${api}/unsupported.txt")
+      message(FATAL_ERROR "${catalogue} lists ${api} for the technique ${id}: write backends/${api}/${id}.cpp, "
+                          "or remove ${api} and give the reason in backends/${api}/unsupported.txt")
     endif()
     list(APPEND files ${id}.cpp)
     string(APPEND ${suite} " X(${id}, ${needs})")
   endforeach()
   file(CONFIGURE OUTPUT generated/technique_list.hpp CONTENT
 "#pragma once
-// From catalogue.json: X(id, needs).
+// Generated from catalogue.json: X(id, needs) for each technique.
 #define TRIPTYCH_VOLUME_TECHNIQUES(X)${volume}
 #define TRIPTYCH_PARTICLE_TECHNIQUES(X)${particles}
 " @ONLY)

@@ -1,10 +1,10 @@
-# Run in each build: writes OUTPUT, `#define TRIPTYCH_COMMIT "…"`, where the commit is another than it says.
-# With "+" where files differ from it; empty where the sources are no checkout.
-# Set before: SOURCE, OUTPUT.
+# Runs in each build. Writes `#define TRIPTYCH_COMMIT "…"` to OUTPUT if the commit has changed. The text ends in "+" if files differ
+# from the commit, and is empty if the sources are not a git checkout.
+# Variables set by the caller: SOURCE, OUTPUT.
 set(commit "")
 execute_process(COMMAND git -C "${SOURCE}" rev-parse --show-toplevel
                 OUTPUT_VARIABLE top OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-# Sources unpacked within somebody's checkout are none of its commits.
+# Sources that were unpacked inside another project's checkout do not belong to its commits.
 if(top STREQUAL SOURCE)
   execute_process(COMMAND git -C "${SOURCE}" describe --always --exclude=* --abbrev=12 --dirty=+
                   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)

@@ -1,9 +1,9 @@
-# Behind ci/dashboard, which sets the environment that is read here.
+# The CTest script of ci/dashboard, which sets the environment variables that are read here.
 set(CTEST_SOURCE_DIRECTORY $ENV{SOURCE})
 set(CTEST_BINARY_DIRECTORY $ENV{BUILD})
 set(CTEST_SUBMIT_URL $ENV{URL})
 cmake_host_system_information(RESULT CTEST_SITE QUERY HOSTNAME)
-# What tells builds of one site apart: the system, and the devices that are there.
+# The name distinguishes builds of one site: it contains the system and the devices.
 cmake_host_system_information(RESULT system QUERY DISTRIB_PRETTY_NAME)
 execute_process(COMMAND $ENV{BUILD}/src/app/triptych --version OUTPUT_VARIABLE program OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 string(JOIN ", " CTEST_BUILD_NAME ${system} ${program})
@@ -28,9 +28,9 @@ if(NOT tests)
 endif()
 ctest_submit(${token} RETRY_COUNT 2 RETRY_DELAY 5 RETURN_VALUE refused CAPTURE_CMAKE_ERROR unsent)
 if(refused OR unsent)
-  file(WRITE $ENV{RESULT} "3 could not be submitted to ${CTEST_SUBMIT_URL}; the lines above say why\n")
+  file(WRITE $ENV{RESULT} "3 the results could not be submitted to ${CTEST_SUBMIT_URL}; the lines above give the reason\n")
 elseif(failed OR broken)
-  file(WRITE $ENV{RESULT} "1 submitted; tests failed\n")
+  file(WRITE $ENV{RESULT} "1 the results were submitted; some tests failed\n")
 else()
   file(WRITE $ENV{RESULT} "0\n")
 endif()

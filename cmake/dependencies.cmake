@@ -1,4 +1,4 @@
-# Every part that is not ours. All of it is in Debian 12 and 13; ci/packages.txt lists the packages.
+# All third-party libraries. They are in Debian 12 and 13; ci/packages.txt lists the packages.
 find_package(Threads REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
@@ -9,9 +9,9 @@ find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(benchmark REQUIRED)
 find_package(CLI11 REQUIRED)
-# By Boost's own package file: CMake's FindBoost is gone from 3.30 on. Headers only.
+# Found through Boost's own package file, because CMake 3.30 removed FindBoost. Only headers are used.
 find_package(Boost 1.74 REQUIRED CONFIG)
-# Not by find_package: Debian's Imath package file asks for its Python binding as well.
+# Not found with find_package, because Debian's package file of Imath also requires its Python binding.
 find_path(OPENEXR_HEADERS ImfHeader.h PATH_SUFFIXES OpenEXR REQUIRED)
 find_path(IMATH_HEADERS half.h PATH_SUFFIXES Imath REQUIRED)
 find_library(OPENEXR_LIBRARY OpenEXR REQUIRED)

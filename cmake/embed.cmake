@@ -1,8 +1,7 @@
 # triptych_embed(TARGET NAMESPACE file...)
-# Compiles files into TARGET, so that nothing depends on the working directory. Each is found by its
-# file name, or where two share one by its path as given here, through
-# `std::string_view NAMESPACE::embedded(std::string_view name)` (empty when unknown), and listed by
-# `std::span<const std::string_view> NAMESPACE::embedded_names()`; the declaration is in the generated
+# Compiles files into TARGET, so that the program does not depend on the working directory. A file is found by its name (or by its path
+# as given here, if two files share a name) through `std::string_view NAMESPACE::embedded(std::string_view name)`, which is empty for an
+# unknown name. `std::span<const std::string_view> NAMESPACE::embedded_names()` lists all names. Both are declared in the generated
 # header "<TARGET>_embedded.hpp".
 function(triptych_embed target namespace)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/embedded)

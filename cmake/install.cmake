@@ -1,4 +1,4 @@
-# What a user gets by `cmake --install`, and ci/package as a Debian package. Plans and shaders are in the program.
+# The files that `cmake --install` installs and that ci/package puts into the Debian package. Plans and shaders are inside the program.
 include(GNUInstallDirs)
 install(TARGETS triptych RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY baselines DESTINATION ${TRIPTYCH_DATA_FOLDER})
@@ -8,7 +8,7 @@ install(FILES ${TRIPTYCH_DOCUMENTS}/triptych.1 DESTINATION ${CMAKE_INSTALL_MANDI
 install(FILES ${TRIPTYCH_DOCUMENTS}/triptych.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME triptych)
 if(TARGET triptych_counter)
-  # Where measure/counting/emulator.cpp looks, whatever the multiarch folder is.
+  # measure/counting/emulator.cpp looks in this folder, independent of the multiarch folder.
   install(TARGETS triptych_counter RUNTIME DESTINATION lib/triptych)
 endif()
 
@@ -20,20 +20,20 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# What is loaded by name: loaders, then drivers of the processor, with which others are compared.
+# Libraries that are loaded by name: the loaders, and the software drivers with which other drivers are compared.
 set(depends libegl1 libvulkan1 "pocl-opencl-icd | opencl-icd" "mesa-vulkan-drivers | vulkan-icd"
     "libegl-mesa0 | libegl-vendor" libgl1-mesa-dri)
-# The counting tool holds this Valgrind's own code, and asks the installed one for its version.
+# The counting tool contains code of the Valgrind that it was built with, so the installed one must have the same version.
 if(TARGET triptych_counter)
   execute_process(COMMAND valgrind --version OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX MATCH "[0-9]+\\.[0-9]+" VALGRIND_VERSION "${printed}")
   list(APPEND depends "valgrind (>= 1:${VALGRIND_VERSION})" "valgrind (<< 1:${VALGRIND_VERSION}.99)")
 endif()
-# Gone from Mesa 25.1 on.
+# OSMesa was removed in Mesa 25.1.
 find_library(OSMESA_LIBRARY NAMES libOSMesa.so.8)
 if(OSMESA_LIBRARY)
   list(APPEND depends libosmesa6)
 endif()
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-matplotlib, python3-pandas, python3-scipy, python3-sklearn")  # of analysis
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-matplotlib, python3-pandas, python3-scipy, python3-sklearn")  # for analysis/
 list(JOIN depends ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
 include(CPack)

@@ -1,4 +1,4 @@
-# One line instead of a thousand errors.
+# Refuses a compiler that is too old with one line, instead of a thousand errors.
 foreach(oldest GNU=12 Clang=16)
   string(REPLACE "=" ";" oldest ${oldest})
   list(GET oldest 0 name)

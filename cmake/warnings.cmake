@@ -1,14 +1,15 @@
-# The one target that every target of ours links: warnings and sanitizers.
-# (GCC 12 sees overlapping copies in std::string that are not there, bug 105651: no -Wrestrict.
-# Members left out of a designated initializer have their documented default, hence no warning for them.)
+# Every target of the project links this target, which sets warnings and sanitizers.
+# -Wrestrict is off, because GCC 12 warns of overlapping copies in std::string that do not exist (GCC bug 105651). The warning for missing
+# members of a designated initializer is off, because such members have their documented default.
 add_library(triptych_options INTERFACE)
 target_compile_options(triptych_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -Wno-missing-field-initializers -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough
   $<$<BOOL:${TRIPTYCH_WARNINGS_AS_ERRORS}>:-Werror>)
-# Contraction of a*b+c is left to the code that asks for it: the same bits on every x86-64 machine.
+# The compiler must not contract a*b+c to a fused operation, so that results have the same bits on every x86-64 machine. Code that wants
+# it calls it explicitly.
 target_compile_options(triptych_options INTERFACE -ffp-contract=off)
-# Some libraries ask for it. What is parsed once for all targets has to be parsed alike.
+# Some libraries need threads.
 target_compile_options(triptych_options INTERFACE -pthread)
 if(TRIPTYCH_SANITIZE)
   target_compile_options(triptych_options INTERFACE -fsanitize=${TRIPTYCH_SANITIZE} -fno-omit-frame-pointer)

@@ -1,6 +1,6 @@
-# Read by CTest when tests are run: asks the program which devices are here and registers, for every plan
-# and device, the measuring and the checks of what was measured.
-# Set before: TRIPTYCH_PROGRAM, TRIPTYCH_PLANS, TRIPTYCH_TEST_FOLDER.
+# CTest reads this file when tests are run. It asks the program for the devices of this machine and registers, for every plan and
+# device, one test that measures and one test for each check of the results.
+# Variables set by the caller: TRIPTYCH_PROGRAM, TRIPTYCH_PLANS, TRIPTYCH_TEST_FOLDER.
 if(NOT EXISTS "${TRIPTYCH_PROGRAM}")
   add_test(triptych.not_built "${TRIPTYCH_PROGRAM}")
   return()

@@ -1,4 +1,4 @@
-# Registers the suites' own tests: what they are is asked of the program when CTest runs.
+# Registers the tests of the suites. CTest asks the program which tests there are when it runs.
 set(test_folder ${PROJECT_BINARY_DIR}/suite_tests)
 file(MAKE_DIRECTORY ${test_folder})
 file(GENERATE OUTPUT ${test_folder}/discover.cmake CONTENT

@@ -1,4 +1,4 @@
-"""What the comparisons of this folder share: our side, VTK's window, and the ratio at equal error."""
+"""Shared by the comparisons in this folder: measuring Triptych, VTK's window, and the ratio at equal error."""
 import argparse
 import json
 import os
@@ -10,7 +10,7 @@ import tempfile
 import time
 
 PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "build/release/src/app/triptych"
-WARM_UP, FRAMES, LONGEST = 4, 20, 3.0  # of one measurement of VTK's; the last in seconds
+WARM_UP, FRAMES, LONGEST = 4, 20, 3.0  # for one measurement of VTK; LONGEST is in seconds
 
 
 def arguments_of(description):
@@ -23,9 +23,9 @@ def arguments_of(description):
 
 
 def start(parser, compare):
-    """Runs compare(arguments, folder) within a display of Mesa's and ends with its exit code."""
+    """Runs compare(arguments, folder) in an X display drawn by Mesa, and exits with its code."""
     arguments = parser.parse_args()
-    if "DISPLAY" not in os.environ:  # VTK's window on Debian is GLX's
+    if "DISPLAY" not in os.environ:  # Debian's VTK needs GLX for its window
         os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
         os.execvp("xvfb-run", ["xvfb-run", "-a", "-s", "-screen 0 640x480x24", sys.executable, *sys.argv])
     with tempfile.TemporaryDirectory() as folder:
@@ -35,20 +35,20 @@ def start(parser, compare):
 def ask(command):
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))} ended with code {done.returncode}:\n{done.stderr}")
+        sys.exit(f"{' '.join(map(str, command))} exited with code {done.returncode}:\n{done.stderr}")
     return done.stdout
 
 
 class Ours:
-    """A plan of one scene on one device."""
+    """Triptych's side: a plan with one scene, measured on one device."""
 
     def __init__(self, arguments, folder, plan):
         self.triptych, self.device, self.folder, self.plan = arguments.triptych, arguments.device, folder, plan
         self.file, self.store = folder / "ours.yaml", folder / "ours.sqlite"
-        self.file.write_text(json.dumps({"summary": "Beside VTK"} | plan))  # JSON is YAML
+        self.file.write_text(json.dumps({"summary": "Compared with VTK"} | plan))  # JSON is YAML
 
     def frame(self):
-        """The scene as `triptych render` writes it for other programs."""
+        """The description of the frame that `triptych render` writes for other programs."""
         levels = [f"--set={factor}={value[0] if isinstance(value, list) else value}"
                   for factor, value in self.plan.items() if factor != "suite"]
         ask([self.triptych, "render", self.plan["suite"], "--device", self.device, "--out", self.folder, *levels])
@@ -63,7 +63,7 @@ class Ours:
 
 
 class Window:
-    """VTK's view of one prop, off screen, by the camera of our frame."""
+    """VTK's off-screen view of one prop, with the camera of Triptych's frame."""
 
     def __init__(self, frame, add, edge):
         from vtkmodules import vtkRenderingCore
@@ -92,7 +92,7 @@ class Window:
         return next((line.strip() for line in lines if "renderer string" in line), "unknown renderer")
 
     def time(self):
-        """Median of a frame's nanoseconds."""
+        """The median time of a frame in nanoseconds."""
         times, begin = [], time.perf_counter()
         for frame in range(WARM_UP + FRAMES):
             before = time.perf_counter_ns()
@@ -127,7 +127,7 @@ def pixel_rays(frame, edge):
 
 
 def by_turns(rounds, ours, theirs):
-    """The least time of each side's configurations: two functions that give {name: (ns, error)}."""
+    """Calls two functions that return {name: (ns, error)} alternately. Returns the smallest time of each configuration."""
     best = {}, {}
     for _ in range(rounds):
         for side, measure in zip(best, (ours, theirs)):
@@ -137,14 +137,14 @@ def by_turns(rounds, ours, theirs):
 
 
 def short_names(cases):
-    """The same without the levels that all have: {"step=1": …} of {"data=x,step=1": …}."""
+    """Removes levels that all names have in common: {"step=1": …} from {"data=x,step=1": …}."""
     shared = set.intersection(*(set(name.split(",")) for name in cases))
     return {",".join(level for level in name.split(",") if level not in shared): case
             for name, case in cases.items()}
 
 
 def print_ratio(scene, ours, vtk, error):
-    """What no other of its side beats, and the ratio of the least times to the error. Returns whether there is one."""
+    """Prints each side's Pareto front and the ratio of the smallest times to the error. Returns whether there is a ratio."""
     print(f"{scene}")
     ours = short_names(ours)
     for program, cases in (("ours", ours), ("VTK", vtk)):

@@ -1,6 +1,6 @@
-# Adds a technique to a copy of the sources as docs/adding-a-technique.md says: forgetting a file ends the
-# configuration with the file's name; with it the backend's own table compiles.
-# Set before: SOURCE, FOLDER (emptied), COMPILER.
+# Adds a technique to a copy of the sources, following docs/adding-a-technique.md. If a file is forgotten, the configuration must
+# fail and name the file. When all files are there, the backend's generated table must compile.
+# Variables set by the caller: SOURCE, FOLDER (is emptied), COMPILER.
 set(copy ${FOLDER}/source)
 file(REMOVE_RECURSE ${FOLDER})
 file(COPY ${SOURCE}/CMakeLists.txt ${SOURCE}/cmake ${SOURCE}/src ${SOURCE}/backends ${SOURCE}/suites
@@ -19,11 +19,11 @@ endfunction()
 function(expect_refused what)
   configure(code said)
   if(code EQUAL 0)
-    message(FATAL_ERROR "configured, although: ${what}")
+    message(FATAL_ERROR "the configuration succeeded although it should fail with: ${what}")
   endif()
   string(FIND "${said}" "${what}" at)
   if(at EQUAL -1)
-    message(FATAL_ERROR "expected '${what}', it said: ${said}")
+    message(FATAL_ERROR "expected '${what}' in the output: ${said}")
   endif()
 endfunction()
 
@@ -41,12 +41,12 @@ foreach(api gl opencl)
   string(REPLACE "VolumeTechnique raycast(" "VolumeTechnique again(" file "${file}")
   file(WRITE ${copy}/backends/${api}/again.cpp "${file}")
 endforeach()
-expect_refused("the reason in backends/vulkan/unsupported.txt")
+expect_refused("give the reason in backends/vulkan/unsupported.txt")
 
-file(APPEND ${copy}/backends/vulkan/unsupported.txt "again: it is there to be added, not to be drawn\n")
+file(APPEND ${copy}/backends/vulkan/unsupported.txt "again: it exists only for this test\n")
 configure(code said)
 if(NOT code EQUAL 0)
-  message(FATAL_ERROR "it said: ${said}")
+  message(FATAL_ERROR "the configuration failed: ${said}")
 endif()
 foreach(object again device)
   execute_process(COMMAND ninja -C ${FOLDER}/build backends/opencl/CMakeFiles/triptych_backend_opencl.dir/${object}.cpp.o
