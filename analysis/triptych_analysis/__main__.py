@@ -14,14 +14,14 @@ def arguments_of(words):
         prog="analyze", description="Distributions, correlations, speed-ups, predictions and views from tables: "
         "FOLDER/SUITE/SIGNAL holds a CSV file a table and an SVG file a figure.",
         epilog="Exit codes: 0 done, 2 nothing could be computed, 3 usage or I/O.")
-    parser.add_argument("source", nargs="+", help="a folder of `triptych export`, or a store")
+    parser.add_argument("source", nargs="+", help="a folder written by `triptych export`, or a store")
     parser.add_argument("--out", required=True, help="folder for tables and figures")
-    parser.add_argument("--plan", help="SUITE/PLAN as it was run (default: all, joined by suite)")
+    parser.add_argument("--plan", help="SUITE/PLAN as it was run (default: all plans, joined by suite)")
     parser.add_argument("--clock", choices=["auto", "device", "wall"], default="auto",
-                        help="auto: device where every record has one that is trusted")
+                        help="auto: the device clock if it is trusted for every record, otherwise the wall clock")
     parser.add_argument("--reference", action="append", default=[], metavar="FACTOR=LEVEL",
-                        help="what speed-ups are relative to (repeatable)")
-    parser.add_argument("--seed", type=int, default=1, help="of everything that draws")
+                        help="the level that speed-ups are relative to (repeatable)")
+    parser.add_argument("--seed", type=int, default=1, help="seed of all random numbers")
     return parser.parse_args(words)
 
 
@@ -52,7 +52,7 @@ def run(arguments):
 def main(words=None):
     try:
         arguments = arguments_of(words)
-    except SystemExit as left:  # argparse ends with 2, which is "could not judge" here
+    except SystemExit as left:  # argparse exits with code 2, which means "could not judge" here
         return left.code and EXIT_USAGE
     try:
         return run(arguments)

@@ -1,4 +1,4 @@
-"""The paper's analysis of one data set, whole: what could be computed, and why the rest could not."""
+"""The paper's complete analysis of one data set: everything that can be computed, and the reasons why the rest cannot."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ import pandas as pd
 
 from . import choice, correlation, distribution, prediction, splits, views
 
-# The pairs of factors whose means are shown: devices, and what the paper's Figures 8 and 14 set against data.
+# The pairs of factors whose means are shown: those with devices, and those of the paper's Figures 8 and 14.
 HEAT_MAPS = [("data", "device"), ("data", "camera_path"), ("data", "technique"), ("technique", "device"),
              ("camera_path", "device")]
 
@@ -15,11 +15,11 @@ HEAT_MAPS = [("data", "device"), ("data", "camera_path"), ("data", "technique"),
 @dataclass
 class Analysis:
     dataset: object
-    tables: dict  # name → DataFrame; empty ones are not there
+    tables: dict  # name → DataFrame; empty ones are absent
     left_out: list  # (analysis, reason)
 
     def table(self, name):
-        """Empty where there is none."""
+        """The table with this name; an empty one if there is none."""
         return self.tables.get(name, pd.DataFrame())
 
     def empty(self):
@@ -27,13 +27,13 @@ class Analysis:
 
 
 def analyse(dataset, references=None, seed=1):
-    """`references`: factor → the level that speed-ups are relative to, the first where there is none such. Everything
-    that draws goes by `seed`."""
+    """`references` maps a factor to the level that speed-ups are relative to; by default that is the first level. `seed`
+    seeds all random numbers."""
     left_out, tables = [], {}
     tables["distributions"], tables["percentiles"], tables["histograms"] = distribution.distributions(dataset, seed)
     if tables["distributions"].empty:
         left_out.append(("distribution",
-                         f"{len(dataset)} observations, {distribution.LEAST} that differ are needed"))
+                         f"there are {len(dataset)} observations; {distribution.LEAST} different ones are needed"))
     tables.update(_correlate(dataset, references or {}, left_out))
     tables["means"] = _average(dataset, left_out)
     tables["predictions"], reason = prediction.predict(dataset, seed)
@@ -59,7 +59,7 @@ def _correlate(dataset, references, left_out):
         reference = correlation.reference_of(by_factor, references)
         if references.get(factor, reference) != reference:
             left_out.append((f"speed-up relative to {factor}={references[factor]}",
-                             f"none of these records has that level; relative to {reference} instead"))
+                             f"no record of this data set has that level; speed-ups are relative to {reference} instead"))
         lines.append(correlation.speed_ups(dataset, by_factor, reference))
         matrix = correlation.correlations(dataset, by_factor)
         box = correlation.box(matrix)
@@ -67,14 +67,14 @@ def _correlate(dataset, references, left_out):
             boxes.append({"factor": factor, **box})
             matrices.append(matrix)
         else:
-            left_out.append((f"correlation of {factor}", f"no two of its {len(by_factor.levels)} levels share "
-                             f"{correlation.LEAST_PAIRS} configurations in which both vary"))
+            left_out.append((f"correlation of {factor}", f"no two of its {len(by_factor.levels)} levels have "
+                             f"{correlation.LEAST_PAIRS} configurations in common in which both vary"))
     if not factors:
-        left_out.append(("correlation", "every factor has one level only"))
+        left_out.append(("correlation", "every factor has only one level"))
     for factor, level in references.items():
         if factor not in factors:
             left_out.append((f"speed-up relative to {factor}={level}",
-                             "this suite's records have no such factor with two levels"))
+                             "the records of this suite have no such factor with two levels"))
     return {"correlations": _stacked(matrices), "correlation_boxes": pd.DataFrame(boxes), "speed_ups": _stacked(lines)}
 
 
@@ -83,8 +83,8 @@ def _average(dataset, left_out):
     for rows, columns in HEAT_MAPS:
         each = choice.mean_values(dataset, rows, columns)
         if each.empty:
-            left_out.append((f"means, {rows} by {columns}", "one of them has fewer than two levels in any block of "
-                             "comparable configurations"))
+            left_out.append((f"means, {rows} by {columns}", "one of the factors has fewer than two levels in every block "
+                             "of comparable configurations"))
         found.append(each)
     return _stacked(found)
 
@@ -92,7 +92,7 @@ def _average(dataset, left_out):
 def _stacks(dataset, left_out):
     matrices = correlation.stacks(dataset)
     if not matrices:
-        left_out.append(("stack of sizes", "no generate:NAME in two sizes that share configurations"))
+        left_out.append(("stack of sizes", "no generate:NAME was measured in two sizes with common configurations"))
     return {"stacks": pd.DataFrame([{"name": name, **correlation.box(each)} for name, each in matrices.items()]),
             "stack_correlations": _stacked([each.assign(name=name) for name, each in matrices.items()])}
 
@@ -103,7 +103,7 @@ def _stacked(frames):
 
 
 def observations(dataset):
-    """One row per configuration and device."""
+    """One row for each configuration and device."""
     table = pd.DataFrame({name: np.array([*factor.levels, None], dtype=object)[factor.codes]
                           for name, factor in dataset.factors.items()})
     table[dataset.unit] = dataset.values

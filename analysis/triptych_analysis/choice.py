@@ -1,5 +1,5 @@
-"""What a researcher asks of the tables: which technique for N spheres, which factor moves a value most, what two
-factors' levels take on average (the paper's Figures 8 and 14)."""
+"""Answers to a researcher's questions: which technique to use for N spheres, which factor influences a value most, and the
+mean values for the levels of two factors (the paper's Figures 8 and 14)."""
 
 from fnmatch import fnmatchcase
 
@@ -14,8 +14,8 @@ FARTHEST = 10
 
 
 def mean_values(dataset, rows, columns):
-    """Means by the levels of two factors, over the fullest block, so that cells differ in these two alone. Empty
-    when either factor has fewer than two levels there; a combination that nothing measured has no row."""
+    """Means by the levels of two factors, over the fullest block, so that cells differ only in these two factors. Empty
+    if either factor has fewer than two levels there. A combination that was not measured has no row."""
     mean = f"mean_{dataset.unit}"
     chosen = fullest_block(dataset, [rows, columns])
     of_row, of_column = levels_in(dataset, rows, chosen), levels_in(dataset, columns, chosen)
@@ -29,8 +29,8 @@ def mean_values(dataset, rows, columns):
 
 
 def by_count(dataset, generator="uniform"):
-    """Means per device, technique and count of `generate:GENERATOR:COUNT`: on each device over configurations that
-    have the same techniques and counts, so that these alone differ."""
+    """Means for each device, technique and count of `generate:GENERATOR:COUNT`. On each device only configurations that
+    have the same techniques and counts are used, so that the means differ only in these."""
     mean = f"mean_{dataset.unit}"
     data, prefix = dataset.factor("data"), f"generate:{generator}:"
     counted = [i for i, each in enumerate(data.levels) if each.startswith(prefix)]
@@ -46,10 +46,11 @@ def by_count(dataset, generator="uniform"):
 
 
 def technique_for(counts, device, count):
-    """Techniques on the devices that a glob names, cheapest first, for so many spheres: as measured, or where that
-    count was not, by a line through the logarithms of the two nearest counts, which `from` names. `to_least`: over
-    the cheapest of the same device. What was measured at one count only, or a factor of more than FARTHEST away, has
-    no row; nor has anything where no technique was measured by count."""
+    """Techniques on the devices that match a glob, for a number of spheres, cheapest first. If that number was not
+    measured, the value is interpolated or extrapolated on a line through the logarithms of the two nearest counts, which
+    the column `from` names. `to_least` is the ratio to the cheapest technique of the same device. A technique that was
+    measured at one count only, or more than a factor of FARTHEST away, has no row. The result is empty if no technique was
+    measured by count."""
     if counts is None or counts.empty:
         return pd.DataFrame(columns=["device", "technique", "from", "to_least"])
     mean = counts.columns[-1]
@@ -77,9 +78,9 @@ def _at_count(counts, values, count):
 
 
 def effects(dataset, factors):
-    """How far each factor moves the value when all others stay: `share`, the mean variance of ln value along the
-    factor over the variance of ln value (the total-effect index of Homma & Saltelli 1996; shares may add up to more
-    than 1), and the largest geometric mean ratio between two levels, with these. Largest share first."""
+    """The influence of each factor while all others are fixed, largest first. `share` is the mean variance of ln value
+    along the factor, divided by the variance of ln value (the total-effect index of Homma & Saltelli 1996; shares may add
+    up to more than 1). `largest_ratio` is the largest geometric mean ratio between two levels, `cheap` and `expensive`."""
     total = np.log(dataset.values).var() if len(dataset) else 0
     rows = []
     for factor in factors:
@@ -91,12 +92,12 @@ def effects(dataset, factors):
         ratio, low, high, pairs = _largest_ratio(of_split.levels, logs)
         rows.append((factor, len(of_split.levels), len(paired), np.nanvar(paired, axis=1).mean() / total,
                      ratio, low, high, pairs))
-    found = pd.DataFrame(rows, columns=["factor", "levels", "keys", "share", "largest_ratio", "cheap", "dear", "pairs"])
+    found = pd.DataFrame(rows, columns=["factor", "levels", "keys", "share", "largest_ratio", "cheap", "expensive", "pairs"])
     return found.sort_values("share", ascending=False, kind="stable").reset_index(drop=True)
 
 
 def _largest_ratio(levels, logs):
-    """Geometric mean of value(dear)/value(cheap) over the pairs, the largest of all pairs of levels."""
+    """The largest geometric mean of value(expensive)/value(cheap) among all pairs of levels."""
     best = (np.nan, None, None, 0)
     for i in range(len(levels)):
         for j in range(i + 1, len(levels)):
@@ -106,6 +107,6 @@ def _largest_ratio(levels, logs):
                 continue
             ratio = float(np.exp(np.abs(difference.mean())))
             if not ratio <= best[0]:
-                cheap, dear = (i, j) if difference.mean() >= 0 else (j, i)
-                best = (ratio, levels[cheap], levels[dear], len(difference))
+                cheap, expensive = (i, j) if difference.mean() >= 0 else (j, i)
+                best = (ratio, levels[cheap], levels[expensive], len(difference))
     return best

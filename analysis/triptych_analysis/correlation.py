@@ -1,5 +1,5 @@
-"""How far the levels of a factor behave alike: Pearson's r between their values over the configurations that both
-have (the paper's Figures 4, 5, 11, 12, 13), and speed-ups by lines through the same pairs (Figures 6 and 7)."""
+"""The correlation of a factor's levels: Pearson's r between the values of two levels over the configurations that both have
+(the paper's Figures 4, 5, 11, 12, 13), and speed-ups from lines through the same pairs (Figures 6 and 7)."""
 
 import numpy as np
 import pandas as pd
@@ -8,13 +8,13 @@ from .dataset import natural_order
 from .splits import Split, scope, split
 from .tables import InputError
 
-# Fewer pairs say nothing: two points always lie on a line, and three nearly do by chance.
+# Fewer pairs are meaningless: two points always lie on a line, and three often nearly do by chance.
 LEAST_PAIRS = 4
 BOX = ["mean", "minimum", "lower_quartile", "median", "upper_quartile", "maximum"]
 
 
 def pearson(x, y):
-    """Pearson's r; not a number for fewer than two pairs, or where x or y is constant."""
+    """Pearson's r; NaN for fewer than two pairs, or if x or y is constant."""
     if len(x) < 2 or np.ptp(x) == 0 or np.ptp(y) == 0:
         return np.nan
     x, y = x - x.mean(), y - y.mean()
@@ -22,7 +22,7 @@ def pearson(x, y):
 
 
 def correlations(dataset, of_split):
-    """A row for every unordered pair of levels: factor, a, b, pairs, r, samples, held. No r where there are fewer
+    """One row for every unordered pair of levels: factor, a, b, pairs, r, samples, held. r is NaN if there are fewer
     than LEAST_PAIRS pairs or a level is constant."""
     values = of_split.values(dataset)
     there = of_split.rows >= 0
@@ -42,7 +42,7 @@ def correlations(dataset, of_split):
 
 
 def box(matrix):
-    """One box of the overview, the r of a matrix; None without any."""
+    """The box of a factor in the overview plot, from the r of its matrix; None if there is no r."""
     r = matrix["r"].dropna()
     if r.empty:
         return None
@@ -53,9 +53,9 @@ def box(matrix):
 
 
 def speed_ups(dataset, of_split, reference):
-    """Of every level but the reference: value(reference) = intercept + speed_up · value(level), by least squares
-    through the pairs. The error is the paper's, (1 − r)·speed_up. mean_ratio, the geometric mean of
-    value(reference)/value(level), is free of the intercept."""
+    """For every level except the reference: value(reference) = intercept + speed_up · value(level), fitted by least
+    squares to the pairs. The error is defined as in the paper, (1 − r)·speed_up. mean_ratio is the geometric mean of
+    value(reference)/value(level), which does not depend on an intercept."""
     columns = ["factor", "level", "reference", "pairs", "speed_up", "error", "low", "high", "r",
                f"intercept_{dataset.unit}", "mean_ratio", "held"]
     rows = []
@@ -67,7 +67,7 @@ def speed_ups(dataset, of_split, reference):
         both = (of_split.rows[:, i] >= 0) & (of_split.rows[:, base] >= 0)
         x, y = values[both, i], values[both, base]
         r = pearson(x, y) if i != base and len(x) >= LEAST_PAIRS else np.nan
-        if not np.isfinite(r):  # a line wants values that differ
+        if not np.isfinite(r):  # a line needs values that differ
             continue
         slope = float((x - x.mean()) @ (y - y.mean()) / ((x - x.mean()) @ (x - x.mean())))
         error = (1 - r) * slope
@@ -78,24 +78,24 @@ def speed_ups(dataset, of_split, reference):
 
 
 def require_references(datasets, references):
-    """Raises InputError for a reference that no data set has: a level of one suite's need not be one of another's."""
+    """Raises InputError for a reference level that no data set has. A level may exist in one suite only."""
     for factor, level in references.items():
         levels = {each for data in datasets for each in split(data, factor).levels}
         if not levels:
             raise InputError(f"reference {factor}={level}: no record has a factor {factor}")
         if level not in levels:
-            raise InputError(f"reference {factor}={level}: that factor's levels are {', '.join(natural_order(levels))}")
+            raise InputError(f"reference {factor}={level}: the levels of that factor are {', '.join(natural_order(levels))}")
 
 
 def reference_of(of_split, references):
-    """The level asked for where there is one, else the first."""
+    """The requested level if it exists, otherwise the first one."""
     asked = references.get(of_split.factor)
     return asked if asked in of_split.levels else of_split.levels[0]
 
 
 def stacks(dataset):
-    """Correlation along a stack of the same data in several sizes, levels generate:NAME:SIZE of `data`:
-    name → matrix."""
+    """Correlation along a series of sizes of the same data, which are the levels generate:NAME:SIZE of `data`. Returns
+    {name: matrix}."""
     whole = split(dataset, "data")
     by_name = {}
     for i, level in enumerate(whole.levels):

@@ -1,5 +1,5 @@
-"""What the analysis works on: one observation per configuration and device, by suite and signal. Everything
-above it is plain numbers."""
+"""The input of the analysis: one observation for each configuration and device, separated by suite and signal. All other
+modules work on these numbers."""
 
 import hashlib
 import re
@@ -10,16 +10,17 @@ import pandas as pd
 
 from .tables import COST, FACTOR
 
-# Instructions of a frame that repeat and are judged; libc's and the program's are neither.
+# The instructions of a frame that repeat and are judged. Those of the C library and of the program do not repeat.
 COST_PARTS = ("device_code", "driver")
-# The camera's parts as the paper has them: the path, its position among the other factors; the position on an
-# orbit, the axis among the others; the position on a straight path, the axis among the others.
+# The camera as separate factors, as in the paper. camera_path: the path is the factor, and the position counts as one of the other
+# factors. camera_rotation: the position on an orbit is the factor, and the orbit's axis counts as another one. camera_distance: the
+# same for the position on a straight path.
 CAMERA_PARTS = ("camera_path", "camera_rotation", "camera_distance")
 
 
 @dataclass
 class Factor:
-    """A level of each observation: levels[codes[i]], none where the code is -1."""
+    """The level of each observation: levels[codes[i]], or none if the code is -1."""
 
     levels: list
     codes: np.ndarray
@@ -30,10 +31,10 @@ class Dataset:
     suite: str
     signal: str  # "time" or "cost"
     unit: str  # "ms" or "instructions"
-    clock: str  # "device" or "wall", one for all; of cost what counted
+    clock: str  # "device" or "wall", the same for all; for cost the emulator that counted
     values: np.ndarray
     factors: dict  # name → Factor, "device" among them
-    device_ms: np.ndarray  # not a number where that clock is not trusted; of times alone
+    device_ms: np.ndarray  # NaN where the device clock is not trusted; only for times
     wall_ms: np.ndarray
     duplicates: pd.DataFrame
     notes: list = field(default_factory=list)
@@ -42,13 +43,13 @@ class Dataset:
         return len(self.values)
 
     def factor(self, name):
-        """A factor, or a part of the camera as something to average over: random views are a path of their own."""
+        """A factor, or a part of the camera by which values are averaged. Random views count as one path."""
         if name not in CAMERA_PARTS:
             return self.factors.get(name) or Factor([], np.full(len(self), -1))
         return self.camera_part(name, of_all=True)[0]
 
     def camera_part(self, part, of_all=False):
-        """The part, and what of the camera stays among the other factors."""
+        """A part of the camera as a factor, and the rest of the camera as one of the other factors."""
         camera = self.factors.get("camera") or Factor([], np.full(len(self), -1))
         places = [_place(*view_of(each), part, of_all) for each in camera.levels]
         return (_recoded(camera.codes, [each and each[0] for each in places]),
@@ -64,15 +65,15 @@ def _place(path, position, part, of_all):
 
 
 def _recoded(codes, names):
-    """Factor of new names for old levels; None is no level."""
+    """Makes a factor with new names for the old levels; None means no level."""
     levels = natural_order({each for each in names if each is not None})
     place = {each: i for i, each in enumerate(levels)}
-    new = np.array([place.get(each, -1) for each in names] + [-1])  # the last: of code -1
+    new = np.array([place.get(each, -1) for each in names] + [-1])  # the last entry is for code -1
     return Factor(levels, new[codes])
 
 
 def factor_of(texts):
-    """Factor of one text an observation, None for none."""
+    """Makes a factor from one text for each observation; None means no level."""
     codes, names = pd.factorize(np.asarray(texts, dtype=object))  # None becomes -1
     return _recoded(codes, list(names))
 
@@ -84,7 +85,7 @@ def view_of(camera):
 
 
 def number(text):
-    """The whole text as a number, or None."""
+    """The text as a number, or None if it is not one."""
     try:
         return None if "_" in text or text != text.strip() else float(text)
     except ValueError:
@@ -92,7 +93,7 @@ def number(text):
 
 
 def natural_order(levels):
-    """Numbers, and runs of digits within other text, by value: "a10" after "a9"."""
+    """Sorts levels so that numbers, and digits inside other text, are ordered by value: "a10" comes after "a9"."""
     levels = list(levels)
     if all(number(each) is not None for each in levels):
         return sorted(levels, key=lambda each: (number(each), each))
@@ -101,11 +102,10 @@ def natural_order(levels):
 
 
 def datasets(records, clock="auto"):
-    """The data sets that the records hold: times, and cost where it was counted, of each suite."""
+    """The data sets in the records: for each suite the times, and the cost if it was counted."""
     found = []
     for suite in sorted(records["suite"].unique()):
         of_suite = records[records["suite"] == suite]
-        # Times of workers that were counted are an emulator's.
         found.append(_times(suite, of_suite, clock))
         counted = _cost(suite, of_suite)
         if len(counted):
@@ -124,7 +124,7 @@ def _times(suite, records, choice):
     clock = _clock(fit, trusted, choice, notes)
     if clock == "device":
         if not trusted.all():
-            notes.append(f"{(~trusted).sum()} records without a trusted device time are left aside")
+            notes.append(f"{(~trusted).sum()} records without a trusted device time are not used")
         fit, device = fit[trusted], device[trusted.to_numpy()]
     wall = fit["median_wall_ns"].to_numpy() / 1e6
     return Dataset(suite, "time", "ms", clock, device if clock == "device" else wall, _factors(fit), device, wall,
@@ -148,27 +148,27 @@ def _cost(suite, records):
 
 
 def _aside(records, notes, more, emulated):
-    """Without what is no observation, which is told."""
+    """Drops records that are not observations, and adds a note with the number for each reason."""
     outcome = records["outcome"].astype(str)
     reasons = [(outcome != "measured", outcome + " on " + records["device"].astype(str)),
                (records["injected"].notna(), "with an injected fault"),
-               # Not independent: r of a copy and its original is 1 whatever was measured.
-               (records["same_as"].notna(), "that took over an equivalent configuration's frames"),
-               (records["technique"] == "speed_of_light", "of a technique that makes no picture"),
-               (emulated, "counted, hence timed under an emulator, if at all")]
+               # A copy is not independent: r between it and its original is always 1.
+               (records["same_as"].notna(), "with frames copied from an equivalent configuration"),
+               (records["technique"] == "speed_of_light", "of a technique that makes no image"),
+               (emulated, "with instructions counted by an emulator, which distorts times,")]
     reasons += [(wrong, text + " on " + records["device"].astype(str)) for wrong, text in more]
     aside = pd.Series(None, index=records.index, dtype=object)
     for wrong, text in reversed(reasons):
         text = text if isinstance(text, pd.Series) else pd.Series(text, index=records.index)
         aside = aside.where(~np.asarray(wrong, dtype=bool), text)
     for reason, count in aside.value_counts().sort_index().items():
-        notes.append(f"{count} records {reason} are left aside")
+        notes.append(f"{count} records {reason} are not used")
     return records[aside.isna()]
 
 
 def _latest(records, notes):
-    """The latest record of every configuration on every device, with the device's level: its id alone where that
-    means one driver on one processor."""
+    """The latest record of every configuration on every device. The device's level is its id, with a hash added if several
+    drivers or processors share the id."""
     identity = records["device_key"].fillna("") + records["processor"].map(lambda each: f"|{each}" if each else "")
     level = records["device"].copy()
     for device, of_device in identity.groupby(records["device"]):
@@ -196,12 +196,12 @@ def _clock(fit, trusted, choice, notes):
         return choice
     for device, count in (~trusted).groupby(fit["level"]).sum().items():
         if count:
-            notes.append(f"wall-clock time for all: {count} records of {device} have no trusted device time")
+            notes.append(f"the wall clock is used for all: {count} records of {device} have no trusted device time")
     return "device" if trusted.all() else "wall"
 
 
 def _factors(fit):
-    """Factors of the records. One that only the device chose, as an `auto` that no configuration names, is none."""
+    """The factors of the records. A factor that no configuration names is left out, because each device chose its level."""
     factors = {}
     configurations = fit["configuration"].unique()
     for column in sorted(each for each in fit.columns if each.startswith(FACTOR)):

@@ -1,5 +1,5 @@
-"""How values are distributed (the paper's Figures 3 and 10): histograms, percentiles, a log-normal fit and what a
-Kolmogorov–Smirnov test says of it."""
+"""The distribution of values (the paper's Figures 3 and 10): histograms, percentiles, a log-normal fit, and a
+Kolmogorov–Smirnov test of the fit."""
 
 import numpy as np
 import pandas as pd
@@ -7,29 +7,29 @@ from scipy import stats
 
 from .splits import levels_in, scope
 
-LEAST = 8  # observations that differ
+LEAST = 8  # the smallest number of different observations
 PERCENTS = [0, 5, 10, 25, 50, 75, 90, 95, 99, 100]
 MOST_REPLICATES, LEAST_REPLICATES = 999, 99
-MOST_DRAWS = 20_000_000  # some seconds
+MOST_DRAWS = 20_000_000  # takes some seconds
 
 
 def fit_log_normal(values):
-    """mu and sigma of ln x ~ N(mu, sigma²), by maximum likelihood."""
+    """The maximum-likelihood estimates of mu and sigma for ln x ~ N(mu, sigma²)."""
     logs = np.log(values)
     return float(logs.mean()), float(logs.std())
 
 
 def ks_log_normal(values):
-    """(D, p) against the log-normal distribution fitted to the same values. p, as the paper has it, takes the
-    parameters for given and is hence too large."""
+    """(D, p) of the test against the log-normal distribution that was fitted to the same values. As in the paper, p treats
+    the parameters as known, which makes it too large."""
     mu, sigma = fit_log_normal(values)
     test = stats.kstest((np.log(values) - mu) / sigma, "norm")
     return float(test.statistic), float(test.pvalue)
 
 
 def lilliefors_p(d, n, replicates, seed):
-    """p of the same D where the parameters were fitted (Lilliefors 1967): the share of normal samples, each fitted,
-    with a D at least as large, (1 + k)/(1 + replicates)."""
+    """p of the same D when the parameters were fitted (Lilliefors 1967). k of the random normal samples, each with its own
+    fit, have a D at least as large; p = (1 + k)/(1 + replicates)."""
     random = np.random.default_rng(seed)
     upper = np.arange(1, n + 1) / n
     as_large = 0
@@ -46,8 +46,8 @@ def replicates_for(n):
 
 
 def histogram(values, logarithmic):
-    """Equal bins over the range of the values, or of their logarithms, with what the fit expects of each. Their number
-    is Freedman and Diaconis' (1981), at least 5 and at most 60. Rows: low, high, count, expected."""
+    """Equal bins over the range of the values or of their logarithms, with the counts that the fit expects. The number of
+    bins follows Freedman and Diaconis (1981), between 5 and 60. Rows: low, high, count, expected."""
     scaled = np.log10(values) if logarithmic else values
     lower, upper = np.percentile(scaled, [25, 75])
     width = 2 * (upper - lower) / np.cbrt(len(scaled))
@@ -61,8 +61,8 @@ def histogram(values, logarithmic):
 
 
 def distributions(dataset, seed):
-    """Of all values and of each device's; of both clocks for all, where every record has both. Only those with at
-    least LEAST values that differ. Three tables: fits, percentiles, histograms."""
+    """Distributions of all values and of each device's values; for all values by both clocks if every record has both. At
+    least LEAST different values are needed. Returns three tables: fits, percentiles, histograms."""
     fits, percentiles, bins = [], [], []
     for of, clock, rows, values in _samples(dataset):
         if len(values) < LEAST or not fit_log_normal(values)[1] > 0:

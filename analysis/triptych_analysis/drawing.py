@@ -1,4 +1,4 @@
-"""Marks on axes, alike in every figure; and SVG that is the same whenever it is written."""
+"""Drawing functions shared by all figures. They write SVG files that are the same bytes each time."""
 
 import io
 
@@ -8,14 +8,14 @@ import numpy as np
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-MOST_NUMBERS = 12  # levels up to which a matrix has its numbers in it
+MOST_NUMBERS = 12  # matrices with more levels show colours without numbers
 BLUE, RED, INK = "#3b6ea5", "#b5413a", "#222222"
 STYLE = {"svg.hashsalt": "triptych", "svg.fonttype": "path", "font.size": 9, "axes.titlesize": 10,
          "axes.spines.top": False, "axes.spines.right": False, "figure.dpi": 100, "font.family": "DejaVu Sans"}
 
 
 class SvgFigure(Figure):
-    """Shows itself in a notebook."""
+    """A figure that a notebook can display."""
 
     def _repr_svg_(self):
         text = io.StringIO()
@@ -24,7 +24,7 @@ class SvgFigure(Figure):
 
 
 def figure(width, height, rows=1, columns=1, **more):
-    """A figure and its axes; inches."""
+    """Makes a figure and its axes. Width and height are in inches."""
     with matplotlib.rc_context(STYLE):
         made = SvgFigure(figsize=(width, height), layout="constrained")
         FigureCanvasSVG(made)
@@ -37,7 +37,7 @@ def save(made, file):
 
 
 def heat_map(axes, cells, label, low=None, high=None, logarithmic=False, decimals=None):
-    """A DataFrame of numbers; one that is missing is drawn as a hatched cell. Returns what a colour bar wants."""
+    """Draws a DataFrame of numbers with a colour bar. A missing number is a hatched cell."""
     values = cells.to_numpy(dtype=float)
     known = values[np.isfinite(values)]
     low, high = (known.min() if low is None else low), (known.max() if high is None else high)
@@ -69,7 +69,7 @@ def heat_map(axes, cells, label, low=None, high=None, logarithmic=False, decimal
 
 
 def short(value):
-    """Three digits, with k, M or G from ten thousand on: 0.123, 4.56, 789, 12.3k"""
+    """Formats a number with three digits, and with k, M or G from ten thousand on: 0.123, 4.56, 789, 12.3k"""
     for size, letter in ((1e9, "G"), (1e6, "M"), (1e4, "k")):
         if abs(value) >= size:
             return f"{value / (1e3 if letter == 'k' else size):.3g}{letter}"
@@ -77,7 +77,7 @@ def short(value):
 
 
 def boxes(axes, names, samples):
-    """A row a name. Of fewer than three values a box would say what nobody measured: they are strokes alone."""
+    """Draws one row for each name. Fewer than three values are drawn as ticks without a box, whose quartiles would be invented."""
     full = [i for i, each in enumerate(samples) if len(each) >= 3]
     if full:
         axes.boxplot([samples[i] for i in full], positions=full, vert=False, widths=0.5, whis=(0, 100),
@@ -94,7 +94,7 @@ def boxes(axes, names, samples):
 
 
 def bars(axes, names, lengths, low, high):
-    """A bar a name with the range of its error."""
+    """Draws one bar for each name, with its error range."""
     places = np.arange(len(names))
     error = np.abs(np.array([np.subtract(lengths, low), np.subtract(high, lengths)], dtype=float))
     axes.barh(places, lengths, height=0.6, color="#9dbbd8", edgecolor=BLUE, xerr=error,

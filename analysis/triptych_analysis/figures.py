@@ -1,5 +1,6 @@
-"""Every figure of the paper that the tables allow, and what instructions and technique choices add. Each function
-takes an Analysis and yields (name, matplotlib figure); names begin with the paper's number where it has one."""
+"""All figures of the paper that can be drawn from the tables, and further ones for instructions and the choice of a technique.
+Each function takes an Analysis and yields (name, matplotlib figure). A name begins with the number of the paper's figure if
+there is one."""
 
 import numpy as np
 import pandas as pd
@@ -7,7 +8,7 @@ import pandas as pd
 from . import drawing, views
 from .dataset import natural_order, view_of
 
-NUMBERS = {  # suite → what → the paper's figure
+NUMBERS = {  # suite → figure name → number in the paper
     "volume": {"distribution": "03", "correlation_boxes": "04", "correlation_device": "05", "speed_up_device": "06",
                "speed_up_camera_path": "07", "mean_data_camera_path": "08"},
     "particles": {"distribution": "10", "correlation_boxes": "11", "correlation_data": "12",
@@ -15,7 +16,7 @@ NUMBERS = {  # suite → what → the paper's figure
 
 
 def every(analysis):
-    """(file name without its ending, figure), all that there are."""
+    """Yields all figures as (file name without extension, figure)."""
     for make in (_distributions, _boxes, _matrices, _means, _speed_ups, _predictions, _paths, _stacks, _counts, _effects):
         for what, made in make(analysis):
             number = NUMBERS.get(analysis.dataset.suite, {}).get(what)
@@ -23,7 +24,7 @@ def every(analysis):
 
 
 def _about(analysis, text, samples=None):
-    """A title: what, of which suite, clock and how many observations."""
+    """A title with the text, the suite, the clock and the number of observations."""
     dataset = analysis.dataset
     of = f"{dataset.clock} time" if dataset.signal == "time" else "instructions of a frame"
     return f"{text}\n{dataset.suite}, {of}" + (f", {samples} samples" if samples else "")
@@ -73,7 +74,7 @@ def _boxes(analysis):
 
 
 def square(cells):
-    """Rows a, b, r as a square table with both triangles; 1 on the diagonal."""
+    """Turns rows a, b, r into a square, symmetric table with 1 on the diagonal."""
     levels = natural_order(set(cells["a"]) | set(cells["b"]))
     table = pd.DataFrame(np.nan, index=levels, columns=levels)
     for each in cells.itertuples():
@@ -97,7 +98,7 @@ def _matrix(analysis, title, cells):
 def _matrices(analysis):
     cells = analysis.table("correlations")
     for factor, of in cells.groupby("factor", sort=False) if not cells.empty else ():
-        if len(set(of["a"]) | set(of["b"])) > 2:  # else one number, which the table has
+        if len(set(of["a"]) | set(of["b"])) > 2:  # two levels give a single number, which the table contains
             yield f"correlation_{factor}", _matrix(analysis, f"Correlation between levels of {factor}", of)
 
 
@@ -135,7 +136,7 @@ def _predictions(analysis):
         return
     made, axes = drawing.figure(6.5, 1.5 + 0.32 * len(of))
     places = np.arange(len(of))
-    axes.plot(of["line_r2"].astype(float), places, "s", color=drawing.RED, label="a line per structure")
+    axes.plot(of["line_r2"].astype(float), places, "s", color=drawing.RED, label="one line for each structure")
     axes.plot(of["forest_r2"].astype(float), places, "o", color=drawing.BLUE, label="one random forest")
     axes.set_yticks(places, [f"{each.data} ({each.held_out:.0f})" for each in of.itertuples()])
     axes.set_ylim(len(of) - 0.5, -0.5)
@@ -143,7 +144,7 @@ def _predictions(analysis):
     axes.grid(axis="x", color="#e5e5e5")
     axes.set_xlabel("R² on held-out observations (their number in brackets)")
     axes.legend(frameon=False, loc="best")
-    axes.set_title(_about(analysis, "Forest against linear regression"))
+    axes.set_title(_about(analysis, "Random forest compared with linear regression"))
     yield "prediction", made
 
 
@@ -164,7 +165,7 @@ def _paths(analysis):
     axes.set_xlabel(_axis(analysis))
     axes.set_ylabel("share of observations below")
     axes.legend(frameon=False, fontsize=8)
-    axes.set_title(_about(analysis, "Camera paths against all views, two-sample Kolmogorov-Smirnov"))
+    axes.set_title(_about(analysis, "Camera paths compared with all views (two-sample Kolmogorov-Smirnov test)"))
     yield "camera_paths", made
 
 
@@ -209,12 +210,12 @@ def _effects(analysis):
     places = np.arange(len(effects))
     axes.barh(places, effects["share"], height=0.6, color="#9dbbd8", edgecolor=drawing.BLUE)
     for place, each in zip(places, effects.itertuples()):
-        ratio = f"  ×{each.largest_ratio:.3g}, {each.cheap} to {each.dear}" if np.isfinite(each.largest_ratio) else ""
+        ratio = f"  ×{each.largest_ratio:.3g}, {each.cheap} to {each.expensive}" if np.isfinite(each.largest_ratio) else ""
         axes.annotate(ratio, (each.share, place), va="center", fontsize=8)
     axes.set_yticks(places, effects["factor"])
     axes.set_ylim(len(effects) - 0.5, -0.5)
     axes.set_xlim(0, 2.4 * effects["share"].max() or 1)
     axes.set_xlabel("share of the variance of its logarithm that remains when all other factors are fixed\n"
                     "(total-effect index); largest mean ratio between two levels")
-    axes.set_title(_about(analysis, "What each factor moves"))
+    axes.set_title(_about(analysis, "Influence of each factor"))
     yield "effects", made

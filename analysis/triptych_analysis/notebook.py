@@ -1,4 +1,4 @@
-"""Runs a notebook's cells in order where there is no Jupyter: prints what each would show; a figure becomes
+"""Runs the cells of a notebook in order without Jupyter. Prints what each cell would show, and writes figures to
 FOLDER/cell_N.svg."""
 
 import argparse
@@ -15,7 +15,7 @@ def cells_of(file):
 
 
 def run_cell(source, names, where):
-    """Executes a cell; the value of its last expression, as Jupyter has it."""
+    """Executes a cell and returns the value of its last expression, as Jupyter does."""
     tree = ast.parse(source, where)
     last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
     exec(compile(tree, where, "exec"), names)
@@ -34,7 +34,7 @@ def show(value, file):
 def main(words=None):
     parser = argparse.ArgumentParser(prog="notebook", description=__doc__)
     parser.add_argument("notebook")
-    parser.add_argument("tables", help="a folder of `triptych export`, or a store")
+    parser.add_argument("tables", help="a folder written by `triptych export`, or a store")
     parser.add_argument("--out", required=True)
     arguments = parser.parse_args(words)
     os.makedirs(arguments.out, exist_ok=True)

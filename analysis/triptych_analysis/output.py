@@ -1,4 +1,4 @@
-"""An analysis as files, and as what a terminal shows."""
+"""Writes an analysis to files, and summarizes it for a terminal."""
 
 import os
 
@@ -6,7 +6,7 @@ from . import drawing, figures
 
 
 def write(of, folder):
-    """Tables and figures of one analysis. What an earlier one left there is gone."""
+    """Writes the tables and figures of one analysis. Removes those of an earlier one."""
     os.makedirs(folder, exist_ok=True)
     for name in os.listdir(folder):
         if name.endswith((".csv", ".svg")):
@@ -19,15 +19,15 @@ def write(of, folder):
 
 
 def summary(of):
-    """What a terminal shows."""
+    """The lines that a terminal shows."""
     data = of.dataset
     what = f"{data.clock} time" if data.signal == "time" else "instructions of device code and driver"
-    lines = [f"{data.suite}: {len(data)} configurations on their devices, {what}"]
+    lines = [f"{data.suite}: {len(data)} observations (configurations on devices), {what}"]
     lines += [f"  {each}" for each in data.notes]
     if len(data.duplicates):
         first = data.duplicates.iloc[0]
-        lines.append(f"  {len(data.duplicates)} measured more than once, the latest taken; first: {first.configuration} "
-                     f"on {first.device}, {first.taken} over {first.dropped}")
+        lines.append(f"  {len(data.duplicates)} were measured more than once, and the latest is used; for example: "
+                     f"{first.configuration} on {first.device}, {first.taken} instead of {first.dropped}")
     for each in of.table("distributions").itertuples():
         lines.append(f"  {each.of} ({each.clock}, {each.samples} samples): log-normal D = {each.ks_d:.3f}, "
                      f"p = {each.ks_p:.2g}, Lilliefors p = {each.lilliefors_p:.3g}")
@@ -37,15 +37,15 @@ def summary(of):
     for each in of.table("predictions").itertuples():
         if each.data in ("all", "every held-out observation"):
             lines.append(f"  R² of {each.data}: lines {each.line_r2:.3f}, forest {each.forest_r2:.3f} "
-                         f"({each.held_out:.0f} held out; {each.structures_left_out} of {each.structures} structures "
-                         "had too few samples for a line)")
+                         f"({each.held_out:.0f} held-out observations; {each.structures_left_out} of "
+                         f"{each.structures} structures had too few samples for a line)")
     for each in of.table("camera_paths").itertuples():
         if each.subsets_of == "samples":
-            lines.append(f"  {each.path} against all views: D = {each.d:.3f}, p = {each.p:.2g} ({each.samples} of "
-                         f"{each.all_samples} samples); random samples rejected {each.rejected} of {each.subsets}")
+            lines.append(f"  {each.path} compared with all views: D = {each.d:.3f}, p = {each.p:.2g} ({each.samples} of "
+                         f"{each.all_samples} samples); {each.rejected} of {each.subsets} random samples are rejected")
     for each in of.table("stacks").itertuples():
-        lines.append(f"  r along {each.name}: mean {each.mean:.3f}, least {each.minimum:.3f} ({each.levels} sizes)")
+        lines.append(f"  r between sizes of {each.name}: mean {each.mean:.3f}, minimum {each.minimum:.3f} ({each.levels} sizes)")
     for each in of.table("effects").head(3).itertuples():
-        ratio = f", ×{each.largest_ratio:.3g} from {each.cheap} to {each.dear}" if each.pairs else ""
-        lines.append(f"  {each.factor} moves it: {each.share:.2f} of the variance of ln{ratio}")
+        ratio = f"; {each.largest_ratio:.3g} times as much with {each.expensive} as with {each.cheap}" if each.pairs else ""
+        lines.append(f"  influence of {each.factor}: {each.share:.2f} of the variance of the logarithm{ratio}")
     return lines + [f"  left out: {what}: {why}" for what, why in of.left_out]

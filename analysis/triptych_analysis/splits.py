@@ -1,4 +1,4 @@
-"""How a factor divides observations into levels, and what pairs them across levels."""
+"""Divides observations by the levels of a factor, and pairs observations of different levels."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from .dataset import CAMERA_PARTS, natural_order
 
 @dataclass
 class Split:
-    """rows[key, level]: the observation of that level, -1 for none. A key is a combination of all other factors."""
+    """rows[key, level] is the observation with that level, or -1. A key is a combination of the levels of all other factors."""
 
     factor: str
     levels: list  # in natural order
@@ -28,15 +28,15 @@ def split(dataset, factor):
         others = [each.codes for name, each in dataset.factors.items() if name != factor]
     here = np.flatnonzero(own.codes >= 0)
     keys, count = combined([each[here] for each in others], len(here))
-    # Levels that no observation has are none.
+    # Only levels that occur are kept.
     present, codes = np.unique(own.codes[here], return_inverse=True)
     rows = np.full((count, len(present)), -1)
-    rows[keys[::-1], codes[::-1]] = here[::-1]  # of several at one place the first
+    rows[keys[::-1], codes[::-1]] = here[::-1]  # if several observations have the same place, the first one is used
     return Split(factor, [own.levels[each] for each in present], rows)
 
 
 def combined(columns, length):
-    """One number for each combination of codes, from 0 on, and how many there are."""
+    """Numbers the combinations of codes from 0 on. Returns the numbers, and how many combinations there are."""
     keys = np.zeros(length, dtype=np.int64)
     count = 1
     for column in columns:
@@ -47,7 +47,7 @@ def combined(columns, length):
 
 
 def factors_of(dataset):
-    """The factors with at least two levels, "camera" replaced by its parts; by name."""
+    """The sorted names of the factors with at least two levels. "camera" is replaced by its parts."""
     found = []
     for name in scope(dataset, np.arange(len(dataset)))["varied"]:
         if name == "camera":
@@ -58,7 +58,7 @@ def factors_of(dataset):
 
 
 def scope(dataset, rows):
-    """What a number was computed from: how many observations, which factors they vary and which they hold fixed."""
+    """Describes the observations behind a number: how many there are, which factors vary, and which are fixed."""
     held, varied = {}, []
     for name, factor in dataset.factors.items():
         present = np.unique(factor.codes[rows])
@@ -71,9 +71,10 @@ def scope(dataset, rows):
 
 
 def fullest_block(dataset, factors, among=None):
-    """Of all observations, or of those among, the ones whose key (all factors but these) occurs with the largest number
-    of combinations of these factors' levels, the same of each; of several such sets the one with the most
-    observations: what is compared then differs in these factors alone. A part of the camera leaves out all of it."""
+    """Selects observations (of all, or of `among`) that differ only in the given factors, so that they can be compared. A key is a
+    combination of all other factors. Keys are grouped by the set of combinations of the given factors with which they occur. The
+    group with the largest set is selected; among equals, the one with the most observations. If a given factor is a part of the
+    camera, the whole camera is excluded from the key."""
     own = [dataset.factor(each).codes for each in factors]
     here = np.arange(len(dataset)) if among is None else among
     here = here[np.all([each[here] >= 0 for each in own], axis=0)]
@@ -93,7 +94,7 @@ def fullest_block(dataset, factors, among=None):
 
 
 def levels_in(dataset, factor, rows):
-    """The levels that these observations have, in natural order, each with its observations."""
+    """{level: its observations} for these observations, in natural order."""
     of = dataset.factor(factor)
     codes = of.codes[rows]
     return {level: rows[codes == of.levels.index(level)]

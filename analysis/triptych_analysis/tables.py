@@ -1,4 +1,4 @@
-"""Records as `triptych export` writes them; or straight from a store, for convenience."""
+"""Reads records from the tables of `triptych export`, or directly from a store."""
 
 import json
 import os
@@ -8,23 +8,23 @@ import pandas as pd
 
 
 class InputError(Exception):
-    """What was given cannot be used: says what, where and what to do."""
+    """The input cannot be used. The message says what is wrong, where, and what to do."""
 
 
-# What the analysis takes of the tables, beside the columns of factors and of cost.
+# The columns that the analysis uses, in addition to those of factors and cost.
 RECORD_COLUMNS = ["record", "run", "suite", "plan", "configuration", "technique", "device", "outcome", "injected",
                   "median_wall_ns", "median_device_ns", "device_clock_trusted", "counted_by", "same_as"]
 TEXT = {"run", "suite", "plan", "configuration", "technique", "device", "outcome", "injected", "counted_by", "same_as",
         "started_at", "device_key", "processor", "store"}
-# Those that a store calls or keeps otherwise.
+# Columns that have another name or place in a store.
 IN_STORE = {"record": "seq", "same_as": "(SELECT configuration FROM same_as WHERE same_as.record = record.seq)"}
 FACTOR, COST = "factor_", "cost_"
 
 
 def read(paths, plan=None):
-    """One row a record of all folders and stores, or of those of one plan. Columns: RECORD_COLUMNS, `store`,
-    `started_at`, `processor`, `device_key`, a `factor_NAME` each, a `cost_NAME` each. What is missing is None
-    (text) or not a number."""
+    """Reads one row for each record of all folders and stores, or only for those of one plan. The columns are RECORD_COLUMNS,
+    `store`, `started_at`, `processor`, `device_key`, a `factor_NAME` for each factor and a `cost_NAME` for each kind of cost. Missing
+    values are None (text) or NaN."""
     if isinstance(paths, (str, os.PathLike)):
         paths = [paths]
     frames = [_read_one(os.fspath(path)) for path in paths]
@@ -44,7 +44,7 @@ def _read_one(path):
         return _read_folder(path)
     if os.path.isfile(path):
         return _read_store(path)
-    raise InputError(f"{path}: there is no such file or folder; `triptych export STORE --out {path}` makes one")
+    raise InputError(f"{path}: no such file or folder; `triptych export STORE --out {path}` makes one")
 
 
 def _read_folder(folder):
@@ -66,14 +66,14 @@ def _dictionary(folder):
             raise InputError(f"{file}: schema {dictionary['schema']}, expected 1: export again with this Triptych")
         return dictionary
     except FileNotFoundError:
-        raise InputError(f"{folder}: there is no dictionary.json, which an export writes last: "
-                         "it was cut off, or this is none") from None
+        raise InputError(f"{folder}: no dictionary.json, which an export writes last: either the export was interrupted, "
+                         "or this folder is not an export") from None
     except (ValueError, KeyError) as error:
         raise InputError(f"{file}: damaged ({error}): export again") from None
 
 
 def _csv(folder, table, dictionary, columns):
-    """Columns of a table, by the dictionary's types; as many rows as it promises."""
+    """Reads columns of a table with the types of the dictionary, and checks the number of rows."""
     described = dictionary["tables"][table]
     types = {each["name"]: each["type"] for each in described["columns"]}
     lacking = [each for each in columns if each not in types]
@@ -88,12 +88,12 @@ def _csv(folder, table, dictionary, columns):
     except (OSError, ValueError) as error:
         raise InputError(f"{file}: {error}") from None
     if len(frame) != described["rows"]:
-        raise InputError(f"{file}: {len(frame)} rows, its dictionary says {described['rows']}: export again")
+        raise InputError(f"{file}: {len(frame)} rows; its dictionary lists {described['rows']}: export again")
     return _texts(frame)
 
 
 def _texts(frame):
-    """Text as objects; None where there is none."""
+    """Converts text columns to objects, with None for missing text."""
     for column in frame.columns:
         if column in TEXT or column.startswith(FACTOR):
             frame[column] = frame[column].astype(object)
@@ -107,7 +107,7 @@ def _read_store(file):
         database = sqlite3.connect(uri, uri=True)
         try:
             if database.execute("PRAGMA application_id").fetchone()[0] != 0x54524950:
-                raise InputError(f"{file}: is not a Triptych store")
+                raise InputError(f"{file}: not a Triptych store")
             return _from_database(database, file)
         finally:
             database.close()

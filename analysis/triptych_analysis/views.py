@@ -1,5 +1,5 @@
-"""Whether a camera path stands for all views (sections 5.3 and 6.3 of the paper): two-sample Kolmogorov–Smirnov
-tests of its values against all, beside random subsets."""
+"""Tests whether a camera path represents all views (sections 5.3 and 6.3 of the paper): two-sample Kolmogorov–Smirnov tests of its
+values against all values, compared with the same tests of random subsets."""
 
 import warnings
 
@@ -16,12 +16,12 @@ MOST_FOR_EXACT = 4_000_000  # n · m
 
 
 def ks_two_samples(a, b):
-    """(D, p) of a and of b, which is sorted; two-sided. p is exact where sizes allow, as if there were no ties, else
-    Kolmogorov's for a sample of n·m/(n + m)."""
+    """(D, p) of the two-sided test of a and b. b must be sorted. For small samples p is exact (assuming no ties), otherwise it is
+    Kolmogorov's p for a sample of size n·m/(n + m)."""
     n, m = len(a), len(b)
     if n * m <= MOST_FOR_EXACT:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # where the exact count overflows, the limit is taken
+            warnings.simplefilter("ignore")  # SciPy warns when the exact count overflows, and then uses the limit
             test = stats.ks_2samp(a, b, method="exact")
         return float(test.statistic), float(test.pvalue)
     a = np.sort(a)
@@ -33,9 +33,10 @@ def ks_two_samples(a, b):
 
 
 def path_tests(dataset, seed):
-    """Over the configurations that were measured from the most views. Of every path two rows: beside random subsets
-    of as many values of any view, as the paper has it, and beside all values of as many views. Subsets are part of
-    all, hence closer to it than independent samples: their p lie above uniform. Empty when there is one path only."""
+    """Tests each path, using the configurations that were measured from the most views. There are two rows for each path: one compares
+    it with random subsets of equally many values of any view, as in the paper, the other with all values of equally many views. Subsets
+    are part of all values and therefore closer to them than independent samples, so their p are larger than uniform. The result is empty
+    if there is only one path."""
     columns = ["path", "views", "samples", "all_views", "all_samples", "d", "p", "subsets_of", "subsets", "rejected",
                "d_mean", "p_minimum", "p_mean", "p_median", "p_maximum", "held"]
     values, by_view = values_by_view(dataset)
@@ -61,7 +62,7 @@ def path_tests(dataset, seed):
 
 
 def values_by_view(dataset):
-    """All values over the configurations that were measured from the most views, sorted, and those of each view."""
+    """The sorted values of the configurations that were measured from the most views, and the values of each view."""
     rows = fullest_block(dataset, ["camera"])
     return np.sort(dataset.values[rows]), {view: dataset.values[each]
                                   for view, each in levels_in(dataset, "camera", rows).items()}

@@ -210,7 +210,7 @@ class EndToEnd(unittest.TestCase):
         for source in ("copies", "copies.sqlite"):
             data, = dataset.datasets(tables.read(os.path.join(self.folder, source)))
             self.assertEqual(len(data), 3, source)
-            self.assertEqual(data.notes, ["3 records that took over an equivalent configuration's frames are left aside"])
+            self.assertEqual(data.notes, ["3 records with frames copied from an equivalent configuration are not used"])
 
     def test_the_notebook_runs(self):
         out = os.path.join(self.folder, "notebook")

@@ -70,7 +70,7 @@ class Effects(unittest.TestCase):
         self.assertAlmostEqual(effects.loc["data", "share"], 0)
         self.assertEqual(effects.index[0], "step")
         self.assertAlmostEqual(effects.loc["step", "largest_ratio"], 9)
-        self.assertEqual((effects.loc["step", "cheap"], effects.loc["step", "dear"]), ("0", "2"))
+        self.assertEqual((effects.loc["step", "cheap"], effects.loc["step", "expensive"]), ("0", "2"))
 
 
 class Whole(unittest.TestCase):
@@ -82,7 +82,7 @@ class Whole(unittest.TestCase):
 
     def test_a_reference_that_no_data_set_has_is_refused(self):
         both = [synthetic.anscombe(), synthetic.factorial({"device": ["v", "w"], "step": ["1"]}, lambda at: 1.0)]
-        for references, says in (({"device": "z"}, "reference device=z: that factor's levels are v, w, x, y"),
+        for references, says in (({"device": "z"}, "reference device=z: the levels of that factor are v, w, x, y"),
                                  ({"stop": "1"}, "reference stop=1: no record has a factor stop")):
             with self.assertRaisesRegex(tables.InputError, says):
                 correlation.require_references(both, references)
@@ -93,7 +93,7 @@ class Whole(unittest.TestCase):
         self.assertIn("y", set(of.table("speed_ups")["reference"]))
         of = analysis.analyse(synthetic.anscombe(), {"device": "w"})
         self.assertEqual(set(of.table("speed_ups")["reference"]) & set("xyw"), {"x"})
-        self.assertIn(("speed-up relative to device=w", "none of these records has that level; relative to x instead"),
+        self.assertIn(("speed-up relative to device=w", "no record of this data set has that level; speed-ups are relative to x instead"),
                       of.left_out)
 
 

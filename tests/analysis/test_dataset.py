@@ -26,7 +26,7 @@ class Observations(unittest.TestCase):
         changes = {}, {"device": "b", "device_clock_trusted": 0.0}
         data = times(*changes)
         self.assertEqual((data.clock, list(data.values)), ("wall", [11, 11]))
-        self.assertIn("wall-clock time for all: 1 records of b have no trusted device time", data.notes)
+        self.assertIn("the wall clock is used for all: 1 records of b have no trusted device time", data.notes)
         self.assertTrue(np.isnan(data.device_ms[1]))
         self.assertEqual(len(times(*changes, clock="device")), 1)
 
@@ -53,10 +53,11 @@ class Observations(unittest.TestCase):
                      {"median_wall_ns": np.nan}, {"technique": "speed_of_light"}, {"counted_by": "valgrind"}, {})
         self.assertEqual(len(data), 1)
         self.assertEqual(data.notes, [
-            "1 records counted, hence timed under an emulator, if at all are left aside",
-            "1 records of a technique that makes no picture are left aside", "1 records skipped on a are left aside",
-            "1 records that took over an equivalent configuration's frames are left aside",
-            "1 records with an injected fault are left aside", "1 records without a time on a are left aside"])
+            "1 records of a technique that makes no image are not used", "1 records skipped on a are not used",
+            "1 records with an injected fault are not used",
+            "1 records with frames copied from an equivalent configuration are not used",
+            "1 records with instructions counted by an emulator, which distorts times, are not used",
+            "1 records without a time on a are not used"])
 
     def test_what_the_device_chose_is_no_factor(self):
         rows = [{"factor_voxel": "u8"}, {"device": "b", "factor_voxel": "f32"}]
@@ -111,7 +112,7 @@ class Tables(unittest.TestCase):
 
     def test_an_export_that_was_cut_off_is_refused(self):
         self.write("records.csv", ",".join(self.columns) + "\n")
-        self.refused("records.csv: 0 rows, its dictionary says 1")
+        self.refused("records.csv: 0 rows; its dictionary lists 1")
         os.remove(os.path.join(self.folder.name, "dictionary.json"))
         self.refused("no dictionary.json")
 

@@ -222,7 +222,7 @@ class Prediction(unittest.TestCase):
     def test_too_little_is_said(self):
         scores, reason = prediction.predict(synthetic.anscombe(), 1)
         self.assertTrue(scores.empty)
-        self.assertEqual(reason, "22 observations, 40 are needed")
+        self.assertEqual(reason, "there are 22 observations; 40 are needed")
 
 
 if __name__ == "__main__":
