@@ -38,6 +38,9 @@ struct Commands {
   }
 };
 
+// Shows a complete command line in --help and in the manual page, above what all commands have.
+void add_example(CLI::App& command, const std::string& example);
+
 // --set and --shard.
 using measure::PlanChoice;
 void add_choice_options(CLI::App& command, PlanChoice& choice);
@@ -45,7 +48,8 @@ void add_choice_options(CLI::App& command, PlanChoice& choice);
 // PLAN, of which one is required.
 template <typename Plans>
 void add_plan_option(CLI::App& command, Plans& plans) {
-  command.add_option("PLAN", plans, "A YAML file, or SUITE/PLAN such as volume/quick")->required();
+  command.add_option("PLAN", plans, "A plan: a YAML file, or SUITE/PLAN such as volume/quick")
+      ->required();
 }
 
 inline constexpr const char* standard_store = "triptych.sqlite";

@@ -117,11 +117,12 @@ core::ExitCode diff(const DiffArguments& arguments) {
 
 void add_diff_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "diff", "Say what differs between two stores, of a driver and the next, say", diff);
+      "diff", "List what differs between two stores, for example of two driver versions", diff);
+  add_example(command, "triptych diff old.sqlite new.sqlite");
   command.add_option("OLD", arguments.a, "Store of a run or a validation")->required();
-  command.add_option("NEW", arguments.b, "Store of the same plans")->required();
+  command.add_option("NEW", arguments.b, "Store with the same plans")->required();
   add_devices_option(command, arguments.devices);
-  command.add_flag("--json", arguments.json, "Print everything as JSON");
+  command.add_flag("--json", arguments.json, "Print machine-readable JSON");
 }
 
 }  // namespace
@@ -129,33 +130,38 @@ void add_diff_command(Commands& commands) {
 void add_compare_commands(Commands& commands) {
   add_diff_command(commands);
   auto [command, arguments] = commands.add(
-      "compare", "Say what differs between two devices, drivers or builds, times last", compare);
+      "compare", "Compare two devices, drivers or builds: first what repeats exactly, then times",
+      compare);
+  add_example(command, "triptych compare volume/quick --a gl:llvmpipe-egl --b vulkan:lavapipe");
   Comparing& comparing = arguments.comparing;
   command.add_option(
       "PLAN", comparing.plans,
-      fmt::format("YAML files, or SUITE/PLAN (default: {})", fmt::join(main_job, " ")));
+      fmt::format("Plans: YAML files, or SUITE/PLAN (default: {})", fmt::join(main_job, " ")));
   add_choice_options(command, comparing.choice);
-  constexpr const char* side = "DEVICE[,NAME=VALUE]…: with variables set for this side alone";
+  constexpr const char* side =
+      "DEVICE[,NAME=VALUE]…: a device, and environment variables for this side only";
   command.add_option("--a", arguments.a, side);
   command.add_option("--b", arguments.b, side);
-  command.add_option("--a-program", arguments.a_program, "Another build of triptych to measure a");
-  command.add_option("--b-program", arguments.b_program, "Another build of triptych to measure b");
-  command.add_flag("--no-times", arguments.no_times, "Only what repeats");
+  command.add_option("--a-program", arguments.a_program,
+                     "Another build of triptych that measures side a");
+  command.add_option("--b-program", arguments.b_program,
+                     "Another build of triptych that measures side b");
+  command.add_flag("--no-times", arguments.no_times,
+                   "Compare only what repeats exactly; measure no times");
   command.add_flag("--apis", arguments.apis,
-                   "Show what --store holds, technique by technique and device beside device");
+                   "Measure nothing; print a table of the devices in --store by technique");
   command
       .add_option("--budget", comparing.budget_s,
-                  "Seconds after which no doubt about a time is followed any further (default: "
-                  "none)")
+                  "Seconds after which no further times are measured (default: no limit)")
       ->check(CLI::Range(1, 1000000));
   add_limit_option(command, comparing.limit_s, "one answer");
   command.add_option("--store", comparing.store,
                      "SQLite file that keeps both runs (default: nothing is kept)");
-  command.add_option("--seed", comparing.seed, "Of the order in which times are taken")
+  command.add_option("--seed", comparing.seed, "Seed of the random order of the measurements")
       ->capture_default_str();
   add_inject_option(command, comparing.faults,
-                    "Inject a fault into side b, to prove that it is found; as for run");
-  command.add_flag("--json", arguments.json, "Print everything as JSON");
+                    "Inject a fault into side b to prove that it is found; see run --help");
+  command.add_flag("--json", arguments.json, "Print machine-readable JSON");
 }
 
 }  // namespace triptych::app

@@ -68,8 +68,10 @@ core::ExitCode devices(const bool& json) {
 
 void add_devices_command(Commands& commands) {
   auto [command, json] = commands.add(
-      "devices", "List what is here, what it can do and whose clocks are trusted", devices);
-  command.add_flag("--json", json, "For machines");
+      "devices", "List the devices, what they can do, and which of their timers are trustworthy",
+      devices);
+  command.add_flag("--json", json, "Print machine-readable JSON");
+  add_example(command, "triptych devices --json");
 }
 
 }  // namespace triptych::app

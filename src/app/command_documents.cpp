@@ -59,26 +59,30 @@ std::string section(const CLI::App& command) {
   std::string text =
       fmt::format(".SS {}\n{}\n", roff(command.get_name()), roff(command.get_description()));
   for (const CLI::Option* option : shown_options(command)) text += entry(*option);
+  const std::string footer = command.get_footer();
+  const std::size_t example = footer.size() - command.get_parent()->get_footer().size();
+  if (example > 0) text += fmt::format(".PP\n{}\n", roff(footer.substr(0, example - 2)));
   return text;
 }
 
 constexpr std::string_view environment = R"(.SH ENVIRONMENT
 .TP
 .B TRIPTYCH_DATA
-Folder with volumes/ and particles/ in which plans find files.
+Folder with volumes/ and particles/, in which plans find their data files.
 .TP
 .B XDG_CACHE_HOME
-Drivers' compiled code is kept in its folder triptych/; ~/.cache where it is not set.
+The compiled code of drivers is kept in its folder triptych/ (default: ~/.cache).
 .PP
-Drivers' own variables are part of a device's key.
+Environment variables of the drivers are part of a device's key.
 .B triptych devices
-shows them.
+lists them.
 )";
 
 std::string manual(const CLI::App& program) {
   std::string text = fmt::format(
-      ".TH TRIPTYCH 1 \"\" \"triptych {}\"\n.SH NAME\ntriptych \\- pictures, work and cost of GPU "
-      "drivers, judged\n.SH SYNOPSIS\n.B triptych\nCOMMAND [OPTION]... [PLAN]...\n.SH DESCRIPTION\n"
+      ".TH TRIPTYCH 1 \"\" \"triptych {}\"\n.SH NAME\ntriptych \\- check images, work and cost of "
+      "GPU "
+      "drivers\n.SH SYNOPSIS\n.B triptych\nCOMMAND [OPTION]... [PLAN]...\n.SH DESCRIPTION\n"
       "{}.\n.PP\n.B triptych gate \\-\\-measure\nmeasures and judges every device found.\n.SH "
       "COMMANDS\n",
       roff(version()), roff(program.get_description()));
@@ -113,7 +117,7 @@ std::string completion(const CLI::App& program) {
         fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), words_after(*command, plans));
   }
   return fmt::format(
-      "# Completion of triptych for bash; what it does not know are files.\n_triptych() {{\n"
+      "# Completion of triptych for bash. Other words are completed as files.\n_triptych() {{\n"
       "  local words=\"{} --help --version\"\n"
       "  [ \"$COMP_CWORD\" -eq 1 ] || case ${{COMP_WORDS[1]}} in\n{}    *) words= ;;\n  esac\n"
       "  COMPREPLY=($(compgen -W \"$words\" -- \"$2\"))\n}}\n"

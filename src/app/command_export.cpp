@@ -56,12 +56,13 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
 
 void add_export_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "export", "Tidy tables of stores, as CSV with a dictionary of their columns", write_tables);
+      "export", "Write stores as CSV tables, with a dictionary of their columns", write_tables);
   command.add_option("STORE", arguments.stores, "SQLite files")->required();
   command.add_option("--out", arguments.out, "Folder for the tables")->required();
   command.add_option("--plan", arguments.plan,
-                     "SUITE/PLAN or the YAML file, as it was run (default: all in the stores)");
-  command.add_flag("--json", arguments.json, "Print what was written as JSON");
+                     "Only this plan: SUITE/PLAN or the YAML file, as it was run (default: all)");
+  command.add_flag("--json", arguments.json, "Print the number of rows of each table as JSON");
+  add_example(command, "triptych export results.sqlite --out tables");
 }
 
 }  // namespace triptych::app

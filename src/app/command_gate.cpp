@@ -191,14 +191,19 @@ core::ExitCode accept(const AcceptArguments& arguments) {
 void add_accept_command(Commands& commands) {
   auto [command, arguments] =
       commands.add("accept", "Make the latest runs of plans the baselines", accept);
+  add_example(command,
+              "triptych accept volume/quick --store results.sqlite --reason 'new driver version'");
   command.add_option("PLAN", arguments.plans, "SUITE/PLAN or the YAML file, as it was run")
       ->required();
-  command.add_option("--reason", arguments.reason, "Why; kept in history.json")->required();
-  command.add_option("--only", arguments.only, "Glob over configurations");
+  command.add_option("--reason", arguments.reason, "The reason, which is kept in history.json")
+      ->required();
+  command.add_option("--only", arguments.only, "Only configurations that match this glob");
   command.add_flag("--drop", arguments.drop,
-                   "Drop stored configurations that the run has no record of, and files that are "
-                   "not as they were accepted; with --only what a device skips now");
-  command.add_option("--store", arguments.store)->capture_default_str();
+                   "Remove stored configurations that the run does not contain, and files that "
+                   "were changed since they were accepted; with --only, remove configurations "
+                   "that a device skips now");
+  command.add_option("--store", arguments.store, "SQLite file with the records")
+      ->capture_default_str();
   add_baselines_option(command, arguments.baselines);
 }
 
@@ -207,40 +212,42 @@ void add_accept_command(Commands& commands) {
 void add_gate_commands(Commands& commands) {
   auto [command, arguments] =
       commands.add("gate", "Judge the latest runs of plans, or measure and judge them", gate);
+  add_example(command, "triptych gate --measure --store gate.sqlite --out out");
   command.add_option("PLAN", arguments.plans,
                      fmt::format("SUITE/PLAN or the YAML file, as it was run (default: {})",
                                  fmt::join(main_job, " ")));
   add_choice_options(command, arguments.choice);
-  command.add_flag("--measure", arguments.measure, "Measure first, into new runs");
-  command.add_option("--store", arguments.store)->capture_default_str();
+  command.add_flag("--measure", arguments.measure, "Measure new runs before judging");
+  command.add_option("--store", arguments.store, "SQLite file with the records")
+      ->capture_default_str();
   add_baselines_option(command, arguments.baselines);
   command
       .add_option("--check", arguments.checks,
-                  "image,counters,statistics,cost,memory,timing,correlation,accuracy,stress "
-                  "(default: those of the plan)")
+                  "Judge only these of image,counters,statistics,cost,memory,timing,correlation,"
+                  "accuracy,stress (default: those of the plan)")
       ->delimiter(',');
   command
       .add_option("--without", arguments.without,
-                  "Leave these checks out; cost: plans that count instructions, too")
+                  "Leave out these checks; cost also leaves out the plans that count instructions")
       ->delimiter(',');
   add_devices_option(command, arguments.devices);
   command.add_option("--require", arguments.required,
-                     "Glob: a device that must have measured something (repeatable)");
+                     "A device that matches this glob must have measured something (repeatable)");
   command.add_flag("--times", arguments.times,
-                   "Times decide: for a machine that is kept for measuring; else they advise");
+                   "Let times affect the verdict: for a machine that is reserved for measuring");
   CLI::Option* base = command.add_option(
       "--base", arguments.base,
-      "Another build of triptych, or NAME=VALUE,… of another driver: measure each device by it and "
-      "as it is now, and judge what differs, as compare does");
+      "Another build of triptych, or NAME=VALUE,… that select another driver: compare each device "
+      "with itself under these, as compare does, instead of with the baselines");
   command.add_option(
       "--out", arguments.out,
-      "Folder for report.html, gate.log, summary.md, benchmark.json and JUnit XML of "
+      "Folder for report.html, gate.log, summary.md, benchmark.json and a JUnit XML file for "
       "each plan");
-  command.add_option("--junit", arguments.junit, "Write JUnit XML of all plans");
-  command.add_option("--markdown", arguments.markdown, "Write a Markdown summary");
+  command.add_option("--junit", arguments.junit, "Write JUnit XML of all plans to this file");
+  command.add_option("--markdown", arguments.markdown, "Write a Markdown summary to this file");
   command.add_flag("--json", arguments.json, "Print every finding as JSON");
   command.add_flag("--bisect", arguments.bisect,
-                   "For `git bisect run`: 125 where nothing could be judged, instead of 2 or 3");
+                   "For `git bisect run`: exit with code 125 instead of 2 or 3");
   for (const char* other : {"--measure", "--store", "--baselines", "--check", "--without",
                             "--require", "--out", "--junit", "--markdown"}) {
     base->excludes(other);

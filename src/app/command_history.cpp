@@ -59,13 +59,15 @@ core::ExitCode history(const HistoryArguments& arguments) {
 
 void add_history_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "history", "Cost, time and changes over stores of many days, and the first that was worse",
+      "history",
+      "Follow cost and time over the stores of many days, and name the first that is worse",
       history);
   command.add_option("STORE", arguments.stores, "Stores of the same plans, in any order")
       ->required();
   add_devices_option(command, arguments.devices);
-  command.add_option("--out", arguments.out, "Also write a page, such as history.html");
-  command.add_flag("--json", arguments.json, "Print everything as JSON");
+  command.add_option("--out", arguments.out, "Also write an HTML page, such as history.html");
+  command.add_flag("--json", arguments.json, "Print machine-readable JSON");
+  add_example(command, "triptych history monday.sqlite tuesday.sqlite --out history.html");
 }
 
 }  // namespace triptych::app

@@ -146,11 +146,13 @@ core::ExitCode list(const ListArguments& arguments) {
 
 void add_list_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "list", "Print the configurations of a plan; of a suite its factors, generators and plans",
+      "list",
+      "List the configurations of a plan, or the factors, data generators and plans of a suite",
       list);
   add_plan_option(command, arguments.plan);
   add_choice_options(command, arguments.choice);
   command.add_flag("--json", arguments.json, "Print every factor of every configuration as JSON");
+  add_example(command, "triptych list volume/quick");
 }
 
 }  // namespace triptych::app

@@ -123,18 +123,19 @@ core::ExitCode merge(const MergeArguments& arguments) {
 
 void add_merge_command(Commands& commands) {
   auto [command, arguments] =
-      commands.add("merge", "Make one store of several: shards, hosts, devices", merge);
-  command.add_option("STORE", arguments.stores, "What `triptych run` wrote")->required();
+      commands.add("merge", "Combine the stores of shards, hosts or devices into one", merge);
+  command.add_option("STORE", arguments.stores, "Stores that `triptych run` wrote")->required();
+  add_example(command, "triptych merge shard-*.sqlite --out all.sqlite");
   CLI::Option* out =
-      command.add_option("--out", arguments.out, "Store to be written; none may be there");
+      command.add_option("--out", arguments.out, "The store to write; it must not exist");
   CLI::Option* check =
       command
           .add_flag("--check", arguments.check,
-                    "Merge nothing: name the stores that are not complete, and end with 2 for one")
+                    "Merge nothing; list the incomplete stores, and exit with code 2 if any is")
           ->excludes(out);
   command
       .add_option("--plan", arguments.plans,
-                  "A plan of which each store has to hold a run (repeatable)")
+                  "With --check: a plan that every store must contain a run of (repeatable)")
       ->needs(check);
 }
 

@@ -145,21 +145,25 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
 
 void add_reduce_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "reduce", "Make a frame that fails as small as it can be, as a folder for a bug report",
+      "reduce", "Find the smallest frame that still fails, and write a folder for a bug report",
       reduce);
   arguments.frame.add_to(command);
   command.add_option("--out", arguments.frame.out, "Folder to write into")->capture_default_str();
   command.add_option("--against", arguments.against,
-                     "A device whose counters are right: others are a failure too");
+                     "A device whose counters are right: other counters are a failure, too");
   command
       .add_option("--limit", arguments.limit_s,
-                  "Seconds after which a frame counts as hung (default: 20, or three times what "
-                  "the first takes)")
+                  "Seconds after which a frame is regarded as hung (default: 20, or three times "
+                  "the time of the first frame)")
       ->check(CLI::Range(1, 86400));
-  command.add_option("--frames", arguments.frames, "Draw at most so many")
+  command.add_option("--frames", arguments.frames, "The largest number of frames to draw")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
-  command.add_flag("--truth", arguments.truth, "As of render, whose arguments it takes: always");
+  command.add_flag("--truth", arguments.truth,
+                   "Has no effect: reduce always compares with the reference image. It exists so "
+                   "that a `render` command can be reused");
+  add_example(command,
+              "triptych reduce volume --device vulkan:lavapipe --set viewport=64 --out small");
 }
 
 }  // namespace triptych::app

@@ -136,18 +136,20 @@ core::ExitCode render(const RenderArguments& arguments) {
 
 void add_render_command(Commands& commands) {
   auto [command, arguments] =
-      commands.add("render", "Draw one configuration: image.exr, image.png, frame.json", render,
-                   {.frame = {.chooses = true}});
+      commands.add("render", "Draw one configuration, and write image.exr, image.png, frame.json",
+                   render, {.frame = {.chooses = true}});
   arguments.frame.add_to(command);
   command.add_option("--out", arguments.frame.out, "Folder to write into")->required();
   command.add_option("--error", arguments.error,
-                     "E or E:METRIC, with rms (the default), covered, p99.9 or max: the error "
-                     "against the scene's limit. Chooses the fastest step, quadrature, ert, adapt "
-                     "and skip that keep it");
+                     "E or E:METRIC (rms, the default, covered, p99.9 or max): choose the fastest "
+                     "step, quadrature, ert, adapt and skip whose error against the scene's limit "
+                     "image is at most E");
   add_limit_option(command, arguments.limit_s, "the frame");
   command.add_flag("--truth", arguments.truth,
-                   "Hold it against the reference: writes truth.exr, truth.png and "
-                   "difference.png, ends with 1 where it is wrong");
+                   "Compare with the reference image: write truth.exr, truth.png and "
+                   "difference.png, and exit with code 1 if the image is wrong");
+  add_example(command,
+              "triptych render volume --device vulkan:lavapipe --set viewport=256 --out frame");
 }
 
 }  // namespace triptych::app

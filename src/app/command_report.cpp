@@ -52,11 +52,13 @@ core::ExitCode write_report(const ReportArguments& arguments) {
 void add_report_command(Commands& commands) {
   auto [command, arguments] =
       commands.add("report", "Write one self-contained HTML page about a store", write_report);
-  command.add_option("--store", arguments.store)->capture_default_str();
-  command.add_option("--out", arguments.out)->capture_default_str();
+  add_example(command, "triptych report --store results.sqlite --out report.html");
+  command.add_option("--store", arguments.store, "SQLite file with the records")
+      ->capture_default_str();
+  command.add_option("--out", arguments.out, "The HTML file to write")->capture_default_str();
   add_baselines_option(command, arguments.baselines);
   command.add_option("--benchmark-json", arguments.benchmark_json,
-                     "Also write Google Benchmark's JSON of all its plans' latest runs");
+                     "Also write the latest run of every plan as Google Benchmark JSON");
 }
 
 }  // namespace triptych::app

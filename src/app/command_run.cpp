@@ -79,28 +79,30 @@ void add_run_options(CLI::App& command, Measuring& measuring) {
   add_plan_option(command, measuring.plans);
   add_choice_options(command, measuring.choice);
   command.add_option("--device", measuring.devices,
-                     "Glob over device ids (repeatable; default: all)");
+                     "Only devices that match this glob (repeatable; default: all)");
   command.add_option("--store", measuring.store, "SQLite file for the records")
       ->capture_default_str();
   add_limit_option(command, measuring.limit_s, "a configuration");
   constexpr std::uint64_t least_memory = std::uint64_t{64} << 20;
   command
       .add_option("--memory", measuring.memory,
-                  "What a worker may allocate, such as 4G: data that need more fail their "
-                  "configurations (default: no limit; Valgrind holds no worker to it)")
+                  "Memory that a worker may allocate, such as 4G; a configuration whose data need "
+                  "more fails (default: no limit; has no effect under Valgrind)")
       ->transform(CLI::AsSizeValue(false))
       ->check(CLI::Range(least_memory, std::numeric_limits<std::uint64_t>::max()));
   command.add_flag("--untimed", measuring.untimed,
-                   "One frame for the picture and one for the counters: no times, no statistics");
+                   "Draw only one frame for the image and one for the counters: no times, no "
+                   "statistics");
   command
       .add_flag("--timed", measuring.timed,
-                "Times too, of plans that are not judged by them, such as SUITE/accuracy")
+                "Also measure times for plans without the check timing, such as SUITE/accuracy")
       ->excludes("--untimed");
   command.add_flag("--measure-every", measuring.measure_every,
-                   "Measure configurations too that their scene cannot tell from one before");
+                   "Also measure configurations that are exactly the same work as another one in "
+                   "their scene");
   add_inject_option(
       command, measuring.faults,
-      "Inject a fault to prove that the gate catches it: " + measure::fault_names() +
+      "Inject a fault to prove that the gate finds it: " + measure::fault_names() +
           "; FAULT@factor=level,… or FAULT@GLOB limits it to configurations or devices");
 }
 
@@ -110,12 +112,13 @@ void add_run_commands(Commands& commands) {
   auto [command, measuring] =
       commands.add("run", "Measure a plan on the devices of this machine", run, {.chooses = true});
   add_run_options(command, measuring);
-  command.add_flag("--resume", measuring.resume, "Go on with the plan's latest run in the store");
+  command.add_flag("--resume", measuring.resume, "Continue the plan's latest run in the store");
+  add_example(command, "triptych run volume/quick --device 'vulkan:*' --store results.sqlite");
   command
       .add_option("--error", measuring.error,
-                  "E or E:METRIC, with rms (the default), covered, p99.9 or max: the error "
-                  "against the limit of each scene. Measures only what keeps it, chooses step, "
-                  "quadrature, ert, adapt and skip, and tells the fastest")
+                  "E or E:METRIC (rms, the default, covered, p99.9 or max): measure only settings "
+                  "of step, quadrature, ert, adapt and skip whose error against the limit image "
+                  "of each scene is at most E, and report the fastest")
       ->excludes("--untimed");
 
   // Every device adds its part to the run that test-start began.

@@ -124,11 +124,13 @@ core::ExitCode check(const CheckArguments& arguments) {
 }  // namespace
 
 void add_test_commands(Commands& commands) {
-  auto [tests, listed] =
-      commands.add("ctest", "Write the CTest file for the devices of this machine", list_tests);
-  tests.add_option("PLAN", listed.plans)->required();
-  tests.add_option("--out", listed.out, "The file to write")->required();
-  tests.add_option("--folder", listed.folder, "Where stores are kept")->required();
+  auto [tests, listed] = commands.add(
+      "ctest", "Write a CTest file with the tests of this machine's devices", list_tests);
+  tests.add_option("PLAN", listed.plans, "Plans: YAML files, or SUITE/PLAN")->required();
+  tests.add_option("--out", listed.out, "The CTest file to write")->required();
+  tests.add_option("--folder", listed.folder, "The folder in which the tests keep their stores")
+      ->required();
+  add_example(tests, "triptych ctest volume/quick --out tests.cmake --folder stores");
 
   auto [starting, store] =
       commands.add("test-start", "Forget what an earlier test run measured", start);

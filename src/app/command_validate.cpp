@@ -179,29 +179,34 @@ core::ExitCode validate(const ValidateArguments& arguments) {
 
 void add_validate_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "validate", "Everything a new driver must pass: pictures, work, hostile scenes", validate);
-  command.add_option("--device", arguments.devices, "Glob over device ids (repeatable)")
+      "validate", "Check everything that a new driver must get right: images, work, hostile scenes",
+      validate);
+  add_example(command, "triptych validate --device vulkan:lavapipe --out validation");
+  command.add_option("--device", arguments.devices, "Devices that match this glob (repeatable)")
       ->required();
   command
-      .add_option("--out", arguments.out, "Folder for the store and what the gate writes for a CI")
+      .add_option("--out", arguments.out,
+                  "Folder for the store and for the files that the gate writes for a CI system")
       ->capture_default_str();
   command.add_option("--junit", arguments.junit, "Write JUnit XML of all plans");
-  command.add_option("--json", arguments.json, "Write every finding as JSON; -: print it");
+  command.add_option("--json", arguments.json,
+                     "Write every finding as JSON to this file; - prints it");
   command.add_flag(
       "--resume", arguments.resume,
-      "Go on with what is in the folder's store, after a kill or a crash of the machine");
+      "Continue with the store in the folder, after an interruption or a crash of the machine");
   command
       .add_option("--jobs", arguments.jobs,
-                  "Workers at once, of one device too (default: one of each device)")
+                  "Number of workers that run at once, also for one device (default: one for each "
+                  "device)")
       ->check(CLI::Range(1, 64));
   add_limit_option(command, arguments.limit_s, "a configuration");
   command.add_option("--shard", arguments.choice.shard,
                      "i/n: only the i-th of n parts of each plan");
   command.add_option("--expect", arguments.expect,
-                     "What is known to fail, flake or be skipped, as --write-expect leaves it: "
-                     "known failures are waived, all else has to pass");
+                     "A file of --write-expect with known failures, flakes and skips: they are "
+                     "waived, and everything else has to pass");
   command.add_option("--write-expect", arguments.write_expect,
-                     "Write what failed, flaked or was skipped, for the next --expect");
+                     "Write failures, flakes and skips to this file, for --expect");
   add_baselines_option(command, arguments.baselines);
 }
 

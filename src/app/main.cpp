@@ -24,7 +24,8 @@ using core::ExitCode;
 
 constexpr const char* footer =
     "Exit codes: 0 pass, 1 regression, 2 could not judge, 3 usage or I/O, 77 skipped (tests).\n"
-    "A PLAN is a YAML file or a short name such as volume/quick; `triptych list PLAN` shows it.";
+    "A PLAN is a YAML file or a short name such as volume/quick. `triptych list PLAN` prints its "
+    "configurations.";
 
 // CLI11 says that a command is required, whatever stands in its place.
 void refuse_unknown_command(const CLI::App& program, std::string_view name) {
@@ -50,8 +51,8 @@ void give_options_one_value(CLI::App& program) {
 
 ExitCode run(int argc, char** argv) {
   CLI::App program{
-      "Cross-API portability tests: the same scenes through OpenCL, Vulkan and OpenGL, "
-      "judged against the truth and against stored baselines",
+      "Cross-API portability tests: draws the same scenes through OpenCL, Vulkan and OpenGL and "
+      "compares images, work and cost with a reference renderer and with stored baselines",
       "triptych"};
   program.set_version_flag("--version", "triptych " + app::version());
   program.require_subcommand(1);

@@ -7,9 +7,10 @@ namespace triptych::app {
 
 void FrameArguments::add_to(CLI::App& command) {
   command.add_option("SUITE", suite, "volume or particles")->required();
-  command.add_option("--device", device, "Device id or a glob for one")->required();
-  command.add_option("--set", set, "factor=value (repeatable); a comma in it is spelled %2C");
-  add_inject_option(command, faults, "Inject a fault, as for run (repeatable)");
+  command.add_option("--device", device, "A device id, or a glob that matches one device")
+      ->required();
+  command.add_option("--set", set, "factor=value (repeatable); write a comma in a value as %2C");
+  add_inject_option(command, faults, "Inject a fault (repeatable); see run --help");
 }
 
 OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments) {

@@ -8,6 +8,7 @@ import glob
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -82,6 +83,27 @@ class Documented(unittest.TestCase):
         for page in PAGES:
             self.run_page(page)
         self.assertGreater(self.ran, 20)
+
+    def test_every_example_in_help_runs(self):
+        """Every command that help lists shows an example, which runs after those of run and accept."""
+        listed = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True).stdout
+        names = re.findall(r"^  ([a-z]+) ", listed[listed.index("ubcommands:"):], re.MULTILINE)
+        self.assertGreater(len(names), 10)
+        environment = {**os.environ, "TRIPTYCH_NULL_SCRIPT": '{"base_ns": 1e3}', "TRIPTYCH_DATA": ""}
+        with tempfile.TemporaryDirectory() as folder:
+            for suite, text in PLANS.items():
+                pathlib.Path(folder, f"{suite}-quick.yaml").write_text(text, encoding="utf-8")
+            for name in sorted(names, key=lambda each: (each != "run", each != "accept")):
+                with self.subTest(command=name):
+                    text = subprocess.run([PROGRAM, name, "--help"], capture_output=True, text=True).stdout
+                    example = re.search(r"^Example:\s+triptych (.*)$", text, re.MULTILINE)
+                    self.assertIsNotNone(example, text)
+                    command = f"'{PROGRAM}' {small(example[1])}"
+                    done = subprocess.run(command, shell=True, cwd=folder, env=environment, capture_output=True, text=True)
+                    self.assertIn(done.returncode, (0, 1, 2), f"{command}\n{done.stdout[-500:]}{done.stderr[-500:]}")
+                if name == "run":  # the stores that other examples name
+                    for store in ("shard-1", "old", "new", "monday", "tuesday"):
+                        shutil.copy(pathlib.Path(folder, "results.sqlite"), pathlib.Path(folder, f"{store}.sqlite"))
 
     def test_what_is_only_named_is_there(self):
         """The program's help has every command and option that a synopsis or a text in backquotes names."""
