@@ -15,7 +15,7 @@ using measure::Factor;
 using measure::number;
 using measure::text;
 
-constexpr double any_field_of_view = 60;  // for checking a camera's spelling
+constexpr double any_field_of_view = 60;  // only used to check the spelling of a camera
 
 }  // namespace
 
@@ -25,29 +25,30 @@ const std::vector<Factor>& particle_factors() {
       text(
           "data", "generate:uniform:10000",
           "a particle file (.pdb, .cif, .gro, .xyz, .lammpstrj, .dump, .data, .lmp, .mmpld, plain "
-          "or .gz; FILE@K: its K-th frame), generate:NAME:COUNT, or stress:CASE:VARIANT, a hostile "
-          "scene"),
+          "or .gz; FILE@K: its K-th frame), generate:NAME:COUNT, or stress:CASE:VARIANT (a hostile "
+          "scene)"),
       choice("colour", {"rgba8", "rgba32", "intensity"}, "rgba8", Decides::the_picture,
-             "what colours a particle"),
+             "the source of a particle's colour"),
       text("transfer_function", "haze",
-           "colours of the intensities: haze, surfaces, or a file of 256 RGBA entries"),
+           "colours for intensities: haze, surfaces, or a file with 256 RGBA entries"),
       choice("transfer", {"vertex", "pixel"}, "vertex", Decides::how_it_is_made,
-             "stage in which the transfer function is looked up"),
+             "the stage that looks up the transfer function"),
       choice("ray", {"vertex", "pixel"}, "pixel", Decides::how_it_is_made,
-             "stage in which the ray is made"),
+             "the stage that computes the ray"),
       choice("conservative_depth", {"off", "on"}, "off", Decides::how_it_is_made,
-             "whether the shader promises that the surface lies behind its sprite"),
+             "whether the shader declares that the surface lies behind its sprite"),
       choice("corners", {"4", "5", "6", "7", "8", "16", "32"}, "8", Decides::how_it_is_made,
-             "corners of polygon_tess"),
+             "number of corners of polygon_tess"),
       choice("culling", {"none", "frustum", "occlusion"}, "frustum", Decides::how_it_is_made,
-             "which cells of particles are left out"),
-      number("radius_scale", 1e-6, 1e6, "1", Decides::the_picture, "factor of every radius"),
+             "which cells of particles are not drawn"),
+      number("radius_scale", 1e-6, 1e6, "1", Decides::the_picture,
+             "factor by which every radius is multiplied"),
       text("camera", "orbit_y:1/8",
-           "PATH:i/n (orbit_y:1/8, path_z:3/36, …) or random:SEED; own: a stress case's"),
+           "PATH:i/n (orbit_y:1/8, path_z:3/36, …) or random:SEED; own: that of the stress case"),
       number("fov", 0.0005, 179, "60", Decides::the_picture,
-             "vertical field of view in degrees; own: that of its own camera",
+             "vertical field of view in degrees; own: that of the stress case",
              {std::string(own_level)}),
-      text("viewport", "256", "N for NxN, or WxH, in pixels; own: a stress case's"),
+      text("viewport", "256", "N for NxN, or WxH, in pixels; own: that of the stress case"),
   };
   return factors;
 }

@@ -12,10 +12,10 @@
 namespace triptych::particles_suite {
 namespace {
 
-// In camera space: x right, y up, z along the view.
+// A square in camera space: x to the right, y up, z along the view.
 struct Square {
   glm::dvec3 centre;
-  glm::dvec3 right;  // of length 1
+  glm::dvec3 right;  // unit vector
   glm::dvec3 up;
   double half = 0;
   double grown = 0;
@@ -28,7 +28,7 @@ class Image {
         half_y_(scene::tangent_of_half(scene.camera.fov_y_deg)),
         half_x_(half_y_ * scene.width / scene.height) {}
 
-  // A pixel's size at distance 1, of the larger side.
+  // The size of a pixel at distance 1, for the larger side.
   [[nodiscard]] double pixel() const {
     return std::max(2 * half_x_ / scene_.width, 2 * half_y_ / scene_.height);
   }
@@ -43,7 +43,8 @@ class Image {
   struct Bounds {
     int x_begin, x_end, y_begin, y_end;
   };
-  // Of the pixels that the grown square may cover: all, where a corner is not before the eye.
+  // The range of pixels that the grown square can cover; all pixels if a corner is not in front of
+  // the eye.
   [[nodiscard]] Bounds bounds(const Square& square) const;
   [[nodiscard]] double column(double x) const { return (x / half_x_ + 1) * scene_.width / 2; }
   [[nodiscard]] double row(double y) const { return (1 - y / half_y_) * scene_.height / 2; }
@@ -90,8 +91,9 @@ std::uint64_t Image::ring(const Square& square) const {
   return count;
 }
 
-// As technique/portable/sphere_math.h places sprites: just before the sphere, a margin of 1/64
-// pixel around it. Nothing where the sprite is the whole viewport, or behind the eye.
+// The square where technique/portable/sphere_math.h places the sprite: just in front of the sphere,
+// with a margin of 1/64 pixel around it. nullopt if the sprite is the whole viewport or behind the
+// eye.
 std::optional<Square> square_of(const glm::dvec3& centre, double radius, double pixel,
                                 double growth) {
   const double d = glm::length(centre);

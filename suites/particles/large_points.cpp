@@ -12,8 +12,8 @@
 namespace triptych::particles_suite {
 namespace {
 
-// Of a silhouette along one axis of the image plane, cut to [−reach, reach]: 0 where none is in
-// front. As tri_sphere_interval (technique/portable/sphere_math.h) has it.
+// The length of a silhouette along one axis of the image plane, clipped to [−reach, reach]; 0 if
+// the sphere is not in front. Computed like tri_sphere_interval (technique/portable/sphere_math.h).
 double length_on_image(double a, double z, double r, double margin, double reach) {
   const double side = std::abs(a);  // by symmetry
   const double k2 = side * side + z * z - r * r;
@@ -30,7 +30,7 @@ double length_on_image(double a, double z, double r, double margin, double reach
   return std::max(0.0, std::min(high + margin, reach) - std::max(low - margin, -reach));
 }
 
-// In pixels, of all spheres with a silhouette in the view.
+// Visits all spheres with a silhouette in the view, with sizes in pixels.
 template <class Take>
 void for_each_silhouette(const scene::ParticleScene& scene, Take&& take) {
   const scene::Camera& camera = scene.camera;
@@ -54,7 +54,7 @@ void for_each_silhouette(const scene::ParticleScene& scene, Take&& take) {
 
 std::map<std::string, double> open_by_quads(const scene::ParticleScene& scene, double largest,
                                             bool occlusion) {
-  // A device's size is rounded: some 16 operations of 2⁻²⁴, of pictures below 16,384 pixels.
+  // A device computes a size with about 16 operations of 2⁻²⁴ each, for images below 16,384 pixels.
   constexpr double rounding = 1.0 / 64;
   const double picture = static_cast<double>(scene.width) * scene.height;
   double quads = 0;

@@ -1,5 +1,6 @@
 #pragma once
-// What is open where a device's points end: a sprite that is larger is a quad there.
+// The counts that may differ because a device's points have a largest size: a larger sprite is
+// drawn as a quad there.
 
 #include <map>
 #include <string>
@@ -8,15 +9,16 @@
 
 namespace triptych::particles_suite {
 
-// By the counters' names, against a device that draws all of them as points. `largest`: the largest
-// sprite, in pixels, that the device certainly draws as a point.
-//   vertices. Four for one.
-//   fragments, discarded ones. A point is the square around a silhouette's rectangle, and larger by
-//     a margin, which drivers have up to a pixel of. A rectangle of w pixels passes between ⌊w⌋ and
-//     ⌈w⌉ centres along an axis.
-//   who is culled, submitted and drawn, where `occlusion` culls. Quads are drawn first and whole,
-//     so that behind them it culls more, of cells and particles as many as there are. Who is seen
-//     is not open.
+// Allowed differences by counter name, relative to a device that draws all sprites as points.
+// `largest` is the largest sprite in pixels that the device certainly draws as a point.
+//
+//   - vertices: four instead of one.
+//   - fragments and discarded ones: a point is the square around a silhouette's rectangle, and
+//     larger by a margin, which is up to a pixel in some drivers. A rectangle of w pixels contains
+//     between ⌊w⌋ and ⌈w⌉ pixel centres along an axis.
+//   - culled, submitted and drawn ones, if `occlusion` culls: quads are drawn first and completely,
+//     so that more cells and particles are culled behind them, up to all of them. The visible ones
+//     may not differ.
 [[nodiscard]] std::map<std::string, double> open_by_quads(const scene::ParticleScene& scene,
                                                           double largest, bool occlusion);
 

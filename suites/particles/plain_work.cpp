@@ -15,19 +15,20 @@
 namespace triptych::particles_suite {
 namespace {
 
-// Pixels of a picture, from lo up to but not including hi.
+// Pixels of an image, from lo to hi, hi excluded.
 struct Rectangle {
   int x_lo, x_hi, y_lo, y_hi;
 };
 
-// One axis of the image: where it begins on the image plane, pixels per unit there, pixels.
+// One axis of the image: its start on the image plane, pixels per unit there, number of pixels.
 struct Axis {
   double first;
   double per_unit;
   int pixels;
 
-  // Of a ball of radius r around a, z: with |p − c| ≤ r each point's p_a/p_z differs from a/z by at
-  // most r·(1 + |a|/z)/(z − r). Two pixels more than any sprite's margin on each side.
+  // The pixels of a ball with radius r around (a, z). A point p with |p − c| ≤ r has a p_a/p_z that
+  // differs from a/z by at most r·(1 + |a|/z)/(z − r). Two pixels are added on each side, more than
+  // the margin of any sprite.
   [[nodiscard]] std::pair<int, int> pixels_of(double a, double z, double r) const {
     constexpr double margin = 2;
     const double middle = (a / z - first) * per_unit;
@@ -39,14 +40,14 @@ struct Axis {
   }
 };
 
-// Pixels that a sprite has claimed.
+// Marks the pixels that sprites have claimed.
 class Claims {
  public:
   Claims(int width, int height)
       : width_(static_cast<std::size_t>(width)),
         taken_(width_ * static_cast<std::size_t>(height), false) {}
 
-  // False where one of them was another's.
+  // False if another sprite had claimed one of them.
   bool claim(const Rectangle& rectangle) {
     for (int y = rectangle.y_lo; y < rectangle.y_hi; ++y) {
       for (int x = rectangle.x_lo; x < rectangle.x_hi; ++x) {
@@ -66,7 +67,7 @@ class Claims {
 }  // namespace
 
 bool sprites_are_apart(const scene::ParticleScene& scene) {
-  // A polygon around a silhouette has at least four corners: they reach √2 as far as it does.
+  // A polygon around a silhouette has at least four corners, which reach √2 times as far.
   constexpr double reach = 1.05 * std::numbers::sqrt2;
   const double tangent = scene::tangent_of_half(scene.camera.fov_y_deg);
   const double aspect = static_cast<double>(scene.width) / scene.height;

@@ -1,11 +1,12 @@
 #pragma once
-// Scenes that break renderers of spheres, each with what has to come out of it: data "stress:CASE"
-// or "stress:CASE:VARIANT". They bring a camera and a viewport of their own, which the factors
-// `camera`, `fov` and `viewport` take by the level `own`.
+// Scenes that break renderers of spheres, each with the expected result: data "stress:CASE" or
+// "stress:CASE:VARIANT". They bring their own camera and viewport, which the factors `camera`,
+// `fov` and `viewport` use with the level `own`.
 //
-// What is asked of every picture: in each certain pixel (reference/spheres.hpp) the truth's id, its
-// depth and its colour within the bounds of tolerance.hpp, in the others a colour that is possible
-// there. A case says why single precision can do that, and what is asked beyond it.
+// In every image a certain pixel (reference/spheres.hpp) must show the reference's id, with depth
+// and colour within the bounds of tolerance.hpp; any other pixel must show a colour that is
+// possible there. Each case states why single precision can achieve that, and what else is
+// expected.
 
 #include <optional>
 #include <string>
@@ -18,21 +19,21 @@
 
 namespace triptych::particles_suite {
 
-// The level of `camera`, `fov` and `viewport` that means what belongs to the data.
+// The level of `camera`, `fov` and `viewport` that selects the value that belongs to the data.
 using measure::own_level;
 
 struct StressCase {
-  int number = 0;  // in the catalogue of docs/accuracy.md
+  int number = 0;  // number in the catalogue of docs/accuracy.md
   std::string_view name;
-  std::string_view summary;                // what is hostile
-  std::string_view expected;               // what has to come out, and why it can
-  std::vector<std::string_view> variants;  // none: the case has one scene
+  std::string_view summary;                // why it is hostile
+  std::string_view expected;               // the expected result, and why it is achievable
+  std::vector<std::string_view> variants;  // empty if the case has only one scene
 };
-// By number.
+// All cases, sorted by number.
 [[nodiscard]] const std::vector<StressCase>& stress_cases();
 
 using StressData = measure::StressChoice<StressCase>;
-// As a plan spells it.
+// The name of the data in a plan.
 [[nodiscard]] std::string name_of(const StressData& data);
 
 // nullopt for other data. Throws InputError for an unknown case or variant.
@@ -43,12 +44,12 @@ struct StressScene {
   scene::Camera camera;
   int width = 0;
   int height = 0;
-  // The eye of the frame before the first, where a case is about what is left of it.
+  // The camera of the previous frame, if the case is about what a frame leaves for the next one.
   std::optional<scene::Camera> camera_before = {};
 };
 [[nodiscard]] StressScene stress_scene(const StressData& data, scene::ColourKind colour);
 
-// What has to hold beside the truth.
+// Expectations in addition to the bound.
 [[nodiscard]] std::vector<record::Expectation> stress_expectations(const StressData& data);
 
 }  // namespace triptych::particles_suite

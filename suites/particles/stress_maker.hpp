@@ -9,23 +9,23 @@ namespace triptych::particles_suite {
 
 using scene::looking;
 
-// A direction that is oblique to all axes, of unit length.
+// A unit vector that is oblique to all axes.
 [[nodiscard]] glm::dvec3 oblique();
 
 class StressMaker {
  public:
   StressMaker(scene::ColourKind colour, const scene::Camera& camera, int width, int height);
 
-  // The next particle; one that is no sphere is dropped and keeps its number.
+  // Adds the next particle. An invalid sphere is dropped, but its number is used up.
   void add(const glm::dvec3& centre, double radius);
-  // At a place in the picture, in pixels from its upper left corner, at the distance `depth` along
-  // the view axis, with a radius in pixels of that depth.
+  // Adds a particle at a place in the image, given in pixels from the upper left corner, at the
+  // distance `depth` along the view axis, with a radius in pixels at that depth.
   void add_at(double x, double y, double depth, double radius_px);
-  // Leaves a number out.
+  // Leaves out one number.
   void skip() { ++next_; }
 
   [[nodiscard]] glm::dvec3 place(double x, double y, double depth) const;
-  // Edge of a pixel at distance 1 along the view axis.
+  // The edge length of a pixel at distance 1 along the view axis.
   [[nodiscard]] double pixel() const;
 
   [[nodiscard]] StressScene take();
@@ -35,7 +35,7 @@ class StressMaker {
   std::uint32_t next_ = 0;
 };
 
-// A scene of particles that exist already.
+// Makes a scene from existing particles.
 [[nodiscard]] StressScene stress_of(scene::ParticleSet set, const scene::Camera& camera, int width,
                                     int height);
 

@@ -1,6 +1,6 @@
 #pragma once
-// How the scenes of stress_cases.hpp are made. Each function makes every variant of its case;
-// `variant` is one that the catalogue lists.
+// Functions that make the scenes of stress_cases.hpp. Each makes every variant of its case;
+// `variant` must be one that the catalogue lists.
 
 #include <string_view>
 
@@ -23,7 +23,7 @@ using MakeStressScene = StressScene (*)(std::string_view variant, scene::ColourK
 [[nodiscard]] StressScene stress_subpixel(std::string_view, scene::ColourKind);
 [[nodiscard]] StressScene stress_depth_range(std::string_view, scene::ColourKind);
 
-// Sets: what a particle may be, how many there are, in which order, before which camera.
+// Sets of particles: valid values, number, order, camera.
 [[nodiscard]] StressScene stress_no_sphere(std::string_view, scene::ColourKind);
 [[nodiscard]] StressScene stress_coincident(std::string_view, scene::ColourKind);
 [[nodiscard]] StressScene stress_interpenetrating(std::string_view, scene::ColourKind);

@@ -16,7 +16,7 @@
 namespace triptych::particles_suite {
 namespace {
 
-constexpr int side = 96;  // of a picture, in pixels
+constexpr int side = 96;  // of an image, in pixels
 constexpr double fov = 60;
 
 template <typename Number>
@@ -33,7 +33,7 @@ StressScene generated(std::string_view generator, std::uint64_t count, scene::Co
   return stress_of(std::move(set), camera, width, height);
 }
 
-// The same particles with their ids and colours in another order (Fisher and Yates 1938).
+// Reorders the particles with their ids and colours (Fisher and Yates 1938).
 void shuffle(scene::ParticleSet& set) {
   core::Random random(5);
   const auto exchange = [](auto& values, std::size_t i, std::size_t j) {
@@ -58,7 +58,7 @@ StressScene stress_no_sphere(std::string_view variant, scene::ColourKind colour)
   const glm::dvec3 before{0, 0, 0.5};
   maker.add({0, 0, 0}, 1);
   if (variant == "vanishing") {
-    // Finite and positive, though their squares are 0 and the last is not a normal float.
+    // Finite and positive, although their squares are 0 and the last one is not a normal float.
     maker.add(maker.place(48.5, 48.5, 2), 1e-25);
     maker.add(maker.place(30.5, 40.5, 2), 1e-30);
     maker.add(maker.place(50.5, 30.5, 2), 1e-40);
@@ -74,7 +74,7 @@ StressScene stress_no_sphere(std::string_view variant, scene::ColourKind colour)
   return maker.take();
 }
 
-// Eight times the same five spheres, equal ones far apart in the set.
+// The same five spheres eight times, with equal ones far apart in the set.
 StressScene stress_coincident(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({1, 0.7, 4}, {0, 0, 0}, fov), side, side);
   for (int copy = 0; copy < 8; ++copy) {
@@ -87,8 +87,8 @@ StressScene stress_coincident(std::string_view, scene::ColourKind colour) {
   return maker.take();
 }
 
-// A lattice with edges as long as the radius: each sphere cuts into 18 others, and what is seen is
-// bounded by their bisecting planes.
+// A lattice whose edges are as long as the radius. Each sphere cuts into 18 others, and its visible
+// part is bounded by the bisecting planes.
 StressScene stress_interpenetrating(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({3, 2.2, 4.1}, {0, 0, 0}, 45), side, side);
   for (int z = 0; z < 4; ++z) {
@@ -99,7 +99,7 @@ StressScene stress_interpenetrating(std::string_view, scene::ColourKind colour) 
   return maker.take();
 }
 
-// All over the centre of one pixel, behind the last of them.
+// All particles cover the centre of one pixel, behind the last one.
 StressScene stress_pile(std::string_view variant, scene::ColourKind colour) {
   constexpr int small_side = 33;
   const std::uint64_t count = number_in<std::uint64_t>(variant);
@@ -127,8 +127,8 @@ StressScene stress_order(std::string_view variant, scene::ColourKind colour) {
   return scene;
 }
 
-// Two crowds on both sides of a wall. The eye jumps from one side to the other, so that nothing of
-// what it saw is of use, and most of what it did not see is needed.
+// Two crowds on both sides of a wall. The eye jumps from one side to the other, so that nothing
+// that was visible before is useful, and most of what was hidden is needed.
 StressScene stress_jump(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({3, 2, -24}, {0, 0, 0}, fov), side, side);
   for (int y = 0; y < 21; ++y) {
@@ -149,7 +149,7 @@ StressScene stress_jump(std::string_view, scene::ColourKind colour) {
   return scene;
 }
 
-// The longer side sees as much as ever.
+// The longer side always shows the same extent.
 StressScene stress_shape(std::string_view variant, scene::ColourKind colour) {
   const std::size_t times = variant.find('x');
   const int width = number_in<int>(variant.substr(0, times));
@@ -162,7 +162,7 @@ StressScene stress_shape(std::string_view variant, scene::ColourKind colour) {
   return scene;
 }
 
-// A quarter of a turn from the left to the right edge.
+// The view spans a quarter of a turn from the left to the right edge.
 StressScene stress_widest(std::string_view, scene::ColourKind colour) {
   constexpr int width = 16384;
   constexpr int height = 8;
@@ -183,7 +183,7 @@ StressScene stress_field_of_view(std::string_view variant, scene::ColourKind col
     for (int i = 0; i < 5; ++i) maker.add_at(16 + 15.0 * i, 20 + 13.0 * i, 10, 6 + 2.0 * i);
     return maker.take();
   }
-  // All but a ring of a degree at the edge of a half space: what is seen large lies aside.
+  // The image shows nearly a half space, so that the spheres at the side look large.
   const scene::Camera camera = looking({0.1, 0.2, 0.3}, {0.4, 0.1, -2}, 179);
   StressMaker maker(colour, camera, side, side);
   for (int i = 0; i < 8; ++i) {
@@ -195,7 +195,8 @@ StressScene stress_field_of_view(std::string_view variant, scene::ColourKind col
   return maker.take();
 }
 
-// The letter F, its lower end nearer: no flip and no exchange of axes leaves it as it is.
+// The letter F with its lower end closer to the eye. No flip and no exchange of axes leaves it
+// unchanged.
 StressScene stress_asymmetric(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, fov), side, side);
   for (int i = 0; i < 7; ++i) maker.add_at(30, 16 + 10.0 * i, 5 - 0.3 * i, 7);

@@ -11,7 +11,7 @@
 namespace triptych::particles_suite {
 namespace {
 
-constexpr int side = 96;  // of a picture, in pixels
+constexpr int side = 96;  // of an image, in pixels
 
 double number_in(std::string_view variant) {
   double number = 0;
@@ -19,12 +19,12 @@ double number_in(std::string_view variant) {
   return number;
 }
 
-// The field of view that a height takes at a distance.
+// The field of view that shows a height at a distance.
 double fov_of(double height, double distance) {
   return 2 * std::atan(height / (2 * distance)) * 180 / std::numbers::pi;
 }
 
-// A sphere of radius 1 at the origin and a small one that sticks out of it.
+// A sphere of radius 1 at the origin, and a small one that sticks out of it.
 void add_pair(StressMaker& maker) {
   maker.add({0, 0, 0}, 1);
   maker.add({1.2, 0.3, 0.1}, 0.2);
@@ -32,7 +32,7 @@ void add_pair(StressMaker& maker) {
 
 }  // namespace
 
-// Everything times one power of two, in world units; rounding commutes with that.
+// Everything is multiplied by one power of two in world units, which commutes with rounding.
 StressScene stress_scale(std::string_view variant, scene::ColourKind colour) {
   const double scale = variant == "small" ? 0x1.0p-20 : variant == "large" ? 0x1.0p20 : 1.0;
   StressMaker maker(colour, looking(scale * 5.0 * oblique(), {0, 0, 0}, 40), side, side);
@@ -43,7 +43,7 @@ StressScene stress_scale(std::string_view variant, scene::ColourKind colour) {
   return maker.take();
 }
 
-// Both silhouettes are whole and apart: what is seen where does not depend on depths, which a float
+// Both silhouettes are complete and apart, so the image does not depend on depths, which a float
 // cannot resolve here.
 StressScene stress_far(std::string_view variant, scene::ColourKind colour) {
   constexpr int larger_side = 160;
@@ -69,12 +69,12 @@ StressScene stress_inside(std::string_view variant, scene::ColourKind colour) {
   if (variant == "under_surface") eye = 0.9999 * oblique();
   StressMaker maker(colour, looking(eye, eye + glm::dvec3{0.7, 0.2, -2.1}, 90), side, side);
   add_pair(maker);
-  maker.add({0.5, 0.15, -0.6}, 0.15);  // inside as well, before the shell
+  maker.add({0.5, 0.15, -0.6}, 0.15);  // also inside, in front of the shell
   maker.add({0.9, 0.3, -2.5}, 0.8);    // outside: hidden by the shell
   return maker.take();
 }
 
-// Along the tangent, so that the horizon crosses the picture.
+// Looks along the tangent, so that the horizon crosses the image.
 StressScene stress_skimming(std::string_view variant, scene::ColourKind colour) {
   const double distance = number_in(variant);
   const glm::dvec3 up = oblique();
@@ -83,7 +83,7 @@ StressScene stress_skimming(std::string_view variant, scene::ColourKind colour) 
   camera.up = up;
   StressMaker maker(colour, camera, side, side);
   maker.add({0, 0, 0}, 1);
-  // Half sunk into the ground, before, on and behind the horizon.
+  // Half sunk into the ground, in front of the horizon, on it and behind it.
   for (const double angle : {0.004, 0.014, 0.1, 0.5}) {
     const glm::dvec3 foot = std::cos(angle) * up + std::sin(angle) * ahead;
     maker.add(foot + 0.3 * angle * camera.right(), 0.2 * angle);
@@ -105,7 +105,7 @@ StressScene stress_behind(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, 150), side, side);
   maker.add({1.5, 0.1, 0.3}, 1.4);
   maker.add({-0.5, -1.2, 0.2}, 1.1);
-  maker.add({0.2, 0.1, 3}, 2.5);  // wholly behind
+  maker.add({0.2, 0.1, 3}, 2.5);  // completely behind the eye
   maker.add({0, 0.3, -3}, 1);
   return maker.take();
 }
@@ -119,8 +119,8 @@ StressScene stress_wide(std::string_view, scene::ColourKind colour) {
   return maker.take();
 }
 
-// Centres on the edges and corners of the picture; and outside it, one that reaches a pixel into it
-// and one that ends a pixel before it.
+// Centres on the edges and corners of the image. Outside of it, one sphere that reaches a pixel
+// into the image and one that ends a pixel before it.
 StressScene stress_edges(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({2, 1, 4}, {0, 0, 0}, 50), side, side);
   for (const double x : {0.0, side / 2.0, 1.0 * side}) {
@@ -131,8 +131,8 @@ StressScene stress_edges(std::string_view, scene::ColourKind colour) {
   return maker.take();
 }
 
-// A hundredth of a pixel: on the centre of every eighth pixel of every eighth row, where it shows,
-// and on a corner of the pixel four further, where no ray meets it.
+// Radii of a hundredth of a pixel. Spheres on the centre of every eighth pixel of every eighth row
+// are visible; those on a pixel corner four pixels further are missed by every ray.
 StressScene stress_subpixel(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking(oblique(), {0, 0, 0}, 60), side, side);
   for (int y = 4; y < side; y += 8) {
@@ -144,8 +144,8 @@ StressScene stress_subpixel(std::string_view, scene::ColourKind colour) {
   return maker.take();
 }
 
-// Seven spheres as large as their distance makes them look equal, each overlapping the next one,
-// which is ten times as far away.
+// Seven spheres that look equally large because each is as large as its distance. Each overlaps the
+// next one, which is ten times as far away.
 StressScene stress_depth_range(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({0, 0, 0}, {0.3, -0.1, -1}, 60), side, side);
   double depth = 1e-3;

@@ -29,7 +29,8 @@ namespace {
 using measure::as_number;
 using measure::Configuration;
 
-// On a device that tells nothing of a grid, what every one has that we know.
+// The error model. A device that does not report its sub-pixel grid is assumed to have that of all
+// devices seen so far.
 reference::SphereErrorModel model_of(const scene::ParticleScene& scene,
                                      const Configuration& configuration,
                                      const std::map<std::string, double>& precision) {
@@ -78,19 +79,20 @@ class ParticleSuite final : public measure::SuiteWithTruth {
   std::vector<record::Expectation> expectations(const Configuration& configuration) override;
 
  private:
-  // The last set loaded, which neighbours in a plan share, and what belongs to it.
+  // The last set that was loaded, with everything that belongs to it. Neighbouring configurations
+  // of a plan share it.
   struct Loaded {
     std::string what;
     std::shared_ptr<const scene::ParticleSet> particles;
-    std::optional<StressScene> own;  // its particles have moved to the above
+    std::optional<StressScene> own;  // without its particles, which were moved to the member above
   };
 
   void load(const Configuration& configuration);
-  // Throws InputError where the loaded data have no camera and viewport of their own.
+  // Throws InputError if the loaded data have no camera and viewport of their own.
   [[nodiscard]] const StressScene& own(std::string_view factor) const;
   [[nodiscard]] scene::Camera camera(const Configuration& configuration) const;
   [[nodiscard]] scene::ParticleScene scene(const Configuration& configuration);
-  // What decides the picture and is not among the factors, but for the particles.
+  // Everything that decides the image and is not a factor, except the particles.
   [[nodiscard]] std::string beside_factors(const Configuration& configuration);
 
   std::vector<std::filesystem::path> folders_;
@@ -222,7 +224,7 @@ std::string ParticleSuite::truth_key(const Configuration& configuration,
                      pictured.particles->hash, model_hash, beside_factors(configuration));
 }
 
-// A driver that shows no finer grid than this has sprites that grow
+// A device that does not show a finer grid than this draws sprites that grow
 // (technique/particles/margins.hpp).
 std::map<std::string, double> ParticleSuite::open_counts(
     const Configuration& configuration, const std::map<std::string, double>& precision) {
@@ -276,8 +278,8 @@ std::string ParticleSuite::limit_key(const Configuration& configuration) {
       configuration.at("viewport"), beside_factors(configuration));
 }
 
-// A pixel shows what the ray through its centre meets: there is nothing to refine, and the truth in
-// double precision is the limit itself.
+// A pixel shows what the ray through its centre meets, so there is nothing to refine: the reference
+// in double precision is already the limit.
 measure::Limit ParticleSuite::limit(const Configuration& configuration) {
   core::Image image = reference::render_spheres(scene(configuration)).image();
   core::Image none(image.width, image.height);

@@ -7,8 +7,8 @@
 
 namespace triptych::particles_suite {
 
-// Spheres by sprites and by compute. `data_folders` are where files named in the factors are looked
-// for.
+// The suite for spheres, drawn as sprites or by compute. Files named by factors are looked for in
+// `data_folders`.
 [[nodiscard]] std::unique_ptr<measure::SuiteWithTruth> make_suite(
     std::vector<std::filesystem::path> data_folders);
 

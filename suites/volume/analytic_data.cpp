@@ -51,7 +51,7 @@ std::optional<AnalyticData> analytic_data(std::string_view data) {
 }
 
 scene::Volume analytic_volume(const AnalyticData& data) {
-  // Its grid holds normalised values in float, which a volume of floats from 0 to 1 is as well.
+  // The grid contains normalised values as floats, and so does a volume of floats from 0 to 1.
   const reference::AnalyticScene analytic = scene_of(data);
   scene::Volume volume;
   volume.name = fmt::format("{}{}:{}", prefix, reference::name_of(data.problem), data.size);

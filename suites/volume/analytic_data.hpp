@@ -1,6 +1,6 @@
 #pragma once
-// Data whose picture is known by a formula: "analytic:PROBLEM:SIZE", a cube of SIZE³ voxels with a
-// transfer function of its own (reference/analytic_scenes.hpp).
+// Data whose image is known by a formula: "analytic:PROBLEM:SIZE", a cube of SIZE³ voxels with its
+// own transfer function (reference/analytic_scenes.hpp).
 
 #include <optional>
 #include <string_view>
@@ -17,18 +17,18 @@ struct AnalyticData {
   int size = 0;
 };
 
-// The transfer function that belongs to the data: of a problem its own; of all else `surfaces`,
-// whose rays end early.
+// The level for the transfer function that belongs to the data. Only analytic problems and stress
+// cases have one; for all other data it means `surfaces`, whose rays end early.
 inline constexpr std::string_view own_transfer_function = "own";
 
-// nullopt for other data. Throws InputError for an unknown problem and for a size outside 2…512 or,
-// of the layers, odd.
+// nullopt for other data. Throws InputError for an unknown problem, for a size outside 2…512, and
+// for an odd size of the layers.
 [[nodiscard]] std::optional<AnalyticData> analytic_data(std::string_view data);
 
 [[nodiscard]] scene::Volume analytic_volume(const AnalyticData& data);
 [[nodiscard]] scene::TransferFunction analytic_transfer_function(const AnalyticData& data);
 
-// The problem's picture from the scene's camera, in its viewport, over its background.
+// The exact image of the problem from the scene's camera, in its viewport, over its background.
 [[nodiscard]] core::Image analytic_picture(const AnalyticData& data,
                                            const scene::VolumeScene& scene);
 

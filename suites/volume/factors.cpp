@@ -18,7 +18,7 @@ using measure::Factor;
 using measure::number;
 using measure::text;
 
-// What came after the first scenes were stored.
+// A factor that was added after the first scenes were stored. Its default does not appear in names.
 Factor silent(Factor factor) {
   factor.silent_default = true;
   return factor;
@@ -28,55 +28,55 @@ Factor silent(Factor factor) {
 
 const std::vector<Factor>& volume_factors() {
   static const std::vector<Factor> factors{
-      measure::technique_factor("volume", "raycast", "how the picture is made"),
+      measure::technique_factor("volume", "raycast", "how the image is drawn"),
       text("data", "generate:mandelbulb:96",
            "a volume file (.nrrd, .nhdr, .dat), generate:NAME:SIZE, generate:NAME:NXxNYxNZ, "
-           "analytic:PROBLEM:SIZE, known by a formula, or stress:CASE:VARIANT"),
+           "analytic:PROBLEM:SIZE (a scene with a closed form), or stress:CASE:VARIANT"),
       choice("voxel", {"auto", "u8", "u16", "f32", "f16"}, "auto", Decides::how_it_is_made,
-             "how voxels are stored on the device, f16: as half floats; auto: the device's fastest "
+             "how voxels are stored on the device; f16: half floats; auto: the device's fastest "
              "exact path"),
       choice(
           "sampler", {"auto", "hardware", "manual", "packed"}, "auto", Decides::how_it_is_made,
-          "who interpolates between voxels: the device's sampler, the kernel, or the kernel from "
-          "cells of eight; auto: as for voxel"),
-      silent(
-          text("window", "full",
-               "values that the transfer function spans: full, or LOW..HIGH in the data's units or "
-               "percentiles (p1..p99, 0..p99.5); voxels beyond are clamped to its ends")),
+          "how voxels are interpolated: by the device's sampler, by the kernel, or by the kernel "
+          "from packed cells of eight voxels; auto: the device's fastest exact path"),
+      silent(text("window", "full",
+                  "the range of values that the transfer function spans: full, or LOW..HIGH in the "
+                  "data's units or percentiles (p1..p99, 0..p99.5); values outside are clamped")),
       silent(choice("mapping", {"linear", "log"}, "linear", Decides::the_picture,
-                    "of a voxel's value to the window; log: of its logarithm, below the smallest "
-                    "positive value 0")),
+                    "how values are mapped to the window; log: by their logarithm, with values "
+                    "below the smallest positive one mapped to 0")),
       text("transfer_function", "haze",
-           "haze, surfaces, a file of 256 RGBA entries, or own: an analytic problem's or stress "
-           "case's own, surfaces for all other data"),
+           "haze, surfaces, a file with 256 RGBA entries, or own: that of the analytic problem or "
+           "stress case (surfaces for all other data)"),
       number("step", 1.0 / 64, 4096, "1", Decides::the_picture,
-             "distance of samples in smallest voxel spacings; own, here and below: a stress case's "
-             "own, the default for all other data",
+             "distance between samples in units of the smallest voxel spacing; own, here and "
+             "below: the value of the stress case (the default for all other data)",
              {std::string(own_level)}),
       choice("quadrature", {"midpoint", "preintegrated", "cells", std::string(own_level)},
              "midpoint", Decides::the_picture,
-             "rule for the ray integral: one sample for a step; the transfer function integrated "
-             "between the values at its ends; or, of fourth order, from voxel plane to voxel plane "
-             "in ⌈1/step⌉ parts and at the kinks of the transfer function"),
+             "rule for the ray integral; midpoint: one sample for each step; preintegrated: the "
+             "transfer function is integrated between the values at both ends of a step; cells: a "
+             "rule of fourth order, with rays cut at voxel planes, into ⌈1/step⌉ parts between "
+             "them, and at the kinks of the transfer function"),
       choice("shading", {"none", "gradient", std::string(own_level)}, "none", Decides::the_picture,
-             "headlight from central differences"),
+             "gradient: a headlight, with gradients from central differences"),
       choice("skip", {"none", "bricks", "distance"},
              std::string(technique::name_of(technique::RaycastOptions{}.skip)),
              Decides::how_it_is_made, "how empty space is skipped"),
       number("ert", 0, 0.5, "0.001953125", Decides::how_it_is_made,
-             "transmittance below which a ray ends; 0: never. The default is half an 8-bit step",
+             "early ray termination: the transmittance below which a ray ends; 0: never; the "
+             "default is half an 8-bit step",
              {std::string(own_level)}),
       number("adapt", 0, 0.5, "0", Decides::how_it_is_made,
-             "error that may be spent on taking the samples of a nearly homogeneous brick as one; "
-             "needs skip bricks"),
+             "error that is allowed for merging the samples of a nearly homogeneous brick into "
+             "one; needs skip=bricks"),
       choice("precision", {"fp32", "fp64"}, "fp32", Decides::how_it_is_made,
-             "what rays, interpolation and compositing are computed in; fp64 needs sampler manual "
-             "or packed, one of which auto then is"),
-      number(
-          "budget", 0x1.0p-10, 1 << 20, std::string(no_budget), Decides::how_it_is_made,
-          "MiB of device memory for voxels: a volume that takes more is drawn in parts, front to "
-          "back, and moved there in every frame; none: as many as the device's limits allow",
-          {std::string(no_budget)}),
+             "precision of rays, interpolation and compositing; fp64 needs sampler=manual or "
+             "packed, and auto then selects one of them"),
+      number("budget", 0x1.0p-10, 1 << 20, std::string(no_budget), Decides::how_it_is_made,
+             "MiB of device memory for voxels: a larger volume is drawn in parts, front to back, "
+             "which are uploaded in every frame; none: as much as the device's limits allow",
+             {std::string(no_budget)}),
       text("camera", "orbit_y:1/8", "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED, or own"),
       text("viewport", "256", "N for NxN, or WxH, in pixels, or own"),
   };

@@ -5,8 +5,8 @@
 
 namespace triptych::volume_suite {
 
-// "viewport", "camera" and "volume" of frame.json: everything from which another program can draw
-// the same frame. "adapt" where it is not 0.
+// The keys "viewport", "camera" and "volume" of frame.json, which contain everything that another
+// program needs to draw the same frame. The key "adapt" is present if it is not 0.
 [[nodiscard]] nlohmann::json describe_frame(const scene::VolumeScene& scene, double ert,
                                             double adapt);
 

@@ -1,6 +1,7 @@
 #pragma once
-// What a configuration's factors say where they may be `own`: a stress case's, an analytic
-// problem's transfer function, and for all other data the factor's default.
+// Resolves the level `own` of a configuration's factors. For a stress case it means the case's own
+// value, for the transfer function of an analytic problem the problem's own one, and for all other
+// data the factor's default.
 
 #include <array>
 #include <filesystem>
@@ -12,8 +13,8 @@
 
 namespace triptych::volume_suite {
 
-// Of one configuration, whose data is `stress`, or no stress case where that is nullptr. Both must
-// outlive it.
+// The levels of one configuration. `stress` is its stress case, or nullptr if its data is none.
+// Both must outlive this object.
 class OwnLevels {
  public:
   OwnLevels(const measure::Configuration& configuration, const StressScene* stress)
@@ -31,11 +32,11 @@ class OwnLevels {
   [[nodiscard]] std::array<float, 4> background() const;
 
  private:
-  // Whether the stress case decides the factor.
+  // Whether the stress case decides the value of the factor.
   [[nodiscard]] bool is_stress(const std::string& factor) const {
     return stress_ != nullptr && configuration_.at(factor) == own_level;
   }
-  // The factor's value, its default where it is `own`.
+  // The factor's value; its default if the value is `own`.
   [[nodiscard]] const std::string& value(const std::string& factor) const;
 
   const measure::Configuration& configuration_;

@@ -21,7 +21,7 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
     plain.why["ert"] = "speed_of_light ends no ray";
   }
   const bool cells = work.scene.quadrature == scene::Quadrature::cells;
-  // With cells a ray looks at a brick even so, and counts it.
+  // With quadrature cells a ray looks at a brick even then, and counts it.
   if (!cells && work.options.skip == technique::Skip::distance &&
       no_brick_is_empty(work.scene, work.options.skip)) {
     plain.levels["skip"] = technique::name_of(technique::Skip::none);

@@ -1,13 +1,13 @@
 #pragma once
-// What a volume cannot tell apart (measure::Suite::plain).
+// Configurations of a volume that are exactly the same work (measure::Suite::plain).
 
 #include "measure/contract/suite.hpp"
 
 namespace triptych::volume_suite {
 
-// Leaps over empty space where no brick is empty: they see that at a glance and take every sample.
-// (A walk from brick to brick is work even there.) Early termination is left to what pictures tell,
-// and is none of what speed_of_light does.
+// Skipping by leaps is the same work as no skipping if no brick is empty: rays find that out at
+// once and take every sample. Walking from brick to brick is work even then. Early termination is
+// compared by the images; speed_of_light ignores it.
 [[nodiscard]] measure::PlainWork plain_work(const measure::Configuration& configuration,
                                             const measure::VolumeWork& work);
 

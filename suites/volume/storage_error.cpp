@@ -4,8 +4,8 @@
 
 namespace triptych::volume_suite {
 
-// Integers that are stored as floats are rounded when they are normalised, to floats below 1: that
-// is less than single precision does to them anyway. Halves: see error_model.
+// Integers stored as floats are rounded when they are normalised to 0…1. That error is smaller than
+// the error of single precision in general. error_model derives the error of half floats.
 StorageError storage_error(const std::string& voxel, scene::VoxelFormat native, bool fits_halves,
                            technique::Precision precision) {
   if (voxel == "auto") return {};

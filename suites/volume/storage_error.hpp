@@ -1,5 +1,5 @@
 #pragma once
-// By how much voxels as a device holds them may differ from the data's own.
+// The difference between the data's voxels and the voxels that a device stores.
 
 #include <string>
 
@@ -9,12 +9,12 @@
 namespace triptych::volume_suite {
 
 struct StorageError {
-  double step = 0;      // as PathPrecision::storage_step
-  double rounding = 0;  // as PathPrecision::voxel_rounding
+  double step = 0;      // see PathPrecision::storage_step
+  double rounding = 0;  // see PathPrecision::voxel_rounding
 };
 
-// `voxel`: the factor's level. `native`: the format that holds the data's values as they are.
-// `fits_halves`: whether halves do (scene::fits_halves).
+// `voxel` is the factor's level. `native` is the format that stores the data's values exactly.
+// `fits_halves` tells whether half floats do (scene::fits_halves).
 [[nodiscard]] StorageError storage_error(const std::string& voxel, scene::VoxelFormat native,
                                          bool fits_halves, technique::Precision precision);
 

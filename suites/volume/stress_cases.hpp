@@ -1,11 +1,11 @@
 #pragma once
-// Volumes that break renderers, each with what has to come out of it: data "stress:CASE" or
-// "stress:CASE:VARIANT". They bring a transfer function, camera, viewport, step, quadrature,
-// shading and early termination of their own, which the factors take by the level `own`.
+// Volumes that break renderers, each with the expected result: data "stress:CASE" or
+// "stress:CASE:VARIANT". They bring their own transfer function, camera, viewport, step,
+// quadrature, shading and early termination, which the factors use with the level `own`.
 //
-// What is asked of every picture: that it lies within its bound of the truth (tolerance.hpp), and
-// that skipping empty space changes no bit of it. A case says why single precision can do that, and
-// what is asked beyond it.
+// Every image must be within its bound of the reference image (tolerance.hpp), and skipping empty
+// space must not change a bit of it. Each case states why single precision can achieve that, and
+// what else is expected.
 
 #include <array>
 #include <optional>
@@ -22,10 +22,10 @@
 
 namespace triptych::volume_suite {
 
-// The level that means what belongs to the data.
+// The level that selects the value that belongs to the data.
 using measure::own_level;
 
-// All but its volume is what the levels `own` stand for.
+// A case's volume, and the values that the level `own` stands for.
 struct StressScene {
   scene::Volume volume;
   scene::TransferFunction function;
@@ -38,29 +38,30 @@ struct StressScene {
   scene::Quadrature quadrature = scene::Quadrature::midpoint;
   std::array<float, 4> background{0.25F, 0.125F, 0.0625F, 1};
   std::vector<record::Expectation> expectations = {};
-  std::vector<record::Expectation> when_skipping = {};  // only where empty space is skipped …
-  std::vector<record::Expectation> when_leaping = {};   // … and by leaps (skip: distance)
+  std::vector<record::Expectation> when_skipping = {};  // only if empty space is skipped
+  std::vector<record::Expectation> when_leaping =
+      {};  // only if it is skipped by leaps (skip: distance)
 };
 
 struct StressCase {
-  int number = 0;  // in the catalogue of docs/accuracy.md
+  int number = 0;  // number in the catalogue of docs/accuracy.md
   std::string_view name;
-  std::string_view summary;                // what is hostile
-  std::string_view expected;               // what has to come out, and why it can
-  std::vector<std::string_view> variants;  // none: the case has one scene
+  std::string_view summary;                // why it is hostile
+  std::string_view expected;               // the expected result, and why it is achievable
+  std::vector<std::string_view> variants;  // empty if the case has only one scene
   StressScene (*scene)(std::string_view variant) = nullptr;
 };
-// By number.
+// All cases, sorted by number.
 [[nodiscard]] const std::vector<StressCase>& stress_cases();
 
 using StressData = measure::StressChoice<StressCase>;
-// As a plan spells it.
+// The name of the data in a plan.
 [[nodiscard]] std::string name_of(const StressData& data);
 
 // nullopt for other data. Throws InputError for an unknown case or variant.
 [[nodiscard]] std::optional<StressData> stress_data(std::string_view data);
 
-// The volume's name is that of the data.
+// The scene of the data; its volume has the name of the data.
 [[nodiscard]] StressScene stress_scene(const StressData& data);
 
 }  // namespace triptych::volume_suite

@@ -1,4 +1,4 @@
-// Cases 51 … 54: what is special about the frame.
+// Cases 51 to 54 and 56: properties of the frame.
 
 #include <cmath>
 #include <numbers>
@@ -10,8 +10,8 @@
 namespace triptych::volume_suite {
 namespace {
 
-// The field of view of a picture of so many rows whose pixels are as large as those of `rows` rows
-// at 50°.
+// The field of view for an image with `height` rows whose pixels are as large as those of an image
+// with `rows` rows at 50°.
 double fov_of_rows(int height, int rows) {
   const double half = std::tan(50 * std::numbers::pi / 360);
   return std::atan(half * height / rows) * 360 / std::numbers::pi;
@@ -19,7 +19,7 @@ double fov_of_rows(int height, int rows) {
 
 }  // namespace
 
-// Pictures of fewer pixels around the same middle are parts of the whole.
+// Images with fewer pixels around the same centre are parts of the largest one.
 StressScene stress_shape(std::string_view variant) {
   constexpr int columns = 17;
   constexpr int rows = 13;
@@ -29,7 +29,7 @@ StressScene stress_shape(std::string_view variant) {
   scene.camera.fov_y_deg = fov_of_rows(scene.height, rows);
   if (variant != "17x13") {
     scene.expectations = {
-        {"the part of 17x13 pixels that it is, within both bounds",
+        {"the matching part of the image with 17x13 pixels, within both bounds",
          record::SamePicture{.changed = {{"data", "stress:shape:17x13"}},
                              .at = {(columns - scene.width) / 2, (rows - scene.height) / 2},
                              .to_the_bit = false}}};
@@ -37,14 +37,15 @@ StressScene stress_shape(std::string_view variant) {
   return scene;
 }
 
-// A row as wide as pictures of today's devices may be, and one pixel more.
+// A row as wide as today's devices can draw, and one more pixel.
 StressScene stress_widest(std::string_view variant) {
   StressScene scene = lopsided_scene();
   scene.width = variant == "16384" ? 16384 : 16385;
   scene.height = 1;
   scene.camera.fov_y_deg = fov_of_rows(1, scene.width);
   if (variant != "16384") {
-    scene.expectations = {{"drawn, or refused with the limit it exceeds", record::MayBeRefused{}}};
+    scene.expectations = {
+        {"an image, or a refusal with the limit that is exceeded", record::MayBeRefused{}}};
   }
   return scene;
 }
@@ -52,12 +53,12 @@ StressScene stress_widest(std::string_view variant) {
 StressScene stress_field_of_view(std::string_view variant) {
   StressScene scene = lopsided_scene();
   if (variant == "widest") {
-    // Just before a face, as all but the middle rays run nearly along it.
+    // Just in front of a face, because all rays except the middle ones run nearly along it.
     scene.camera = looking({12, 11, 24.5}, {11.5, 11, 0}, 179);
     scene.function.entries[0][3] = 0.1F;
     return scene;
   }
-  // A thousandth of a voxel across, where the field is steep.
+  // The image covers a thousandth of a voxel, where the field is steep.
   scene.camera = looking({31, 33, 41}, {9.25, 16.5, 12.75}, 0.001);
   return scene;
 }

@@ -1,4 +1,4 @@
-// Cases 1 … 7 and 14: where the eye is and where rays go.
+// Cases 1 to 7 and 14: position of the eye, directions of rays.
 
 #include <charconv>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace triptych::volume_suite {
 namespace {
 
-constexpr int edge = 24;  // voxels, of lopsided_scene
+constexpr int edge = 24;  // size of lopsided_scene in voxels
 
 StressScene seen_from(const scene::Camera& camera) {
   StressScene scene = lopsided_scene();
@@ -20,13 +20,13 @@ StressScene seen_from(const scene::Camera& camera) {
   return scene;
 }
 
-// Columns and rows are odd in number, so that the middle ones look exactly ahead.
+// The numbers of columns and rows are odd, so that the middle ones look exactly forward.
 StressScene with_middle_ray(StressScene scene) {
   scene.width = scene.height = 25;
   return scene;
 }
 
-// 2·atan(half/distance) in degrees: the picture shows `half` to either side at that distance.
+// 2·atan(half/distance) in degrees: the image shows `half` to either side at that distance.
 double fov_of(double half, double distance) {
   return 2 * std::atan2(half, distance) * 180 / std::numbers::pi;
 }
@@ -43,10 +43,10 @@ StressScene stress_boundary(std::string_view variant) {
   if (variant == "face") return seen_from(looking({0, 9.25, 13.5}, {12, 12, 12}, 90));
   if (variant == "edge") return seen_from(looking({edge, edge, 10.25}, {12, 12, 12}, 90));
   if (variant == "corner") return seen_from(looking({0, edge, edge}, {12, 12, 12}, 90));
-  // From a face outward, at an angle that leaves no ray inside.
+  // From a face outward, at an angle at which no ray enters the volume.
   StressScene scene = seen_from(looking({edge, 9.25, 13.5}, {40, 12, 12}, 60));
   scene.expectations = {
-      {"background to the bit, for no ray enters the box", record::OneColour{scene.background}}};
+      {"exactly the background, as no ray enters the box", record::OneColour{scene.background}}};
   return scene;
 }
 
@@ -69,22 +69,22 @@ StressScene stress_within_face(std::string_view variant) {
   return with_middle_ray(seen_from(along({-9, y, edge}, {1, 0, 0}, {0, 1, 0}, 70)));
 }
 
-// The picture is 0.04 voxels wide; along a ray through it the chord falls to 0 as its distance from
-// the edge or corner does. A field without zeros makes the shortest of them visible.
+// The image is 0.04 voxels wide. The chord of a ray tends to 0 as the ray approaches the edge or
+// corner. The field has no zeros, so that even the shortest chord is visible.
 StressScene stress_chord(std::string_view variant) {
   StressScene scene = lopsided_scene();
   scene.function = uniform({0.75F, 0.5F, 0.25F, 0.9999F});
   scene.step_voxels = 0.25;
   const bool at_edge = variant == "edge";
   const glm::dvec3 target = at_edge ? glm::dvec3(0, 0, 11.25) : glm::dvec3(0, 0, 0);
-  // Across the outer side of the edge: the rays graze the box there.
+  // Across the outside of the edge, where rays graze the box.
   const glm::dvec3 from = at_edge ? glm::dvec3(40, -40, 3) : glm::dvec3(30, -33, 4);
   scene.camera = looking(target + from, target, fov_of(0.02, glm::length(from)));
   return scene;
 }
 
-// Field and camera are mirrored along the axes marked `m`. A mirror exchanges left and right of a
-// camera, whose axes are right-handed; two of them do not.
+// Field and camera are mirrored along the axes marked `m`. An odd number of mirrors exchanges left
+// and right of the camera, because its axes are right-handed; an even number does not.
 StressScene stress_octant(std::string_view variant) {
   const glm::dvec3 sign(variant[0] == 'm' ? -1 : 1, variant[1] == 'm' ? -1 : 1,
                         variant[2] == 'm' ? -1 : 1);
@@ -92,7 +92,7 @@ StressScene stress_octant(std::string_view variant) {
   const auto at = [&](int index, int axis) { return sign[axis] < 0 ? edge - 1 - index : index; };
   StressScene scene = seen_from_outside(volume_of(
       size, [&](int i, int j, int k) { return lopsided(size, at(i, 0), at(j, 1), at(k, 2)); }));
-  // Coordinates of few bits: the mirrored eye is exact.
+  // Coordinates with few bits, so that the mirrored eye is exact.
   const scene::Camera plain = looking(glm::dvec3(20, 13, 27), {0, 0, 0}, 50);
   scene.camera = along(glm::dvec3(edge / 2.0) + sign * plain.eye, sign * plain.forward,
                        sign * plain.up, plain.fov_y_deg);
@@ -105,7 +105,7 @@ StressScene stress_octant(std::string_view variant) {
   return scene;
 }
 
-// A picture as from near by, by a lens as long as the way is far.
+// The same image as from nearby, with a focal length that grows with the distance.
 StressScene stress_far(std::string_view variant) {
   double distance = 0;
   std::from_chars(variant.data(), variant.data() + variant.size(), distance);
@@ -120,9 +120,9 @@ StressScene stress_unseen(std::string_view variant) {
   const glm::dvec3 eye(60, 12, 70);
   StressScene scene = seen_from(variant == "behind" ? looking(eye, eye + eye, 60)
                                                     : looking(eye, {140, 12, 70}, 60));
-  const record::Expectation none{"no sample, for no ray meets the box",
+  const record::Expectation none{"no sample, because no ray meets the box",
                                  record::CountAtMost{.counter = "samples", .factor = 0}};
-  const record::Expectation background{"background to the bit",
+  const record::Expectation background{"exactly the background",
                                        record::OneColour{scene.background}};
   scene.expectations = {none, background};
   return scene;

@@ -1,6 +1,6 @@
 #pragma once
-// Building blocks of the stress scenes. Arithmetic on doubles that is exactly rounded, so that a
-// case is the same on every machine.
+// Building blocks of the stress scenes. They use only arithmetic on doubles that is exactly
+// rounded, so that a case is the same on every machine.
 
 #include <array>
 #include <functional>
@@ -14,33 +14,33 @@ namespace triptych::volume_suite {
 using Size = std::array<int, 3>;
 using Voxel = std::function<double(int i, int j, int k)>;
 
-// Voxels of 32-bit floats with the range 0…1.
+// A volume of 32-bit floats with the range 0…1.
 [[nodiscard]] scene::Volume volume_of(const Size& size, const Voxel& voxel);
 
-// Two blobs of unlike size and height, without any symmetry; about half of the volume is exactly 0.
-// 0…0.95.
+// Two blobs of different size and height, without any symmetry. Values are 0…0.95, and about half
+// of the volume is exactly 0.
 [[nodiscard]] double lopsided(const Size& size, int i, int j, int k);
 [[nodiscard]] scene::Volume lopsided_volume(const Size& size);
 
-// Entries of one colour and opacity.
+// All entries have this colour and opacity.
 [[nodiscard]] scene::TransferFunction uniform(const std::array<float, 4>& rgba);
-// Transparent at 0 and up to `first`, from there growing to `most` at the last entry; the colour
-// turns from blue to orange.
+// Transparent from 0 to the entry `first`, then growing to the opacity `most` at the last entry.
+// The colour changes from blue to orange.
 [[nodiscard]] scene::TransferFunction ramp(int first, double most);
 
 using scene::looking;
-// Along an axis, exactly: forward and up have components 0 and ±1 only.
+// A camera along an axis. It is exact, because forward and up have only the components 0 and ±1.
 [[nodiscard]] scene::Camera along(const glm::dvec3& eye, const glm::dvec3& forward,
                                   const glm::dvec3& up, double fov_y_deg);
-// From outside, oblique to all axes, all of the box in view.
+// A camera outside, oblique to all axes, with the whole box in view.
 [[nodiscard]] scene::Camera from_outside(const scene::Volume& volume);
 
-// The volume by ramp(20, 0.4) from outside.
+// The volume with ramp(20, 0.4), seen from outside.
 [[nodiscard]] StressScene seen_from_outside(scene::Volume volume);
-// The lopsided volume of 24³ voxels likewise.
+// The lopsided volume of 24³ voxels, seen in the same way.
 [[nodiscard]] StressScene lopsided_scene();
 
-// The same picture as another variant's, which is spelled as in a plan.
+// Expects the same image as that of another variant. `data` is its name in a plan.
 [[nodiscard]] record::Expectation same_bits_as(const std::string& data, std::string what);
 [[nodiscard]] record::Expectation same_within_bounds_as(const std::string& data, std::string what);
 

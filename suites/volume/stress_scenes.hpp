@@ -1,6 +1,6 @@
 #pragma once
-// How the scenes of stress_cases.hpp are made. Each function makes every variant of its case;
-// `variant` is one that the catalogue lists. Used by the catalogue alone.
+// Functions that make the scenes of stress_cases.hpp. Each makes every variant of its case;
+// `variant` must be one that the catalogue lists. Only the catalogue uses them.
 
 #include <string_view>
 
@@ -8,7 +8,7 @@
 
 namespace triptych::volume_suite {
 
-// Where the eye is and where rays go.
+// Position of the eye, directions of rays.
 [[nodiscard]] StressScene stress_inside(std::string_view variant);
 [[nodiscard]] StressScene stress_boundary(std::string_view variant);
 [[nodiscard]] StressScene stress_parallel(std::string_view variant);
@@ -18,7 +18,7 @@ namespace triptych::volume_suite {
 [[nodiscard]] StressScene stress_far(std::string_view variant);
 [[nodiscard]] StressScene stress_unseen(std::string_view variant);
 
-// How large things are.
+// Sizes.
 [[nodiscard]] StressScene stress_scale(std::string_view variant);
 [[nodiscard]] StressScene stress_spacing(std::string_view variant);
 [[nodiscard]] StressScene stress_slice(std::string_view variant);
@@ -26,7 +26,7 @@ namespace triptych::volume_suite {
 [[nodiscard]] StressScene stress_prime(std::string_view variant);
 [[nodiscard]] StressScene stress_oversize(std::string_view variant);
 
-// What voxels may hold.
+// Contents of voxels.
 [[nodiscard]] StressScene stress_format(std::string_view variant);
 [[nodiscard]] StressScene stress_nan(std::string_view variant);
 [[nodiscard]] StressScene stress_infinite(std::string_view variant);
@@ -36,7 +36,7 @@ namespace triptych::volume_suite {
 [[nodiscard]] StressScene stress_lit(std::string_view variant);
 [[nodiscard]] StressScene stress_lit_everywhere(std::string_view variant);
 
-// What transfer functions and steps may do.
+// Transfer functions and steps.
 [[nodiscard]] StressScene stress_solid(std::string_view variant);
 [[nodiscard]] StressScene stress_nearly_solid(std::string_view variant);
 [[nodiscard]] StressScene stress_faint(std::string_view variant);
@@ -49,7 +49,7 @@ namespace triptych::volume_suite {
 [[nodiscard]] StressScene stress_transparent(std::string_view variant);
 [[nodiscard]] StressScene stress_opaque(std::string_view variant);
 
-// What is special about the frame.
+// Properties of the frame.
 [[nodiscard]] StressScene stress_shape(std::string_view variant);
 [[nodiscard]] StressScene stress_widest(std::string_view variant);
 [[nodiscard]] StressScene stress_field_of_view(std::string_view variant);

@@ -1,4 +1,4 @@
-// Cases 8 … 13: how large things are.
+// Cases 8 to 13: sizes.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,15 +9,15 @@
 
 namespace triptych::volume_suite {
 
-// Opacity is that of one voxel length, so that extinction is the inverse of the scale by itself.
+// Opacity is defined per voxel length, so extinction is automatically the inverse of the scale.
 StressScene stress_scale(std::string_view variant) {
   StressScene scene = lopsided_scene();
   if (variant == "one") return scene;
   const double scale = variant == "up" ? 0x1.0p20 : 0x1.0p-20;
   scene.volume.spacing = {scale, scale, scale};
   scene.camera.eye *= scale;
-  scene.expectations = {
-      same_bits_as("stress:scale:one", "the bits of scale 1, as a power of two rounds nothing")};
+  scene.expectations = {same_bits_as(
+      "stress:scale:one", "the same bits as with scale 1, because a power of two rounds nothing")};
   return scene;
 }
 
@@ -27,7 +27,7 @@ StressScene stress_spacing(std::string_view variant) {
   volume.spacing = {1, 1, extreme ? 1000.0 : 8.0};
   StressScene scene = seen_from_outside(std::move(volume));
   if (extreme) {
-    // Before the long side, from where each ray crosses a part of one layer.
+    // In front of the long side, where each ray crosses a part of one layer.
     scene.camera = looking({70, 35, 3010}, {10, 9, 3000}, 40);
   }
   return scene;
@@ -58,7 +58,7 @@ StressScene stress_oversize(std::string_view /*variant*/) {
   StressScene scene = seen_from_outside(lopsided_volume({20000, 1, 1}));
   scene.camera = looking({12000, 7, 11}, {11990, 0.5, 0.5}, 60);
   scene.expectations = {
-      {"drawn, or refused with the limit that it exceeds", record::MayBeRefused{}}};
+      {"an image, or a refusal with the limit that is exceeded", record::MayBeRefused{}}};
   return scene;
 }
 

@@ -1,4 +1,4 @@
-// Cases 20 … 30: what transfer functions and steps may do.
+// Cases 20 to 30: transfer functions and steps.
 
 #include <algorithm>
 #include <charconv>
@@ -25,7 +25,7 @@ StressScene from_within(const scene::TransferFunction& function) {
   return scene;
 }
 
-// A cube of 4³ voxels, seen from within one of its ends to the other, by few rays and many samples.
+// A cube of 4³ voxels, seen from one of its ends towards the other, with few rays and many samples.
 StressScene marched(double step_voxels, int pixels) {
   StressScene scene = lopsided_scene();
   scene.volume = volume_of(
@@ -38,15 +38,16 @@ StressScene marched(double step_voxels, int pixels) {
 
 }  // namespace
 
-// From within, every ray's first sample covers all that is behind it, however long it is.
+// Seen from within: the first sample of every ray hides everything behind it, whatever its length.
 StressScene stress_solid(std::string_view /*variant*/) {
   StressScene scene = from_within(uniform(orange));
-  scene.expectations = {{"the function's colour to the bit, for 1 − (1 − 1)^s is exactly 1",
-                         record::OneColour{orange}}};
+  scene.expectations = {
+      {"exactly the function's colour, as 1 − (1 − 1)^s is exactly 1", record::OneColour{orange}}};
   return scene;
 }
 
-// 2⁻²⁴ is left of each voxel length: by roots, by squares, and by logarithm and exponential.
+// 2⁻²⁴ of the light is left after each voxel length. The three variants correct the opacity by
+// roots, by squares, and by logarithm and exponential.
 StressScene stress_nearly_solid(std::string_view variant) {
   StressScene scene = lopsided_scene();
   scene.function = uniform(orange_of(0x1.fffffep-1));
@@ -68,8 +69,8 @@ StressScene stress_march(std::string_view variant) {
   return scene;
 }
 
-// One sample at most, for what is left of the ray; it stands where half of the step would end, and
-// the field is constant outside the box.
+// At most one sample, for the rest of the ray. It lies in the middle of the step, and the field is
+// constant outside the box.
 StressScene stress_stride(std::string_view variant) {
   StressScene scene = lopsided_scene();
   scene.function = ramp(0, 0.1);
@@ -80,7 +81,7 @@ StressScene stress_stride(std::string_view variant) {
   return scene;
 }
 
-// One entry of 256 is visible: 0.4 of a step wide where the field is steep.
+// Only one entry of 256 is visible. It is 0.4 steps wide where the field is steep.
 StressScene stress_spike(std::string_view variant) {
   StressScene scene = lopsided_scene();
   scene.function = uniform(orange_of(0));
@@ -90,7 +91,8 @@ StressScene stress_spike(std::string_view variant) {
   return scene;
 }
 
-// Values beyond the outermost entries' centres have their colour: half an entry on either side.
+// Values beyond the centres of the outermost entries have the colour of those entries: half an
+// entry on either side.
 StressScene stress_end_spike(std::string_view variant) {
   const bool first = variant == "first";
   StressScene scene = seen_from_outside(volume_of({16, 16, 16}, [first](int i, int j, int k) {
@@ -102,8 +104,8 @@ StressScene stress_end_spike(std::string_view variant) {
   return scene;
 }
 
-// Opacity linear along the ray with a slope that tends to 0: the closed form of such a segment
-// (V3), which pre-integration takes for each step, divides by its root.
+// Opacity is linear along the ray with a slope that tends to 0. The closed form of such a segment
+// (V3), which pre-integration uses for each step, divides by the root of the slope.
 StressScene stress_slope(std::string_view variant) {
   double slope = 0;
   std::from_chars(variant.data(), variant.data() + variant.size(), slope);
@@ -138,12 +140,12 @@ StressScene stress_transparent(std::string_view /*variant*/) {
   StressScene scene = lopsided_scene();
   scene.function = uniform({1, 1, 1, 0});
   scene.expectations = {
-      {"background to the bit, for nothing is added to 0", record::OneColour{scene.background}}};
+      {"exactly the background, as nothing is added to 0", record::OneColour{scene.background}}};
   scene.when_skipping = {
       {"one sample per ray at most: the last may lie beyond the last brick, where a walk knows no "
        "brick that would say it is transparent",
        record::CountAtMost{.counter = "samples", .factor = 1, .of = "rays_hit"}}};
-  scene.when_leaping = {{"no sample, for no brick is visible",
+  scene.when_leaping = {{"no sample, as no brick is visible",
                          record::CountAtMost{.counter = "samples", .factor = 0}}};
   return scene;
 }
@@ -152,7 +154,7 @@ StressScene stress_opaque(std::string_view /*variant*/) {
   StressScene scene = lopsided_scene();
   scene.function = uniform(orange);
   scene.ert = 1.0 / 512;
-  scene.expectations = {{"at most two samples per ray, for the first leaves nothing",
+  scene.expectations = {{"at most two samples per ray, as the first one leaves no light",
                          record::CountAtMost{.counter = "samples", .factor = 2, .of = "rays_hit"}}};
   return scene;
 }

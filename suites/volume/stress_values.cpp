@@ -1,4 +1,4 @@
-// Cases 15 … 19, 31 and 32: what voxels may hold.
+// Cases 15 to 19, 31 and 32: contents of voxels.
 
 #include <cmath>
 #include <cstdint>
@@ -23,7 +23,7 @@ void store(scene::Volume& volume, scene::ScalarType type, double scale) {
   }
 }
 
-// A block of voxels in the bright blob of the lopsided field holds `value` instead.
+// A block of voxels in the bright blob of the lopsided field has the value `value`.
 StressScene with_block(double value, int extent) {
   const Size size{24, 24, 24};
   return seen_from_outside(volume_of(size, [&](int i, int j, int k) {
@@ -33,7 +33,7 @@ StressScene with_block(double value, int extent) {
   }));
 }
 
-// Every second voxel holds `value`.
+// Every second voxel has the value `value`.
 StressScene with_every_second(double value) {
   const Size size{24, 24, 24};
   return seen_from_outside(volume_of(size, [&](int i, int j, int k) {
@@ -43,7 +43,7 @@ StressScene with_every_second(double value) {
 
 }  // namespace
 
-// Bytes, twice as many bits, and floats of the same 256 values: v/255 = 257·v/65535.
+// The same 256 values as bytes, as 16-bit integers and as floats: v/255 = 257·v/65535.
 StressScene stress_format(std::string_view variant) {
   const Size size{24, 24, 24};
   const auto byte = [&](int i, int j, int k) {
@@ -58,13 +58,13 @@ StressScene stress_format(std::string_view variant) {
   }
   if (variant != "f32") {
     scene.expectations = {
-        same_within_bounds_as("stress:format:f32", "the picture of the same values in floats")};
+        same_within_bounds_as("stress:format:f32", "the image of the same values as floats")};
   }
   return scene;
 }
 
-// NaN is kept as the lower end of the range, where the function is transparent. What stands beside
-// it is interpolated towards that, one voxel far, and two in the gradients of shading.
+// NaN becomes the lower end of the range, where the function is transparent. The field is
+// interpolated towards that value within one voxel, and for the gradients of shading within two.
 StressScene stress_nan(std::string_view variant) {
   const bool missing = variant.starts_with("nan");
   const double value = missing ? std::numeric_limits<double>::quiet_NaN() : 0;
@@ -75,7 +75,7 @@ StressScene stress_nan(std::string_view variant) {
   scene.shaded = kind == "shaded";
   if (missing) {
     scene.expectations = {same_bits_as("stress:nan:zero_" + std::string(kind),
-                                       "the bits of a field with 0 in their place")};
+                                       "the same bits as with 0 in place of NaN")};
   }
   return scene;
 }
@@ -86,14 +86,13 @@ StressScene stress_infinite(std::string_view variant) {
   if (variant == "lower") return with_block(0, 3);
   const bool plus = variant == "plus";
   StressScene scene = with_block(plus ? infinite : -infinite, 3);
-  scene.expectations = {
-      same_bits_as(plus ? "stress:infinite:upper" : "stress:infinite:lower",
-                   "the bits of a field with that end of the range in its place")};
+  scene.expectations = {same_bits_as(plus ? "stress:infinite:upper" : "stress:infinite:lower",
+                                     "the same bits as with that end of the range in place of ∞")};
   return scene;
 }
 
-// Of data and function they are 0 before they reach a device; those that a ray makes itself may be
-// kept or be taken for 0, which changes no picture by more than 2⁻¹²⁶.
+// Denormals in data and transfer function are replaced by 0 before they reach a device. Those that
+// a ray computes itself may be kept or replaced by 0, which changes no image by more than 2⁻¹²⁶.
 StressScene stress_denormal(std::string_view variant) {
   constexpr double tiny = 1e-40;
   if (variant == "voxels") {
@@ -111,15 +110,15 @@ StressScene stress_denormal(std::string_view variant) {
   } else if (variant == "colour") {
     scene.function = uniform({1e-40F, 0.5F, 1e-42F, 0.05F});
   } else {
-    // The transmittance passes through the denormals: 1e-4 of it is left by each voxel, and nothing
+    // The transmittance passes through the denormals: each voxel leaves 1e-4 of it, and nothing
     // ends the ray.
     scene.function = uniform({0.75F, 0.5F, 0.25F, 0.9999F});
   }
   return scene;
 }
 
-// What half floats are at their limits with. Of floats, 2⁻²⁹ of the range is the least that is
-// kept.
+// Values at the limits of half floats. For float data the smallest value that is kept is 2⁻²⁹ of
+// the range.
 StressScene stress_halves(std::string_view variant) {
   const Size size{24, 24, 24};
   if (variant == "subnormal") {
@@ -141,7 +140,7 @@ StressScene stress_halves(std::string_view variant) {
   return scene;
 }
 
-// An empty range maps every voxel to 0; a constant field has no gradient to divide by.
+// An empty range maps every voxel to 0. A constant field has no gradient to divide by.
 StressScene stress_flat(std::string_view variant) {
   const Size size{12, 12, 12};
   const bool bytes = variant == "range_u8";
@@ -157,7 +156,7 @@ StressScene stress_flat(std::string_view variant) {
   return scene;
 }
 
-// One voxel, of bricks of 8 voxels. The samples that see it may lie in the neighbours of its brick.
+// One lit voxel among bricks of 8 voxels. The samples that see it may lie in neighbouring bricks.
 StressScene stress_lit(std::string_view variant) {
   const Size size{24, 24, 24};
   Size lit{8, 12, 12};  // on a face
@@ -174,7 +173,7 @@ StressScene stress_lit(std::string_view variant) {
   return scene;
 }
 
-// Nothing can be skipped: the walk through the bricks may cost no samples, and hardly any time.
+// Nothing can be skipped: walking through the bricks may cost no samples and hardly any time.
 StressScene stress_lit_everywhere(std::string_view /*variant*/) {
   const Size size{32, 32, 32};
   StressScene scene = seen_from_outside(volume_of(size, [](int i, int j, int k) {
@@ -182,7 +181,7 @@ StressScene stress_lit_everywhere(std::string_view /*variant*/) {
   }));
   scene.function = ramp(1, 0.9);
   scene.when_skipping = {
-      {"at most 1.1 of the samples without skipping",
+      {"at most 1.1 times the samples without skipping",
        record::CountAtMost{
            .counter = "samples", .factor = 1.1, .of = "samples", .changed = {{"skip", "none"}}}}};
   return scene;

@@ -68,7 +68,7 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   std::vector<record::Expectation> expectations(const Configuration& configuration) override;
 
  private:
-  // The last data set loaded: neighbours in a plan share it.
+  // The last data set that was loaded. Neighbouring configurations of a plan share it.
   struct Loaded {
     std::string data;
     std::string window;
@@ -81,7 +81,7 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   using ChooseFormat =
       std::function<scene::VoxelFormat(scene::VoxelFormat native, const std::array<int, 3>& size)>;
 
-  // What the truth is rendered of: the scene, and the errors that a device's path may make in it.
+  // The input of the reference: the scene, and the errors that a device's path may have in it.
   struct Judged {
     scene::VolumeScene scene;
     reference::ErrorModel model;
@@ -135,7 +135,7 @@ const VolumeSuite::Loaded& VolumeSuite::load(const Configuration& configuration,
       choose(loaded_.native, loaded_.grid->size) == loaded_.grid->format) {
     return loaded_;
   }
-  loaded_ = {};  // frees the old one before the new one is loaded
+  loaded_ = {};  // frees the old data before the new data is loaded
   std::optional<StressScene> stress;
   scene::Volume volume = read(data, stress);
   scene::set_window(volume, scene::parse_window(window), scene::mapping(mapping));
@@ -157,7 +157,7 @@ const VolumeSuite::Loaded& VolumeSuite::load_as_it_is(const Configuration& confi
   return load(configuration, [](scene::VoxelFormat native, const auto&) { return native; });
 }
 
-// What may be `own` in a configuration of the data loaded.
+// The levels `own` of a configuration whose data is loaded.
 OwnLevels levels_of(const Configuration& configuration, const std::optional<StressScene>& stress) {
   return {configuration, stress ? &*stress : nullptr};
 }
@@ -179,14 +179,15 @@ scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
   };
 }
 
-// Bytes; 0 where none is stated.
+// The budget in bytes; 0 if there is none.
 std::uint64_t budget_of(const measure::Configuration& configuration) {
   if (configuration.at("budget") == no_budget) return 0;
   return static_cast<std::uint64_t>(measure::as_number(configuration, "budget") * (1U << 20U));
 }
 
-// No device's sampler interpolates in double precision, and floats would round integers. Quadrature
-// cells asks no sampler, and one would round otherwise in parts of a volume.
+// The device's default path, with exceptions. No device's sampler interpolates in double precision,
+// and storing integers as floats would round them. Quadrature cells does not use a sampler. In
+// parts of a volume a sampler would round differently than in the whole.
 measure::VolumePath default_path(const measure::Device& device, measure::VolumeKind volume,
                                  const measure::Configuration& configuration,
                                  scene::Quadrature quadrature) {
@@ -232,8 +233,8 @@ measure::Work VolumeSuite::work(Configuration& configuration, const measure::Dev
 }
 
 measure::Work VolumeSuite::calibration(technique::Work kind) {
-  // A field without empty space, sampled finely: milliseconds on a software device, and not minutes
-  // on a very slow one. Whoever calibrates lengthens what is too short to tell.
+  // A field without empty space, sampled finely. It takes milliseconds on a software device, and
+  // less than minutes on a very slow one. The calibration repeats the frame if it is too short.
   scene::Volume volume = scene::generate_volume("uniform_box", {32, 32, 32});
   scene::VolumeScene scene{
       .grid = std::make_shared<const scene::VoxelGrid>(
@@ -288,7 +289,7 @@ std::map<std::string, double> VolumeSuite::open_counts(
   return reference::open_counts(pictured, model, planes);
 }
 
-// What a transfer function's file holds, for the factors have its name only.
+// The contents of a transfer function's file, because the factor contains only its name.
 std::string table_text(const Configuration& configuration,
                        const scene::TransferFunction& function) {
   if (configuration.at("transfer_function") == own_level) return {};
@@ -313,7 +314,7 @@ std::string VolumeSuite::truth_key(const Configuration& configuration,
                                      .hash();
   std::string key = fmt::format("reference {} data {} model {}", reference::volume_version,
                                 pictured.grid->hash, model_hash);
-  // What a stress case brings besides is not among the factors.
+  // The properties of a stress case that are not factors.
   if (stress_data(configuration.at("data"))) {
     key += " frame " + core::json_hash(describe_frame(pictured, model.ert, model.adapt));
   }
@@ -344,13 +345,13 @@ std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& 
   if (configuration.at("skip") == "distance") {
     result.insert(result.end(), stress->when_leaping.begin(), stress->when_leaping.end());
   }
-  if (levels_of(configuration, stress).adapt() > 0) return result;  // near them, not these bits
-  result.push_back({"the bits of the picture without skipping",
-                    record::SamePicture{.changed = {{"skip", "none"}}}});
+  if (levels_of(configuration, stress).adapt() > 0) return result;  // close, but not the same bits
+  result.push_back(
+      {"the same bits as without skipping", record::SamePicture{.changed = {{"skip", "none"}}}});
   return result;
 }
 
-// The step is no part of it: it is what tends to zero.
+// The step is not part of the key, because the limit is the image for a step that tends to zero.
 std::string VolumeSuite::limit_key(const Configuration& configuration) {
   if (stress_data(configuration.at("data"))) return {};
   const Loaded& loaded = load_as_it_is(configuration);
@@ -366,7 +367,7 @@ std::string VolumeSuite::limit_key(const Configuration& configuration) {
 }
 
 measure::Limit VolumeSuite::limit(const Configuration& configuration) {
-  // Below the rounding of a float picture's whole range.
+  // Below the rounding of a float image over its whole range.
   constexpr double tolerance = 0x1.0p-24;
   const reference::Truth truth = reference::render_volume_converged(
       scene(configuration, load_as_it_is(configuration)), tolerance);

@@ -7,7 +7,7 @@
 
 namespace triptych::volume_suite {
 
-// Volume raycasting. `data_folders` are where files named in the factors are looked for.
+// The suite for volume raycasting. Files named by factors are looked for in `data_folders`.
 [[nodiscard]] std::unique_ptr<measure::SuiteWithTruth> make_suite(
     std::vector<std::filesystem::path> data_folders);
 

@@ -1,6 +1,6 @@
 #pragma once
-// How far a right picture may be from the truth, derived from what the arithmetic of a device may
-// do. No number here was chosen by looking at an image.
+// The largest difference from the reference image that a correct image may have. It is derived from
+// the arithmetic of a device. No number here was chosen by looking at an image.
 
 #include "reference/volume.hpp"
 #include "scene/volume_scene.hpp"
@@ -8,77 +8,96 @@
 
 namespace triptych::volume_suite {
 
-// What of a path decides its precision.
+// The properties of a path through the device that decide its precision.
 struct PathPrecision {
-  double ert = 0;                  // ε at which rays may end
-  double adapt = 0;                // what merged samples may cost (technique::brick_kinds)
-  double filter_weight_error = 0;  // of the device's sampler, as probed (measure::Device)
-  double storage_step = 0;    // normalised value per step of a voxel format too small for the data
-  double voxel_rounding = 0;  // of one that rounds each voxel by a share of it
+  double ert = 0;                  // ε: a ray may end when less light than this is left
+  double adapt = 0;                // allowed error of merged samples (technique::brick_kinds)
+  double filter_weight_error = 0;  // of the device's sampler, found by a probe (measure::Device)
+  double storage_step = 0;         // normalised value per step of a voxel format that loses values
+  double voxel_rounding = 0;       // relative error of each voxel, for a format that rounds
   technique::Precision precision = technique::Precision::fp32;
 };
 
-// u = 2⁻²⁴, the unit roundoff of float; every basic operation errs by at most u relative
-// (division 2.5 ulp = 5u where an API allows it). The count for each term:
+// The error model counts roundings. u = 2⁻²⁴ is the unit roundoff of float. Every basic operation
+// has a relative error of at most u; a division has 2.5 ulp = 5u where the API allows it.
 //
-// position, voxels per axis. eye/spacing is rounded once: u·|e|. The direction is a sum of three
-// products
-//   (≤ 6u of its length with ndc's 4 operations) and is normalised (dot 3u, square root ≤ 5u
-//   halved, division 5u), then scaled by 1/spacing (2u): ≤ 20u of its length. So a device's ray is
-//   a straight line that lies within u·(|e| + 20·D) of the true one as far as it is in the box.
-//   That it enters earlier or later for that, and moves all its samples along itself, is the
-//   reference's part (reference/ray.hpp); counted once more here it would be there twice. Along its
-//   own line: the entry t₀ = (face − e)/v is a subtraction and a division, 6u·t₀; in e + t₀·v the
-//   product adds u·t₀|v|, the sum u·L. A sample adds (i+½)·g, g = v·h: 3u of the way inside, and
-//   u·L for the sum. The length of the chord, (t₁ − t₀)/h, errs by 6u·(t₁ + t₀)|v| and 7u·L; the
-//   reference moves either end by what stands here, so half of it is asked for.
-//   With D the distance of the eye to the farthest corner of the box, T that to the farthest corner
-//   of the faces that it sees, where rays enter (0 from within), L the box's diagonal, all in the
-//   smallest spacing, as the error of a direction is one of its whole length, whatever the spacing
-//   along the axis that it moves a sample on:
-//       u·(|e| + 20·D + 7·T + 7·L)
-//   (a sample: 7·T and 5·L; a chord's half, as t₁|v| ≤ D ≤ T + L: 6·T and 6½·L.)
-//   Of a far eye rays begin on a plane at the distance s (technique::ray_plane): e, D and T are
-//   then those of the plane's point on the view axis, found in double precision. A ray's own point
-//   adds ndc, which rounds by 3u whatever it is, times the picture's half diagonal E on the plane,
-//   and six more operations on a length ≤ D: u·(4·E + 6·D).
-// value, normalised. Three nested interpolations a + f·(b − a), 3u each of the largest stored
-// value, then
-//   stored·scale + offset, 2u: 11u·M, M = |scale|·stored_max + |offset|; a u of the table position
-//   256·x − ½ twice more: 13u·M. Half a storage step where the voxel format loses values. Cells
-//   make a cubic of the eight voxels: its terms are products of at most four factors, summed in
-//   turn, 6u each, and together at most 14 times the range R of the format: 84u·R more.
-// voxels. Halves (scene::VoxelGrid): integers that fits_halves says are exact are off by nothing.
-//   Else 2¹⁵·x is rounded to 11 bits: by 2⁻¹¹/(1 + 2⁻¹¹) of x, and a u of x in which the truth's
-//   float may differ from x is less than the rest of 2⁻¹¹·x. What would be subnormal, below 2⁻²⁹ of
-//   x, is 0: half a storage step of 2⁻²⁸. Nothing overflows, as 2¹⁵ < 65504.
-// filter. The probed error of the weights, rounded up to a power of two; never less than u. A
-// sampler
-//   that rounds its result to the steps of the format errs by that much between equal voxels too;
-//   the probe, whose neighbours differ by the whole range, sees both errors together, so what it
-//   found is an absolute error of the value as well.
-// table. Interpolation between two entries: 3u. Preintegrated: 4u, for the opacity in the middle of
-//   a cell's part is rounded once more.
-// opacity, relative. tri_opacity is stated to 8u, its exponent's two factors 2u each, the share of
-// the
-//   step 2u: 14u. Preintegrated: the logarithm's mean (8u and 3u of its series), a piece's length
-//   (share 2u, division by the difference of two positions 4u, product 2u), the exponential 8u, and
-//   three pieces put together, 1u each for product and sum: 32u. Cells: two logarithms, 9u, their
-//   sum and three products of lengths 5u, the exponential 3u, and as much again for the lengths
-//   themselves, whose differences cancel from piece to piece: below the same 32u.
-// adapt. Itself: technique/volume/brick_kinds.hpp derives it between two pictures of one device,
-// and
-//   the one without is what all other terms are about. A merged sample's own arithmetic is theirs:
-//   the exponent of its opacity has the same two factors, and its number is one of many.
-// compositing, relative per sample. weight u, product u, sum u, transmittance u: 4u.
+// Position, in voxels per axis.
+//   e    the eye, in the box's coordinates divided by the smallest spacing
+//   D    distance from the eye to the farthest corner of the box
+//   T    distance from the eye to the farthest corner of the faces that it sees, through which
+//        rays enter; 0 if the eye is inside
+//   L    the diagonal of the box
+// All lengths are in the smallest spacing, because the error of a direction is relative to its
+// whole length, whatever the spacing along the axis that it moves a sample on.
+//   - Rounding eye/spacing once: u·|e|.
+//   - Direction: a sum of three products has at most 6u of its length, including the 4 operations
+//     of the normalised device coordinates. Normalising it adds 3u for the dot product, 5u/2 for
+//     the square root and 5u for the division; scaling by 1/spacing adds 2u. Together below 20u of
+//     its length. So a device's ray is a straight line within u·(|e| + 20·D) of the exact one, as
+//     far as it is inside the box. Such a ray also enters the box earlier or later, which moves all
+//     its samples along the ray. The reference accounts for that (reference/ray.hpp), so it is not
+//     counted here a second time.
+//   - Along the ray: the entry t₀ = (face − e)/v is a subtraction and a division, 6u·t₀. In
+//     e + t₀·v the product adds u·t₀|v| and the sum u·L. A sample adds (i+½)·g with g = v·h, 3u of
+//     the way inside, and u·L for the sum: 7u·T + 5u·L for a sample.
+//   - Length of the chord: (t₁ − t₀)/h has an error of 6u·(t₁ + t₀)|v| + 7u·L. The reference moves
+//     both ends by the position error, so half of it is needed here. With t₁|v| ≤ D ≤ T + L this is
+//     6u·T + 6½u·L.
+//   - The larger of the two covers both:
+//         u·(|e| + 20·D + 7·T + 7·L)
+//   - If the eye is far away, rays begin on a plane at the distance s (technique::ray_plane). Then
+//     e, D and T belong to the plane's point on the view axis, which is computed in double
+//     precision. The point of a single ray adds its normalised device coordinates, which are
+//     rounded by 3u, times the half diagonal E of the image on the plane, and six more operations
+//     on a length ≤ D:
+//         u·(4·E + 6·D)
 //
-// Precision fp64: the same counts, as the kernels are the same text, with u = 2⁻⁵². That is twice
-// the unit roundoff of double, for the truth is computed in doubles as well and may err by as much
-// as the device. Three things differ.
-//   The parameters come in doubles and the eye is not rounded, which the count above includes.
-//   opacity. tri_opacity is stated to 12u: 12u + 4u + 2u = 18u.
-//   output. A channel is rounded to float when it is stored, and so is the truth's picture: 2·2⁻²⁴
-//   of the channel. In fp32 compositing has rounded it already.
+// Value, normalised.
+//   - Three nested interpolations a + f·(b − a) have 3u each of the largest stored value.
+//   - stored·scale + offset adds 2u: 11u·M, with M = |scale|·stored_max + |offset|.
+//   - The table position 256·x − ½ adds u twice: 13u·M.
+//   - Half a storage step is added if the voxel format loses values.
+//   - Quadrature cells makes a cubic of the eight voxels. Its terms are products of at most four
+//     factors that are added up, 6u each, and together at most 14 times the range R of the format:
+//     84u·R more.
+//
+// Voxels as half floats (scene::VoxelGrid). Integers for which fits_halves is true are exact.
+// Otherwise 2¹⁵·x is rounded to 11 bits, by 2⁻¹¹/(1 + 2⁻¹¹) of x. The reference's float may differ
+// from x by u·x, which is less than the remainder of 2⁻¹¹·x. A value below 2⁻²⁹ would be subnormal
+// and becomes 0: half a storage step of 2⁻²⁸. Nothing overflows, because 2¹⁵ < 65504.
+//
+// Filter. The probed error of the weights, rounded up to a power of two, and at least u. A sampler
+// that rounds its result to the steps of the format has that error even between equal voxels. The
+// probe's neighbours differ by the whole range, so it sees both errors together, and its result is
+// also an absolute error of the value.
+//
+// Table. Interpolation between two entries: 3u. Preintegrated: 4u, because the opacity in the
+// middle of a cell's part is rounded once more.
+//
+// Opacity, relative.
+//   - tri_opacity is accurate to 8u, the two factors of its exponent have 2u each, and the share of
+//     the step has 2u: 14u.
+//   - Preintegrated: the mean of the logarithm has 8u and its series 3u. The length of a piece has
+//     2u for the share, 4u for the division by the difference of two positions and 2u for the
+//     product. The exponential has 8u. Combining three pieces adds u each for a product and a sum:
+//     32u.
+//   - Cells: two logarithms 9u, their sum and three products of lengths 5u, the exponential 3u, and
+//     the same again for the lengths, whose differences cancel from piece to piece: below 32u.
+//
+// Adapt. technique/volume/brick_kinds.hpp derives the error between two images of one device, with
+// and without merged bricks. All other terms are about the image without. The arithmetic of a
+// merged sample is covered by them, because the exponent of its opacity has the same two factors,
+// and because it replaces many samples.
+//
+// Compositing, relative per sample. Weight u, product u, sum u, transmittance u: 4u.
+//
+// Precision fp64. The counts are the same with u = 2⁻⁵², because the kernels have the same text.
+// That is twice the unit roundoff of double, because the reference is also computed in doubles and
+// may have the same error as the device. There are three differences:
+//   - The parameters are doubles and the eye is not rounded, which the count above includes.
+//   - tri_opacity is accurate to 12u: 12u + 4u + 2u = 18u.
+//   - Output: a channel is rounded to float when it is stored, and so is the reference image, which
+//     adds 2·2⁻²⁴ of the channel. In fp32 compositing has already rounded it.
 [[nodiscard]] reference::ErrorModel error_model(const scene::VolumeScene& scene,
                                                 const PathPrecision& path);
 
