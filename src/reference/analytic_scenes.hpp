@@ -1,7 +1,7 @@
 #pragma once
-// Scenes whose every pixel is known in closed form (closed_forms.hpp), ready to be drawn on a
-// device. A perspective camera sees them from anywhere: each pixel's own ray and chord enter the
-// formula.
+// Scenes whose every pixel is known in closed form (closed_forms.hpp) and that a device can draw. A
+// perspective camera can see them from anywhere: the formula uses the ray and the chord of each
+// pixel.
 
 #include <array>
 #include <functional>
@@ -12,7 +12,9 @@
 
 namespace triptych::reference {
 
-// What a midpoint renderer of step h does on each (errors against the closed form):
+// The problems, and the order of convergence of a midpoint renderer with step h (errors are against
+// the closed form):
+// clang-format off
 enum class AnalyticProblem {
   v1_constant,    // homogeneous box                          exact for every h
   v2_ramp,        // τ = k·z, colour linear in z              order 2 in h
@@ -20,11 +22,12 @@ enum class AnalyticProblem {
   v3_plateaus,    // the same between two plateaus            order 2 in h; see below
   v4_gaussian,    // Gaussian blob in the middle of the box   order 2 in h and in the voxel size
   v5_atmosphere,  // τ = τ₀·e^(−z/H), constant colour         order 2 in h
-  v6_layers,  // two homogeneous layers across z          ≤ 1 and erratic in h: the edge limits it
-  v7_shell,   // homogeneous between two spheres           the same; 2 in the voxel size
-  v8_trilinear,  // τ = k·xyz, constant colour                order 2 in h
-  v9_wave,       // constant τ, lit by a sine wave's gradient order 2 in h and in the voxel size
+  v6_layers,      // two homogeneous layers along z           ≤ 1 and irregular in h: the edge limits it
+  v7_shell,       // homogeneous between two spheres          as v6_layers; 2 in the voxel size
+  v8_trilinear,   // τ = k·xyz, constant colour               order 2 in h
+  v9_wave,        // constant τ, lit by a sine gradient      order 2 in h and in the voxel size
 };
+// clang-format on
 inline constexpr std::array analytic_problems{
     AnalyticProblem::v1_constant, AnalyticProblem::v2_ramp,     AnalyticProblem::v3_segment,
     AnalyticProblem::v3_plateaus, AnalyticProblem::v4_gaussian, AnalyticProblem::v5_atmosphere,
@@ -32,56 +35,68 @@ inline constexpr std::array analytic_problems{
     AnalyticProblem::v9_wave};
 [[nodiscard]] std::string_view name_of(AnalyticProblem problem);
 [[nodiscard]] std::optional<AnalyticProblem> analytic_problem(std::string_view name);
-// Whether its picture is one with shading, by the defaults of scene::Shading.
+// Whether the image is shaded, with the defaults of scene::Shading.
 [[nodiscard]] bool is_shaded(AnalyticProblem problem);
 
 struct AnalyticOptions {
-  std::array<int, 3> size{32, 32, 32};  // voxels; v6_layers needs an even number along z
+  std::array<int, 3> size{32, 32, 32};  // in voxels; v6_layers needs an even number along z
   std::array<double, 3> spacing{1, 1, 1};
   int width = 32;
   int height = 32;
   double step_voxels = 1;
-  std::optional<scene::Camera>
-      camera;  // none: from outside, oblique to all axes, all of the box in view
+  // Default: outside, oblique to all axes, with the whole box in view.
+  std::optional<scene::Camera> camera;
   std::array<float, 4> background{0, 0, 0, 0};
 };
 
 struct AnalyticPixel {
-  std::array<double, 4> rgba{};  // premultiplied, background included
-  // Largest difference of any channel between this closed form and the exact integral over the
-  // scene's own grid and table, by which it is represented with finitely many floats.
+  std::array<double, 4> rgba{};  // premultiplied, with background
+  // The largest difference in any channel between this closed form and the exact integral over the
+  // scene's grid and table, which represent it with finitely many floats.
   double model_error = 0;
 };
 
-// Grids vary with position as the table needs it: a voxel holds x = (½ + 255·g)/256, so that table
-// entry k is at g = k/255. The problems along z have g = z/L at voxel centres, thus exactly linear
-// between the first and the last; outside, in the outermost half voxels, the field is constant, and
-// so is τ in the closed form. v4_gaussian has g = e^(−r²/2σ²), σ a tenth of the smallest extent;
-// v6_layers g = 0 and 1; v7_shell the distance from the centre; v8_trilinear the product of the
-// three heights, which trilinear interpolation reproduces. v9_wave, the only one that is shaded, is
-// a homogeneous box with g = a·(1 − cos(πz/L))/2: half a wave, even about both faces, as clamping
-// to the edge makes the grid; `a` keeps its gradient below nine tenths of the shading's floor, so
-// that colours are as bright as it is steep. The field's kinks, at the outermost voxel centres, lie
-// on v3_plateaus' plateaus, the lowest and the highest fifth of z, and the kinks of its medium at
-// table entries: a rule that is exact where the field is straight errs by rounding alone while the
-// step's share along z reaches no farther than from a kink of the field to one of the medium,
-// size/5 − ½ voxels.
+// The grid of each problem varies with position so that the table represents it. A voxel has the
+// value x = (½ + 255·g)/256, so that table entry k is at g = k/255.
 //
-// The model's error, with u the smallest spacing and α(g) = 1 − e^(−u·τ(g)): interpolating α over
-// 1/255 errs by at most (1/255)²/8·max|α''|; rounding to float adds 2⁻²⁴·(α + |α'|); both become
-// one of τ divided by u·(1 − α), and one of the picture multiplied by the chord, as no |c − colour
-// behind| exceeds 1. v4_gaussian adds that of trilinear interpolation, Σ Δᵢ²/8·|∂ᵢ²g|, integrated
-// along the ray; v6_layers the transition, 1/255 voxel thick; v7_shell the part of the ray that is
-// so near a face that table and interpolation may put it on the other side;
-// v9_wave the gradient: with k = π/L, Δ the spacing along z and m the steepest gradient, central
-// differences err by (kΔ)²/6·m, their interpolation by (kΔ)²/8·m, by kΔ/2·m in the outermost half
-// voxels, where neither exceeds that, and rounding of two voxels by 2⁻²⁴ of their value.
+//   - The problems along z have g = z/L at voxel centres, so g is exactly linear between the first
+//     and the last one. In the outermost half voxels the field is constant, and so is τ in the
+//     closed form.
+//   - v4_gaussian: g = e^(−r²/2σ²), with σ a tenth of the smallest extent.
+//   - v6_layers: g = 0 and 1.
+//   - v7_shell: g is the distance from the centre.
+//   - v8_trilinear: g is the product of the three heights, which trilinear interpolation
+//     reproduces.
+//   - v9_wave, the only shaded one, is a homogeneous box with g = a·(1 − cos(πz/L))/2: half a wave,
+//     which is symmetric about both faces, as clamping to the edge makes the grid. `a` keeps the
+//     gradient below nine tenths of the shading's floor, so that brightness is proportional to the
+//     gradient.
+//   - v3_plateaus: the kinks of the field, at the outermost voxel centres, lie on the plateaus,
+//     which are the lowest and the highest fifth of z. The kinks of its medium lie at table
+//     entries. A rule that is exact for a linear field therefore has only rounding errors, as long
+//     as a step along z does not reach from a kink of the field to one of the medium, which is
+//     size/5 − ½ voxels.
+//
+// The model error, with u the smallest spacing and α(g) = 1 − e^(−u·τ(g)): interpolating α over
+// 1/255 has an error of at most (1/255)²/8·max|α''|, and rounding to float adds 2⁻²⁴·(α + |α'|).
+// Dividing both by u·(1 − α) gives the error of τ, and multiplying by the chord gives that of the
+// image, because
+// c − colour behind| is at most 1. Some problems have additional errors:
+//
+//   - v4_gaussian: trilinear interpolation, Σ Δᵢ²/8·|∂ᵢ²g|, integrated along the ray.
+//   - v6_layers: the transition, which is 1/255 voxel thick.
+//   - v7_shell: the part of the ray that is so close to a face that table and interpolation may
+//     move it to the other side.
+//   - v9_wave: the gradient. With k = π/L, Δ the spacing along z and m the steepest gradient,
+//     central differences have an error of (kΔ)²/6·m, their interpolation (kΔ)²/8·m, in the
+//     outermost half voxels at most kΔ/2·m instead, and the rounding of two voxels 2⁻²⁴ of their
+//     value.
 struct AnalyticScene {
   scene::VolumeScene scene;
   std::function<AnalyticPixel(int x, int y)> exact;
 };
 
-// Throws InputError for an odd number of layers in v6_layers or a size below 1.
+// Throws InputError for an odd number of layers in v6_layers and for a size below 1.
 [[nodiscard]] AnalyticScene analytic_scene(AnalyticProblem problem, const AnalyticOptions& options);
 
 }  // namespace triptych::reference

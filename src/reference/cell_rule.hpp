@@ -1,25 +1,31 @@
 #pragma once
 // Quadrature::cells along one ray, with its error.
 //
-// A piece is integrated by Gauss's rule with two points: its depth is its length times the mean of
-// their extinctions τ₁ and τ₂; its colour c₁ + f·(c₂ − c₁), as colour is taken to run straight in
-// the share y of the depth passed. Collocation puts the points at y = ½ ∓ (1 ± δ)/(2√3), with
-// δ = (τ₂ − τ₁)/(τ₁ + τ₂), and the mean of y under e^(−Dy) is ½ − ½·L(D/2), L(z) = coth z − 1/z:
+// A piece is integrated by Gauss's rule with two points. Its optical depth is its length times the
+// mean of the extinctions τ₁ and τ₂. Its colour is c₁ + f·(c₂ − c₁), because colour is assumed to
+// be linear in the share y of the depth passed. Collocation puts the points at
+// y = ½ ∓ (1 ± δ)/(2√3), with δ = (τ₂ − τ₁)/(τ₁ + τ₂). The mean of y under e^(−Dy) is ½ − ½·L(D/2)
+// with L(z) = coth z − 1/z, so
+//
 //   f = ½·(1 + δ − √3·L(D/2)), within [0, 1].
 //
-// A device cuts and looks elsewhere than this one, by its errors of position and value. The exact
-// integral does not depend on the cuts, so what its picture may differ by is
-//   how the integrand changes along the way: errors of the values at the points, as of a sample;
-//   plus the rule's own error here and there. It is measured: halving a piece leaves a sixteenth of
-//   it, so the change by that is 15/16 of it. Where an extremum of the field stands within the
-//   error of a kink, a device may leave a piece whole that is cut in two here, which multiplies it
-//   by 16.
-// Where a device makes the same cuts, both errors are nearly one. With an end of a piece of length
-// h moved by ε, rule and integral of f change by no more than ε·(range of f + h·|f′| at the
-// points/2), and a cubic has h·|f′| ≤ 3√(3/2)·range there (Bernstein): together less than
-// 3·ε·range, of which the rule's six points here see more than three quarters. A cut beside an
-// extremum moves by up to twice the error over the slope, as it is further from it than its error.
-// So eight times.
+// A device cuts the ray, and looks up values, at slightly different positions, because of its
+// errors of position and value. The exact integral does not depend on the cuts. The image of a
+// device can therefore differ by two errors:
+//
+//   - the errors of the values at the points, as for a sample, which change the integrand along the
+//     way;
+//   - the rule's own error, on the device and here. It is measured by halving a piece, which leaves
+//     a sixteenth of the error, so that the change is 15/16 of it. If an extremum of the field is
+//     within the error of a kink, a device may keep a piece that is cut in two here, which
+//     multiplies its error by 16.
+//
+// If a device makes the same cuts, both errors are nearly equal. If an end of a piece of length h
+// moves by ε, rule and integral of f change by at most ε·(range of f + h·|f′| at the points/2). A
+// cubic has h·|f′| ≤ 3√(3/2)·range there (Bernstein), so the change is less than 3·ε·range. The six
+// points that are looked up here see more than three quarters of that range. A cut beside an
+// extremum moves by up to twice the error divided by the slope, because its distance from the
+// extremum exceeds its error. The factor is therefore eight.
 
 #include <algorithm>
 #include <array>
@@ -43,13 +49,13 @@
 
 namespace triptych::reference {
 
-// Points of one piece that a device looks at: two, of which it may find `open` more or fewer.
+// Points of one piece that a device looks at: two, and `open` more or fewer are possible.
 struct OpenPoints {
   double begin = 0;  // of the piece, from the ray's entry
   double end = 0;
   double most = 2;
   double open = 0;
-  double may_show = 0;  // that may have opacity or none
+  double may_show = 0;  // points that may or may not have opacity
 };
 
 template <typename Stored>
@@ -66,8 +72,8 @@ class CellRule {
         smallest_spacing_(scene.smallest_spacing()),
         gradient_scale_(gradient_scale(*scene.grid)) {}
 
-  // Calls take(looked, opacity) for every piece that a device may see, front to back, until it
-  // returns false. Of `looked` the alpha is not used.
+  // Calls take(looked, opacity) for every piece that a device may see, front to back, until take
+  // returns false. The alpha of `looked` is not used.
   template <typename Take>
   void walk(const Ray& ray, Take take) {
     const auto take_visible = [&](const Piece& piece) {
@@ -81,7 +87,7 @@ class CellRule {
     if (slack > 0.0 && passed) take_visible(piece_beyond(ray, ray.length, ray.length + slack));
   }
 
-  // Calls take(points, opacity) likewise, of the points that a device looks at.
+  // Calls take(points, opacity) in the same way, for the points that a device looks at.
   template <typename Take>
   void walk_open(const Ray& ray, Take take) {
     for_each_piece(ray, [&](const Part& part, double from, double to) {
@@ -108,13 +114,13 @@ class CellRule {
     Looked looked;
     StepOpacity opacity;
     bool visible = false;
-    Range extinction;             // least and largest of the points
-    std::array<Range, 3> colour;  // likewise
+    Range extinction;             // of the points
+    std::array<Range, 3> colour;  // of the points, by channel
   };
 
   [[nodiscard]] bool is_kink(double knot) const { return kinks_[static_cast<std::size_t>(knot)]; }
 
-  // Whether a device may see an extremum pass a kink that it does not pass here, or the reverse.
+  // Whether on a device an extremum may pass a kink that it does not pass here, or the reverse.
   [[nodiscard]] bool touches_a_kink(const Cubic& cubic, double error) const {
     const std::array<double, 4> ends = cubic.monotone_ends();
     return std::any_of(ends.begin() + 1, ends.end() - 1, [&](double s) {
@@ -128,18 +134,18 @@ class CellRule {
     });
   }
 
-  // A cell's way, or one of the parts that it is cut into.
+  // The way through a cell, or one of the parts that it is cut into.
   struct Part {
     double begin = 0;
     double end = 0;
-    Cubic cubic;           // of positions among the table's entries
-    double error = 0;      // of them
+    Cubic cubic;           // positions among the table's entries along the part
+    double error = 0;      // error of these positions
     bool certain = false;  // every device sees something of it
     bool touches_a_kink = false;
     std::array<double, 2> of_cell{};  // the ends of its cell
   };
 
-  // Of which a device may see something.
+  // The part if a device may see something of it, otherwise nullopt.
   [[nodiscard]] std::optional<Part> visible_part(const Ray& ray, double begin, double end) const {
     Part part{.begin = begin, .end = end};
     part.cubic = Cubic::along(ray, begin, end,
@@ -159,8 +165,8 @@ class CellRule {
     return part;
   }
 
-  // Calls take(part, from, to) for every piece, front to back, until it returns false. Whether it
-  // never did.
+  // Calls take(part, from, to) for every piece, front to back, until take returns false. Returns
+  // whether it never did.
   template <typename Take>
   bool for_each_piece(const Ray& ray, Take take) {
     cut_at_planes(ray, scene_.grid->size, planes_);
@@ -193,8 +199,9 @@ class CellRule {
     return true;
   }
 
-  // How far from t a device may cut, wherever it lets the ray begin: at the nearest plane of voxel
-  // centres for a part's own ends, else where the values pass a kink.
+  // How far from t a device may cut, wherever the ray begins on it: for the ends of a part the
+  // distance to the nearest plane of voxel centres, otherwise the error of the position where
+  // values pass a kink.
   [[nodiscard]] double time_error(const Ray& ray, const Part& part, double t) const {
     if (t > part.begin && t < part.end) {
       const double s = (t - part.begin) / (part.end - part.begin);
@@ -214,7 +221,7 @@ class CellRule {
     return error;
   }
 
-  // Least and largest value on the part, by the cubic's Bernstein coefficients.
+  // The smallest and largest value on the part, from the cubic's Bernstein coefficients.
   [[nodiscard]] static Range bounds(const Cubic& cubic) {
     const double b0 = cubic.c0;
     const double b1 = b0 + cubic.c1 / 3.0;
@@ -223,7 +230,7 @@ class CellRule {
     return std::minmax({b0, b1, b2, b3});
   }
 
-  // How much of a piece a device may find outside of the volume.
+  // The length of a piece that may be outside of the volume on a device.
   [[nodiscard]] static double doubtful_length(const Ray& ray, double from, double to) {
     const double slack = ray.slack();
     const double begin = std::max(std::min(to, slack) - from, 0.0);
@@ -236,25 +243,26 @@ class CellRule {
     return {nominal, nominal - doubtful_length(ray, from, to) / smallest_spacing_, nominal};
   }
 
-  // A ray on which nothing is where it is by up to `way`.
+  // The ray with all positions uncertain by up to `way`.
   [[nodiscard]] static Ray widened(Ray ray, double way) {
     ray.position_error = ray.position_error_within(way);
     return ray;
   }
 
-  // What a device may see where only its ray is in the volume.
+  // The piece that a device may see where only its own ray is inside the volume.
   [[nodiscard]] Piece piece_beyond(const Ray& ray, double from, double to) const {
     const Ray wide = widened(ray, 0.5 * (to - from));
     return gauss(wide, from, to, {0.0, 0.0, (to - from) / smallest_spacing_});
   }
 
-  // How far from t, an end of a piece, a device may cut: a cell is cut into equal parts.
+  // How far from t, which is an end of a piece, a device may cut. A cell is cut into equal parts.
   [[nodiscard]] double end_error(const Ray& ray, const Part& part, double t) const {
     if (parts_ == 1 || (t > part.begin && t < part.end)) return time_error(ray, part, t);
     return std::max(time_error(ray, part, part.of_cell[0]), time_error(ray, part, part.of_cell[1]));
   }
 
-  // By what share of its length a device may move a piece, at most 1: that is other cuts.
+  // The share of its length by which a device may move a piece; 1 or more means that the cuts
+  // differ.
   [[nodiscard]] double shift_of(const Ray& ray, const Part& part, double from, double to) const {
     if (part.touches_a_kink || doubtful_length(ray, from, to) > 0.0) return 1.0;
     const double moved = end_error(ray, part, from) + end_error(ray, part, to);
@@ -299,7 +307,7 @@ class CellRule {
     return {std::min({a.first, b.first, c.first}), std::max({a.second, b.second, c.second})};
   }
 
-  // An extinction that a point finds, and the least and most that a device may.
+  // The extinction at a point, with the smallest and largest value that a device may find.
   struct Extinction {
     double nominal;
     double lo;
@@ -318,7 +326,8 @@ class CellRule {
     return table_.look_up(Table::span_of(field_.at(p, ray.position_error)));
   }
 
-  // Both points of a visible piece, even one without opacity: the colour between them is.
+  // Looks up both points of a visible piece. A point without opacity is looked up, too, because the
+  // colour between the points depends on it.
   void shade_at(const Ray& ray, double t, Looked& looked) const {
     const glm::dvec3 p = ray.entry + t * ray.voxels_per_unit;
     const double rounding = model_.compositing_error;
@@ -328,7 +337,7 @@ class CellRule {
         scene_.shading, rounding);
   }
 
-  // coth z − 1/z, by its series where that cancels: below 1e-15 for z < 0.05.
+  // coth z − 1/z. For z < 0.05, where that cancels, its series is used, with an error below 1e-15.
   [[nodiscard]] static double langevin(double z) {
     if (z < 0.05) return z * (1.0 / 3.0 - z * z * (1.0 / 45.0 - z * z * 2.0 / 945.0));
     return 1.0 / std::tanh(z) - 1.0 / z;

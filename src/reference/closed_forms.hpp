@@ -1,10 +1,10 @@
 #pragma once
 // Rays whose emission–absorption integral is known in closed form:
 //   I = ∫ c·τ·exp(−∫τ) dt,   A = 1 − exp(−∫τ),
-// τ the extinction per unit length (so per whatever unit the lengths below are in), c the straight
-// colour. All are derived from that definition by the substitution named beside them; V1 … V9 are
-// the numbers under which the problems are known in this project (Etiene et al. 2014 verify volume
-// renderers by such problems).
+// where τ is the extinction per unit length (the unit of the lengths below) and c the straight
+// colour. All formulas follow from that definition by the given substitution. V1 … V9 are the
+// numbers of the problems in this project (Etiene et al. 2014 verify volume renderers with such
+// problems).
 
 namespace triptych::reference {
 
@@ -14,17 +14,17 @@ struct Radiance {
   double opacity = 0;
 };
 
-// `front` seen before `behind`.
+// Composites `front` over `behind`.
 [[nodiscard]] Radiance over(const Radiance& front, const Radiance& behind);
 
 // V1: constant τ and c over a length. A = 1 − e^(−τℓ), I = c·A.
 [[nodiscard]] Radiance v1_constant(double tau, double colour, double length);
 
-// V2: τ = k·t, c = t on 0 ≤ t ≤ 1. I = −e^(−k/2) + √(π/2k)·erf √(k/2), A = 1 − e^(−k/2); by parts,
-// with the transmittance e^(−kt²/2). k ≥ 0.
+// V2: τ = k·t and c = t for 0 ≤ t ≤ 1, k ≥ 0. I = −e^(−k/2) + √(π/2k)·erf √(k/2), A = 1 − e^(−k/2).
+// Derived by parts with the transmittance e^(−kt²/2).
 [[nodiscard]] Radiance v2_ramp(double k);
 
-// V3: τ = a + b·t, c = c₀ + c₁·t on 0 ≤ t ≤ length, τ ≥ 0 throughout. By parts
+// V3: τ = a + b·t and c = c₀ + c₁·t for 0 ≤ t ≤ length, with τ ≥ 0 everywhere. By parts,
 //   I = [−(c₀ + c₁t)·E]₀ˡ + c₁·∫E dt,   E = exp(−at − bt²/2).
 struct LinearSegment {
   double tau0 = 0;     // a
@@ -35,17 +35,18 @@ struct LinearSegment {
 };
 [[nodiscard]] Radiance v3_segment(const LinearSegment& segment);
 
-// ∫ exp(−at − bt²/2) dt over [0, length] for a + bt ≥ 0 there, to about 1e-14 relative. Completing
-// the square gives erf for b > 0, written with erfcx so that nothing overflows or cancels, and
-// Dawson's function for b < 0; optically thin segments and b → 0 are summed as a Taylor series.
+// ∫ exp(−at − bt²/2) dt over [0, length], for a + bt ≥ 0 there, with a relative error of about
+// 1e-14. For b > 0 completing the square gives erf, which is written with erfcx so that nothing
+// overflows or cancels. For b < 0 it gives Dawson's function. Optically thin segments and b → 0 use
+// a Taylor series.
 [[nodiscard]] double transmittance_integral(double a, double b, double length);
 
 // V4: optical depth of τ = τ₀·exp(−r²/2σ²) along a line at distance p from the centre, between s₀
-// and s₁ from its nearest point: τ₀σ√(π/2)·e^(−p²/2σ²)·[erf(s₁/√2σ) − erf(s₀/√2σ)];
-// τ₀σ√(2π)·e^(−p²/2σ²) for the whole line.
+// and s₁ from its nearest point: τ₀σ√(π/2)·e^(−p²/2σ²)·[erf(s₁/√2σ) − erf(s₀/√2σ)]. For the whole
+// line it is τ₀σ√(2π)·e^(−p²/2σ²).
 [[nodiscard]] double v4_gaussian_depth(double tau0, double sigma, double p, double s0, double s1);
 
-// V5: optical depth of τ = τ₀·e^(−z/H) from height z₀ to z₁ ≠ z₀ along a ray with |cos θ| to the
+// V5: optical depth of τ = τ₀·e^(−z/H) from height z₀ to z₁ ≠ z₀ along a ray at an angle θ to the
 // axis: τ₀H·|e^(−z₀/H) − e^(−z₁/H)|/|cos θ|.
 [[nodiscard]] double v5_atmosphere_depth(double tau0, double scale_height, double z0, double z1,
                                          double cosine);
@@ -54,16 +55,16 @@ struct LinearSegment {
 [[nodiscard]] Radiance v6_layers(double tau1, double colour1, double length1, double tau2,
                                  double colour2, double length2);
 
-// V9: what a central difference over Δ to either side makes of the derivative of sin(kx), as a
-// factor: (sin k(x+Δ) − sin k(x−Δ))/2Δ = k·cos(kx) · sin(kΔ)/(kΔ).
+// V9: the factor by which a central difference over Δ to either side changes the derivative of
+// sin(kx): (sin k(x+Δ) − sin k(x−Δ))/2Δ = k·cos(kx) · sin(kΔ)/(kΔ).
 [[nodiscard]] double v9_difference_factor(double k, double delta);
 
-// V9's light: ∫ sinⁿ(phase + rate·t)·τ·e^(−τt) dt over [0, length] for n = 1 or n even, by the
-// Fourier sum of sinⁿ and ∫ e^(i(φ+ωt))·e^(−τt) dt = e^(iφ)·(e^((iω−τ)·length) − 1)/(iω − τ). τ >
-// 0.
+// V9's light: ∫ sinⁿ(phase + rate·t)·τ·e^(−τt) dt over [0, length], for n = 1 or even n and τ > 0.
+// It is the Fourier sum of sinⁿ with ∫ e^(i(φ+ωt))·e^(−τt)
+// dt = e^(iφ)·(e^((iω−τ)·length) − 1)/(iω − τ).
 [[nodiscard]] double v9_lit_wave(double tau, int power, double phase, double rate, double length);
 
-// Scaled complementary error function e^(x²)·erfc(x), x ≥ 0.
+// Scaled complementary error function e^(x²)·erfc(x) for x ≥ 0.
 [[nodiscard]] double erfcx(double x);
 
 // Dawson's function e^(−x²)·∫₀ˣ e^(t²) dt.

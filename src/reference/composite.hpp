@@ -1,5 +1,5 @@
 #pragma once
-// Front-to-back compositing of one ray and the bound on what a device may make of it.
+// Front-to-back compositing of one ray, with the bound on the result of a device.
 
 #include <array>
 #include <cstddef>
@@ -15,21 +15,21 @@ namespace triptych::reference {
 struct Pixel {
   std::array<double, 4> rgba{};
   double bound = 0;
-  std::uint64_t samples = 0;  // of Truth::samples
+  std::uint64_t samples = 0;  // see Truth::samples
 };
 
-// Samples are added front to back, then finish() folds them back to front, which yields the colour
-// behind every sample. With a, c, T, B the opacity, colour, transmittance in front and colour
-// behind of a sample, primed for the device's, the exact identity
+// Samples are added front to back. finish() then processes them back to front, which yields the
+// colour behind every sample. Let a, c, T, B be opacity, colour, transmittance in front, and colour
+// behind of a sample, with a prime for the device's values. The exact identity
 //   I' − I = Σᵢ T'ᵢ·[(a'ᵢ − aᵢ)(cᵢ − Bᵢ) + a'ᵢ(c'ᵢ − cᵢ)]
-// bounds the difference by what each primed quantity can be at most, all orders included.
-// One object serves one thread; its memory is kept from ray to ray.
+// bounds the difference if each primed quantity is replaced by its maximum. This includes errors of
+// all orders. One object serves one thread and keeps its memory from ray to ray.
 class Compositor {
  public:
   Compositor(const ErrorModel& model, const std::array<float, 4>& background);
 
   void start();
-  // False when nothing behind this sample can be seen any more.
+  // Returns false if nothing behind this sample can be visible any more.
   bool add(const Looked& looked, const StepOpacity& opacity);
   [[nodiscard]] Pixel finish() const;
 
@@ -39,17 +39,17 @@ class Compositor {
     std::array<double, 3> colour_error;
     double opacity;
     double opacity_error;
-    double front;  // the largest transmittance a device may have in front of it
+    double front;  // largest transmittance that a device may have in front of it
   };
 
   ErrorModel model_;
   std::array<double, 4> background_{};
   std::vector<Sample> samples_;
-  double largest_ = 1;   // of the transmittance a device may have reached …
+  double largest_ = 1;   // largest transmittance that a device may have reached …
   double smallest_ = 1;  // … and the smallest
-  // A device with early termination stops behind one of the samples first_stop_ … last_stop_. One
-  // that takes samples together has a transmittance that is off by as much as the picture, may stop
-  // as early as that allows, and as late as its last sample.
+  // A device with early termination stops after one of the samples first_stop_ … last_stop_. If a
+  // device merges samples, its transmittance has the same error as the image: it may stop as early
+  // as that error allows, and as late as its last sample.
   std::size_t first_stop_ = 0;
   std::size_t last_stop_ = 0;
 };

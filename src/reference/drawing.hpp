@@ -1,5 +1,5 @@
 #pragma once
-// What the renderers of this room have in common: checking a scene and filling a picture.
+// Shared by the renderers in this folder: checking a scene and filling an image.
 
 #include <algorithm>
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace triptych::reference {
 
-// Throws InputError for a scene that no picture is defined for.
+// Throws InputError for a scene for which no image is defined.
 inline void check(const scene::VolumeScene& scene) {
   if (!scene.grid) throw core::InputError("the scene has no volume");
   const scene::VoxelGrid& grid = *scene.grid;
@@ -34,7 +34,7 @@ inline void check(const scene::VolumeScene& scene) {
   if (scene.width < 0 || scene.height < 0) throw core::InputError("negative viewport");
 }
 
-// Calls function(Stored{}) with the type of one voxel.
+// Calls function(Stored{}), where Stored is the type of one voxel.
 template <typename Function>
 auto with_stored_type(scene::VoxelFormat format, Function&& function) {
   switch (format) {
@@ -50,13 +50,14 @@ auto with_stored_type(scene::VoxelFormat format, Function&& function) {
   return function(float{});
 }
 
-// Factor from a difference over two voxels to the gradient per smallest spacing, per axis.
+// The factor for each axis that converts a difference over two voxels to the gradient per smallest
+// spacing.
 inline glm::dvec3 gradient_scale(const scene::VoxelGrid& grid) {
   const double smallest = *std::min_element(grid.spacing.begin(), grid.spacing.end());
   return {smallest / grid.spacing[0], smallest / grid.spacing[1], smallest / grid.spacing[2]};
 }
 
-// Fills a picture with `Pixel caster(x, y)`; every thread makes its own caster.
+// Fills an image with `Pixel caster(x, y)`. Every thread makes its own caster.
 template <typename MakeCaster>
 Truth draw(const scene::VolumeScene& scene, int threads, const MakeCaster& make_caster) {
   Truth truth;
@@ -68,7 +69,7 @@ Truth draw(const scene::VolumeScene& scene, int threads, const MakeCaster& make_
   truth.bound.resize(pixels);
   std::vector<std::uint64_t> samples(static_cast<std::size_t>(scene.height));
   for_each_row(scene.height, threads, [&]() -> RowWorker {
-    // Shared, for std::function asks for a copyable callable.
+    // A shared pointer, because std::function requires a callable that can be copied.
     auto caster = std::make_shared<decltype(make_caster())>(make_caster());
     return [&truth, &samples, width, caster](int y) {
       for (std::size_t x = 0; x < width; ++x) {

@@ -15,13 +15,13 @@ namespace triptych::reference {
   return -std::expm1(-depth);
 }
 
-// A length of an extinction that may be infinite.
+// The optical depth of a length; the extinction may be infinite.
 [[nodiscard]] inline double depth_of(double length, double extinction) {
   return length > 0.0 ? length * extinction : 0.0;
 }
 
-// −ln(1 − alpha) averaged while alpha runs straight from a to b: by F(α) = (1 − α)·ln(1 − α) + α,
-// whose derivative it is, or where that cancels by its series around the middle.
+// The mean of −ln(1 − alpha) while alpha changes linearly from a to b. It uses the antiderivative
+// F(α) = (1 − α)·ln(1 − α) + α, or its series around the middle where the difference would cancel.
 [[nodiscard]] inline double mean_extinction(double a, double b) {
   const double middle = 0.5 * (a + b);
   const double left = 1.0 - middle;

@@ -1,5 +1,5 @@
 #pragma once
-// The normalised field: trilinear between voxel centres, clamped to the edge.
+// The normalised field, trilinear between voxel centres and clamped to the edge.
 
 #include <array>
 #include <cstddef>
@@ -12,47 +12,48 @@
 
 namespace triptych::reference {
 
-// A value and the most by which the error model lets a device's value differ from it.
+// A value, and the largest difference that the error model allows for a device's value.
 struct Bounded {
   double value = 0;
   double error = 0;
 };
 
-// Reads the grid in place; Stored is what one voxel of it is: std::uint8_t, std::uint16_t, float or
-// scene::Half. Interpolates stored values, which are exact, and maps the result. Positions in
-// voxels.
+// Reads the grid in place. Stored is the type of a voxel: std::uint8_t, std::uint16_t, float or
+// scene::Half. It interpolates stored values, which are exact, and maps the result. Positions are
+// in voxels.
 template <typename Stored>
 class Field {
  public:
-  // The grid must outlive the field. Reads every voxel once where the model has a position error.
+  // The grid must outlive the field. The constructor reads every voxel once if the model has a
+  // position error.
   Field(const scene::VoxelGrid& grid, const ErrorModel& model);
 
   [[nodiscard]] double at(const glm::dvec3& p) const;
 
-  // The error is Σ over axes of (largest difference of neighbours in any cell that a device may
-  // read instead) × position error, for a trilinear field is Lipschitz with just these constants;
-  // plus filter_weight_error × spread of the eight voxels, plus value_error. Voxels that are each
-  // off by a share of themselves move what weights of at least 0 make of them by at most that share
-  // of it: plus voxel_rounding × (value + all that is above but value_error).
+  // The error has these terms. A trilinear field is Lipschitz continuous, so a position error adds
+  // for each axis the position error times the largest difference of neighbours in any cell that a
+  // device may read instead. Then filter_weight_error × spread of the eight voxels, and
+  // value_error. Voxels with a relative error change a weighted mean with weights ≥ 0 by at most
+  // that share of it, which adds voxel_rounding × (value + all terms above except value_error).
   [[nodiscard]] Bounded at(const glm::dvec3& p, const glm::dvec3& position_error) const;
 
-  // at(a) − at(b) for two places that are displaced together by up to `shared_error` and each on
-  // its own by up to `own_error` per axis: together they change it only by how much the slopes
-  // differ.
+  // at(a) − at(b) for two places that are displaced together by up to `shared_error` per axis, and
+  // each by itself by up to `own_error`. A common displacement changes the difference only by the
+  // difference of the slopes.
   [[nodiscard]] Bounded difference(const glm::dvec3& a, const glm::dvec3& b,
                                    const glm::dvec3& shared_error, double own_error) const;
 
  private:
-  // Where p falls along one axis: between voxels base and base + 1 (before clamping), at fraction
-  // f.
+  // The position of p along one axis: between the voxels base and base + 1 (before clamping), at
+  // the fraction f.
   struct Place {
     int base = 0;
     double f = 0;
   };
   using Corners = std::array<double, 8>;  // bit 0: x, bit 1: y, bit 2: z
 
-  // How the field may change: extremes of the difference of two neighbours per axis, and the
-  // largest of any two voxels of one cell.
+  // Limits for the change of the field: for each axis the extreme differences of two neighbours,
+  // and the largest difference of any two voxels of one cell.
   struct Slopes {
     glm::dvec3 lo;
     glm::dvec3 hi;
@@ -62,7 +63,7 @@ class Field {
     [[nodiscard]] glm::dvec3 steepest() const;
   };
 
-  // A stored value; its slopes are known where the place is, to better than half a voxel.
+  // A stored value. Its slopes are known if the position is known to better than half a voxel.
   struct Read {
     double stored;
     bool local;
@@ -85,7 +86,7 @@ class Field {
   double voxel_rounding_;
   double filter_weight_error_;
   double range_ = 0;  // largest minus smallest stored value
-  bool exact_;        // places and weights have no error, so slopes play no part
+  bool exact_;        // positions and weights have no error, so slopes are not needed
 };
 
 extern template class Field<std::uint8_t>;

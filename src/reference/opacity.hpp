@@ -1,29 +1,30 @@
 #pragma once
-// Opacity of a step from the opacity of one voxel length.
+// Computes the opacity of a step from the opacity per voxel length.
 
 #include "reference/table.hpp"
 
 namespace triptych::reference {
 
-// 1 − (1 − alpha)^steps without cancellation; 0 for steps ≤ 0, 1 for alpha = 1.
+// 1 − (1 − alpha)^steps without cancellation; 0 for steps ≤ 0, and 1 for alpha = 1.
 [[nodiscard]] double step_opacity(double alpha, double steps);
 
-// Steps a sample stands for, in voxel lengths, and the least and most a device may take.
+// The length that a sample covers, in voxel lengths, with the smallest and largest length on a
+// device.
 struct StepLength {
   double nominal = 1;
   double shortest = 1;
   double longest = 1;
 };
 
-// A sample's opacity, and the least and most a device may find.
+// The opacity of a sample, with the smallest and largest opacity on a device.
 struct StepOpacity {
   double nominal = 0;
   double lo = 0;
   double hi = 0;
 };
 
-// Rigorous also where the derivative is not: near alpha = 1 with steps < 1, and where a whole step
-// appears or vanishes. `relative_error` is that of the device's own correction.
+// The bounds hold even where the derivative is unbounded: near alpha = 1 with steps < 1, and where
+// a whole step appears or vanishes. `relative_error` is the error of the device's own correction.
 [[nodiscard]] StepOpacity step_opacity(const Looked& looked, const StepLength& steps,
                                        double relative_error);
 

@@ -1,6 +1,6 @@
 #pragma once
-// By how much a raycaster's counters may differ between two devices that are both right: what
-// rounding decides, found ray by ray with the bounds that pictures are judged by.
+// How much the counters of a raycaster may differ between two correct devices. Rounding decides
+// some counts; they are found ray by ray with the bounds that are used for images.
 
 #include <map>
 #include <string>
@@ -10,25 +10,27 @@
 
 namespace triptych::reference {
 
-// The planes at which a raycaster looks whether it may skip, per axis at origin + k·edge voxels.
+// The planes at which a raycaster decides whether it can skip: for each axis at origin + k·edge
+// voxels.
 struct BrickPlanes {
   int edge = 0;  // 0: it skips nothing
   double origin = 0;
 };
 
-// By the counters' names (technique::raycast_counters). What is open of a ray:
-//   all of it, where it may hit or miss the volume;
-//   samples beyond the shortest chord, and those behind the first that may end the ray;
-//   whether a sample has opacity, where the least that a device may find is none. Preintegrated, an
-//     opacity below 2⁻²⁴ may be none, as 1 − 2⁻ᶻ may be rounded as a difference;
-//   to which side of a plane of bricks a sample counts that lies within its error of it: one sample
-//   and
-//     one brick. A leap's end moves with its begin (its cubes have reaches that differ by no more
-//     than the way between them), so two rows of leaps interleave and differ by one at most;
-//   which brick lies between two planes that are passed within their error of each other;
-//   with quadrature cells, two points for each piece that is shorter than its ends are certain, and
-//   four
-//     for an extremum within its error of a kink.
+// Allowed differences by counter name (technique::raycast_counters). For a ray the following is
+// open:
+//
+//   - everything, if it may hit or miss the volume;
+//   - samples beyond the shortest chord, and those after the first one that may end the ray;
+//   - whether a sample has opacity, if the smallest opacity on a device is zero. With preintegrated
+//     steps an opacity below 2⁻²⁴ may become zero, because 1 − 2⁻ᶻ may be computed as a difference;
+//   - the side of a plane of bricks on which a sample counts, if the sample is within its error of
+//     the plane: one sample and one brick. The end of a leap moves with its begin, because the
+//     reaches of its cubes differ by at most the way between them. Two sequences of leaps therefore
+//     interleave and differ by at most one;
+//   - the brick between two planes that the ray passes within their error of each other;
+//   - with quadrature cells, two points for each piece that is shorter than the uncertainty of its
+//     ends, and four points for an extremum within its error of a kink.
 [[nodiscard]] std::map<std::string, double> open_counts(const scene::VolumeScene& scene,
                                                         const ErrorModel& model,
                                                         const BrickPlanes& planes, int threads = 0);

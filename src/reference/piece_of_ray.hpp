@@ -1,5 +1,5 @@
 #pragma once
-// The light of a stretch of ray along which extinction and colour are smooth.
+// The light of a piece of a ray along which extinction and colour are smooth.
 
 #include <algorithm>
 #include <array>
@@ -8,14 +8,15 @@
 
 namespace triptych::reference {
 
-// By itself: colour premultiplied, what lies behind it dimmed by e^(−depth).
+// The light of the piece alone: premultiplied colour, and the depth by which e^(−depth) attenuates
+// everything behind it.
 struct PieceLight {
   std::array<double, 3> colour{};
   double depth = 0.0;
 
   [[nodiscard]] double opacity() const { return -std::expm1(-depth); }
 
-  // This piece and the next one behind it.
+  // This piece with the next one behind it.
   [[nodiscard]] PieceLight before(const PieceLight& next) const {
     PieceLight both = *this;
     const double left = std::exp(-depth);
@@ -25,7 +26,8 @@ struct PieceLight {
   }
 };
 
-// How far two accounts of a piece may set a channel apart before whatever of [0, 1] lies behind.
+// The largest difference in any channel between two results for a piece, for any colour in [0, 1]
+// behind it.
 [[nodiscard]] inline double difference(const PieceLight& a, const PieceLight& b) {
   const double opacity = a.opacity() - b.opacity();
   double largest = std::abs(opacity);
@@ -36,15 +38,16 @@ struct PieceLight {
   return largest;
 }
 
-// What a point of the ray has: extinction per length, and straight colour.
+// Extinction per length and straight colour at a point of the ray.
 struct RayPoint {
   double extinction = 0.0;
   std::array<double, 3> colour{};
 };
 
-// Gauss's rule with three points, of order 6: ∫c·τ·e^(−D) with the depth D in front of each point
-// by collocation (the coefficients of Kuntzmann and Butcher), which keeps the order. Scaled so that
-// a constant colour is exact. `point_at(share)` of a piece `length` long.
+// Gauss's rule with three points, of order 6, for ∫c·τ·e^(−D). The depth D in front of each point
+// is computed by collocation (the coefficients of Kuntzmann and Butcher), which keeps the order.
+// The result is scaled so that a constant colour is exact. `point_at(share)` returns a point of a
+// piece of length `length`.
 template <typename PointAt>
 [[nodiscard]] PieceLight gauss_light(double length, const PointAt& point_at) {
   static const double r = std::sqrt(15.0);
@@ -69,7 +72,7 @@ template <typename PointAt>
   }
   const double opacity = light.opacity();
   for (std::size_t i = 0; i < 3; ++i) {
-    // Where all of the light comes from in front of the first point.
+    // Used if all of the light comes from in front of the first point.
     const double colour = whole > 0.0 ? light.colour[i] / whole : points[0].colour[i];
     light.colour[i] = opacity * colour;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Where a polynomial Σ cₖ·sᵏ on [0, 1] changes its sign.
+// Finds the sign changes of a polynomial Σ cₖ·sᵏ on [0, 1].
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,8 @@ template <std::size_t N>
   return value;
 }
 
-// Its Bernstein coefficients enclose a polynomial: of one sign, they leave it no root.
+// Whether the Bernstein coefficients, which enclose the polynomial, all have one sign, so that it
+// has no root.
 template <std::size_t N>
 [[nodiscard]] bool has_one_sign(const std::array<double, N>& c) {
   bool positive = true;
@@ -34,8 +35,8 @@ template <std::size_t N>
   return positive || negative;
 }
 
-// Appends, ascending, every s in (0, 1) where it changes its sign: between two extrema, which are
-// the roots of its derivative, at most once. By bisection, to 2⁻⁵⁰.
+// Appends, in ascending order, every s in (0, 1) where the sign changes. Between two extrema, which
+// are the roots of the derivative, it changes at most once. Uses bisection down to 2⁻⁵⁰.
 template <std::size_t N>
 void append_roots(const std::array<double, N>& c, std::vector<double>& at) {
   if constexpr (N > 1) {

@@ -1,6 +1,6 @@
 #pragma once
-// One step of quadrature preintegrated: the emission–absorption integral where the value runs
-// straight from the step's front to its back, through the piecewise linear transfer function.
+// One step of quadrature preintegrated: the emission–absorption integral for a value that changes
+// linearly from the step's front to its back, through the piecewise linear transfer function.
 
 #include <array>
 #include <cstddef>
@@ -15,19 +15,19 @@
 namespace triptych::reference {
 
 struct Segment {
-  Looked looked;  // colour: light over opacity; alpha is not used
+  Looked looked;  // colour is light divided by opacity; alpha is not used
   StepOpacity opacity;
 };
 
-// The nominal step is integrated in double to about 1e-10: cut at the entries of the table, halved
-// where the integrand is steep, Gauss's rule with four points on each part. The bound is derived at
-// PreintegrationBound.
+// The step is integrated in double precision to about 1e-10: it is cut at the entries of the table
+// and halved where the integrand is steep, and each part uses Gauss's rule with four points. The
+// bound is derived at PreintegrationBound.
 class Preintegration {
  public:
   Preintegration(const Table& table, const ErrorModel& model);
 
-  // `front` and `back` are normalised values, `length` in voxel lengths.
-  // Whether no value that a device may find has any opacity.
+  // Whether no value that a device may find has any opacity. `front` and `back` are normalised
+  // values, `length` is in voxel lengths.
   [[nodiscard]] bool transparent(const Bounded& front, const Bounded& back) const;
   [[nodiscard]] Segment operator()(const Bounded& front, const Bounded& back,
                                    const StepLength& length) const;

@@ -1,5 +1,5 @@
 #pragma once
-// The ray of a pixel, clipped to the volume, and how far the error model lets its ends move.
+// The ray of a pixel, clipped to the volume, and the possible displacement of its ends on a device.
 
 #include <array>
 #include <glm/vec3.hpp>
@@ -10,36 +10,36 @@
 
 namespace triptych::reference {
 
-// Positions in voxels (voxel centres at i+½), lengths along the ray in world units.
+// Positions are in voxels (voxel centres at i+½), lengths along the ray in world units.
 struct Ray {
-  glm::dvec3 direction{};        // unit, world
+  glm::dvec3 direction{};        // unit vector in world space
   glm::dvec3 voxels_per_unit{};  // direction / spacing
   glm::dvec3 entry{};            // where the ray enters the volume
-  double length = 0;             // of the chord inside the volume; 0 where the ray misses it …
-  double shortest = 0;           // … and the least
-  double longest = 0;            // … and most that a device may find
-  glm::dvec3 position_error{};   // of a sample's place per axis, the uncertain entry included
+  double length = 0;             // of the chord inside the volume; 0 if the ray misses it
+  double shortest = 0;           // smallest chord on a device
+  double longest = 0;            // largest chord on a device
+  glm::dvec3 position_error{};   // of a sample's position per axis, including the uncertain entry
 
-  // How much sooner or later a device may let it begin, and end.
+  // The distance by which the ray may begin or end earlier or later on a device.
   [[nodiscard]] double slack() const;
-  // Of a place that may lie so far along the ray from where it is looked for.
+  // The position error of a place that may be displaced along the ray by up to `way`.
   [[nodiscard]] glm::dvec3 position_error_within(double way) const;
 };
 
-// Distances from the entry at which the ray crosses planes of voxel centres of a grid of `size`,
-// ascending, both ends of the chord included. In place of what `at` held.
+// Sets `at` to the distances from the entry at which the ray crosses planes of voxel centres of a
+// grid of `size`, in ascending order, with both ends of the chord.
 void cut_at_planes(const Ray& ray, const std::array<int, 3>& size, std::vector<double>& at);
 
-// The rays of one scene.
+// Makes the rays of one scene.
 class RayMaker {
  public:
-  // A device's ray runs within `position_error_voxels` per axis of the true one. So its chord lies
-  // between those of the volume shrunk and grown by that much on every side, and all its samples
-  // shift along the ray with its entry point: at grazing incidence by far more than the error
-  // across it.
+  // A device's ray runs within `position_error_voxels` per axis of the exact one. Its chord
+  // therefore lies between those of the volume shrunk and grown by that distance on every side. All
+  // its samples shift along the ray with the entry point, and at grazing incidence by far more than
+  // the error across the ray.
   RayMaker(const scene::VolumeScene& scene, double position_error_voxels);
 
-  // Nothing where no device allowed by the model can hit the volume.
+  // nullopt if no device that the model allows can hit the volume.
   [[nodiscard]] std::optional<Ray> operator()(int x, int y) const;
 
  private:
@@ -47,14 +47,15 @@ class RayMaker {
     double begin = 0;
     double end = 0;
   };
-  // The part t ≥ 0 of the ray in the volume grown by `margin` voxels on every side. A direction
-  // component of ±0 never divides: the ray lies in that slab for all t or for none.
+  // The part of the ray with t ≥ 0 inside the volume grown by `margin` voxels on every side. A
+  // direction component of ±0 is never a divisor: such a ray is between the two planes for all t or
+  // for none.
   [[nodiscard]] std::optional<Chord> clip(const glm::dvec3& voxels_per_unit, double margin) const;
 
   const scene::VolumeScene* scene_;
   glm::dvec3 spacing_;
-  glm::dvec3 size_;  // voxels
-  glm::dvec3 eye_;   // voxels
+  glm::dvec3 size_;  // in voxels
+  glm::dvec3 eye_;   // in voxels
   double position_error_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// What is known of spheres without drawing them; S1 … S6 are the numbers under which the facts are
-// known in this project.
+// Facts about spheres that are known without drawing them. S1 … S6 are their numbers in this
+// project.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -8,21 +8,23 @@
 
 namespace triptych::reference {
 
-// S1: the silhouette of a sphere in a pinhole image, an ellipse whose major axis runs through the
-// image's centre: the cone of half angle α (sin α = radius/distance) at an angle θ to the view
-// axis, cut by the plane at `focal` from the eye. Lengths are in the unit of `focal`.
+// S1: the silhouette of a sphere in a pinhole image. It is an ellipse whose major axis runs through
+// the image's centre: the cone with half angle α (sin α = radius/distance) at an angle θ to the
+// view axis, intersected with the plane at distance `focal` from the eye. Lengths are in the unit
+// of `focal`.
 struct SilhouetteEllipse {
   double centre = 0;      // distance from the image's centre
-  double semi_major = 0;  // towards it
+  double semi_major = 0;  // in the direction of the image's centre
   double semi_minor = 0;
   double area = 0;
 };
-// Nothing where the cone is not cut all around (θ + α ≥ 90°) or the eye is inside (sin α ≥ 1).
+// nullopt if the plane does not cut the cone completely (θ + α ≥ 90°) or if the eye is inside the
+// sphere (sin α ≥ 1).
 [[nodiscard]] std::optional<SilhouetteEllipse> s1_silhouette(double sin_alpha, double theta,
                                                              double focal);
 
-// S2: where a ray from the origin in the unit `direction` first meets a sphere that it does not
-// start in.
+// S2: the first intersection of a ray from the origin, in the unit vector `direction`, with a
+// sphere that does not contain the origin.
 struct SphereEntry {
   double t = 0;
   glm::dvec3 normal{};
@@ -30,18 +32,19 @@ struct SphereEntry {
 [[nodiscard]] std::optional<SphereEntry> s2_entry(const glm::dvec3& direction,
                                                   const glm::dvec3& centre, double radius);
 
-// S3: mean over the disc of the cosine to the view axis, seen from afar: ∫₀¹ √(1−ρ²)·2ρ dρ.
+// S3: the mean cosine to the view axis over the disc, seen from far away: ∫₀¹ √(1−ρ²)·2ρ dρ.
 inline constexpr double s3_mean_cosine = 2.0 / 3.0;
 
-// S4: two equal spheres meet in the plane that bisects their centres; signed distance of a point
-// from it, positive on the side of `first`.
+// S4: two equal spheres intersect in the plane that bisects their centres. Returns the signed
+// distance of a point from it, positive on the side of `first`.
 [[nodiscard]] double s4_bisector(const glm::dvec3& point, const glm::dvec3& first,
                                  const glm::dvec3& second);
 
-// S5: expected share of an area that N discs, placed at random on it with wrap-around, leave free.
+// S5: the expected share of an area that stays free if N discs are placed on it at random, with
+// wrap-around.
 [[nodiscard]] double s5_uncovered(std::uint64_t discs, double radius, double area);
 
-// S6: area of a disc over that of the regular n-gon around it, n ≥ 3.
+// S6: the area of a disc divided by that of the regular n-gon around it, for n ≥ 3.
 [[nodiscard]] double s6_tightness(int corners);
 
 }  // namespace triptych::reference

@@ -1,5 +1,5 @@
 #pragma once
-// One ray and one sphere: where the ray meets it, and where rays beside it may.
+// One ray and one sphere: their intersection, and the possible intersections of nearby rays.
 
 #include <algorithm>
 #include <cmath>
@@ -9,17 +9,17 @@
 
 namespace triptych::reference {
 
-// How a ray from the origin passes a sphere. Foot of the perpendicular first, then r² − p²: the
-// form that does not cancel, however far away the sphere is.
+// How a ray from the origin passes a sphere. It computes the foot of the perpendicular first and
+// then r² − p², which does not cancel, however far away the sphere is.
 struct Passage {
   double distance = 0;      // of the centre from the eye
-  double along = 0;         // b: of the centre, along the ray
-  double across = 0;        // p: of the centre, from the ray
-  double half_squared = 0;  // h² = r² − p²: the half chord, negative where the ray misses
+  double along = 0;         // b: of the centre, measured along the ray
+  double across = 0;        // p: of the centre from the ray
+  double half_squared = 0;  // h² = r² − p², with h half the chord; negative if the ray misses
   double radius = 0;
 };
 
-// `direction` is unit, `centre` is relative to the eye.
+// `direction` is a unit vector, `centre` is relative to the eye.
 inline Passage passage(const glm::dvec3& direction, const glm::dvec3& centre, double radius) {
   const double along = glm::dot(centre, direction);
   const glm::dvec3 foot = centre - along * direction;
@@ -28,8 +28,8 @@ inline Passage passage(const glm::dvec3& direction, const glm::dvec3& centre, do
           radius};
 }
 
-// Distance along the ray to the first surface point in front of the eye: where the sphere is
-// entered or, from inside, left; +inf for none.
+// The distance along the ray to the first surface point in front of the eye, which is where the ray
+// enters the sphere, or leaves it if the eye is inside; +inf if there is none.
 inline double first_surface(const Passage& ray) {
   if (!(ray.half_squared >= 0)) return std::numeric_limits<double>::infinity();
   const double half = std::sqrt(ray.half_squared);
@@ -38,32 +38,33 @@ inline double first_surface(const Passage& ray) {
   return std::numeric_limits<double>::infinity();
 }
 
-// What may be off. `chord` is the largest |d' − d| of two unit directions, the shift is that of
-// the sphere's centre across the ray relative to its radius, the skin how near to its surface
-// the eye may be taken for being on the other side, relative to distance + radius.
+// The possible errors. `chord` is the largest |d' − d| of two unit directions. `shift` is the
+// displacement of the sphere's centre across the ray, relative to the radius. `skin` is the largest
+// distance of the eye from the surface at which a device may see it on the other side, relative to
+// distance + radius.
 struct Wobble {
   double chord = 0;
   double shift = 0;
   double skin = 0;
 };
 
-// What all rays that a wobble allows find of one sphere.
+// The results for one sphere of all rays that a wobble allows.
 struct Reach {
-  bool possible = false;  // some ray may meet it; otherwise nothing below is meant
+  bool possible = false;  // some ray may meet it; otherwise the values below are meaningless
   bool covers = false;    // every ray meets it
-  double nearest = 0;     // least and largest distance along a ray …
+  double nearest = 0;     // smallest and largest distance along a ray …
   double farthest = 0;
-  double half_lo = 0;  // … and half chord where it is met
+  double half_lo = 0;  // … and half chord, where it is met
   double half_hi = 0;
 };
 
-// Seen from the ray, the centre C (at b along it, p across) turns about the eye by an angle φ,
-// 2·sin(φ/2) ≤ chord, and shifts across by up to shift·r:
+// Seen from the ray, the centre C (at b along the ray and p across) rotates about the eye by an
+// angle φ with 2·sin(φ/2) ≤ chord, and shifts across the ray by up to shift·r:
 //   |p' − p| ≤ δ = chord·|C| + shift·r,
 //   |b' − b| = |b·(cos φ − 1) ± p·sin φ| ≤ Δb = p·chord + |b|·chord²/2,
 //   h'² = r² − p'² between h² − ((p + δ)² − p²) and h² + (p² − (p − δ)²),
-// with p' never above |C| + shift·r nor below 0. The interval of t = b' ∓ h' follows term by
-// term. h² is changed rather than computed afresh, so that no wobble is no change to the bit.
+// with p' between 0 and |C| + shift·r. The interval of t = b' ∓ h' follows term by term. h² is
+// adjusted and not computed again, so that without a wobble not even a bit changes.
 inline Reach reach(const Passage& ray, const Wobble& wobble) {
   Reach result;
   const double shift = wobble.shift * ray.radius;
@@ -74,15 +75,15 @@ inline Reach reach(const Passage& ray, const Wobble& wobble) {
   const double room = std::max(ray.distance + shift - ray.across, 0.0);
   const double up = std::min(delta, room);
   const double lowest = ray.half_squared - up * (2 * ray.across + up);
-  const double slide =
-      wobble.chord * (ray.across + 0.5 * wobble.chord * std::abs(ray.along));  // Δb
+  // This is Δb.
+  const double slide = wobble.chord * (ray.across + 0.5 * wobble.chord * std::abs(ray.along));
   result.half_hi = std::sqrt(highest);
   result.half_lo = std::sqrt(std::max(lowest, 0.0));
 
   const double rounding = 1e-14;
   const double skin = shift + (wobble.skin + rounding) * (ray.distance + ray.radius);
   const double outside = ray.distance - ray.radius;
-  if (std::abs(outside) <= skin) {  // the first surface may be either of the two
+  if (std::abs(outside) <= skin) {  // the eye may be on either side, so both surfaces are possible
     result.farthest = ray.along + slide + result.half_hi;
     result.possible = result.farthest > 0;
   } else if (outside < 0) {

@@ -1,5 +1,5 @@
 #pragma once
-// Which spheres a ray may come near: a tree of boxes around spheres, seen from one eye.
+// Finds the spheres that a ray may come near: a tree of boxes around spheres, seen from one eye.
 
 #include <algorithm>
 #include <array>
@@ -15,31 +15,32 @@
 
 namespace triptych::reference {
 
-// Split at the median centre along the widest axis, so that neither clusters nor one giant among
-// dwarfs make it deep: ⌈log₂(count/4)⌉ levels. At most 52 bytes a sphere.
+// Nodes are split at the median centre along the widest axis, so that neither clusters nor a giant
+// sphere among small ones make the tree deep: ⌈log₂(count/4)⌉ levels. It takes at most 52 bytes per
+// sphere.
 class SphereTree {
  public:
   struct Sphere {
-    glm::vec3 centre{};       // world
-    float radius = 0;         // scaled
-    std::uint32_t index = 0;  // in the set
+    glm::vec3 centre{};       // in world space
+    float radius = 0;         // with radius_scale
+    std::uint32_t index = 0;  // in the particle set
   };
 
   // Every box is grown by `growth` times the distance of its farthest corner from the eye. Throws
-  // InputError where a scaled radius is not finite; one that vanishes is left out.
+  // InputError if a scaled radius is not finite. A vanishing radius is left out.
   SphereTree(const scene::ParticleScene& scene, double growth);
 
-  // Distance of the farthest point of any sphere's box from the eye.
+  // The distance from the eye to the farthest point of any sphere's box.
   [[nodiscard]] double farthest() const { return farthest_; }
   [[nodiscard]] const Sphere& sphere(std::uint32_t place) const { return spheres_[place]; }
 
   // Calls visit(place) at least for every sphere whose grown box the ray meets at some t ≥ 0 with
-  // t ≤ limit(), nearer boxes first. `limit` may fall meanwhile. `direction` is unit.
+  // t ≤ limit(), nearer boxes first. `limit` may decrease meanwhile. `direction` is a unit vector.
   template <typename Limit, typename Visit>
   void walk(const glm::dvec3& direction, const Limit& limit, const Visit& visit) const {
     if (nodes_.empty()) return;
     const glm::dvec3 inverse = inverse_of(direction);
-    std::array<Pending, 64> stack;  // a level pushes one, and there are fewer than 32
+    std::array<Pending, 64> stack;  // each of fewer than 32 levels pushes one entry
     std::size_t size = 0;
     Pending at{0, entry(nodes_[0], inverse)};
     for (;;) {
@@ -63,12 +64,12 @@ class SphereTree {
   }
 
  private:
-  // The first child follows its parent.
+  // The first child is the next node.
   struct Node {
     std::array<float, 3> lo{};  // relative to the eye
     std::array<float, 3> hi{};
-    std::uint32_t next = 0;   // the second child, or the first sphere of a leaf
-    std::uint32_t count = 0;  // of spheres in a leaf, 0 for an inner node
+    std::uint32_t next = 0;   // index of the second child, or of a leaf's first sphere
+    std::uint32_t count = 0;  // number of spheres in a leaf; 0 for an inner node
   };
   struct Pending {
     std::uint32_t node;
@@ -76,7 +77,8 @@ class SphereTree {
   };
   static constexpr double missed = std::numeric_limits<double>::infinity();
 
-  // A component of ±0 becomes so small that the ray stays in its slab, without 0·∞.
+  // A component of ±0 is replaced by a tiny one, so that the ray stays between the two planes
+  // without 0·∞.
   static glm::dvec3 inverse_of(const glm::dvec3& direction) {
     glm::dvec3 inverse;
     for (int axis = 0; axis < 3; ++axis) {

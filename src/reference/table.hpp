@@ -1,5 +1,5 @@
 #pragma once
-// The transfer function as a function of the normalised value, and its range over an interval.
+// The transfer function of the normalised value, and its range over an interval.
 
 #include <array>
 #include <cstddef>
@@ -9,16 +9,16 @@
 
 namespace triptych::reference {
 
-// What a value looks up, and what a value within its error may look up.
+// The result of looking up a value, and the possible results for a value within its error.
 struct Looked {
   std::array<double, 3> colour{};        // straight
-  std::array<double, 3> colour_error{};  // largest difference from it
+  std::array<double, 3> colour_error{};  // largest difference from `colour`
   double alpha = 0;                      // per voxel length
   double alpha_lo = 0;
   double alpha_hi = 0;
 };
 
-// A value and the ends of the interval it may lie in, as positions among the entry centres, 0 …
+// A value, and the ends of the interval that contains it, as positions among the entry centres 0 …
 // 255.
 struct Span {
   double centre = 0;
@@ -30,16 +30,17 @@ class Table {
  public:
   Table(const scene::TransferFunction& function, double table_error);
 
-  // Position of x among the entry centres, unclamped: the function has its kinks at 0 … 255.
+  // The position of x among the entry centres, without clamping. The function has its kinks at 0 …
+  // 255.
   [[nodiscard]] static double knot_of(double x) { return x * 256.0 - 0.5; }
   [[nodiscard]] static Span span_of(const Bounded& x);
 
-  // Extremes over the span of the piecewise linear function itself (its ends and the entries
-  // between), so that neither a kink nor a spike escapes, widened by table_error.
+  // Extremes over the span of the piecewise linear function itself, widened by table_error. They
+  // include the ends and the entries between them, so that no kink or spike is missed.
   [[nodiscard]] Looked look_up(const Span& span) const;
 
-  // Whether every entry that takes part anywhere in the span is fully transparent. Interpolating
-  // zeros gives zero in any arithmetic, so table_error plays no part.
+  // Whether every entry that contributes anywhere in the span is completely transparent.
+  // Interpolating zeros gives zero in any arithmetic, so table_error is not needed.
   [[nodiscard]] bool transparent(const Span& span) const {
     const auto last = static_cast<std::size_t>(span.hi);
     const std::size_t above = static_cast<double>(last) < span.hi ? last + 1 : last;
@@ -55,7 +56,8 @@ class Table {
   [[nodiscard]] Looked look_up_across_entries(const Span& span) const;
 
   std::array<Rgba, entries> rgba_{};
-  std::array<std::size_t, entries> next_visible_{};  // first entry from here on with alpha > 0
+  // First entry with alpha > 0, from each entry on.
+  std::array<std::size_t, entries> next_visible_{};
   double table_error_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
-// The truth for volumes: the emission–absorption integral on the scene's sample lattice, in double
-// precision, one voxel value and one table entry at a time. Shares no code with the techniques.
+// The reference renderer for volumes: the emission–absorption integral at the scene's sample
+// positions, in double precision, with one voxel value and one table entry at a time. It shares no
+// code with the techniques.
 
 #include <cstdint>
 #include <vector>
@@ -10,23 +11,23 @@
 
 namespace triptych::reference {
 
-// What the arithmetic of a device may do wrong; each term is derived where the suite states it
-// (suites/volume/tolerance.hpp). All are worst cases per operation, carried along each ray to first
-// order.
+// The errors that the arithmetic of a device may have. The suite derives each term
+// (suites/volume/tolerance.hpp). All are worst cases per operation; they are propagated along each
+// ray to first order.
 struct ErrorModel {
-  double position_error_voxels = 0;  // of a sample's place, per axis
-  double value_error = 0;  // of a fetched normalised value, absolute, beside filter_weight_error
-  // of every voxel, relative to its normalised value, which is not below 0
+  double position_error_voxels = 0;  // of a sample's position, per axis
+  double value_error = 0;            // of a normalised value, absolute, without filter_weight_error
+  // Relative error of every voxel, for a normalised value, which is not negative.
   double voxel_rounding = 0;
-  double filter_weight_error = 0;  // of interpolation weights: times the spread of the eight voxels
-  double table_error = 0;          // of a looked-up colour or opacity, absolute
-  double opacity_error = 0;        // of the step-corrected opacity, relative
-  double compositing_error = 0;    // of each multiply–add into colour and transmittance, relative
-                                   // and of each operation of shading
-  double ert = 0;                  // ε at which a device may stop
-  double adapt = 0;         // how far it may move any channel by taking samples together, absolute
-  double output_error = 0;  // of a finished channel, relative: where it is stored coarser
-                            // than it was computed
+  double filter_weight_error = 0;  // of interpolation weights, times the spread of the 8 voxels
+  double table_error = 0;          // absolute error of a looked-up colour or opacity
+  double opacity_error = 0;        // relative error of the opacity of a step
+  double compositing_error = 0;    // relative error of each multiply–add into colour and
+                                   // transmittance, and of each shading operation
+  double ert = 0;                  // ε below which a device may stop
+  double adapt = 0;                // absolute change of any channel by merging samples
+  double output_error = 0;         // relative error of a finished channel that is stored with less
+                                   // precision than it was computed with
 };
 
 struct Truth {
@@ -34,27 +35,28 @@ struct Truth {
   int height = 0;
   std::vector<double> rgba;   // as core::Image, premultiplied, top row first
   std::vector<double> bound;  // per pixel: the largest error of any channel that the model allows;
-                              // of render_volume_converged: the change by its last halvings
-  std::uint64_t samples = 0;  // of render_volume_converged: points of rays that were looked up
+                              // for render_volume_converged: the change by the last halvings
+  // Of render_volume_converged: number of points of rays that were looked up.
+  std::uint64_t samples = 0;
 
   [[nodiscard]] core::Image image() const;        // rounded to float
   [[nodiscard]] core::Image bound_image() const;  // the bound in all four channels, rounded up
 };
 
-// Cost: about (samples × 8 voxels), shared by `threads` threads (0: as many as there are); the
-// result does not depend on their number. Throws InputError for a scene without volume, with a step
-// ≤ 0 or with data that does not match its size.
+// The cost is about samples × 8 voxels, distributed over `threads` threads (0: as many as the
+// machine has). The result does not depend on their number. Throws InputError for a scene without a
+// volume, with a step ≤ 0, or with data that does not match its size.
 [[nodiscard]] Truth render_volume(const scene::VolumeScene& scene, const ErrorModel& model = {},
                                   int threads = 0);
 
-// The same ray integral with every step refined until halving them all changes no channel by more
-// than `tolerance`: the limit of step → 0 for this grid and table. For orders of convergence.
+// The same ray integral, with every step refined until halving all steps changes no channel by more
+// than `tolerance`: the limit of step → 0 for this grid and table. Used for orders of convergence.
 [[nodiscard]] Truth render_volume_converged(const scene::VolumeScene& scene, double tolerance,
                                             int threads = 0);
 
-// Version of this renderer: changes whenever its pictures may.
+// The version of this renderer. It changes whenever its images may change.
 inline constexpr const char* volume_version = "3";
-// And of its limits.
+// The version of render_volume_converged.
 inline constexpr const char* converged_version = "3";
 
 }  // namespace triptych::reference
