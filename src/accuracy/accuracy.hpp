@@ -1,7 +1,7 @@
 #pragma once
-// Run time against error: what a configuration's picture is off from the limit that its scene tends
-// to, what that cost, at which order the error falls, and which configurations are worth having.
-// Numbers only; where they come from is accuracy/cases.hpp.
+// Run time against error: the error of each configuration's image against the limit of its scene,
+// its cost, the order at which the error falls, and the configurations on the Pareto front. This
+// file computes with numbers only; accuracy/cases.hpp collects them.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,53 +19,56 @@ namespace triptych::accuracy {
 struct AccuracyCase {
   std::string configuration;
   std::map<std::string, std::string> factors;
-  std::optional<double> time_ns;              // median of the timed frames, where there were any
-  std::optional<std::uint64_t> samples;       // taken, where they were counted
-  std::optional<std::uint64_t> instructions;  // of a frame, where they were counted
-  std::optional<std::uint64_t> fetched;       // bytes, past a simulated cache
-  std::optional<std::uint64_t> memory;        // bytes held on the device, where they were told
-  std::optional<double> joules;               // of a frame, by all meters, where any told it
+  std::optional<double> time_ns;              // median of the timed frames, if there were any
+  std::optional<std::uint64_t> samples;       // number of samples, if they were counted
+  std::optional<std::uint64_t> instructions;  // per frame, if they were counted
+  std::optional<std::uint64_t> fetched;       // bytes that missed a simulated cache
+  std::optional<std::uint64_t> memory;        // bytes on the device, if they were reported
+  std::optional<double> joules;               // per frame, by all meters, if any reported it
   double rmse = 0;                            // against the limit
   double largest = 0;
   double error_99 = 0;  // 99th percentile of the pixels' largest error
-  // rmse split by the truth on the same sample lattice: limit – that truth, and that truth –
-  // picture: rounding, voxel storage, filtering, early termination.
+  // The reference image on the same sample positions splits rmse into two parts: `lattice` is the
+  // difference between the limit and that reference image. `arithmetic` is the difference between
+  // the reference image and the device's image: rounding, voxel storage, filtering, early
+  // termination.
   double lattice = 0;
   double arithmetic = 0;
 };
 
-// In voxels; nullopt for what has no step.
+// The step in voxels; nullopt if there is none.
 [[nodiscard]] std::optional<double> step_of(const AccuracyCase& each);
 
 // Error ∝ stepᵖ.
 struct StepError {
   double step = 0;
   double error = 0;
-  double arithmetic = 0;  // of the error, what no step removes
+  double arithmetic = 0;  // the part of the error that no step removes
 };
 struct Order {
   double order = 0;
   double half_width = 0;   // of the 95 % confidence interval
-  std::size_t points = 0;  // that the fit rests on
+  std::size_t points = 0;  // number of points in the fit
 };
 
-// The least-squares slope of ln error over ln step with Student's interval, over the points that
-// show the asymptotic range:
-//   step ≤ 1: between planes of voxel centres the field is one polynomial; a longer step skips
-//     whole pieces and is no refinement of anything;
-//   arithmetic ≤ error/10: by the triangle inequality ln error is then within 0.11 of the step's
-//     own part, and within 0.005 where the two are uncorrelated, as rounding is.
-// nullopt for fewer than three such points: the error is rounding, or too little was measured.
+// The least-squares slope of ln error over ln step with Student's interval, for points in the
+// asymptotic range:
+//   - step ≤ 1: between planes of voxel centres the field is one polynomial. A longer step skips
+//     whole pieces, so shortening it is not a refinement.
+//   - arithmetic ≤ error/10: by the triangle inequality ln error is then within 0.11 of the step's
+//     own part, and within 0.005 if the two are uncorrelated, as rounding is.
+// nullopt for fewer than three such points, because then the error is rounding or too little was
+// measured.
 [[nodiscard]] std::optional<Order> fit_order(std::span<const StepError> points);
 
-// The indices that no other one beats in cost and error both, by rising cost; of equals the first.
-// What has no cost is not among them. Without `cost_of`: by time.
+// The indices that no other one beats in both cost and error, sorted by cost; among equal ones the
+// first. Cases without a cost are left out. Without `cost_of` the cost is the time.
 using CostOf = std::function<std::optional<double>(const AccuracyCase&)>;
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases,
                                                     const CostOf& cost_of);
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases);
 
-// For each configuration off the front the one on it that beats it on both axes, the fastest.
+// For each configuration off the front, the fastest one on the front that beats it on both axes.
 struct Dominated {
   std::size_t index = 0;
   std::size_t by = 0;
@@ -76,17 +79,18 @@ struct Dominated {
 [[nodiscard]] std::vector<Dominated> dominated(std::span<const AccuracyCase> cases,
                                                std::span<const std::size_t> front);
 
-// Configurations that differ by `step` alone, by falling step.
+// Configurations that differ only in `step`, sorted by falling step.
 struct AccuracyFamily {
-  std::string name;  // "ert=0, voxel=f32": the factors that tell it from the scene's others
+  std::string name;  // "ert=0, voxel=f32": the factors that distinguish it in its scene
   std::vector<std::size_t> members;
   std::optional<Order> order;
 };
 // Without a factor `step` every configuration is a family of its own.
 [[nodiscard]] std::vector<AccuracyFamily> accuracy_families(std::span<const AccuracyCase> cases);
 
-// The least cost of reaching an error: a configuration's at or below it, or that of the point
-// between two neighbours of a family, straight on two logarithmic axes. nullopt: none gets there.
+// The smallest cost of reaching an error: that of a configuration at or below it, or that of the
+// point between two neighbours of a family, on a straight line in two logarithmic axes. nullopt if
+// none reaches it.
 [[nodiscard]] std::optional<double> cost_to_error(std::span<const AccuracyCase> cases,
                                                   std::span<const AccuracyFamily> families,
                                                   const CostOf& cost_of, double error);
@@ -94,25 +98,26 @@ struct AccuracyFamily {
                                                   std::span<const AccuracyFamily> families,
                                                   double error);
 
-// The most accurate, of equals the fastest, of those without a time the first.
+// The most accurate case; among equal ones the fastest, and among those without a time the first.
 [[nodiscard]] std::size_t most_accurate(std::span<const AccuracyCase> cases);
 
-// One factor of a case set to another level, all others as they are.
+// One factor of a case changed to another level, with all others unchanged.
 struct Switched {
   std::string factor;
   std::size_t from = 0;
   std::size_t to = 0;
 };
-// By factor: of the most accurate case that has one, every case that differs by it alone. Plans do
-// not make all combinations, so that it need not be the same case for every factor.
+// For each factor: the most accurate case for which there is a case that differs only in this
+// factor, and all such cases. Plans do not contain all combinations, so it may be another case for
+// every factor.
 [[nodiscard]] std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases);
-// The same by `factor` between two pictures, each against its own limit: the most accurate case of
-// the one that has a like one among `others`, and that; nullopt where none has.
+// The same for `factor` between two images, each against its own limit: the most accurate of
+// `cases` that has a corresponding case among `others`, and that one; nullopt if there is none.
 [[nodiscard]] std::optional<Switched> switched_picture(std::span<const AccuracyCase> cases,
                                                        std::span<const AccuracyCase> others,
                                                        std::string_view factor);
 
-// The errors of which people ask what they cost: one and a quarter step of 8 bits, and 1e-4.
+// The errors whose cost users ask for: one step and a quarter step of 8 bits, and 1e-4.
 inline constexpr double accuracy_goals[]{1.0 / 255, 1.0 / 1024, 1e-4};
 
 }  // namespace triptych::accuracy

@@ -17,7 +17,7 @@ StepError longest_step(double error, const StepLimits& limits, const ErrorOfStep
   const auto holds_from = [&](double step) {
     return holds(step) && (step / 2 < limits.shortest || holds(step / 2));
   };
-  // From a few voxels, where steps of ordinary pictures lie, up or down by octaves.
+  // Starts at a few voxels, where the steps of ordinary images lie, and goes up or down by octaves.
   double step = std::clamp(4.0, limits.shortest, limits.longest);
   while (!holds_from(step)) {
     if (step / 2 < limits.shortest) return {.step = step, .error = known.at(step)};
@@ -36,7 +36,7 @@ StepError longest_step(double error, const StepLimits& limits, const ErrorOfStep
 
 StepError shortened_step(double step, double error, const StepLimits& limits,
                          const ErrorOfStep& error_of) {
-  // A little more than second order asks for, and never so little that it takes for ever.
+  // A little shorter than second order asks for, but always shorter by enough that the search ends.
   constexpr double margin = 0.97;
   constexpr double least_shortening = 0.84;  // a quarter of an octave
   constexpr double most_shortening = 1.0 / 16;

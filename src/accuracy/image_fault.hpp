@@ -7,10 +7,11 @@
 
 namespace triptych::accuracy {
 
-// Where a picture is worst, and by how much.
+// The place where an image is worst, with the error.
 [[nodiscard]] std::string describe(const ImageComparison& comparison);
 
-// What is wrong with a picture held against `name`, in one line; empty when nothing is.
+// What is wrong with an image that was compared with `name`, in one line; empty if nothing is
+// wrong.
 [[nodiscard]] std::string image_fault(const ImageComparison& comparison, const core::Image& image,
                                       const core::Image& expected, std::string_view name);
 

@@ -1,5 +1,5 @@
 #pragma once
-// An error that somebody asks for, and which of a picture's errors is meant by it.
+// A requested error, and the metric that it refers to.
 
 #include <array>
 #include <cstddef>
@@ -13,36 +13,36 @@ namespace triptych::accuracy {
 
 enum class Metric : std::uint8_t {
   rms,      // root mean square over all pixels and channels
-  covered,  // the same over the pixels that the limit shows anything in
-  p99_9,    // 99.9th percentile of the pixels, each by its largest channel
-  max       // the largest
+  covered,  // the same over the pixels in which the limit shows something
+  p99_9,    // 99.9th percentile over the pixels, each by its largest channel
+  max       // the largest difference
 };
 inline constexpr std::array all_metrics{Metric::rms, Metric::covered, Metric::p99_9, Metric::max};
-// "rms", "covered", "p99.9", "max".
+// The names "rms", "covered", "p99.9" and "max".
 [[nodiscard]] std::string_view name_of(Metric metric);
 
 struct RequestedError {
   double error = 0;
   Metric metric = Metric::rms;
 };
-// "E" or "E:METRIC". Throws InputError for what is no positive number or no metric.
+// Parses "E" or "E:METRIC". Throws InputError if E is not a positive number or METRIC is unknown.
 [[nodiscard]] RequestedError parse_requested_error(std::string_view text);
-// The same text; always with its metric.
+// The text of the request, always with its metric.
 [[nodiscard]] std::string text_of(const RequestedError& request);
 
-// A picture's errors against its limit.
+// The errors of an image against its limit.
 struct PictureErrors {
   std::array<double, all_metrics.size()> by_metric{};
-  std::size_t covered = 0;  // pixels that the limit shows anything in
+  std::size_t covered = 0;  // number of pixels in which the limit shows something
 
   [[nodiscard]] double of(Metric metric) const {
     return by_metric[static_cast<std::size_t>(metric)];
   }
 };
-// Before a background of 0. The error over covered pixels counts what is drawn beside them, too.
-// All are NaN for different sizes or values that are not finite.
+// The images have a background of 0. The error over covered pixels includes what an image shows
+// outside of them, too. All errors are NaN for different sizes or values that are not finite.
 [[nodiscard]] PictureErrors errors_against(const core::Image& limit, const core::Image& picture);
-// The same of a picture in which nothing is drawn.
+// The errors of an image in which nothing is drawn.
 [[nodiscard]] PictureErrors errors_of_nothing(const core::Image& limit);
 
 }  // namespace triptych::accuracy

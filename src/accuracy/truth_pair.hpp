@@ -3,10 +3,10 @@
 
 namespace triptych::accuracy {
 
-// The right picture of a configuration and how far a device's may be from it.
+// The reference image of a configuration, and the largest error that a device's image may have.
 struct TruthPair {
   core::Image truth;
-  core::Image bound;  // per pixel, same value in all channels
+  core::Image bound;  // per pixel, with the same value in all channels
 };
 
 }  // namespace triptych::accuracy

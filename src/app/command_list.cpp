@@ -32,7 +32,7 @@ void print_factor(const measure::Factor& factor) {
   const std::string levels = levels_text(factor);
   fmt::print("  {}: {}{}{}{}\n      {}\n", factor.name, levels, levels.empty() ? "" : "; ",
              factor.standard.empty() ? "required" : "default " + factor.standard,
-             factor.of_scene ? "" : "; the picture stays", factor.summary);
+             factor.of_scene ? "" : "; does not change the image", factor.summary);
 }
 
 core::Json json_of(const measure::Factor& factor) {
@@ -68,7 +68,7 @@ std::vector<CountedPlan> plans_of(const measure::Suite& suite, const Registry& r
 void print_text(const measure::Suite& suite, const std::vector<CountedPlan>& plans) {
   fmt::print("factors of {}\n", suite.name());
   for (const measure::Factor& factor : suite.factors()) print_factor(factor);
-  if (!suite.generators().empty()) fmt::print("generated data\n");
+  if (!suite.generators().empty()) fmt::print("data generators\n");
   for (const auto& [name, summary] : suite.generators()) {
     fmt::print("  generate:{}\n      {}\n", name, summary);
   }

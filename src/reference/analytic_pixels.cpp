@@ -20,8 +20,8 @@ struct Chord {
   [[nodiscard]] double length() const { return end - begin; }
 };
 
-// Deliberately not the renderer's: the two check each other. Cuts the ray by one plane after the
-// other.
+// Deliberately different from the renderer's code, because the two check each other. It cuts the
+// ray by one plane after the other.
 Chord chord_of(const Setting& setting, int x, int y) {
   Chord chord;
   chord.direction =
@@ -29,7 +29,7 @@ Chord chord_of(const Setting& setting, int x, int y) {
   chord.end = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
-      // Inside means side·(p − face) ≤ 0.
+      // A point is inside if side·(p − face) ≤ 0.
       const double face = side < 0 ? 0.0 : setting.extent[axis];
       const double distance = side * (setting.camera.eye[axis] - face);
       const double speed = side * chord.direction[axis];
@@ -54,7 +54,7 @@ AnalyticPixel finish(const Setting& setting, const std::array<Radiance, 3>& chan
   return pixel;
 }
 
-// Of the picture, from the table alone: derived in the header.
+// The error of the image caused by the table alone; derived in the header.
 double table_error(const Setting& setting, double length) {
   const Medium& medium = setting.medium;
   const double u = setting.voxel;
@@ -65,7 +65,8 @@ double table_error(const Setting& setting, double length) {
   return length * alpha / (u * left) + 2.0 * rounding;
 }
 
-// Distances along the ray at which z crosses one of the planes, with both ends, ascending.
+// The distances along the ray at which z crosses one of the planes, with both ends, in ascending
+// order.
 std::vector<double> cuts(const Setting& setting, const Chord& chord,
                          const std::vector<double>& planes) {
   std::vector<double> at{chord.begin, chord.end};
@@ -79,7 +80,7 @@ std::vector<double> cuts(const Setting& setting, const Chord& chord,
   return at;
 }
 
-// g of the problems along z, constant in the outermost half voxels.
+// The g of the problems along z, constant in the outermost half voxels.
 double height(const Setting& setting, double z) {
   const double half = 0.5 * setting.layer_z;
   return std::clamp(z, half, setting.extent.z - half) / setting.extent.z;
@@ -89,7 +90,7 @@ double z_at(const Setting& setting, const Chord& chord, double t) {
   return setting.camera.eye.z + t * chord.direction.z;
 }
 
-// Of the field, and of the medium as the table shows it.
+// The kinks of the field, and of the medium as the table represents it.
 std::vector<double> kinks(const Setting& setting) {
   std::vector<double> at{0.5 * setting.layer_z, setting.extent.z - 0.5 * setting.layer_z};
   for (const double g : setting.medium.kinks) at.push_back(g * setting.extent.z);
@@ -99,7 +100,7 @@ std::vector<double> kinks(const Setting& setting) {
 using Piece = std::function<Radiance(const Setting&, double g0, double g1, double length,
                                      std::size_t channel)>;
 
-// Composites a closed form per piece between kinks of the field.
+// Composites a closed form for each piece between kinks of the field.
 AnalyticPixel along_z(const Setting& setting, const Piece& piece, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const std::vector<double> at = cuts(setting, chord, kinks(setting));
@@ -138,8 +139,9 @@ Radiance atmosphere_piece(const Setting& setting, double g0, double g1, double l
   return v1_constant(depth, colour, 1.0);
 }
 
-// ∫ |error of g| ds by trilinear interpolation and, near the faces, clamping; the derivatives are
-// taken at their worst within a cell's diagonal: |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ², |∂ᵢg| = rᵢ·g/σ².
+// ∫ |error of g| ds caused by trilinear interpolation and, near the faces, by clamping. The
+// derivatives are replaced by their maximum within a cell's diagonal: |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ²,
+// |∂ᵢg| = rᵢ·g/σ².
 double blob_interpolation_error(const Setting& setting, const Chord& chord) {
   constexpr int intervals = 512;
   const double sigma = blob_sigma(setting);
@@ -164,7 +166,8 @@ double blob_interpolation_error(const Setting& setting, const Chord& chord) {
   return sum;
 }
 
-// Where the ray crosses the outermost voxel centres, with both ends, ascending.
+// The distances at which the ray crosses the outermost voxel centres, with both ends, in ascending
+// order.
 std::vector<double> cuts_of_all_axes(const Setting& setting, const Chord& chord) {
   std::vector<double> at{chord.begin, chord.end};
   for (int axis = 0; axis < 3; ++axis) {
@@ -178,7 +181,7 @@ std::vector<double> cuts_of_all_axes(const Setting& setting, const Chord& chord)
   return at;
 }
 
-// Where the ray is nearest to the box's centre, and how far from it.
+// The point of the ray that is nearest to the box's centre, and its distance from the centre.
 struct Closest {
   double along;
   double beside;
@@ -189,7 +192,7 @@ Closest closest_to_centre(const Setting& setting, const Chord& chord) {
   return {along, glm::length(to_centre - along * chord.direction)};
 }
 
-// A medium of one colour: only its depth, tau times length, matters.
+// The light of a medium with one colour, which depends only on its depth, tau times length.
 std::array<Radiance, 3> of_one_colour(const Setting& setting, double tau, double length) {
   std::array<Radiance, 3> channels;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -198,7 +201,7 @@ std::array<Radiance, 3> of_one_colour(const Setting& setting, double tau, double
   return channels;
 }
 
-// The ray's length within a radius of the centre.
+// The length of the ray within a radius of the centre.
 double length_within(const Chord& chord, const Closest& closest, double radius) {
   if (!(radius > closest.beside)) return 0;
   const double half = std::sqrt((radius - closest.beside) * (radius + closest.beside));
@@ -206,11 +209,11 @@ double length_within(const Chord& chord, const Closest& closest, double radius) 
       0.0, std::min(chord.end, closest.along + half) - std::max(chord.begin, closest.along - half));
 }
 
-// Half the width of the zone about a face in which grid and table need not show what the closed
-// form does. The table goes from one entry to the next, R/510 to each side; the grid's r errs by
-// D/(r − d) at most, D = Σ Δᵢ²/8 as |∂ᵢ²r| ≤ 1/r and d a cell's diagonal, and by its rounding. So w
-// is the smaller root of (w − h)(s − w) = D with s = face − d; infinite where there is none, in a
-// grid that is too coarse.
+// Half the width of the zone about a face in which grid and table may differ from the closed form.
+// The table changes from one entry to the next within R/510 on each side. The grid's r has an error
+// of at most D/(r − d), with D = Σ Δᵢ²/8 because |∂ᵢ²r| ≤ 1/r, and d a cell's diagonal, plus its
+// rounding. w is therefore the smaller root of (w − h)(s − w) = D with s = face − d. It is infinite
+// if there is no root, which means that the grid is too coarse.
 double unsure_zone(const Setting& setting, double face) {
   const auto& spacing = setting.options.spacing;
   double squares = 0;
@@ -244,7 +247,7 @@ Shell shell_of(const Setting& setting) {
 
 Wave wave_of(const Setting& setting) {
   const double length = setting.extent.z;
-  // Of the stored value (½ + 255·g)/256 for an amplitude of 1.
+  // The slope of the stored value (½ + 255·g)/256 for an amplitude of 1.
   const double slope = 255.0 / 256.0 * 0.5 * std::numbers::pi / length * setting.voxel;
   const double amplitude = std::min(1.0, 0.9 * scene::Shading{}.gradient_floor / slope);
   return {.length = length, .amplitude = amplitude, .steepest = amplitude * slope};
@@ -252,8 +255,8 @@ Wave wave_of(const Setting& setting) {
 
 AnalyticPixel constant_pixel(const Setting& setting, int x, int y) {
   const double length = chord_of(setting, x, y).length();
-  // The table's float is taken as the truth, so only the colour's own rounding would be left; it is
-  // exact in float too.
+  // The table's float is regarded as exact, so only the rounding of the colour would remain, and
+  // the colour is exact in float, too.
   const double tau = -std::log1p(-static_cast<double>(static_cast<float>(
                          -std::expm1(-setting.voxel * setting.medium.largest)))) /
                      setting.voxel;
@@ -322,7 +325,8 @@ AnalyticPixel shell_pixel(const Setting& setting, int x, int y) {
       -std::expm1(-setting.medium.largest * unsure) + table_error(setting, chord.length()));
 }
 
-// A product of three heights is a cubic along the ray, which two points of Gauss integrate exactly.
+// A product of three heights is a cubic along the ray, which Gauss's rule with two points
+// integrates exactly.
 AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const std::vector<double> at = cuts_of_all_axes(setting, chord);
@@ -340,8 +344,9 @@ AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
   return finish(setting, channels, error);
 }
 
-// Colours are c·(ambient + diffuse·l) + specular·lⁿ, l = |direction · z|·steepest/floor·sin(πz/L):
-// the gradient is that of the wave itself, the model's error what central differences make of it.
+// Colours are c·(ambient + diffuse·l) + specular·lⁿ with
+// l = |direction · z|·steepest/floor·sin(πz/L). The gradient is that of the wave itself; the model
+// error contains the effect of central differences.
 AnalyticPixel wave_pixel(const Setting& setting, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const Wave wave = wave_of(setting);

@@ -29,7 +29,7 @@ Radiance v2_ramp(double k) {
 Radiance v3_segment(const LinearSegment& s) {
   const double depth = s.length * (s.tau0 + 0.5 * s.tau1 * s.length);
   const double opacity = -std::expm1(-depth);
-  // −(c₀+c₁l)·E(l) + c₀ = c₀·A − c₁·l·E(l): the difference is taken where it does not cancel.
+  // −(c₀+c₁l)·E(l) + c₀ = c₀·A − c₁·l·E(l) is used, because the left side would cancel.
   const double integral = transmittance_integral(s.tau0, s.tau1, s.length);
   const double colour = s.colour0 * opacity + s.colour1 * (integral - s.length * std::exp(-depth));
   return {colour, opacity};
@@ -37,7 +37,8 @@ Radiance v3_segment(const LinearSegment& s) {
 
 namespace {
 
-// E' = −(a + bt)·E gives the Taylor coefficients (n+1)·eₙ₊₁ = −a·eₙ − b·eₙ₋₁; here times lengthⁿ.
+// E' = −(a + bt)·E gives the Taylor coefficients (n+1)·eₙ₊₁ = −a·eₙ − b·eₙ₋₁. Here they are
+// multiplied by lengthⁿ.
 double taylor_integral(double a, double b, double length) {
   const double x = a * length;
   const double y = b * length * length;
@@ -60,7 +61,7 @@ double transmittance_integral(double a, double b, double length) {
   const double x = a * length;
   const double y = b * length * length;
   if (std::max(std::abs(x), std::abs(y)) <= 1.0) return taylor_integral(a, b, length);
-  // Here the segment is optically thick, so neither difference below cancels.
+  // The segment is optically thick here, so neither difference below cancels.
   const double left = std::exp(-x - 0.5 * y);
   if (std::abs(y) <= 1e-17 * x) return (1.0 - left) / a;
   const double end = std::max(a + b * length, 0.0);
@@ -104,7 +105,7 @@ double lit_cosine(double tau, double phase, double rate, double length) {
 double v9_lit_wave(double tau, int power, double phase, double rate, double length) {
   if (power == 1) return lit_cosine(tau, phase - pi / 2, rate, length);
   // sinⁿx = 2⁻ⁿ·[C(n, n/2) + 2·Σ (−1)ʲ·C(n, n/2 − j)·cos 2jx], j = 1 … n/2.
-  double binomial = 1.0;  // C(n, k)
+  double binomial = 1.0;  // this is C(n, k)
   double sum = 0.0;
   for (int k = 0; k <= power / 2; ++k) {
     const int j = power / 2 - k;
@@ -117,8 +118,8 @@ double v9_lit_wave(double tau, int power, double phase, double rate, double leng
 
 double erfcx(double x) {
   if (x < 2.0) return std::exp(x * x) * std::erfc(x);
-  // Laplace's continued fraction 1/(√π·(x + (1/2)/(x + (2/2)/(x + (3/2)/(x + …))))), from the back;
-  // 160 levels give full precision from x = 2 on (fewer from larger x).
+  // Laplace's continued fraction 1/(√π·(x + (1/2)/(x + (2/2)/(x + (3/2)/(x + …))))), evaluated from
+  // the end. 160 levels give full precision for x ≥ 2; larger x need fewer.
   double tail = x;
   for (int n = 160; n > 0; --n) tail = x + 0.5 * n / tail;
   return inv_sqrtpi / tail;
@@ -136,8 +137,8 @@ double dawson(double x) {
     }
     return sum;
   }
-  // Rybicki (Computers in Physics 3, 1989): (1/√π)·Σ over odd n of e^(−(x−nh)²)/n, exact up to
-  // e^(−(π/2h)²) = 7e-18 for h = 1/4; terms farther than 6.5 are below 5e-19.
+  // Rybicki (Computers in Physics 3, 1989): (1/√π)·Σ over odd n of e^(−(x−nh)²)/n. The error is
+  // e^(−(π/2h)²) = 7e-18 for h = 1/4. Terms farther away than 6.5 are below 5e-19.
   constexpr double h = 0.25;
   const double centre = std::floor(size / h);
   double sum = 0.0;

@@ -1,11 +1,12 @@
-// The limit of step → 0. The ray is cut where it crosses planes of voxel centres, between which the
-// field is a cubic along it, and where that cubic passes an entry of the transfer function, between
-// which opacity and colour are linear in it. Central differences reach from p − 1 to p + 1, so that
-// between the same planes the gradient g is a cubic, too; with shading the ray is also cut where it
-// stands at right angles to the ray d or its length passes the floor: at the roots of g·d and of
-// |g|² − floor². So the integrand is smooth on every piece, and Gauss's rule with three points is
-// of order 6 there. A piece is halved until that changes its light by no more than its share of the
-// tolerance. The stated bound is the sum of these changes, by order 6 about sixty times the error.
+// The limit for step → 0. The ray is cut at the planes of voxel centres, between which the field
+// along it is a cubic. It is also cut where that cubic passes an entry of the transfer function,
+// between which opacity and colour are linear in it. Central differences reach from p − 1 to p + 1,
+// so the gradient g is also a cubic between the same planes. With shading the ray is also cut where
+// g is perpendicular to the ray direction d, or where its length passes the floor, which are the
+// roots of g·d and of |g|² − floor². The integrand is therefore smooth on every piece, and Gauss's
+// rule with three points has order 6 there. A piece is halved until that changes its light by no
+// more than its share of the tolerance. The stated bound is the sum of these changes, which for
+// order 6 is about sixty times the error.
 
 #include <algorithm>
 #include <array>
@@ -31,18 +32,18 @@ namespace {
 
 using Rgba = std::array<double, 4>;
 
-// A piece is halved at most this often. Only where opacity reaches 1 does one come near.
+// The largest number of halvings of a piece. Only pieces where opacity reaches 1 come close to it.
 constexpr int most_halvings = 48;
-// Per voxel length, of opacity 1: nothing behind 1e-10 of a voxel can be seen.
+// The extinction per voxel length of opacity 1: nothing behind 1e-10 of a voxel is visible.
 constexpr double most_extinction = 1e12;
-// A change that is rounding.
+// A smaller change is regarded as rounding.
 constexpr double rounding = 0x1.0p-48;
 
-// The ray between two planes of voxel centres; s runs from 0 to 1.
+// The part of the ray between two planes of voxel centres, with s from 0 to 1.
 struct Cell {
-  double length = 0;              // voxel lengths
+  double length = 0;              // in voxel lengths
   Cubic knot;                     // position among the table's entries
-  std::array<Cubic, 3> gradient;  // with shading only
+  std::array<Cubic, 3> gradient;  // only with shading
 };
 
 template <typename Stored>
@@ -110,13 +111,14 @@ class ConvergedRaycaster {
     }
   }
 
-  // Between two cuts.
+  // Adds the piece between two cuts.
   void add_piece(const Cell& cell, const glm::dvec3& direction, double begin, double end) {
     const double entry = std::floor(std::clamp(cell.knot(0.5 * (begin + end)), 0.0, 254.0));
     const Rgba lower = table_.at(entry);
     const Rgba upper = table_.at(entry + 1.0);
     const auto point_at = [&](double s) {
-      // Never on an entry, where opacity may be 1: a cut is known to 2⁻⁴⁰, which that would fill.
+      // Keeps away from the entries, where opacity may be 1: a cut is known to 2⁻⁴⁰ only, and an
+      // opaque sliver of that length would hide everything.
       constexpr double margin = 0x1.0p-44;
       const double f = std::clamp(cell.knot(s) - entry, margin, 1.0 - margin);
       Rgba rgba;
@@ -131,10 +133,10 @@ class ConvergedRaycaster {
     add(light, cell.length, begin, end, light(begin, end), 0);
   }
 
-  // Nothing behind can be seen any more, by any tolerance.
+  // Whether nothing behind can be visible any more, for any tolerance.
   [[nodiscard]] bool dark() const { return sum_.depth > 60.0; }
 
-  // Between two knots one pair of entries takes part.
+  // Between two knots the same pair of entries is interpolated.
   [[nodiscard]] bool transparent(const Cell& cell, double a, double b) const {
     const double middle = std::clamp(cell.knot(0.5 * (a + b)), 0.0, 255.0);
     return table_.transparent({middle, middle, middle});
@@ -147,8 +149,8 @@ class ConvergedRaycaster {
   }
 
   void cut_at_kinks(const Cell& cell, const glm::dvec3& direction) {
-    std::array<double, 4> across{};  // g·d
-    std::array<double, 7> excess{};  // |g|² − floor²
+    std::array<double, 4> across{};  // this is g·d
+    std::array<double, 7> excess{};  // this is |g|² − floor²
     const double floor = scene_.shading.gradient_floor;
     excess[0] = -floor * floor;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -177,7 +179,7 @@ class ConvergedRaycaster {
     return {std::min(-std::log1p(-rgba[3]), most_extinction), looked.colour};
   }
 
-  // The piece from a to b, whose light by one application of the rule is `whole`.
+  // Integrates the piece from a to b; `whole` is its light by one application of the rule.
   template <typename Light>
   void add(const Light& light, double length, double a, double b, const PieceLight& whole,
            int level) {
@@ -204,10 +206,10 @@ class ConvergedRaycaster {
   RayMaker rays_;
   double smallest_spacing_;
   glm::dvec3 gradient_scale_;
-  double share_per_voxel_ = 0;  // of the tolerance
+  double share_per_voxel_ = 0;  // share of the tolerance
   std::vector<double> planes_;
-  std::vector<double> cuts_;  // of a cell, 0 to 1
-  PieceLight sum_;            // of the ray so far
+  std::vector<double> cuts_;  // within a cell, from 0 to 1
+  PieceLight sum_;            // light of the ray so far
   Pixel pixel_;
 };
 

@@ -41,10 +41,10 @@ double Field<Stored>::stored(std::ptrdiff_t index) const {
 
 template <typename Stored>
 typename Field<Stored>::Place Field<Stored>::place(double p, int axis) const {
-  // Beyond half a voxel outside the field is constant, so far positions may move there.
+  // The field is constant from half a voxel outside on, so positions are clamped there.
   const double end = size_[static_cast<std::size_t>(axis)];
   const double q = std::min(std::max(p - 0.5, -1.0), end);
-  const int base = static_cast<int>(q + 1.0) - 1;  // ⌊q⌋, q ≥ −1
+  const int base = static_cast<int>(q + 1.0) - 1;  // ⌊q⌋ for q ≥ −1
   return {base, q - static_cast<double>(base)};
 }
 
@@ -111,7 +111,7 @@ glm::dvec3 Field<Stored>::Slopes::steepest() const {
   return glm::max(glm::abs(lo), glm::abs(hi));
 }
 
-// Over every cell that the position may fall into; errors below half a voxel.
+// The extremes over every cell that may contain the position, for errors below half a voxel.
 template <typename Stored>
 typename Field<Stored>::Slopes Field<Stored>::slopes_around(const std::array<Place, 3>& places,
                                                             const glm::dvec3& e) const {
@@ -155,7 +155,7 @@ typename Field<Stored>::Read Field<Stored>::read(const glm::dvec3& p, const glm:
   return result;
 }
 
-// In stored units. Whatever the weights, a device's value stays within the range of the voxels.
+// In stored units. For any weights, a device's value stays within the range of the voxels.
 template <typename Stored>
 double Field<Stored>::error_of(const Read& read, const glm::dvec3& e) const {
   if (!read.local) return range_;

@@ -27,7 +27,7 @@ struct Tally {
   double visited = 0;
   double skipped = 0;
   double terminated = 0;
-  double total = 0;  // samples there would be without skipping
+  double total = 0;  // number of samples without skipping
 
   Tally& operator+=(const Tally& other) {
     hits += other.hits;
@@ -41,12 +41,12 @@ struct Tally {
   }
 };
 
-// The planes of one ray.
+// The crossings of one ray with planes of bricks.
 class Crossings {
  public:
   Crossings(const BrickPlanes& planes, const Ray& ray) : planes_(planes), ray_(ray) {}
 
-  // Whether p, which is on the ray, may count to either side of a plane.
+  // Whether p, a point on the ray, may count on either side of a plane.
   [[nodiscard]] bool is_near(const glm::dvec3& p) const {
     if (planes_.edge == 0) return false;
     for (int axis = 0; axis < 3; ++axis) {
@@ -57,7 +57,7 @@ class Crossings {
     return false;
   }
 
-  // How many lie between two points.
+  // The number of planes between two points.
   [[nodiscard]] double between(const glm::dvec3& a, const glm::dvec3& b) const {
     if (planes_.edge == 0) return 0;
     double sum = 0;
@@ -65,7 +65,7 @@ class Crossings {
     return sum;
   }
 
-  // How many are passed together with the one before, as far as a device can tell whose ray runs
+  // The number of planes that a device may pass together with the previous one, if its ray runs
   // within `position_error` voxels of this one.
   [[nodiscard]] double ties(double position_error) const {
     if (planes_.edge == 0) return 0;
@@ -102,7 +102,7 @@ class Crossings {
   const Ray& ray_;
 };
 
-// Behind which samples a device may end the ray.
+// The samples after which a device may end the ray.
 class Stops {
  public:
   explicit Stops(const ErrorModel& model) : model_(model) {}
@@ -112,7 +112,7 @@ class Stops {
     largest_ = std::min(largest_ * (1.0 - opacity.lo) + rounding, 1.0);
     smallest_ = std::max(smallest_ * (1.0 - opacity.hi) - rounding, 0.0);
   }
-  // Once true, they stay so.
+  // Once true, it stays true.
   [[nodiscard]] bool may_end() const { return smallest_ < model_.ert; }
   [[nodiscard]] bool must_end() const { return largest_ < model_.ert; }
 
@@ -122,14 +122,14 @@ class Stops {
   double smallest_ = 1;
 };
 
-// A device finds a place's opacity, or does not, or may.
+// A device sees opacity at a place, sees none, or may see some.
 struct Sight {
   bool possible = false;
   bool certain = false;
   StepOpacity opacity;
 };
 
-// The open counts of pixels of one scene; one per thread.
+// Counts what is open for the pixels of one scene. Each thread has its own.
 template <typename Stored>
 class Counter {
  public:
@@ -153,13 +153,13 @@ class Counter {
     const bool cells = scene_.quadrature == scene::Quadrature::cells;
     Tally tally = cells ? in_cells(*ray, crossings) : on_lattice(*ray, crossings);
     tally.skipped += ties;
-    if (cells) tally.visited += ties;  // where the ray gets into a brick it looks at it
+    if (cells) tally.visited += ties;  // a ray looks at a brick where it enters it
     if (ray->shortest <= 0 && ray->longest > 0) tally.hits += 1;
     return tally;
   }
 
  private:
-  // Steps in a chord, with the few roundings of the division.
+  // The number of steps in a chord, with the few roundings of the division.
   [[nodiscard]] double steps(double chord) const {
     return chord / (smallest_spacing_ * scene_.step_voxels);
   }
@@ -174,7 +174,7 @@ class Counter {
     Stops stops(model_);
     for (double i = 0; i < most; i += 1) {
       const glm::dvec3 p = ray.entry + (i + 0.5) * stride;
-      const bool ended = stops.may_end();  // by some device
+      const bool ended = stops.may_end();  // on some device
       const bool open = ended || i >= fewest;
       const Sight sight = look(ray, i, stride);
       const bool near = crossings.is_near(p);
@@ -185,7 +185,8 @@ class Counter {
       tally.skipped += passed + (near ? 1 : 0);
       if (sight.possible) stops.add(sight.opacity);
       if (stops.must_end()) break;
-      // Bricks are visited to the end of a run, which a device may begin that ends in it.
+      // Bricks are visited until the end of a run of visible samples. A device may begin a run and
+      // end the ray within it.
       if (!ended && stops.may_end()) {
         const double rest = crossings.between(p, ray.entry + most * stride);
         tally.visited += rest;
@@ -202,7 +203,7 @@ class Counter {
                ? look_along(ray, i, stride, length)
                : look_at(ray, ray.entry + (i + 0.5) * stride, length);
   }
-  // Of the i-th step, in voxel lengths.
+  // The length of the i-th step, in voxel lengths.
   [[nodiscard]] double part(double chord, double i) const {
     return std::clamp(chord / smallest_spacing_ - i * scene_.step_voxels, 0.0, scene_.step_voxels);
   }
@@ -217,7 +218,7 @@ class Counter {
   [[nodiscard]] Sight look_along(const Ray& ray, double i, const glm::dvec3& stride,
                                  const StepLength& length) const {
     const double end = std::min(i + 1, std::max(steps(ray.length), i));
-    const bool last = i + 1 > steps(ray.shortest);  // it ends where the ray does
+    const bool last = i + 1 > steps(ray.shortest);  // the step ends where the ray ends
     const Bounded front = field_.at(ray.entry + i * stride, ray.position_error);
     const Bounded back =
         field_.at(ray.entry + end * stride, ray.position_error_within(last ? ray.slack() : 0.0));
@@ -244,7 +245,7 @@ class Counter {
       if (!ended && stops.may_end() && !stops.must_end()) tally.terminated += 1;
       return !stops.must_end();
     });
-    if (all) tally.visited += 1;  // a device may leave it before it has begun
+    if (all) tally.visited += 1;  // a device may leave the volume before it has begun
     return tally;
   }
 

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double last_entry = 255;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Of a chunk of several cells, and what of its light is cut off behind three coefficients.
+// The largest depth of a chunk of several cells, and the light that is cut off after three
+// coefficients.
 constexpr double deepest_chunk = 0.5 * std::numbers::ln2;
 constexpr double cut_off_of_chunk = 7.8e-5;
 constexpr double least_left = 0x1.0p-20;
@@ -75,8 +76,8 @@ PreintegrationBound::Reach PreintegrationBound::reach(double lo, double hi) cons
   return reach;
 }
 
-// The steepest of the piece's cell and, an error less than a cell reaches no farther, of its
-// neighbours.
+// The steepest slopes of the piece's cell and its neighbours. An error of less than a cell reaches
+// no farther.
 PreintegrationBound::Rgba PreintegrationBound::slopes_near(const PathPiece& piece) const {
   if (path_.error >= 1.0) return around_.slope;
   Rgba slopes{};
@@ -89,7 +90,8 @@ PreintegrationBound::Rgba PreintegrationBound::slopes_near(const PathPiece& piec
   return slopes;
 }
 
-// Monotone towards either end, or over the hill between them, so that the ends tell.
+// The function is monotone towards either end, or over the hill between them, so its ends give the
+// extremes.
 double PreintegrationBound::relative_change(const PathPiece& piece, double alpha_error) const {
   double change = 0.0;
   for (const double alpha : {piece.a[3], piece.b[3]}) {
@@ -134,7 +136,8 @@ void PreintegrationBound::add(const PathPiece& piece, double depth) {
 void PreintegrationBound::add_weights(const PathPiece& piece, double depth, double tail) {
   const Rgba slopes = slopes_near(piece);
   const double alpha_error = path_.error * slopes[3] + model_.table_error;
-  // Lowered below 0, it is lower still; raised beyond 1, it is 1 along a way.
+  // An opacity lowered below 0 may stay negative; an opacity raised above 1 is 1 along a part of
+  // the way.
   const auto mean = [&](double by) {
     const double a = piece.a[3] + by;
     const double b = piece.b[3] + by;
@@ -144,7 +147,7 @@ void PreintegrationBound::add_weights(const PathPiece& piece, double depth, doub
   const double least =
       depth_of(piece.length * length.shortest, std::max(mean(-alpha_error) - tail, 0.0));
   const double most = depth_of(piece.length * length.longest, mean(alpha_error) + tail);
-  // Infinite where a device may find opacity 1: then only the colour's range bounds the light.
+  // Infinite if a device may find opacity 1. Then only the colour's range bounds the light.
   const double change = std::isfinite(most) ? std::max(most - depth, depth - least) : most;
   const double relative = tail > model_.table_error
                               ? infinity
@@ -161,7 +164,8 @@ void PreintegrationBound::add_weights(const PathPiece& piece, double depth, doub
   tails_ += piece.length * tail;
   front_before_ = front_;
   if (widening_ == 0.0) return;
-  // A device's first piece may be shorter by e, by its thinnest part.
+  // A device's first piece may be shorter by e. The lower bound of its depth uses its smallest
+  // extinction.
   const double thinnest =
       extinction_of(std::max(std::min(piece.a[3], piece.b[3]) - alpha_error, 0.0));
   const double sure =
@@ -171,7 +175,7 @@ void PreintegrationBound::add_weights(const PathPiece& piece, double depth, doub
   front_ *= std::exp(-sure / widening_);
 }
 
-// Of one cell, or an end's part of one, where it is deeper than a chunk may be.
+// One cell, or the part of one at an end, if it is deeper than a chunk may be.
 void PreintegrationBound::add_deep_cell(const PathPiece& piece, double tilt) {
   const double share = piece.length + 2.0 * path_.error / span_;
   const double extinction = mean_extinction(std::min(piece.a[3] + alpha_error_, 1.0),
@@ -185,8 +189,8 @@ void PreintegrationBound::add_deep_cell(const PathPiece& piece, double tilt) {
   }
 }
 
-// Extinction taken as straight. Where the end may lie in the next cell, the part may be a whole
-// one, in front of the piece before.
+// Extinction is taken as linear there. If the end may lie in the next cell, the part may be a whole
+// cell in front of the previous piece.
 void PreintegrationBound::add_end(const PathPiece& piece, double position, const Reach& end) {
   const double e = path_.error;
   const bool beside = std::floor(position - e) != std::floor(position + e);
@@ -201,8 +205,8 @@ void PreintegrationBound::add_end(const PathPiece& piece, double position, const
   }
 }
 
-// Whether the parts of cells that a device may enter at an end, and the path does not, may be
-// deeper than a chunk: then each errs by its range of colours.
+// Whether parts of cells that only a device enters, at either end, may be deeper than a chunk. Each
+// of them then adds an error of its colour range.
 bool PreintegrationBound::deep_slivers() const {
   const double share = widening_ * 2.0 * path_.error / std::max(span_, 1e-300);
   const double extinction = extinction_of(around_.most_alpha + model_.table_error);
@@ -220,8 +224,8 @@ double PreintegrationBound::extinction_around(double position) const {
   return sum;
 }
 
-// Where a raised opacity would be 1: by cells, of which a device passes the same and, at the ends,
-// as much more as its values err.
+// The largest depth if a raised opacity would be 1. It is computed by cells: a device passes the
+// same cells, and at the ends as much more as its values have errors.
 double PreintegrationBound::most_depth() const {
   if (std::isfinite(most_) || widening_ == 0.0) return most_;
   const double ends = (extinction_around(path_.from) + extinction_around(path_.to)) / span_;
@@ -260,7 +264,8 @@ double PreintegrationBound::colour_error(std::size_t i, const StepOpacity& opaci
       range * std::min(cut_off(most_depth()), cut_off_of_chunk * most + least_left);
   const double cut_offs = std::min(chunks + deep_cells_[i], range * most);
   const double ends = std::min(ends_[i], 2.0 * around_.slope[i] * most);
-  // But for what is cut off, a device's colour is a mean of those along the path, as the true one.
+  // Apart from the truncation, a device's colour is a mean of the colours along the path, like the
+  // exact one.
   return error + std::min(weights + cut_offs + ends, range * most + cut_offs) / most;
 }
 

@@ -52,7 +52,8 @@ void SphereTree::build(std::uint32_t first, std::uint32_t last) {
       hi[axis] = std::max(hi[axis], spheres_[i].centre[axis]);
     }
   }
-  // Halved, for the widest of finite floats are farther apart than the largest float.
+  // Half of each is subtracted, because the difference of two finite floats may exceed the largest
+  // float.
   const glm::vec3 width = 0.5F * hi - 0.5F * lo;
   int widest = width.y > width.x ? 1 : 0;
   if (width.z > width[widest]) widest = 2;

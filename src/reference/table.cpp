@@ -40,7 +40,7 @@ Looked Table::look_up(const Span& span) const {
   const Rgba& b = rgba_[k + 1];
   Looked looked;
   if (span.lo >= static_cast<double>(k) && span.hi <= static_cast<double>(k + 1)) {
-    // Linear all over the span, as nearly always.
+    // The function is linear over the whole span, which is nearly always the case.
     const double reach = std::max(span.hi - span.centre, span.centre - span.lo);
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const double slope = b[channel] - a[channel];

@@ -20,7 +20,7 @@ namespace triptych::reference {
 
 namespace {
 
-// Draws pixels of one scene; one per thread.
+// Draws the pixels of one scene. Each thread has its own.
 template <typename Stored>
 class Raycaster {
  public:
@@ -77,8 +77,8 @@ class Raycaster {
     }
   }
 
-  // The same by values at the ends of the steps. The last step ends where the ray does, which is as
-  // uncertain as its length is.
+  // The same with the values at the ends of the steps. The last step ends with the ray, and its end
+  // is as uncertain as the ray's length.
   void walk_segments(const Ray& ray) {
     const double step = scene_.step_voxels;
     const double length = ray.length / smallest_spacing_;

@@ -23,7 +23,7 @@ PLANS = {
 # Commands that another test or CI runs.
 ELSEWHERE = {
     "ci/gate": "ci_test and CI", "ci/test": "CI", "ci/build": "ci_test", "ci/setup": "CI", "ci/lint": "CI",
-    "ci/fresh": "needs root and a network", "ci/fuzz": "CI", "ci/arm64": "needs root and a network",
+    "ci/fresh": "needs root and a network", "ci/fuzz": "CI", "ci/package": "ci/fresh", "ci/arm64": "needs root and a network",
     "ci/drivers/fetch": "needs a network", "ci/bench": "takes hours", "ci/cluster/submit": "cluster tests",
     "ci/dashboard": "command_line.dashboard", "ci/ratios": "command_line.ratios", "ci/publish": "analysis.publish", "analysis/analyze": "analysis.end_to_end",
     "apt-get": "examples_test",

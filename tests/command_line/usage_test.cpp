@@ -33,8 +33,8 @@ TEST(Usage, ASuiteIsListedWithAllThatAPlanMayHold) {
   const Result listed = program.run("list volume");
   EXPECT_EQ(listed.code, 0) << listed.output;
   for (const char* text :
-       {"  step: 0.015625 to 4096 | own; default 1\n", "distance of samples",
-        "  skip: none | bricks | distance; default distance; the picture stays\n",
+       {"  step: 0.015625 to 4096 | own; default 1\n", "distance between samples",
+        "  skip: none | bricks | distance; default distance; does not change the image\n",
         "  generate:mandelbulb\n", "  volume/quick: "}) {
     EXPECT_NE(listed.output.find(text), std::string::npos) << text << '\n' << listed.output;
   }
