@@ -13,7 +13,8 @@ namespace {
 
 std::vector<Technique> parse(std::string_view text) {
   std::vector<Technique> result;
-  const core::Json catalogue = core::Json::parse(text);  // named: at() below points into it
+  // A named object, because at() below refers into it.
+  const core::Json catalogue = core::Json::parse(text);
   for (const core::Json& entry : catalogue.at("techniques")) {
     result.push_back({.id = entry.at("id"),
                       .suite = entry.at("suite"),

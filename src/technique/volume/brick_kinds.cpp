@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t entries = std::tuple_size_v<decltype(scene::TransferFunction::entries)>;
 
-// Of the four channels.
+// Extremes of the four channels.
 struct Extremes {
   std::array<double, 4> least;
   std::array<double, 4> largest;
@@ -28,7 +28,7 @@ struct Extremes {
   }
 };
 
-// Extremes of a transfer function, linear between its entries, over ranges of values.
+// Extremes of a transfer function, which is linear between its entries, over ranges of values.
 class FunctionExtremes {
  public:
   explicit FunctionExtremes(const scene::TransferFunction& function) {
@@ -62,7 +62,7 @@ class FunctionExtremes {
   [[nodiscard]] const Extremes& overall() const { return levels_.back()[0]; }
 
  private:
-  // Level n: of the 2ⁿ entries from each one on.
+  // Level n contains, for each entry, the extremes of the 2ⁿ entries that begin with it.
   std::array<std::array<Extremes, entries>, std::bit_width(entries)> levels_{};
 
   [[nodiscard]] static double position(double value) {
@@ -81,13 +81,14 @@ class FunctionExtremes {
   }
 };
 
-// x^exponent of a power of two. Products: std::pow is left to the C library.
+// x^exponent for an exponent that is a power of two. It multiplies, because std::pow depends on the
+// C library.
 double power(double x, int exponent) {
   for (; exponent > 1; exponent /= 2) x *= x;
   return x;
 }
 
-// Decides of one brick after the other whether it may be merged.
+// Decides for one brick after the other whether it may be merged.
 class Merging {
  public:
   Merging(const scene::VolumeScene& scene, double adapt)
@@ -101,7 +102,7 @@ class Merging {
     const glm::dvec3 scale(voxel / scene.grid->spacing[0], voxel / scene.grid->spacing[1],
                            voxel / scene.grid->spacing[2]);
     steepest_ = 0.5 * glm::length(scale) / light_.gradient_floor;
-    colour_range_ = 1;  // of opacities
+    colour_range_ = 1;  // range of opacities
     for (std::size_t c = 0; c < 3; ++c) {
       const double most = lit(function_.overall().largest[c], 1.0);
       const auto behind = static_cast<double>(scene.background[c]);
@@ -114,7 +115,7 @@ class Merging {
     const double magnitude = std::max(std::abs(lo - offset_), std::abs(hi - offset_));
     const double rounding = lo == hi ? 0 : 16 * unit_roundoff * (magnitude + std::abs(offset_));
     const Extremes range = function_.over(lo - rounding, hi + rounding);
-    if (!(range.largest[3] < 1)) return false;  // its first sample ends a ray
+    if (!(range.largest[3] < 1)) return false;  // the first sample in it would end a ray
     const double a = -scene::logarithm_of_1_plus(-range.least[3]);
     const double b = -scene::logarithm_of_1_plus(-range.largest[3]);
     // No central difference exceeds half the brick's range of values.
@@ -132,12 +133,12 @@ class Merging {
   FunctionExtremes function_;
   scene::Shading light_;
   double offset_;
-  double opaque_share_;      // K
-  double thin_share_ = 0;    // Y
-  double colour_range_ = 1;  // R
-  double steepest_ = 0;      // cosine per range of values, at most
+  double opaque_share_;      // this is K
+  double thin_share_ = 0;    // this is Y
+  double colour_range_ = 1;  // this is R
+  double steepest_ = 0;      // largest cosine per range of values
 
-  // A colour shaded with this cosine; shading brightens with it.
+  // A colour shaded with this cosine. Shading gets brighter with the cosine.
   [[nodiscard]] double lit(double colour, double cosine) const {
     if (!light_.enabled) return colour;
     return colour * (light_.ambient + light_.diffuse * cosine) +
@@ -152,7 +153,8 @@ std::vector<std::int32_t> brick_kinds(const BrickRanges& ranges, const scene::Vo
   const auto visible = brick_visibility(ranges, scene.transfer_function);
   const Merging may_merge(scene, adapt);
   std::vector<std::int32_t> kinds(visible.size());
-  std::unordered_map<float, std::int32_t> numbers;  // of the values of homogeneous bricks
+  // Numbers of the values that fill homogeneous bricks.
+  std::unordered_map<float, std::int32_t> numbers;
   for (std::size_t b = 0; b < kinds.size(); ++b) {
     const float lo = ranges.minimum[b];
     const float hi = ranges.maximum[b];

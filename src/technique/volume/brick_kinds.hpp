@@ -1,5 +1,6 @@
 #pragma once
-// Which bricks a ray may cross with a single sample, within a stated error: RaycastOptions::adapt.
+// Decides which bricks a ray may cross with a single sample, within an allowed error:
+// RaycastOptions::adapt.
 
 #include <cstdint>
 #include <optional>
@@ -11,41 +12,42 @@
 
 namespace triptych::technique {
 
-// What a ray does in a brick. The numbers are those of the kernels.
+// What a ray does in a brick. The kernels use the same numbers.
 enum class BrickKind : std::int32_t {
-  invisible = 0,  // skips it
+  invisible = 0,  // skips the brick
   sampled = 1,    // takes the samples of the lattice
-  merged = 2,     // takes one sample in the middle of its way, with the opacity of all of it (V1)
-  // From here on a number for each value that fills homogeneous bricks. All of a ray's bricks in
-  // succession with the same number are merged into one sample.
+  merged = 2,  // takes one sample in the middle of its way, with the opacity of the whole way (V1)
+  // From here on there is one number for each value that fills homogeneous bricks. Successive
+  // bricks of a ray with the same number are merged into one sample.
   homogeneous = 3
 };
 
-// A BrickKind per brick: the visible ones (brick_visibility) are merged where that moves no channel
-// of any pixel by more than `adapt`, all merged bricks of a ray together.
+// Returns a BrickKind for each brick. Visible bricks (brick_visibility) are merged if that changes
+// no channel of any pixel by more than `adapt`, for all merged bricks of a ray together.
 //
-// Let a ray cross merged bricks with the opacities A' and the transmittances T' in front, over the
-// lengths l. With a ≤ b the extremes of extinction per voxel in a brick, w the range of its
-// colours, and R that of all colours that there may be, one crossing moves the picture by at most
-// (reference/composite.hpp's identity)
+// Derivation. Let a ray cross merged bricks with the opacities A' over the lengths l, with the
+// transmittances T' in front of them. In a brick a ≤ b are the extremes of extinction per voxel,
+// and w is the range of its colours. R is the range of all possible colours. By the identity in
+// reference/composite.hpp one crossing changes the image by at most
 //   T'·(R·|ΔA| + w·A'),   |ΔA| ≤ e^(−al) − e^(−bl) ≤ (b − a)·l·e^(−al).
 // Two facts bound the sum along the ray: Σ T'·A' ≤ 1, and Σ l ≤ L, the longest way through the
-// volume. So half the budget, K = adapt/2, is given to what is opaque and half, Y = adapt/2L, to
-// each voxel of the way. As l·a·e^(−al) ≤ 1 − e^(−al) ≤ A' and A' ≤ b·l, what is within
+// volume. So half of the budget, K = adapt/2, is assigned to opacity, and the other half,
+// Y = adapt/2L, to each voxel of the way. Because l·a·e^(−al) ≤ 1 − e^(−al) ≤ A' and A' ≤ b·l, a
+// brick that satisfies
 //   R·(b − a) + (w − k)·b ≤ (K − k)·a + Y,   k = min(w, K),
-// costs at most K·T'·A' + Y·l, which sums to adapt. A homogeneous brick costs nothing, whatever l
-// is: so do many of one value together.
+// costs at most K·T'·A' + Y·l, and the sum of these is adapt. A homogeneous brick costs nothing for
+// any l, and neither do several successive bricks with the same value.
 //
-// Both pictures are a device's own: values that it finds in a brick lie within the brick's range
-// and the rounding of its interpolation (16·2⁻²⁴ of the largest value; none between equal voxels),
-// by which the range is widened. `ranges` as of brick_layout(scene, Skip::bricks, adapt).
+// Both images are from the same device. The values that it finds in a brick lie within the brick's
+// range, widened by the rounding of its interpolation (16·2⁻²⁴ of the largest value; none between
+// equal voxels). `ranges` are those of brick_layout(scene, Skip::bricks, adapt).
 //
-// The extremes of the transfer function over any range of values take O(1) by a sparse table
-// (Bender & Farach-Colton 2000) made once per function.
+// The extremes of the transfer function over any range of values take O(1), with a sparse table
+// (Bender & Farach-Colton 2000) that is made once for each function.
 [[nodiscard]] std::vector<std::int32_t> brick_kinds(const BrickRanges& ranges,
                                                     const scene::VolumeScene& scene, double adapt);
 
-// Why the technique cannot merge bricks of this scene; empty where it can or need not.
+// The reason why the technique cannot merge bricks of this scene; empty if it can or need not.
 [[nodiscard]] std::optional<std::string> adapt_reason(std::string_view technique,
                                                       const scene::VolumeScene& scene,
                                                       const RaycastOptions& options);

@@ -1,5 +1,5 @@
 #pragma once
-// What kernels are told of a volume's bricks.
+// The brick map that kernels read.
 
 #include <cstdint>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace triptych::technique {
 
-// 1 or 0 per brick for Skip::bricks, or with `adapt` brick_kinds; brick_reach for Skip::distance;
-// one word that nothing reads for Skip::none.
+// For Skip::bricks 1 or 0 for each brick, or with `adapt` its brick_kinds; for Skip::distance
+// brick_reach; for Skip::none one word that is not read.
 [[nodiscard]] std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip,
                                                   double adapt = 0);
-// The same with the scene's ranges at hand, of brick_layout(scene, skip, adapt).
+// The same with existing ranges, which are those of brick_layout(scene, skip, adapt).
 [[nodiscard]] std::vector<std::int32_t> brick_map(const BrickRanges& ranges,
                                                   const scene::VolumeScene& scene, Skip skip,
                                                   double adapt);

@@ -14,7 +14,7 @@ struct Span {
   int end;
 };
 
-// Voxels of brick b along an axis of n voxels, with the border.
+// The voxels of brick b, with its border, along an axis with n voxels.
 Span with_border(int b, int n, const BrickLayout& layout) {
   return {std::max(0, b * layout.edge - layout.border),
           std::min(n, (b + 1) * layout.edge + layout.border + (layout.of_cells ? 1 : 0))};
@@ -24,14 +24,14 @@ struct Range {
   float minimum = std::numeric_limits<float>::infinity();
   float maximum = -std::numeric_limits<float>::infinity();
 
-  // NaN widens nothing.
+  // A NaN widens nothing.
   void widen(const Range& by) {
     minimum = std::min(minimum, by.minimum);
     maximum = std::max(maximum, by.maximum);
   }
 };
 
-// The ranges of `lines` neighbours, `stride` apart, gathered into those of an axis' bricks.
+// Merges the ranges of `lines` neighbours, `stride` apart, into those of the bricks along an axis.
 void gather(std::span<const Range> from, std::size_t stride, int lines, int bricks,
             const BrickLayout& layout, std::span<Range> to) {
   for (int b = 0; b < bricks; ++b) {
@@ -45,7 +45,7 @@ void gather(std::span<const Range> from, std::size_t stride, int lines, int bric
   }
 }
 
-// One slice of voxels, gathered into the bricks of x and y.
+// Merges the voxels of one slice into bricks along x and y.
 std::vector<Range> slice_ranges(const scene::VoxelGrid& grid, const BrickLayout& layout,
                                 const std::array<int, 3>& bricks, int slice) {
   const auto nx = static_cast<std::size_t>(grid.size[0]);
@@ -66,14 +66,14 @@ std::vector<Range> slice_ranges(const scene::VoxelGrid& grid, const BrickLayout&
   return result;
 }
 
-// Calls visit(range) for every brick, x fastest, until it returns false. Axis by axis, so that a
-// wide border costs its width and not its cube.
+// Calls visit(range) for every brick, x fastest, until it returns false. It works axis by axis, so
+// that the cost of a wide border is proportional to its width and not to its cube.
 template <typename Visit>
 void visit_bricks(const scene::VoxelGrid& grid, const BrickLayout& layout, Visit visit) {
   const std::array<int, 3> bricks = brick_counts(grid.size, layout);
   const int nz = grid.size[2];
-  std::deque<std::vector<Range>> open;  // layers of bricks that lack slices yet
-  int first = 0;                        // of them
+  std::deque<std::vector<Range>> open;  // layers of bricks that are not complete yet
+  int first = 0;                        // index of the first one
   for (int k = 0; k < nz; ++k) {
     const std::vector<Range> slice = slice_ranges(grid, layout, bricks, k);
     const auto next = [&] { return first + static_cast<int>(open.size()); };
@@ -90,7 +90,7 @@ void visit_bricks(const scene::VoxelGrid& grid, const BrickLayout& layout, Visit
   }
 }
 
-// Which ranges of values a transfer function gives any opacity to: O(1) each by a prefix sum.
+// Whether a transfer function gives any opacity to a range of values: O(1) each, with a prefix sum.
 class OpaqueRanges {
  public:
   explicit OpaqueRanges(const scene::TransferFunction& function) {
@@ -109,16 +109,16 @@ class OpaqueRanges {
  private:
   static constexpr int entries = 256;
 
-  // So many entries beyond the one whose centre lies below the value.
+  // The entry `beyond` places after the one whose centre lies below the value.
   [[nodiscard]] static std::size_t entry(float value, int beyond) {
     const int below = static_cast<int>(std::floor(static_cast<double>(value) * entries - 0.5));
     return static_cast<std::size_t>(std::clamp(below + beyond, 0, entries - 1));
   }
 
-  std::array<int, entries + 1> opaque_before_{};  // [k]: how many of the entries before k
+  std::array<int, entries + 1> opaque_before_{};  // [k]: number of opaque entries before entry k
 };
 
-// Every Vulkan device binds a buffer of so many bytes (maxStorageBufferRange).
+// Every Vulkan device can bind a buffer of this many bytes (maxStorageBufferRange).
 constexpr std::uint64_t most_map_bytes = 1U << 27U;
 
 BrickLayout bricks_of_cells(const std::array<int, 3>& size) {
@@ -138,7 +138,7 @@ BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip, double adap
   if (scene.quadrature == scene::Quadrature::preintegrated) {
     const double half = scene.step_voxels / 2;
     const double farther = layout.of_cells ? std::ceil(half) : std::floor(half + 0.75);
-    // No border need be wider than the volume.
+    // A border need not be wider than the volume.
     const int longest = std::max({scene.grid->size[0], scene.grid->size[1], scene.grid->size[2]});
     layout.border += static_cast<int>(std::min(farther, static_cast<double>(longest)));
   }

@@ -15,12 +15,12 @@ std::array<std::uint64_t, 3> cells_of(const std::array<int, 3>& size) {
   return cells;
 }
 
-// Layers of voxels that a texel holds.
+// The number of voxel layers in a texel.
 std::size_t depth_of(scene::VoxelFormat format) {
   return format == scene::VoxelFormat::f32 ? 1 : 2;
 }
 
-// The voxels of one texel after the other, as bytes.
+// Writes the voxels of one texel after the other as bytes.
 class Packer {
  public:
   Packer(const scene::VoxelGrid& grid, std::size_t texel)
@@ -48,7 +48,7 @@ class Packer {
   [[nodiscard]] std::size_t size(std::size_t axis) const {
     return static_cast<std::size_t>(grid_.size.at(axis));
   }
-  // The voxel behind the i-th face between voxels, clamped.
+  // The voxel after the i-th face between voxels, clamped.
   [[nodiscard]] std::size_t voxel(std::size_t axis, std::size_t i) const {
     return std::min(i == 0 ? 0 : i - 1, size(axis) - 1);
   }

@@ -15,11 +15,11 @@ int cells_of(const scene::VolumeScene& scene) {
   return scene.grid->size[2] + 1;
 }
 
-// Cells beyond those of its samples that a part holds.
+// The number of cells in a part beyond those of its samples.
 int overlap(const scene::VolumeScene& scene) {
   constexpr double widened_and_rounded = 2;
   double cells = widened_and_rounded + (scene.shading.enabled ? 1 : 0);
-  // A step is so many of the smallest spacing, which z's is not less than.
+  // A step is a number of smallest spacings, and the spacing along z is not smaller.
   if (scene.quadrature == scene::Quadrature::preintegrated) cells += std::ceil(scene.step_voxels);
   return static_cast<int>(std::min(cells, static_cast<double>(cells_of(scene))));
 }
@@ -35,7 +35,8 @@ std::vector<Part> slabs(const scene::VolumeScene& scene, int thickness) {
   return parts;
 }
 
-// The part that holds the eye or is nearest to it, then those on either side, nearest first.
+// Orders the parts: first the one that contains the eye or is nearest to it, then those on either
+// side, nearest first.
 std::vector<Part> front_to_back(std::vector<Part> parts, const scene::VolumeScene& scene) {
   const double eye = scene.camera.eye.z / scene.grid->spacing[2] + 0.5;
   const auto before = std::ranges::find_if(
@@ -62,7 +63,8 @@ std::optional<std::string> why_whole_only(std::string_view technique,
 
 bool is_read(const Part& part, const scene::VolumeScene& scene, const RaycastOptions& options,
              std::span<const std::int32_t> map) {
-  // A walk takes a last sample that lies behind the exit for a visible brick's; leaps do not.
+  // Walking through bricks may take a last sample behind the exit for a visible brick; leaps do
+  // not.
   if (options.skip != Skip::distance) return true;
   const BrickLayout layout = brick_layout(scene, options.skip, options.adapt);
   const auto counts = brick_counts(scene.grid->size, layout);

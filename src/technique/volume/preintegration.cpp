@@ -12,17 +12,17 @@ namespace triptych::technique {
 namespace {
 
 constexpr std::size_t entries = 256;
-constexpr double most_extinction = 8192;  // per voxel length, of an entry of opacity 1
+constexpr double most_extinction = 8192;  // per voxel length, for an entry of opacity 1
 
-// Moments of the optical depth x of a stretch, from its beginning, in natural units per cell:
-// ∫dx, and per channel ∫c dx, ∫c·x dx, ∫c·x² dx.
+// Moments of the optical depth x of a stretch, measured from its beginning, in natural units per
+// cell: ∫dx, and for each channel ∫c dx, ∫c·x dx, ∫c·x² dx.
 struct Moments {
   double depth = 0;
   std::array<double, 3> c0{};
   std::array<double, 3> c1{};
   std::array<double, 3> c2{};
 
-  // This stretch and the next one behind it.
+  // Appends the next stretch behind this one.
   void append(const Moments& next) {
     for (std::size_t i = 0; i < 3; ++i) {
       c2[i] += next.c2[i] + depth * (2 * next.c1[i] + depth * next.c0[i]);
@@ -39,10 +39,11 @@ double extinction(double alpha) {
   return std::min(-scene::logarithm_of_1_plus(-alpha), most_extinction);
 }
 
-// One cell from entry a to entry b. Extinction −ln(1 − alpha) is smooth over it but where alpha
-// reaches 1, so the cell is cut into pieces that halve towards such an end, and each is integrated
-// by Gauss's rule with five points; the depth in front of a point is that of the pieces before and
-// the parabola through extinction at both ends and the middle of its own.
+// Integrates one cell from entry a to entry b. Extinction −ln(1 − alpha) is smooth over the cell
+// unless alpha reaches 1. Therefore the cell is cut into pieces that halve towards such an end, and
+// each piece is integrated by Gauss's rule with five points. The depth in front of a point is that
+// of the previous pieces, plus the integral of the parabola through the extinction at both ends and
+// the middle of its own piece.
 class CellIntegral {
  public:
   CellIntegral(const Entry& a, const Entry& b) : a_(a), b_(b) {}
@@ -112,7 +113,7 @@ class CellIntegral {
   Moments sum_;
 };
 
-// The texels of a path with these moments; `colour` where it has no depth.
+// Writes the texels of a path with these moments. `colour` is used if the path has no depth.
 void write(const Moments& m, const Entry& colour, std::array<float, 4>* texels) {
   texels[0] = {static_cast<float>(m.depth * std::numbers::log2e), colour[0], colour[1], colour[2]};
   texels[1] = texels[2] = {0, 0, 0, 0};
@@ -132,7 +133,7 @@ void write(const Moments& m, const Entry& colour, std::array<float, 4>* texels) 
 std::vector<std::array<float, 4>> preintegrated_pairs(const scene::TransferFunction& function) {
   const auto& table = function.entries;
   std::vector<Moments> up(entries - 1);    // cell k from entry k to entry k + 1
-  std::vector<Moments> down(entries - 1);  // and back
+  std::vector<Moments> down(entries - 1);  // and in reverse
   for (std::size_t k = 0; k + 1 < entries; ++k) {
     up[k] = CellIntegral(table[k], table[k + 1]).moments();
     down[k] = CellIntegral(table[k + 1], table[k]).moments();

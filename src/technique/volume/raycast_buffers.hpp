@@ -1,5 +1,6 @@
 #pragma once
-// What a raycaster needs in buffers beside the volume itself, for backends to hold against limits.
+// The buffers that a raycaster needs in addition to the volume, for backends to compare with
+// limits.
 
 #include <cstdint>
 #include <optional>
@@ -11,25 +12,26 @@
 
 namespace triptych::technique {
 
-// Bytes of each buffer.
+// The size of each buffer in bytes.
 struct RaycastBuffers {
-  std::uint64_t picture = 0;   // with what injected work leaves behind (extra_work.hpp)
-  std::uint64_t counters = 0;  // of the frame that counts
-  std::uint64_t bricks = 0;    // a word per brick; held though not read where nothing is skipped
-  std::uint64_t table = 0;     // of its quadrature (quadrature_table.hpp)
-  std::uint64_t pauses = 0;    // of rays, where the volume is drawn in parts (parts.hpp)
+  std::uint64_t picture = 0;   // including the output of injected work (extra_work.hpp)
+  std::uint64_t counters = 0;  // for the frame that counts
+  std::uint64_t bricks = 0;    // one word for each brick; exists even if nothing is skipped
+  std::uint64_t table = 0;     // of the quadrature (quadrature_table.hpp)
+  std::uint64_t pauses = 0;    // state of rays, if the volume is drawn in parts (parts.hpp)
 
   [[nodiscard]] std::uint64_t all() const { return picture + counters + bricks + table + pauses; }
 };
-// Without pauses.
+// All buffers except pauses.
 [[nodiscard]] RaycastBuffers raycast_buffers(const scene::VolumeScene& scene,
                                              const RaycastOptions& options);
 
-// Of rays between two passes.
+// The bytes for the state of rays between two passes.
 [[nodiscard]] std::uint64_t pauses_bytes(const scene::VolumeScene& scene,
                                          const RaycastOptions& options);
 
-// The first buffer of more than `most` bytes, which the API knows as `limit`; empty where all fit.
+// The reason naming the first buffer of more than `most` bytes, a limit that the API calls `limit`;
+// empty if all fit.
 [[nodiscard]] std::optional<std::string> buffer_reason(const RaycastBuffers& buffers,
                                                        std::uint64_t most, std::string_view limit);
 

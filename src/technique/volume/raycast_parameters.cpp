@@ -29,7 +29,7 @@ std::array<Real, 4> pack(const glm::dvec3& v, double w) {
 }
 
 // A texel of a UNORM texture is k/maximum rounded to float. In single precision the division is
-// part of the scale; in double precision the shader finds k again, which loses nothing.
+// part of the scale. In double precision the shader recovers k, which loses nothing.
 template <class Real>
 std::array<Real, 4> value_map(const scene::VoxelGrid& grid, double stored_maximum, double plane) {
   if constexpr (sizeof(Real) == sizeof(double)) {
@@ -48,7 +48,8 @@ BasicRaycastParameters<Real> parameters_of(const scene::VolumeScene& scene,
   const BrickLayout layout = brick_layout(scene, options.skip);
   const auto bricks = brick_counts(grid.size, layout);
   const double plane = ray_plane(scene);
-  // A step longer than a cell cuts none of it: one picture, to the last bit.
+  // A step longer than a cell does not cut any, so all such steps have the same image to the last
+  // bit.
   const bool cells = scene.quadrature == scene::Quadrature::cells;
   const double step_voxels = cells ? std::min(scene.step_voxels, 1.0) : scene.step_voxels;
   const scene::Shading& light = scene.shading;
@@ -76,8 +77,8 @@ std::vector<std::byte> bytes_of(const BasicRaycastParameters<Real>& parameters) 
   return {bytes.begin(), bytes.end()};
 }
 
-// A pass of the raycaster's loop takes a piece of a cell, and long_rays.hpp says why they are
-// counted.
+// The reason why quadrature cells cannot draw the scene. A pass of the raycaster's loop takes one
+// piece of a cell; long_rays.hpp explains why passes are limited.
 std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
                                         const RaycastOptions& options) {
   if (options.sampler == Sampler::hardware) {
@@ -90,7 +91,8 @@ std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
       cell_passes(scene, 0));
 }
 
-// Samples are counted in integers of 32 bits; voxels flat enough make more of them, and of no use.
+// Samples are counted in 32-bit integers. Extremely flat voxels would need more samples, without
+// any benefit.
 std::optional<std::string> count_reason(const scene::VolumeScene& scene) {
   const double samples = most_samples(scene);
   if (samples < 1 << 30) return std::nullopt;
