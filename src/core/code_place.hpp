@@ -1,11 +1,12 @@
 #pragma once
-// std::source_location as clang 14 can read it too, whose clang-tidy checks this code.
+// A replacement for std::source_location that Clang 14 can parse, because its clang-tidy checks
+// this code.
 
 namespace triptych::core {
 
 class CodePlace {
  public:
-  // Of the caller, when used as a default argument.
+  // The place of the caller, when used as a default argument.
   [[nodiscard]] static constexpr CodePlace current(const char* file = __builtin_FILE(),
                                                    int line = __builtin_LINE()) noexcept {
     return CodePlace(file, line);

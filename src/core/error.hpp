@@ -1,6 +1,6 @@
 #pragma once
-// Typed errors. They are thrown where the cause is known and caught once per configuration (worker)
-// or once per command (app), where they become a record or an exit code.
+// Typed errors. They are thrown where the cause is known, and caught once per configuration (in the
+// worker) or once per command (in app), where they become a record or an exit code.
 
 #include <cstdint>
 #include <optional>
@@ -11,25 +11,25 @@
 
 namespace triptych::core {
 
-// What the program answers to its caller. Precedence when several apply: usage, regression,
-// cannot_judge, pass. `skip` is CTest's SKIP_RETURN_CODE.
+// The result that the program returns to its caller. If several apply, the order is usage,
+// regression, cannot_judge, pass. `skip` is CTest's SKIP_RETURN_CODE.
 enum class ExitCode : int { pass = 0, regression = 1, cannot_judge = 2, usage = 3, skip = 77 };
 
-// Base of all our errors: what() is one line, ready to be shown.
+// The base of all errors of this project. what() is one line, ready to be printed.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// A place in a text or binary file; line and column count from 1, 0 means "not known".
+// A place in a text or binary file. Line and column count from 1; 0 means unknown.
 struct FilePlace {
   std::string file;
   int line = 0;
   int column = 0;
 };
 
-// Bad input: a broken file, an unknown factor, a wrong type. Becomes exit code 3.
-// what() reads "FILE:LINE:COLUMN: MESSAGE".
+// Bad input, such as a broken file, an unknown factor or a wrong type. Leads to exit code 3. what()
+// has the form "FILE:LINE:COLUMN: MESSAGE".
 class InputError : public Error {
  public:
   InputError(FilePlace place, const std::string& message);
@@ -40,20 +40,21 @@ class InputError : public Error {
   FilePlace place_;
 };
 
-// Reading or writing failed for a reason outside the content: read-only folder, full disk. Exit
-// code 3.
+// Reading or writing failed for a reason other than the content, such as a read-only folder or a
+// full disk. Leads to exit code 3.
 class IoError : public Error {
  public:
   using Error::Error;
 };
 
-// The device or technique cannot do this; the message is the reason shown with the skip.
+// The device or technique cannot do this. The message is the reason that is printed with the skip.
 class NotSupported : public Error {
  public:
   using Error::Error;
 };
 
-// A call of a graphics or compute API failed. what() reads "CALL returned CODE at FILE:LINE".
+// A call of a graphics or compute API failed. what() has the form "CALL returned CODE at
+// FILE:LINE".
 class ApiError : public Error {
  public:
   ApiError(std::string call, std::string code, const std::string& detail = {},
@@ -66,7 +67,7 @@ class ApiError : public Error {
   std::string code_;
 };
 
-// The device is gone; the worker must be replaced before anything else runs on it.
+// The device is lost. The worker must be replaced before anything else runs on it.
 class DeviceLost : public ApiError {
  public:
   using ApiError::ApiError;

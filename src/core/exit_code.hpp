@@ -6,7 +6,8 @@
 
 namespace triptych::core {
 
-// Of two verdicts the one that counts: usage over regression over could not judge over pass.
+// The code that counts if there are two: usage before regression before could not judge before
+// pass.
 [[nodiscard]] inline ExitCode worse_of(ExitCode a, ExitCode b) {
   constexpr std::array by_weight{ExitCode::pass, ExitCode::skip, ExitCode::cannot_judge,
                                  ExitCode::regression, ExitCode::usage};

@@ -1,17 +1,19 @@
 #pragma once
-// What libraries throw, turned into errors of ours that say what they are about.
+// Converts exceptions of libraries to the errors of this project, with a text that says what they
+// are about.
 
 #include <string>
 #include <utility>
 
 namespace triptych::core {
 
-// To be called where an exception is being handled. One of ours goes on as it is; any other becomes
-// an IoError (the system's, memory) or an InputError that begins with `about`: a file, or a place
-// in one. Without it the fault is taken for the program's own.
+// Call this while an exception is being handled. An error of this project is thrown again
+// unchanged. Any other one becomes an IoError (system errors, out of memory) or an InputError that
+// begins with `about`, which names a file or a place in one. Without `about` it is regarded as a
+// fault of the program itself.
 [[noreturn]] void rethrow_as_ours(const std::string& about);
 
-// Runs `action`, whatever it throws being ours.
+// Runs `action` and converts its exceptions in this way.
 template <typename Action>
 decltype(auto) naming(const std::string& about, Action&& action) {
   try {

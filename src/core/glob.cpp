@@ -5,8 +5,8 @@
 
 namespace triptych::core {
 
-// On a mismatch only the last '*' has to take one character more: linear in practice, never
-// exponential.
+// After a mismatch only the last '*' needs to match one more character, which is linear in practice
+// and never exponential.
 bool glob_matches(std::string_view pattern, std::string_view text) {
   std::size_t p = 0;
   std::size_t t = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Patterns over names of devices, tests and configurations.
+// Patterns for names of devices, tests and configurations.
 
 #include <string>
 #include <string_view>
@@ -7,7 +7,8 @@
 
 namespace triptych::core {
 
-// '*' stands for any run of characters, '?' for one, everything else for itself.
+// '*' matches any sequence of characters, '?' matches one character, and all others match
+// themselves.
 [[nodiscard]] bool glob_matches(std::string_view pattern, std::string_view text);
 [[nodiscard]] bool any_glob_matches(const std::vector<std::string>& patterns,
                                     std::string_view text);

@@ -1,7 +1,7 @@
 #pragma once
-// Content hashes: to tell whether two things are the same, not to protect them. They are the same
-// on every machine, compiler and version of a library, for they are taken over bytes. Text made
-// from numbers is not: how it looks is a formatting library's taste.
+// Content hashes decide whether two things are equal. They do not protect against manipulation.
+// They are the same on every machine, compiler and library version, because they are computed from
+// bytes. Formatted numbers are never hashed, because their format depends on a library.
 
 #include <bit>
 #include <concepts>
@@ -13,22 +13,22 @@
 
 namespace triptych::core {
 
-// XXH3, 128 bits, as 32 lower-case hexadecimal digits.
+// XXH3 with 128 bits, as 32 lower-case hexadecimal digits.
 [[nodiscard]] std::string content_hash(std::span<const std::byte> bytes);
 [[nodiscard]] std::string content_hash(std::string_view text);
 
-// The content hash of what is made of several parts, in the order in which they are added:
-//   a number    eight bytes, the lowest first: an integer in two's complement, a floating point
-//   number as a double's bits
-//               (so that 0 and −0 are two, and an int, a long and a float have the bytes of the
-//               widest)
+// The content hash of something that consists of several parts, in the order in which they are
+// added:
+//   a number    eight bytes, lowest first: an integer in two's complement, a floating-point number
+//               as the bits of a double. So 0 and −0 differ, and an int, a long and a float are
+//               hashed like the widest type.
 //   text        its length as a number, then its bytes
-//   an array    the content hash of its elements' bytes as they lie in memory, as text
-// Which parts there are, and how many, is the kind's own: a list of unknown length has its length
-// in front.
+//   an array    as text, the content hash of its elements' bytes in memory
+// The kind decides which and how many parts there are. A list of variable length is preceded by its
+// length.
 class HashBuilder {
  public:
-  // The name of what it identifies, which is its first part.
+  // The first part is the name of the kind of thing that is identified.
   explicit HashBuilder(std::string_view kind) { add(kind); }
 
   template <std::integral T>
@@ -39,7 +39,7 @@ class HashBuilder {
   HashBuilder& add(std::string_view text);
   HashBuilder& add(const char* text) { return add(std::string_view(text)); }
 
-  // The elements have no padding.
+  // The elements must have no padding.
   template <typename T, std::size_t N>
   HashBuilder& add_array(std::span<T, N> elements) {
     static_assert(std::endian::native == std::endian::little, "the lowest byte is the first");

@@ -1,5 +1,5 @@
 #pragma once
-// Images as every part of the program exchanges them.
+// The image type that all parts of the program use.
 
 #include <array>
 #include <cstddef>
@@ -8,9 +8,10 @@
 
 namespace triptych::core {
 
-// Linear float RGBA, premultiplied, row-major, top row first: pixel (x, y) starts at 4·(y·width +
-// x). Particle images also carry depth (distance along the view axis in world units, +inf for none)
-// and the particle's index in its file (no_particle for none); both are empty otherwise.
+// Linear float RGBA, premultiplied, row-major, top row first: pixel (x, y) begins at
+// 4·(y·width + x). Images of particles also have the depth (distance along the view axis in world
+// units, +inf for none) and the index of the particle in its file (no_particle for none). Both are
+// empty in other images.
 struct Image {
   int width = 0;
   int height = 0;

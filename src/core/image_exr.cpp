@@ -65,14 +65,15 @@ class MemoryIn : public Imf::IStream {
   std::size_t place_ = 0;
 };
 
-// The pixels of an image as OpenEXR addresses them, with the data window's corner at (x, y).
+// The pixels of an image in the form that OpenEXR addresses, with the corner of the data window at
+// (x, y).
 class Planes {
  public:
   Planes(const Image& image, int x, int y)
       : width_(static_cast<std::size_t>(image.width)),
         corner_(static_cast<std::ptrdiff_t>(y) * image.width + x) {}
 
-  // OpenEXR takes the same untyped pointer for reading and writing.
+  // OpenEXR uses the same untyped pointer for reading and writing.
   [[nodiscard]] Imf::Slice slice(Imf::PixelType type, const void* first, std::size_t step) const {
     const auto base = reinterpret_cast<std::uintptr_t>(first) -
                       static_cast<std::uintptr_t>(corner_) * static_cast<std::uintptr_t>(step);
@@ -129,8 +130,8 @@ void require_channels(const Imf::ChannelList& channels) {
   }
 }
 
-// An image of the header's size. A header may claim any size: what no compression of this file's
-// length could hold is refused before memory is asked for.
+// Makes an image with the size in the header. A header may claim any size, so a size that no
+// compression could store in this file is refused before memory is allocated.
 Image allocate(const Imf::Header& header, std::size_t file_bytes) {
   constexpr std::size_t most_pixels_per_byte = 4096;
   const Imath::Box2i window = header.dataWindow();
@@ -151,10 +152,10 @@ Image allocate(const Imf::Header& header, std::size_t file_bytes) {
   return image;
 }
 
-// OpenEXR asks for as much memory as an attribute states before it looks whether the file goes on
-// so far. After magic number and version an attribute is a name and a type, each ended by a zero,
-// its size in 32 bits and its value; an empty name ends them. Of channels – a name and 16 bytes
-// each, up to an empty name – it reads the list, whatever size is stated.
+// OpenEXR allocates the memory that an attribute claims before it checks whether the file is that
+// long. After magic number and version an attribute consists of a name and a type, each terminated
+// by a zero, its size in 32 bits, and its value; an empty name ends the list. For channels (a name
+// and 16 bytes each, up to an empty name) it reads the list without regard to the stated size.
 void require_attributes_inside(std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   std::size_t place = 8;
@@ -167,7 +168,7 @@ void require_attributes_inside(std::span<const std::byte> bytes) {
   while (place < text.size() && !take_text().empty()) {
     const bool channels = take_text() == "chlist";
     std::int32_t size = 0;
-    if (text.size() - place < sizeof(size)) return;  // OpenEXR says that it ends here
+    if (text.size() - place < sizeof(size)) return;  // OpenEXR reports that the file ends here
     std::memcpy(&size, text.data() + place, sizeof(size));
     place += sizeof(size);
     if (size < 0 || static_cast<std::size_t>(size) > text.size() - place) {
@@ -186,7 +187,7 @@ void require_attributes_inside(std::span<const std::byte> bytes) {
   }
 }
 
-// OpenEXR takes memory for some rows of a picture before its size can be asked.
+// OpenEXR allocates memory for some rows of an image before its size can be queried.
 void limit_size() {
   static const bool limited = [] {
     Imf::Header::setMaxImageSize(largest_side, largest_side);
@@ -209,7 +210,7 @@ Image decode(std::span<const std::byte> bytes) {
   return image;
 }
 
-// OpenEXR's messages may span lines; ours are one.
+// OpenEXR's messages may have several lines; errors of this project have one.
 Image decode(std::span<const std::byte> bytes, const FilePlace& place) {
   try {
     return decode(bytes);

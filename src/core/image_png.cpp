@@ -19,7 +19,7 @@ std::uint8_t srgb8(float linear) {
   return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 
-// Premultiplied colour over black is the colour itself.
+// A premultiplied colour over black is the colour itself.
 std::vector<std::uint8_t> to_srgb(const Image& image) {
   std::vector<std::uint8_t> rgb(3 * image.pixel_count());
   for (std::size_t i = 0; i < image.pixel_count(); ++i) {

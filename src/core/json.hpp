@@ -1,9 +1,8 @@
 #pragma once
-// The one spelling of JSON in this project. Headers that only name the type include
-// <nlohmann/json_fwd.hpp>.
+// The JSON type of this project. Headers that only name the type include <nlohmann/json_fwd.hpp>.
 
 #include <nlohmann/json.hpp>
 
 namespace triptych::core {
-using Json = nlohmann::json;  // keys sorted: two equal values print the same bytes
+using Json = nlohmann::json;  // keys are sorted, so equal values print the same bytes
 }

@@ -25,15 +25,15 @@ FilePlace place_at(const std::filesystem::path& file, std::string_view text, std
           static_cast<int>(column + 1)};
 }
 
-// The library's message without its own prefix and place.
+// The message of the JSON library without its prefix and place.
 std::string bare_message(std::string_view what) {
   const auto start = what.find("syntax error");
   return std::string(start == std::string_view::npos ? what : what.substr(start));
 }
 
-// Where the value at a path begins, found by its keys one after the other. Exact for what `accept`
-// writes; for a hand-made file it may name an earlier line with the same keys, and the path is in
-// the message anyhow.
+// The place where the value at a path begins, found by searching its keys one after the other. This
+// is exact for files that `accept` writes. For a hand-made file it may be an earlier line with the
+// same keys; the path is in the message, too.
 std::size_t offset_of(std::string_view text, const std::vector<std::string>& path) {
   std::size_t offset = 0;
   for (const std::string& step : path) {
@@ -43,7 +43,7 @@ std::size_t offset_of(std::string_view text, const std::vector<std::string>& pat
   return offset;
 }
 
-// The offset of the n-th place (from 1) where `key` stands as a key.
+// The offset of the n-th occurrence (from 1) of `key` as a key.
 std::size_t offset_of_key(std::string_view text, const std::string& key, std::size_t n) {
   const std::string quoted = Json(key).dump() + ":";
   std::size_t offset = text.find(quoted);
@@ -51,7 +51,7 @@ std::size_t offset_of_key(std::string_view text, const std::string& key, std::si
   return std::min(offset, text.size());
 }
 
-// "… number overflow parsing '1e999'": the library says which, not where.
+// "… number overflow parsing '1e999'": the library reports the number, but not its place.
 std::string quoted_in(std::string_view what) {
   const auto begin = std::min(what.find('\''), what.size());
   const auto end = std::min(what.rfind('\''), what.size());

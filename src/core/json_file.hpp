@@ -1,6 +1,6 @@
 #pragma once
-// JSON files that people review and merge by hand: read with the place of every mistake, written
-// with one value per line.
+// JSON files that people review and merge by hand. Reading reports the place of every mistake;
+// writing puts one value on each line.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,8 +16,8 @@ namespace triptych::core {
 
 class JsonFile;
 
-// A value within a JsonFile, which must outlive it. Every accessor throws InputError with file,
-// line and the path within the file when the value is not what is asked for.
+// A value in a JsonFile, which must outlive it. Every accessor throws InputError with file, line
+// and the path inside the file if the value does not have the requested type.
 class JsonNode {
  public:
   JsonNode(const JsonFile& file, const Json& value, std::vector<std::string> path)
@@ -42,15 +42,15 @@ class JsonNode {
 
 class JsonFile {
  public:
-  // nullopt when there is no such file; InputError with line and column when it is not JSON or has
-  // one key twice in an object (what a careless merge leaves).
+  // nullopt if the file does not exist. InputError with line and column if it is not JSON, or if an
+  // object has a key twice, which happens in careless merges.
   [[nodiscard]] static std::optional<JsonFile> read(const std::filesystem::path& file);
-  // A file's text, which may not have been written yet.
+  // Uses `text` as the content of the file, which need not exist yet.
   JsonFile(std::filesystem::path file, std::string text);
 
   [[nodiscard]] JsonNode root() const { return {*this, value_, {}}; }
   [[nodiscard]] const Json& value() const noexcept { return value_; }
-  // InputError with the line of the value at `path` (keys, or indexes in decimal).
+  // Throws InputError with the line of the value at `path` (keys, or indexes in decimal).
   [[noreturn]] void fail(const std::vector<std::string>& path, std::string_view message) const;
 
  private:
@@ -59,8 +59,8 @@ class JsonFile {
   Json value_;
 };
 
-// Objects and arrays down to `depth` levels with one member per line, deeper ones on their member's
-// line.
+// Writes objects and arrays down to `depth` levels with one member per line, and deeper ones on the
+// line of their member.
 [[nodiscard]] std::string to_lines(const Json& value, int depth);
 
 }  // namespace triptych::core

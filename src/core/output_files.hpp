@@ -1,5 +1,6 @@
 #pragma once
-// Files that somebody named to be written: refused before work is done for them in vain.
+// Checks output files that a user has named, so that an unusable one is refused before any work is
+// done.
 
 #include <filesystem>
 #include <string>
@@ -8,8 +9,8 @@
 
 namespace triptych::core {
 
-// Throws IoError when a file could not be created in the folder (made if it is missing), so that
-// nothing is measured that could not be kept.
+// Throws IoError if no file can be created in the folder, which is made if it is missing. Called
+// before measuring, so that nothing is measured that cannot be stored.
 void require_writable(const std::filesystem::path& folder);
 
 // A file and the option or argument that named it.
@@ -18,11 +19,11 @@ struct NamedFile {
   std::string file;  // empty: none was named
 };
 
-// Throws InputError where a file to be written is one of those to be read, or another that is
-// written. What is no regular file, such as /dev/null, may take several.
+// Throws InputError if a file to be written is also one to be read, or is written twice. A target
+// that is not a regular file, such as /dev/null, may be written several times.
 void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<NamedFile>& written);
 
-// write_file into a folder that is made if it is missing. Throws IoError.
+// Like write_file, but makes the folder if it is missing. Throws IoError.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace triptych::core

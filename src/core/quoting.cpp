@@ -64,7 +64,7 @@ std::string shell_command(std::span<const std::string> words) {
 
 std::string printable(std::string_view text, std::size_t limit) {
   std::string result;
-  std::size_t before_last = 0;  // where the cut is made, should there be one
+  std::size_t before_last = 0;  // where the text is cut if it is too long
   for (std::size_t count = 0; !text.empty(); ++count) {
     if (count + 1 == limit) before_last = result.size();
     if (count == limit) {

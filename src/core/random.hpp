@@ -1,7 +1,6 @@
 #pragma once
-// Random numbers whose sequence is the same on every machine and standard library. The
-// distributions of <random> are not (their algorithms are left to the implementation), so they are
-// not used.
+// Random numbers whose sequence is the same on every machine and with every standard library. The
+// distributions of <random> are not used, because their algorithms depend on the implementation.
 
 #include <cstdint>
 
@@ -20,12 +19,12 @@ class Random {
     return z ^ (z >> 31);
   }
 
-  // Uniform in [0, 1), 53 bits.
+  // Uniformly distributed in [0, 1), with 53 bits.
   [[nodiscard]] constexpr double uniform() noexcept {
     return static_cast<double>(bits() >> 11) * 0x1.0p-53;
   }
 
-  // Uniform in [lo, hi).
+  // Uniformly distributed in [lo, hi).
   [[nodiscard]] constexpr double uniform(double lo, double hi) noexcept {
     return lo + (hi - lo) * uniform();
   }

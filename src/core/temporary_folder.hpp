@@ -3,10 +3,10 @@
 
 namespace triptych::core {
 
-// A folder of its own among the system's temporary ones, removed with all that is in it.
+// A new folder among the system's temporary ones. It is removed with its content.
 class TemporaryFolder {
  public:
-  TemporaryFolder();  // throws IoError when none can be made
+  TemporaryFolder();  // throws IoError if it cannot be made
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

@@ -14,8 +14,8 @@ bool is_continuation(unsigned char byte) {
   return byte >= 0x80 && byte <= 0xBF;
 }
 
-// Whether the second byte may follow the first: neither a longer spelling than needed, nor half of
-// a surrogate pair, nor beyond U+10FFFF.
+// Whether the second byte is valid after the first one: not an overlong encoding, not a surrogate,
+// and not beyond U+10FFFF.
 bool may_follow(unsigned char first, unsigned char second) {
   if (!is_continuation(second)) return false;
   if (first == 0xE0) return second >= 0xA0;
@@ -25,7 +25,7 @@ bool may_follow(unsigned char first, unsigned char second) {
   return true;
 }
 
-// C0, DEL and C1, the separators of lines and paragraphs, and what is no character in XML.
+// C0, DEL and C1, line and paragraph separators, and code points that are not characters in XML.
 bool is_control(std::string_view character) {
   if (character.size() == 1) return character.front() < 0x20 || character.front() == 0x7F;
   if (character.size() == 2) return character >= "\u0080" && character <= "\u009F";

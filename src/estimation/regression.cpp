@@ -20,8 +20,9 @@ constexpr std::size_t parameters = 2;
 constexpr double half = 0.5;  // breakdown point, and the mean of ρ that defines the scale
 constexpr int most_steps = 200;
 constexpr double step_tolerance = 1e-10;
-// Lines through two points each that the S-estimate tries: all of them up to 45 points, else as
-// many at random. Where half are wild, none of 990 pairs is free of them with probability 0.75⁹⁹⁰.
+// The number of lines through two points that the S-estimate tries: all of them for up to 45
+// points, otherwise random ones. If half of the points are outliers, the probability that none of
+// 990 pairs is free of them is 0.75⁹⁹⁰.
 constexpr std::size_t most_pairs = 990;
 
 void require_points(Points x, Points y) {
@@ -43,7 +44,7 @@ std::vector<double> residuals_of(Points x, Points y, const Line& line) {
   return result;
 }
 
-// What weighted sums over x say: Σw, the centre, Σw(x − centre)².
+// Weighted sums over x: Σw, the centre, and Σw(x − centre)².
 struct Design {
   double weight = 0;
   double centre = 0;
@@ -80,21 +81,22 @@ double rho(double u) {
   return 1 - rest * rest * rest;
 }
 
-// Mean of ρ as it defines the scale: 1/2 at the scale itself.
+// The mean of ρ that defines the scale: it is 1/2 at the scale itself.
 double mean_rho(Points residuals, double scale) {
   double sum = 0;
   for (const double residual : residuals) sum += rho(residual / (Bisquare::c_breakdown * scale));
   return sum / static_cast<double>(residuals.size() - parameters);
 }
 
-// Points that lie on the line but for rounding leave no scale.
+// The scale below which points are regarded as lying on the line except for rounding.
 double least_scale(Points y) {
   double largest = 0;
   for (const double value : y) largest = std::max(largest, std::abs(value));
   return 1e-13 * std::max(largest, std::numeric_limits<double>::min());
 }
 
-// The fixed point of s² ← s²·mean ρ/½, which approaches from one side (Maronna et al. 2019, 9.4).
+// The fixed point of s² ← s²·mean ρ/½. The iteration approaches it from one side (Maronna et al.
+// 2019, section 9.4).
 double m_scale(Points residuals, double least) {
   std::vector<double> sizes(residuals.size());
   std::ranges::transform(residuals, sizes.begin(), [](double r) { return std::abs(r); });
@@ -128,7 +130,7 @@ struct Candidate {
   double scale = std::numeric_limits<double>::infinity();
 };
 
-// Reweighted least squares, which never makes the scale larger, until it stays.
+// Iteratively reweighted least squares, which never increases the scale, until it converges.
 Candidate refined(Points x, Points y, Line line, double least) {
   Candidate best{line, m_scale(residuals_of(x, y, line), least)};
   for (int step = 0; step < most_steps && best.scale > 0; ++step) {
@@ -143,7 +145,8 @@ Candidate refined(Points x, Points y, Line line, double least) {
   return best;
 }
 
-// Takes a line through two points where its scale is smaller: one sum tells, without the scale.
+// Replaces the best line by one through two points if its scale is smaller. One sum decides that,
+// without computing the scale.
 class SmallestScale {
  public:
   SmallestScale(Points x, Points y) : x_(x), y_(y), least_(least_scale(y)) {}
@@ -179,7 +182,7 @@ Candidate s_estimate(Points x, Points y) {
       for (std::size_t j = i + 1; j < n; ++j) search.try_pair(i, j);
     }
   } else {
-    core::Random random(n);  // the same pairs whenever the same points are asked about
+    core::Random random(n);  // the same pairs for the same points
     for (std::size_t k = 0; k < most_pairs; ++k) {
       search.try_pair(random.bits() % n, random.bits() % n);
     }
@@ -281,7 +284,7 @@ double robust_variance(Points residuals, double scale, std::size_t fitted) {
     const double rest = 1 - u * u;
     const double psi = residual / scale * rest * rest;
     squares += psi * psi;
-    slopes += rest * (1 - 5 * u * u);  // ψ′
+    slopes += rest * (1 - 5 * u * u);  // this is ψ′
   }
   const auto n = static_cast<double>(residuals.size());
   const double mean_slope = slopes / n;

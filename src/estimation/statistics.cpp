@@ -16,8 +16,8 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
-// Above this Student's t is the normal distribution to double precision, and Boost's series loses
-// digits.
+// Above this number Student's t equals the normal distribution in double precision, and Boost's
+// series loses digits.
 constexpr double normal_degrees = 1e8;
 
 }  // namespace
@@ -86,8 +86,8 @@ std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values
   return adjusted;
 }
 
-// Newton's method on 1/ψ', which is convex and nearly linear: it approaches from one side (Smyth
-// 2004, appendix). Outside the range the asymptotes are exact to double precision.
+// Newton's method on 1/ψ', which is convex and nearly linear, so that it converges from one side
+// (Smyth 2004, appendix). Outside the range the asymptotes are exact in double precision.
 double inverse_trigamma(double y) {
   if (y > 1e7) return 1 / std::sqrt(y);
   if (y < 1e-6) return 1 / y;
