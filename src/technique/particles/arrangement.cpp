@@ -14,7 +14,7 @@
 namespace triptych::technique {
 namespace {
 
-// Places in the set, ascending by id; empty where they already are as they stand.
+// Indices into the set, sorted by id; empty if the set is sorted already.
 std::vector<std::uint32_t> by_id(const scene::ParticleSet& set) {
   std::vector<std::uint32_t> places;
   if (std::ranges::is_sorted(set.ids)) return places;
@@ -24,19 +24,21 @@ std::vector<std::uint32_t> by_id(const scene::ParticleSet& set) {
   return places;
 }
 
-// A cell with more particles than this becomes several, so that one crowded place stays divisible.
+// A cell with more particles than this becomes several cells, so that a crowded place can still be
+// divided.
 constexpr std::uint32_t longest_run = 4 * particles_per_cell;
 
-// Particles of one part, consecutive by id.
+// Particles of one part with successive ids.
 struct Run {
   glm::vec3 lo{std::numeric_limits<float>::infinity()};
   glm::vec3 hi{-std::numeric_limits<float>::infinity()};
   std::uint32_t count = 0;
-  std::uint32_t begin = 0;  // its place in the arrangement
+  std::uint32_t begin = 0;  // its index in the arrangement
 };
 
-// Divides the particles into runs. It goes over them again and again, each time by ascending id,
-// and finds a particle's run anew rather than note it: a note would be as large as the order.
+// Divides the particles into runs. It visits all particles several times in the order of their ids,
+// and finds the run of a particle anew each time, because storing it would take as much memory as
+// the order.
 class Runs {
  public:
   explicit Runs(const scene::ParticleScene& scene)
@@ -62,7 +64,7 @@ class Runs {
     return cells;
   }
 
-  // Places in the set, run after run.
+  // Indices into the set, run after run.
   [[nodiscard]] std::vector<std::uint32_t> order() {
     std::vector<std::uint32_t> order(set_.count());
     for_each([&](std::uint32_t place, Run& run) { order[run.begin + run.count++] = place; });
@@ -70,8 +72,8 @@ class Runs {
   }
 
  private:
-  // Calls visit(place in the set, its run) by ascending id. A run's count is that of its particles
-  // visited before, and the visitor's to raise.
+  // Calls visit(index in the set, its run) in the order of ids. The count of a run is the number of
+  // its particles that were visited before; the visitor increments it.
   template <typename Visit>
   void for_each(const Visit& visit) {
     for (Run& run : runs_) run.count = 0;
@@ -84,7 +86,7 @@ class Runs {
     }
   }
 
-  // As many for each part as it needs.
+  // Makes as many runs for each part as it needs.
   void make_runs() {
     first_run_.resize(division_.parts());
     for (std::uint32_t place = 0; place < set_.count(); ++place) {
@@ -99,7 +101,7 @@ class Runs {
     runs_.resize(runs);
   }
 
-  // Counts and boxes.
+  // Computes counts and boxes.
   void measure() {
     for_each([&](std::uint32_t place, Run& run) {
       const auto& sphere = set_.spheres[place];
@@ -109,7 +111,7 @@ class Runs {
       run.hi = glm::max(run.hi, centre + r);
       ++run.count;
     });
-    // centre ± r is rounded to nearest: one float further out is outside for certain.
+    // centre ± r is rounded to nearest, so the next float outwards is certainly outside.
     for (Run& run : runs_) {
       for (int axis = 0; axis < 3; ++axis) {
         run.lo[axis] = std::nextafter(run.lo[axis], -std::numeric_limits<float>::infinity());
@@ -123,8 +125,9 @@ class Runs {
     return glm::distance(eye, glm::clamp(eye, glm::dvec3(run.lo), glm::dvec3(run.hi)));
   }
 
-  // Those of large spheres stay in front, the others follow by the distance of their part. Its runs
-  // stay in order: of spheres that coincide, and so share it, the lowest id is drawn first.
+  // Runs with large spheres stay in front. The others are sorted by the distance of their part.
+  // Runs of one part stay in order, so that of coincident spheres, which are in the same part, the
+  // one with the lowest id is drawn first.
   void sort_front_to_back() {
     std::vector<double> distances(runs_.size());
     for (std::size_t part = 0; part < first_run_.size(); ++part) {
@@ -149,13 +152,14 @@ class Runs {
   const scene::ParticleSet& set_;
   Division division_;
   std::vector<std::uint32_t> by_id_;
-  std::vector<std::uint32_t> first_run_;  // by part
-  std::vector<Run> runs_;                 // by part, then id
-  std::ptrdiff_t large_ = 0;              // of the first runs
+  std::vector<std::uint32_t> first_run_;  // indexed by part
+  std::vector<Run> runs_;                 // sorted by part, then id
+  std::ptrdiff_t large_ = 0;              // number of runs with large spheres, which come first
   std::vector<std::uint32_t> front_to_back_;
 };
 
-// Fills `out` with value(k) for k from `first` on. By memcpy, as bytes are not aligned for values.
+// Fills `out` with value(k), for k from `first` on. It uses memcpy, because the bytes are not
+// aligned.
 template <typename Value>
 void write(std::size_t first, std::span<std::byte> out, const Value& value) {
   using Element = decltype(value(std::size_t{}));

@@ -10,7 +10,8 @@
 namespace triptych::technique {
 namespace {
 
-// The edge at which about `wanted` cells fill the box; axes too short to be divided do not count.
+// The edge length for which about `wanted` cells fill the box. Axes that are too short to be
+// divided do not count.
 double edge_for(const glm::dvec3& size, double wanted) {
   const double longest = std::max({size.x, size.y, size.z});
   if (!(longest > 0)) return 1;
@@ -24,8 +25,8 @@ double edge_for(const glm::dvec3& size, double wanted) {
   return high;
 }
 
-// In loops over the four numbers of a sphere, as a compiler makes those one instruction each; the
-// fourth is of no use to boxes.
+// Loops over the four numbers of a sphere, which compilers turn into one instruction each. Boxes do
+// not use the fourth.
 using Four = std::array<float, 4>;
 
 struct Box {
@@ -45,7 +46,7 @@ struct Box {
     }
   }
   [[nodiscard]] float size(std::size_t axis) const { return hi[axis] - lo[axis]; }
-  // Half of its surface.
+  // Half of its surface area.
   [[nodiscard]] double surface() const {
     const double x = static_cast<double>(size(0));
     const double y = static_cast<double>(size(1));
@@ -74,12 +75,12 @@ struct Plane {
   float at = 0;
 };
 
-// Planes are tried at sixteenths of the way from the first centre to the last.
+// Planes are tried at sixteenths of the distance from the first centre to the last one.
 constexpr std::size_t slices = 16;
 using Slices = std::array<Group, slices>;
 
-// The slice before which a plane leaves the least cost, and that cost; slice 0: none is below
-// `most`.
+// The slice before which a plane has the smallest cost, and that cost. Slice 0 means that none is
+// below `most`.
 std::pair<std::size_t, double> cheapest(const Slices& parts, double most) {
   std::array<double, slices> below_cost{};
   Group below;
@@ -119,7 +120,7 @@ class PlaneSearch {
     }
   }
 
-  // The plane that saves most, where that is more than the price of a part.
+  // The plane that saves most, if that is more than the price of a part.
   [[nodiscard]] std::optional<Plane> best(double price) const {
     Group all;
     for (const Group& group : by_axis_[0]) all.add(group);
@@ -176,7 +177,7 @@ Division::Division(const scene::ParticleScene& scene, std::size_t per_cell)
       price_(static_cast<double>(per_cell) / 2),
       nodes_(std::size_t{grid_.cells()} + 1) {
   const auto count = static_cast<std::uint32_t>(scene.particles->count());
-  // Places by cell of the grid: `ends` begin as the cells' beginnings.
+  // Indices sorted by cell of the grid. `ends` initially contains the beginnings of the cells.
   std::vector<std::uint32_t> ends(nodes_.size());
   for (std::uint32_t place = 0; place < count; ++place) ++ends[undivided_part_of(place)];
   std::uint32_t begin = 0;
@@ -210,7 +211,7 @@ void Division::divide(Crowd all) {
   while (!open.empty()) {
     const Crowd crowd = open.back();
     open.pop_back();
-    // No plane saves more than all there is.
+    // No plane can save more than the whole cost.
     if (static_cast<double>(crowd.places.size()) <= price_) continue;
     const std::optional<Plane> plane = PlaneSearch(scene_, crowd.places).best(price_);
     if (!plane) continue;
@@ -219,7 +220,7 @@ void Division::divide(Crowd all) {
           return scene_.particles->spheres[place][plane->axis] < plane->at;
         });
     const auto below = static_cast<std::size_t>(above - crowd.places.begin());
-    if (below == 0 || below == crowd.places.size()) continue;  // by rounding
+    if (below == 0 || below == crowd.places.size()) continue;  // possible by rounding
     const auto child = static_cast<std::uint32_t>(nodes_.size());
     nodes_[crowd.node] = {
         .axis = static_cast<std::uint32_t>(plane->axis), .plane = plane->at, .below = child};

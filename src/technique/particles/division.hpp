@@ -10,10 +10,10 @@
 
 namespace triptych::technique {
 
-// A regular grid over the centres, of about cubic cells.
+// A regular grid over the centres, with approximately cubic cells.
 class Grid {
  public:
-  // Cells for about `per_cell` particles each where they are spread evenly.
+  // Makes cells for about `per_cell` evenly distributed particles each.
   Grid(const scene::ParticleSet& set, std::size_t per_cell);
 
   [[nodiscard]] double edge() const { return edge_; }
@@ -26,34 +26,35 @@ class Grid {
   std::array<std::uint32_t, 3> counts_{1, 1, 1};
 };
 
-// Space in parts by the particles in it: the cells of a grid, and such a cell in two, again and
-// again, where its particles lie so unevenly that it pays: a wall is parted from what is behind it.
+// Divides space according to the particles in it: the cells of a grid, and a cell in two,
+// repeatedly, if its particles are so uneven that it pays. For example, a wall is separated from
+// the particles behind it.
 //
-// What a box of n particles costs is n times how often it is in sight, which grows as its surface
-// (the surface area heuristic of MacDonald and Booth, Heuristics for ray tracing using space
-// subdivision, 1990). A plane pays where n·A exceeds n₁·A₁ + n₂·A₂ by at least half a cell's
-// particles times A, A being the surface of a box around spheres. Halves of a cube have two thirds
-// of its surface each, so that evenly spread particles are left in peace up to one and a half times
-// the grid's number.
+// The cost of a box with n particles is n times the probability that it is visible, which is
+// proportional to its surface area (the surface area heuristic of MacDonald and Booth, Heuristics
+// for ray tracing using space subdivision, 1990). A plane pays if n·A exceeds n₁·A₁ + n₂·A₂ by at
+// least half a cell's particles times A, where A is the surface area of a box around spheres. Each
+// half of a cube has two thirds of its surface, so cells with evenly distributed particles are not
+// divided until they have one and a half times the intended number.
 class Division {
  public:
-  // Takes four bytes a particle while it divides.
+  // Takes four bytes per particle while it divides.
   Division(const scene::ParticleScene& scene, std::size_t per_cell);
 
-  // The part in which the set's particle at this place is. 0: it is wider than a cell of the grid.
-  // Coincident centres are in one part, except for those in 0.
+  // The part that contains the set's particle with this index. Part 0 contains particles that are
+  // wider than a cell of the grid. Coincident centres are in one part, except for those in part 0.
   [[nodiscard]] std::uint32_t part_of(std::uint32_t place) const;
-  // Some are empty.
+  // The number of parts, some of which are empty.
   [[nodiscard]] std::size_t parts() const { return nodes_.size(); }
 
  private:
-  // A part, or where it is divided: by whether its centres lie below a plane. Those of the grid
-  // come first, behind the part 0.
+  // A part, or a place where space is divided according to whether centres lie below a plane. The
+  // parts of the grid come first, after part 0.
   struct Node {
     static constexpr std::uint32_t whole = 3;
     std::uint32_t axis = whole;
     float plane = 0;
-    std::uint32_t below = 0;  // the other side's comes next
+    std::uint32_t below = 0;  // the other side is the next node
   };
   struct Crowd {
     std::uint32_t node = 0;
@@ -65,7 +66,7 @@ class Division {
 
   const scene::ParticleScene& scene_;
   Grid grid_;
-  double price_;  // of a part, in particles
+  double price_;  // the price of a part, in particles
   std::vector<Node> nodes_;
 };
 

@@ -6,11 +6,11 @@
 namespace triptych::technique {
 
 double point_margin(std::string_view renderer, double granularity) {
-  // Draws a point of size s as ⌊s⌋ pixels from the whole one next to its lower end: in a point of
-  // two pixels more, every pixel whose centre lies in the square is drawn.
+  // softpipe draws a point of size s as ⌊s⌋ pixels, beginning at the integer next to its lower end.
+  // A point that is two pixels larger contains every pixel whose centre lies in the square.
   if (renderer.starts_with("softpipe")) return 2;
-  // Whatever it tells, it snaps points to 1/256 pixel as it does any vertex, for which the sprites'
-  // own margin is made. It is lavapipe's name for itself, too.
+  // llvmpipe snaps points to 1/256 pixel like any vertex, whatever it reports, and the margin of
+  // the sprites already covers that. lavapipe also calls itself llvmpipe.
   if (renderer.starts_with("llvmpipe")) return 0;
   return granularity;
 }

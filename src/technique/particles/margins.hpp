@@ -3,15 +3,16 @@
 
 namespace triptych::technique {
 
-// Pixels to add to the size of a point so that the device draws no less than the square that was
-// meant (TRI_POINT_MARGIN). Sizes are multiples of `granularity` and may be rounded down to one,
-// but by the drivers that are known to do otherwise, which `renderer` names in the API's own words.
+// The number of pixels to add to the size of a point so that the device draws at least the intended
+// square (TRI_POINT_MARGIN). Sizes are multiples of `granularity` and may be rounded down to one,
+// except on drivers that are known to behave differently. `renderer` is the API's name of the
+// driver.
 [[nodiscard]] double point_margin(std::string_view renderer, double granularity);
 
-// Pixels by which a sprite has to be larger on each side than by its margin of 1/64
-// (TRI_SPRITE_GROWTH), on a device that moves vertices to a grid of 2⁻ᵇ pixel. A vertex moves by
-// less than a step along each axis, whether it is rounded or cut off, and an edge across by less
-// than √2 of them: two cover it, which from 7 bits on the margin does.
+// The number of pixels by which a sprite must be larger on each side, in addition to its margin of
+// 1/64 (TRI_SPRITE_GROWTH), on a device that snaps vertices to a grid of 2⁻ᵇ pixel. A vertex moves
+// by less than one step along each axis, whether it is rounded or truncated, and an edge by less
+// than √2 steps. Two steps cover that, and for 7 bits or more the margin does.
 [[nodiscard]] double sprite_growth(int sub_pixel_bits);
 
 }  // namespace triptych::technique

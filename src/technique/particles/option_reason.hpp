@@ -1,5 +1,5 @@
 #pragma once
-// Which options a technique cannot be drawn with, whatever the device.
+// Options that a technique does not support on any device.
 
 #include <cstdint>
 #include <optional>
@@ -10,12 +10,12 @@
 
 namespace triptych::technique {
 
-// Who finds the pixels of a sprite: the API's own rasterizer, or kernels that bin sprites into
-// tiles by work groups, with what can go wrong there.
+// What finds the pixels of a sprite: the rasterizer of the API, or kernels that bin sprites into
+// tiles with work groups. The possible faults depend on that.
 enum class SpriteRasterizer : std::uint8_t { of_the_api, in_tiles };
 
-// Why the technique (a name of the catalogue) has no part that these options ask for, or ask to
-// break; empty where it has. What a device lacks is for the backends to say.
+// The reason why the technique (a name in the catalogue) does not have the part that these options
+// request or inject a fault into; empty if it has. The backends check the capabilities of a device.
 [[nodiscard]] std::optional<std::string> option_reason(std::string_view technique,
                                                        const ParticleOptions& options,
                                                        SpriteRasterizer rasterizer);

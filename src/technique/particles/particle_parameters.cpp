@@ -9,8 +9,8 @@ float nearest(double value) {
   return static_cast<float>(value);
 }
 
-// Never inlined: GCC 12 vectorises neighbouring calls into one in which the rounding to float and
-// back is left out, and every rest is 0.
+// Never inlined, because GCC 12 vectorises neighbouring calls in a way that omits the rounding to
+// float and back, and then every rest is 0.
 [[gnu::noinline]] float rest(double value) {
   return static_cast<float>(value - static_cast<double>(nearest(value)));
 }

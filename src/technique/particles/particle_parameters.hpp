@@ -1,5 +1,5 @@
 #pragma once
-// What the shaders and kernels of every API are given.
+// The parameters of the shaders and kernels of every API.
 
 #include <array>
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace triptych::technique {
 
-// Mirrors particles/parameters.glsl (std140) and particle_parameters.cl. Doubles come in two
-// floats: the nearest, and the rest (portable/sphere_math.h: tri_along_axis).
+// Has the layout of particles/parameters.glsl (std140) and particle_parameters.cl. A double is
+// stored as two floats: the nearest float, and the rest (portable/sphere_math.h: tri_along_axis).
 struct ParticleParameters {
   std::array<float, 4> eye;       // xyz world; w: near, the scale of the depth buffer
   std::array<float, 4> eye_rest;  // w: sprite scale, 1 unless ParticleFault::small_sprite
@@ -20,9 +20,9 @@ struct ParticleParameters {
   std::array<float, 4> right_rest;
   std::array<float, 4> up;  // w: 1/(height of the image plane)
   std::array<float, 4> up_rest;
-  std::array<float, 4> forward;  // w: how much of the view culling believes in: 1, or ½ injected
+  std::array<float, 4> forward;  // w: share of the view that culling uses: 1, or ½ for a fault
   std::array<float, 4> forward_rest;
-  // The image plane z = 1: pixel (x, y), top row first, looks through
+  // The image plane z = 1. Pixel (x, y), top row first, looks through
   //   sx = (x + ½)·plane.z − plane.x,   sy = plane.y − (y + ½)·plane.w.
   std::array<float, 4> plane;            // half extents x, y; size of a pixel x, y
   std::array<float, 4> shading;          // ambient, diffuse, 0, 0
@@ -33,7 +33,7 @@ struct ParticleParameters {
 static_assert(sizeof(ParticleParameters) == std::size_t{13} * 16);
 static_assert(offsetof(ParticleParameters, plane) == std::size_t{8} * 16);
 
-// Of an arrangement with so many particles and cells.
+// The parameters for an arrangement with this many particles and cells.
 [[nodiscard]] ParticleParameters particle_parameters(const scene::ParticleScene& scene,
                                                      const ParticleOptions& options,
                                                      std::size_t particles, std::size_t cells);

@@ -13,13 +13,14 @@
 namespace triptych::technique {
 namespace {
 
-// What spheres may need at most.
+// Upper limits for the resources that spheres need.
 struct Need {
-  double pixels = 0;   // that are drawn
-  double entries = 0;  // of large spheres: one in each tile
+  double pixels = 0;   // number of pixels that are drawn
+  double entries = 0;  // entries of large spheres, one for each tile
   std::uint64_t large = 0;
-  bool small = false;  // one may be small
-  double passes = 0;   // of the invocation that makes most, over pixels of small and tiles of large
+  bool small = false;  // whether one may be small
+  // Of the invocation with most, over pixels of small and tiles of large spheres.
+  double passes = 0;
 
   void add(const Need& more) {
     pixels += more.pixels;
@@ -43,11 +44,11 @@ class NeedBound {
 
   [[nodiscard]] Need of(const Arrangement& arrangement, const Cell& cell) const {
     Need all;
-    std::array<double, 64> passes{};  // of the work group of tiles_bin
+    std::array<double, 64> passes{};  // for each invocation of a work group of tiles_bin
     for (std::size_t k = 0; k < cell.count; ++k) {
       const Need need = of(arrangement.sphere(cell.begin + k));
       all.add(need);
-      // Its entry counts twice, as tiles_fill takes two spheres of a round.
+      // Its entries count twice, because tiles_fill takes two spheres of a round.
       all.passes = std::max(all.passes, 2 * need.entries);
       passes[k % passes.size()] += 1 + need.entries + (need.small ? small_edge * small_edge : 0);
     }
@@ -66,7 +67,7 @@ class NeedBound {
     double columns = columns_;
     double rows = rows_;
     double pixels = double{tile_edge} * tile_edge * columns * rows;
-    bool small = true;  // as little of it may be in sight
+    bool small = true;  // because only a small part of it may be visible
     if (z > 1.001 * r) {
       const double width = extent(glm::dot(to, right_), z, r, half_x_);
       const double height = extent(glm::dot(to, camera_.up), z, r, half_y_);
@@ -80,10 +81,10 @@ class NeedBound {
     return {.pixels = pixels, .entries = columns * rows, .large = 1, .small = small};
   }
 
-  // Pixels of one axis between the sphere's two tangents, (a·z ± r·√(a² + z² − r²))/(z² − r²) on
-  // the image plane, as far as they lie within ±half; three more for the margin and rounding, so
-  // that a sphere which is small after all has less than `slack` too many. Not
-  // positive where the sphere is not in sight.
+  // The number of pixels on one axis between the sphere's two tangents,
+  // (a·z ± r·√(a² + z² − r²))/(z² − r²) on the image plane, as far as they lie within ±half. Three
+  // pixels are added for the margin and rounding, so that a sphere that turns out to be small has
+  // less than `slack` too many. Not positive if the sphere is not visible.
   [[nodiscard]] double extent(double a, double z, double r, double half) const {
     const double k2 = (z - r) * (z + r);
     const double reach = r * std::sqrt(a * a + k2);
@@ -111,7 +112,7 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
   TileRounds out;
   TileRound round;
   Need need;           // of this round
-  double covered = 0;  // pixels of all rounds before
+  double covered = 0;  // number of pixels of all previous rounds
   const auto finish = [&] {
     if (round.cells == 0) return;
     round.entries = static_cast<std::uint64_t>(need.entries);
@@ -134,7 +135,7 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
     need.add(more);
   }
   finish();
-  constexpr double few = 2;  // spheres a pixel
+  constexpr double few = 2;  // number of spheres per pixel
   out.at_once = out.rounds.size() == 1 && covered <= few * pixels;
   return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// In which steps `tiles` goes through the cells (tiles.glsl). Made when a scene is prepared.
+// The rounds in which `tiles` processes the cells (tiles.glsl). They are computed when a scene is
+// prepared.
 
 #include <cstdint>
 #include <optional>
@@ -18,17 +19,17 @@ inline constexpr int small_edge = 6;  // TRI_SMALL_EDGE
 struct TileRound {
   std::uint32_t first = 0;
   std::uint32_t cells = 0;
-  std::uint64_t entries = 0;  // that it may have at most; 0: it has no large spheres
+  std::uint64_t entries = 0;  // largest number of entries; 0: it has no large spheres
 };
 
 struct TileRounds {
   std::vector<TileRound> rounds;  // all cells, front to back
-  std::uint64_t entries = 0;      // (tile, large sphere) pairs that a round may have at most
+  std::uint64_t entries = 0;      // largest number of (tile, large sphere) pairs in a round
   bool small = false;             // there may be small spheres
-  bool at_once = false;           // one round of so few that the last pass draws the large ones
-  std::uint64_t passes = 0;       // through loops that an invocation of tiles_bin or _fill may make
+  bool at_once = false;      // a single round with so few that the last pass draws the large ones
+  std::uint64_t passes = 0;  // largest number of loop passes of an invocation of tiles_bin or _fill
 
-  // Whether passes before the last draw large spheres.
+  // Whether passes before the last one draw large spheres.
   [[nodiscard]] bool resolved() const noexcept { return entries > 0 && !at_once; }
   // TRI_SPHERES of tile_grid.glsl.
   [[nodiscard]] int spheres() const noexcept {
@@ -36,27 +37,27 @@ struct TileRounds {
   }
 };
 
-// Work groups of 64 that go through a list of at most so many particles together, each until the
-// list's end.
+// The number of work groups of 64 that process a list of at most this many particles together, each
+// until the end of the list.
 [[nodiscard]] constexpr std::uint32_t list_groups(std::uint64_t particles) noexcept {
   constexpr std::uint64_t most = 256;
   const std::uint64_t groups = (particles + 63) / 64;
   return static_cast<std::uint32_t>(groups < most ? groups : most);
 }
 
-// Large spheres that a round has at most, unless a single cell has more: a tile's loop over its
-// entries then ends before Mesa ends it (docs/accuracy.md).
+// The largest number of large spheres in a round, unless a single cell has more. A tile's loop over
+// its entries then ends before Mesa ends it (docs/accuracy.md).
 inline constexpr std::uint64_t most_large_spheres = 32000;
 
-// A round draws about as many pixels as the picture has, or half as many as all rounds before it:
-// early ones hide what later ones hold, and each costs a pass over all tiles. A round has no more
-// than `most_cells` cells and, unless a single cell has more, `most_entries` entries.
+// A round draws about as many pixels as the image has, or half as many as all previous rounds
+// together: early rounds hide spheres of later ones, and each round costs a pass over all tiles. A
+// round has at most `most_cells` cells and, unless a single cell has more, `most_entries` entries.
 [[nodiscard]] TileRounds tile_rounds(const scene::ParticleScene& scene,
                                      const Arrangement& arrangement, std::uint32_t most_cells,
                                      std::uint64_t most_entries);
 
-// Why such a scene cannot be drawn: Mesa ends loops in silence (long_rays.hpp), and an invocation
-// goes through the tiles of up to 32 spheres.
+// The reason why such a scene cannot be drawn: Mesa ends loops without an error (long_rays.hpp),
+// and an invocation loops over the tiles of up to 32 spheres.
 [[nodiscard]] std::optional<std::string> passes_reason(const TileRounds& rounds);
 
 }  // namespace triptych::technique
