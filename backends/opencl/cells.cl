@@ -1,13 +1,13 @@
-// Quadrature cells, one ray per work item: the algorithm of src/technique/volume/raycast/raycast_cells.glsl,
-// where the reasons stand.
+// Quadrature cells, one ray per work item. The algorithm is that of
+// src/technique/volume/raycast/raycast_cells.glsl, which contains the explanations.
 //
 // Compile-time constants: TRI_SHADING, TRI_COUNT, and those of volume.cl.
 
 typedef struct {
-  float3 p0;         // where the ray enters, from the first voxel's centre
-  float3 g;          // one step, voxels
+  float3 p0;         // where the ray enters, relative to the first voxel's centre
+  float3 g;          // one step, in voxels
   float3 inverse_g;
-  int3 forward;      // 1 where the ray runs towards higher indices, else 0
+  int3 forward;      // 1 if the ray runs towards higher indices, else 0
 } Way;
 
 TRI_FN float inverse_of(float g) { return 1.0f / (fabs(g) < 1.0e-20f ? 1.0e-20f : g); }
@@ -48,7 +48,7 @@ TRI_FN int3 cell_behind(const Way* way, int3 planes, float3 at) {
 // c.x + c.y·s + c.z·s² + c.w·s³
 TRI_FN float cubic(float4 c, float s) { return c.x + s * (c.y + s * (c.z + s * c.w)); }
 
-// Positions among the transfer function's entries along the ray's way through a cell.
+// The position among the transfer function's entries along the ray's way through a cell.
 TRI_FN float4 cubic_of_cell(__constant Parameters* u, TRI_VOLUME volume, int3 cell, float3 a, float3 b) {
 #if TRI_FAULT == FAULT_HALF_VOXEL_SHIFT
   a.x += 0.5f;
@@ -56,7 +56,7 @@ TRI_FN float4 cubic_of_cell(__constant Parameters* u, TRI_VOLUME volume, int3 ce
 #if TRI_FAULT == FAULT_COARSE_FILTER
   a = floor(a * 256.0f + 0.5f) / 256.0f;
 #endif
-  // Among the voxels with their border, the cell begins at one more than its index.
+  // Among the voxels with their border, the cell begins at its index plus one.
   int row = u->volume_size.x + 2;
   int slice = row * (u->volume_size.y + 2);
 #if TRI_FAULT == FAULT_FLIPPED_AXIS
@@ -96,7 +96,7 @@ TRI_FN float4 kink_row(__global const float4* kinks, float i) {
 
 TRI_FN float table_end(float position) { return position > 0.0f ? (position < 255.0f ? position : 255.0f) : 0.0f; }
 
-// Whether any value on the way has opacity, by the cubic's Bernstein coefficients.
+// Whether any value on the way has opacity, decided by the cubic's Bernstein coefficients.
 TRI_FN int shows(__global const float4* kinks, float4 c) {
   float b1 = c.x + c.y / 3.0f;
   float b2 = c.x + (2.0f * c.y + c.z) / 3.0f;
@@ -140,7 +140,7 @@ TRI_FN float4 transfer(__constant float4* table, float position) {
   return table[below] + (place - (float)below) * (table[below + 1] - table[below]);
 }
 
-// −log2(1 − alpha), by which an opacity of 1 counts as 8192.
+// −log2(1 − alpha); an opacity of 1 counts as 8192.
 TRI_FN float extinction(float alpha) { return alpha < 1.0f ? 0.0f - tri_log2_1m(alpha) : 8192.0f; }
 
 TRI_FN void add_piece(Gathered* gathered, float4 a, float4 b, float length) {
@@ -159,7 +159,7 @@ TRI_FN void add_piece(Gathered* gathered, float4 a, float4 b, float length) {
   gathered->transmittance -= weight;
 }
 
-// What does not change from cell to cell.
+// Data that is the same for all cells.
 typedef struct {
   __constant Parameters* u;
   TRI_VOLUME volume;
@@ -187,7 +187,7 @@ TRI_FN void add_part(const Surroundings* in, Gathered* gathered, Counts* counts,
   add_piece(gathered, a, b, in->step_voxels * (end - begin) * (next - s));
 }
 
-// A cell between the times `begin` and `end`.
+// Adds a cell between the times `begin` and `end`.
 TRI_FN void add_cell(const Surroundings* in, const Way* way, int3 cell, float begin, float end,
                      Gathered* gathered, Counts* counts) {
   if (!(end > begin)) return;
@@ -220,7 +220,7 @@ TRI_FN void add_cell(const Surroundings* in, const Way* way, int3 cell, float be
   }
 }
 
-// Whether the cell's brick is visible, and the planes up to which all bricks are.
+// Whether the cell's brick is visible, and the planes up to which that holds.
 TRI_FN int look_around(__constant Parameters* u, __global const int* brick_map, const Way* way,
                        int3 cell, int3* planes) {
   int edge = u->brick_grid.w;
@@ -238,7 +238,7 @@ TRI_FN int look_around(__constant Parameters* u, __global const int* brick_map, 
 }
 
 #if TRI_PARTS
-// As in raycast.cl.
+// See raycast.cl.
 typedef struct {
   Gathered gathered;
   Counts counts;
@@ -252,7 +252,7 @@ typedef struct {
 #define TRI_PAUSES
 #endif
 
-// As the kernel of raycast.cl.
+// See the kernel in raycast.cl.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const int* brick_map, __global float4* image,
                       __global uint* counters, __global const float4* kinks TRI_PAUSES) {

@@ -1,5 +1,4 @@
-// Mirrors technique::RaycastParameters (raycast_parameters.hpp), where the meaning of each field
-// stands.
+// Has the layout of technique::RaycastParameters (raycast_parameters.hpp), which explains each field.
 typedef struct {
   real4 eye;
   real4 ray_centre;

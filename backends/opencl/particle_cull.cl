@@ -1,4 +1,4 @@
-// Cells in view, as a list that keeps their order: the test of cull.comp.glsl.
+// Makes an ordered list of the visible cells, with the test of cull.comp.glsl.
 
 TRI_FN bool beyond(float nx, float ny, float nz, const float* lo, const float* hi) {
   float lx = nx * lo[0], hx = nx * hi[0];
@@ -18,7 +18,7 @@ TRI_FN bool outside_view(const Particles* u, const __global Cell* cell) {
     lo[k] = cell->lo[k] - eye[k] - rounding;
     hi[k] = cell->hi[k] - eye[k] + rounding;
   }
-  // A pixel beyond the outermost ones, so that a sprite's margin is never cut.
+  // One pixel beyond the outermost ones, so that the margin of a sprite is never cut.
   float edge_x = u->forward.w * u->plane.x + u->plane.z;
   float edge_y = u->forward.w * u->plane.y + u->plane.w;
   float3 f = u->forward.xyz;
@@ -33,14 +33,14 @@ TRI_FN bool outside_view(const Particles* u, const __global Cell* cell) {
          beyond(yf.x - y.x, yf.y - y.y, yf.z - y.z, lo, hi);
 }
 
-// What becomes of a cell in this frame.
+// The state of a cell in this frame.
 #define TRI_NOT_DRAWN 0u
 #define TRI_DRAWN_FIRST 1u
-#define TRI_DRAWN_LATER 2u  // came into sight since the last frame
+#define TRI_DRAWN_LATER 2u  // became visible since the last frame
 #define TRI_TO_BE_TESTED 3u
 
-// One work item per cell. `culling`: 0 where the view leaves nothing out. shown[cell]: 1 where the
-// last frame found it in sight.
+// One work item per cell. `culling` is 0 if nothing outside the view is left out. shown[cell] is 1 if the cell was
+// visible in the last frame.
 __kernel void cull_cells(__global const Particles* parameters, __global const Cell* cells,
                          uint culling, __global const uint* shown, __global uint* states,
                          __global uint* counters) {
@@ -57,9 +57,8 @@ __kernel void cull_cells(__global const Particles* parameters, __global const Ce
 #endif
 }
 
-// Where the box lies on the screen: its nearest distance along the view axis, and its pixels, first
-// and last corner, widened by one to each side for rounding. False where a part of it does not lie
-// before the eye.
+// The position of the box on the screen: its nearest distance along the view axis, and its first and last pixel,
+// extended by one on each side for rounding. False if a part of it is not in front of the eye.
 TRI_FN bool box_on_screen(const Particles* u, const __global Cell* cell, float* nearest,
                           int4* pixels) {
   float size = 0.0f;
@@ -86,8 +85,8 @@ TRI_FN bool box_on_screen(const Particles* u, const __global Cell* cell, float* 
   return true;
 }
 
-// Whether all that the box may show lies strictly behind the farthest depth of every tile it
-// reaches. farthest: reversed depth per tile, 0 where a pixel of it shows nothing.
+// Whether everything that the box may show lies strictly behind the farthest depth of every tile that it reaches.
+// `farthest` contains a reversed depth for each tile, and 0 if a pixel of it shows nothing.
 TRI_FN bool occluded(const Particles* u, const __global Cell* cell,
                      __global const float* restrict farthest) {
   float nearest;
@@ -107,8 +106,8 @@ TRI_FN bool occluded(const Particles* u, const __global Cell* cell,
   return true;
 }
 
-// One work item per cell, after the first pass: which of the cells in view are in sight, and which
-// of these are still to be drawn.
+// One work item per cell, after the first pass: decides which of the cells in the view are visible, and which of
+// these must still be drawn.
 __kernel void test_cells(__global const Particles* parameters, __global const Cell* cells,
                          __global const float* restrict farthest, __global uint* shown,
                          __global uint* states, __global uint* counters) {
@@ -126,8 +125,8 @@ __kernel void test_cells(__global const Particles* parameters, __global const Ce
 #endif
 }
 
-// One work item. list[0]: how many cells follow, in their order; of those in this state every
-// stride-th.
+// One work item. list[0] is the number of cells that follow in their order: every stride-th of those with this
+// state.
 __kernel void list_cells(__global const Particles* parameters, __global const uint* states,
                          uint state, uint stride, __global uint* list) {
   uint seen = 0;

@@ -1,7 +1,7 @@
-// Rectangles of pixels, and the one around a sphere's silhouette.
+// Rectangles of pixels, and the rectangle around a sphere's silhouette.
 
-// Pixel rectangles are kept in two words: x in the lower half, y in the upper; the first corner and
-// the last, both within.
+// A rectangle of pixels is stored in two words, with x in the lower half and y in the upper: its first and its last
+// corner, both inside.
 #define TRI_EMPTY_FIRST 0x00000001u
 #define TRI_EMPTY_LAST 0u
 TRI_FN bool is_empty(uint first, uint last) {
@@ -11,8 +11,9 @@ TRI_FN uint packed(int x, int y) { return (uint)x | (uint)y << 16; }
 TRI_FN int unpacked_x(uint corner) { return (int)(corner & 0xFFFFu); }
 TRI_FN int unpacked_y(uint corner) { return (int)(corner >> 16); }
 
-// Pixels whose centres lie in [low, high] on one axis of the image plane, as first and last place
-// from its lower edge; first > last for none. `half_extent` and `pixel`: of the plane, `n` pixels.
+// The pixels whose centres lie in [low, high] on one axis of the image plane, as first and last index from its
+// lower edge; first > last if there is none. The plane has `n` pixels of size `pixel` and the half extent
+// `half_extent`.
 TRI_FN int first_pixel(float low, float half_extent, float pixel, int n) {
   float at = (low + half_extent) / pixel - 0.5f;
   at = at > 0.0f ? at : 0.0f;
@@ -26,8 +27,7 @@ TRI_FN int last_pixel(float high, float half_extent, float pixel, int n) {
   return (int)tri_floor(at);
 }
 
-// The interval that a sphere covers along one axis, with a margin of 1/64 pixel; the injected fault
-// takes 1 % off.
+// The interval that a sphere covers along one axis, with a margin of 1/64 pixel. The injected fault removes 1 %.
 TRI_FN float2 covered(float a, float z, float r, float pixel, float scale) {
   float2 bounds = tri_sphere_interval(a, z, r);
   float low = bounds.x - 0.015625f * pixel;

@@ -1,6 +1,6 @@
-// Where the entries of each bin begin, from their numbers.
+// Computes where the entries of each bin begin, from their numbers.
 
-// One work item per bin: counts become places within the bin, totals[bin] its length.
+// One work item per bin: counts become positions within the bin, and totals[bin] its length.
 __kernel void place_chunks(uint bins, uint chunks, __global uint* restrict counts,
                            __global uint* restrict totals, __global uint* restrict counters) {
   uint bin = (uint)get_global_id(0);
@@ -18,9 +18,9 @@ __kernel void place_chunks(uint bins, uint chunks, __global uint* restrict count
 #endif
 }
 
-// One work group: begins[bin] is where a bin's entries begin, begins[bins] how many there are. The
-// first item takes the last stretch of bins, so that it needs what all others find: should the
-// barrier be missing, that shows even where items run one after the other.
+// One work group. begins[bin] is the position where a bin's entries begin, and begins[bins] their number. The first
+// item processes the last range of bins, so that it needs the results of all others. If the barrier is missing,
+// this is detected even if items run one after the other.
 __kernel void place_bins(uint bins, __global const uint* restrict totals,
                          __global uint* restrict begins) {
   __local uint sums[TRI_SCAN_ITEMS];
@@ -29,7 +29,7 @@ __kernel void place_bins(uint bins, __global const uint* restrict totals,
   uint from = min(item * stretch, bins);
   uint to = min(from + stretch, bins);
 #if TRI_MISSING_BARRIER
-  // What the last frame left must not help.
+  // Results of the last frame must not hide a missing barrier.
   if (item == TRI_SCAN_ITEMS - 1) {
     for (uint other = 0; other < item; ++other) sums[other] = 0;
   }

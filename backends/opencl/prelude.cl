@@ -1,5 +1,4 @@
-// What volume_math.h needs to be OpenCL C; GLSL and C++ have their own preludes in
-// src/technique/portable/.
+// Makes volume_math.h valid OpenCL C. The preludes for GLSL and C++ are in src/technique/portable/.
 
 // a·b+c is rounded twice, as on every other backend.
 #pragma OPENCL FP_CONTRACT OFF
@@ -13,7 +12,7 @@ typedef double4 real4;
 #define TRI_REAL2(v) convert_double2(v)
 #define TRI_REAL3(v) convert_double3(v)
 #define TRI_REAL4(v) convert_double4(v)
-// An entry of the table, and a pixel: both floats.
+// Entries of the table and pixels are floats in either precision.
 #define TRI_ENTRY(v) convert_double4(v)
 #define TRI_FLOAT4(v) convert_float4(v)
 #define TRI_HIGH_WORD(x) ((int)(as_long(x) >> 32))
@@ -32,7 +31,8 @@ typedef float4 real4;
 #define TRI_FLOAT4(v) (v)
 #endif
 
-// A call in a loop keeps PoCL's compiler from vectorising it, and it inlines nothing unless told.
+// Always inlined, because a call in a loop keeps PoCL's compiler from vectorising it, and it inlines nothing by
+// itself.
 #define TRI_FN static inline __attribute__((always_inline))
 #define TRI_FLOAT2 float2
 #define TRI_MAKE_FLOAT2(x, y) ((float2)((x), (y)))
@@ -48,7 +48,7 @@ typedef float4 real4;
 #define TRI_RATIO(a, b) ((real)(a) / (real)(b))
 #define TRI_PRECISE
 
-// For |x| < 2³¹, by conversions: PoCL's floor() and ceil() are calls.
+// For |x| < 2³¹, with conversions, because PoCL's floor() and ceil() are calls.
 TRI_FN real tri_floor(real x) {
   real whole = (real)(int)x;
   return whole > x ? whole - 1.0f : whole;

@@ -1,18 +1,18 @@
 // Rays, and the runs of samples along them that lie in visible bricks.
 //
-// Skip bricks walks from brick to brick; skip distance (TRI_LEAPS) leaps over whole cubes of bricks that are all
-// visible or all invisible. A sample within rounding of a face may be given to either side: no matter for an
-// image to which invisible bricks add nothing, which is the same bit for bit with leaps, with a walk and
+// Skip bricks walks from brick to brick. Skip distance (TRI_LEAPS) leaps over whole cubes of bricks that are all
+// visible or all invisible. A sample within rounding of a face may be assigned to either side. That does not matter
+// for the image, because invisible bricks add nothing to it: it has the same bits with leaps, with a walk, and
 // without bricks.
 //
-// brick_map is that of technique::brick_map. As leaps read it: n > 0 where all bricks fewer than n away (the
-// greatest distance along any axis) are visible, n < 0 where all fewer than −n away are invisible.
+// brick_map is that of technique::brick_map. For leaps, n > 0 means that all bricks fewer than n away (the largest
+// distance along any axis) are visible, and n < 0 that all bricks fewer than −n away are invisible.
 
 typedef struct {
-  real3 p0;    // where the ray enters the box, voxels
-  real3 g;     // one step, voxels
-  real3 d;     // unit direction, world
-  real steps;  // length inside the box, steps
+  real3 p0;    // where the ray enters the box, in voxels
+  real3 g;     // one step, in voxels
+  real3 d;     // unit direction in world space
+  real steps;  // length inside the box, in steps
 } Ray;
 
 TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {
@@ -20,7 +20,7 @@ TRI_FN Ray make_ray(__constant Parameters* u, int2 pixel) {
   real3 d = u->ray_centre.xyz + ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz;
   d = d / sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
   real3 v = d * u->inverse_spacing.xyz;
-  // Where the ray begins: on a plane between eye and box where that is far away, else at the eye.
+  // The ray begins on a plane between eye and box if the eye is far away, else at the eye.
   real3 origin = u->eye.xyz + (u->value_map.z * (ndc.x * u->ray_right.xyz - ndc.y * u->ray_up.xyz)) *
                                    u->inverse_spacing.xyz;
   real2 x = tri_slab(origin.x, v.x, (real)u->volume_size.x);
@@ -41,21 +41,22 @@ TRI_FN int cell_is_here(__constant Parameters* u, int cell) {
   return cell >= u->part.x && cell < u->part.y;
 }
 
-// Whether the voxels around the ray, so many steps along, are those of the part: of the cell that fetch() reads.
+// Whether the voxels around the ray, `along` steps from its beginning, belong to this part: those of the cell that
+// fetch() reads.
 TRI_FN int is_here(__constant Parameters* u, const Ray* ray, real along) {
   real z = ray->p0.z + along * ray->g.z;
   return cell_is_here(u, (int)clamp_coordinate(z + 0.5f, (real)u->volume_size.z));
 }
 #endif
 
-// Whether there is anything to skip; leaps see at a glance that a volume is full.
+// Whether there is anything to skip. Leaps see at once that a volume is full.
 TRI_FN int skips(__constant Parameters* u, __global const int* brick_map) {
   int4 grid = u->brick_grid;
-  int full = max(grid.x, max(grid.y, grid.z));  // what leaps are told of a volume without empty bricks
+  int full = max(grid.x, max(grid.y, grid.z));  // what the map contains for a volume without empty bricks
   return TRI_LEAPS == 1 ? grid.w > 0 && brick_map[0] < full : grid.w > 0;
 }
 
-// What a counting build counts along a ray; the others drop it.
+// The counts of a counting build along a ray; other builds drop them.
 typedef struct {
   uint samples;
   uint nonzero;
@@ -64,7 +65,7 @@ typedef struct {
   uint terminated;
 } Counts;
 
-// What a kernel leaves for a pixel, in the order of technique::raycast_counters.
+// Writes the counts of a pixel, in the order of technique::raycast_counters.
 TRI_FN void store_counts(__global uint* to, const Counts* counts, int hit, uint saved) {
   to[0] = (uint)hit;
   to[1] = counts->samples;
@@ -75,7 +76,7 @@ TRI_FN void store_counts(__global uint* to, const Counts* counts, int hit, uint 
   to[6] = saved;
 }
 
-// What a ray has gathered so far.
+// The light that a ray has gathered so far.
 typedef struct {
   real4 sum;  // premultiplied colour; w is not used
   real transmittance;
@@ -83,16 +84,16 @@ typedef struct {
 
 #if !TRI_LEAPS
 
-// A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed
-// from the brick's index, not accumulated, so that they do not drift.
+// A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed from the brick's
+// index and not accumulated, so that they do not drift.
 typedef struct {
   int3 brick;
   int3 direction;  // −1 or +1 per axis
   real3 inverse_g;
-  real leave;  // where the ray leaves the brick, steps
-  int axis;     // through which face
-  int outside;  // rounding led out of the grid: the rest of the ray is taken as visible
-  int merged;   // whether the run found last is one of samples to be merged
+  real leave;  // where the ray leaves the brick, in steps
+  int axis;     // the face's axis
+  int outside;  // rounding led out of the grid: the rest of the ray counts as visible
+  int merged;   // whether the samples of the last run are to be merged
 } Walk;
 
 TRI_FN void aim(__constant Parameters* u, Walk* walk, const Ray* ray) {
@@ -126,10 +127,10 @@ TRI_FN void next_brick(__constant Parameters* u, Walk* walk, const Ray* ray) {
   aim(u, walk, ray);
 }
 
-// Of the walk's brick: technique::BrickKind.
+// The technique::BrickKind of the walk's brick.
 #define KIND_INVISIBLE 0
 #define KIND_SAMPLED 1
-#define KIND_MERGED 2  // and beyond
+#define KIND_MERGED 2  // and above
 TRI_FN int kind(__constant Parameters* u, __global const int* brick_map, const Walk* walk) {
   if (walk->outside) return KIND_SAMPLED;
   int index = walk->brick.x +
@@ -137,15 +138,15 @@ TRI_FN int kind(__constant Parameters* u, __global const int* brick_map, const W
   return brick_map[index];
 }
 
-// The first sample at or behind `limit` that lies beyond the brick. A sample within rounding of the
-// face may be counted to either side: the brick's border of one voxel covers half a voxel of error.
+// The first sample at or after `limit` that lies beyond the brick. A sample within rounding of the face may be
+// assigned to either side, because the brick's border of one voxel covers half a voxel of error.
 TRI_FN int samples_before(const Walk* walk, int limit) {
   if (walk->outside || !(walk->leave < (real)limit)) return limit;
   return clamp((int)tri_ceil(walk->leave - 0.5f), 0, limit);
 }
 
-// Narrows [begin, end) to the next run of visible bricks of one kind at or after begin; empty at the
-// end of the ray. A brick of kind KIND_MERGED itself is a run of its own.
+// Narrows [begin, end) to the next run of visible bricks of one kind at or after begin; empty at the end of the
+// ray. A brick of kind KIND_MERGED itself is a run of its own.
 TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_map, Walk* walk,
                      const Ray* ray, int begin, int end, Counts* counts) {
   int here = kind(u, brick_map, walk);
@@ -170,15 +171,15 @@ TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_map, Wa
 
 #else
 
-// What leaps need to know of a ray.
+// The data of a ray that leaps need.
 typedef struct {
-  real3 p0;  // where the ray enters, from where the bricks begin (technique::BrickLayout::of_cells)
+  real3 p0;  // where the ray enters, relative to where the bricks begin (technique::BrickLayout::of_cells)
   real3 inverse_g;
-  real edge;  // of a brick, voxels
+  real edge;  // of a brick, in voxels
   real inverse_edge;
 } Walk;
 
-// A ray that runs along a face takes 10²⁰ steps to the next: never, without dividing by zero.
+// A ray that runs along a face takes 10²⁰ steps to the next one, which means never, without a division by zero.
 TRI_FN real inverse_step(real g) {
   return 1.0f / (fabs(g) > 1.0e-20f ? g : 1.0e-20f);
 }
@@ -198,14 +199,14 @@ TRI_FN int brick_at(real p, real inverse_edge, int bricks) {
   return brick < 0 ? 0 : (brick < bricks ? brick : bricks - 1);
 }
 
-// Where a ray leaves the bricks fewer than `reach` away from `brick` along one axis, steps.
+// Where a ray leaves the bricks fewer than `reach` away from `brick` along one axis, in steps.
 TRI_FN real crossing(real p0, real inverse_g, real edge, int brick, int reach) {
   int face = inverse_g < 0.0f ? brick - reach + 1 : brick + reach;
   return ((real)face * edge - p0) * inverse_g;
 }
 
-// The first sample after the i-th that lies beyond the cube of bricks that are like that of the
-// i-th; `end` at most. Each leap starts from its sample's own position: nothing drifts.
+// The first sample after the i-th one that lies beyond the cube of bricks of the same kind, and at most `end`. Each
+// leap starts from its sample's own position, so nothing drifts.
 TRI_FN int leap(__constant Parameters* u, __global const int* brick_map, const Walk* walk,
                 const Ray* ray, int i, int end, int* visible) {
   real along = (real)i + 0.5f;
@@ -239,7 +240,7 @@ TRI_FN int2 next_run(__constant Parameters* u, __global const int* brick_map, Wa
     counts->bricks_skipped += !visible;
   }
   if (!visible) return (int2)(end, end);
-  // On to the next invisible brick, so that no count depends on the batch.
+  // Continues to the next invisible brick, so that no count depends on the batch.
   while (visible && stop < end) {
     int beyond = leap(u, brick_map, walk, ray, stop, end, &visible);
     counts->bricks_visited += visible;

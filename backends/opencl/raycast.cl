@@ -1,15 +1,15 @@
-// Front-to-back raycasting, one ray per work item: the algorithm of
-// src/technique/volume/raycast/raycast.glsl. Positions are in voxels, lengths along the ray in
-// steps: sample i stands at p0 + (i+½)·g.
+// Front-to-back raycasting, one ray per work item. The algorithm is that of
+// src/technique/volume/raycast/raycast.glsl. Positions are in voxels, lengths along the ray in steps: sample i is
+// at p0 + (i+½)·g.
 //
-// A batch is fetched and classified whole and composited sample by sample, so a ray may fetch a few
-// samples beyond its end; what is composited and counted is the same for every size of the batch.
+// A batch is fetched and classified as a whole and composited sample by sample. A ray may therefore fetch a few
+// samples beyond its end, but what is composited and counted is the same for every size of the batch.
 //
 // Compile-time constants: TRI_SHADING, TRI_COUNT, TRI_SPEED_OF_LIGHT, TRI_PREINTEGRATED
 // (technique::preintegration_form), TRI_LEAPS, TRI_ADAPT, and those of volume.cl.
 //
-// With TRI_PARTS a pass takes what lies in the part of the volume that the device holds, and leaves the ray
-// as it was left.
+// With TRI_PARTS a pass processes what lies in the part of the volume that the device stores, and continues rays
+// where the previous pass stopped.
 
 // Colours and opacities per voxel length of n values, linear between the table's 256 entries.
 TRI_FN void classify(__constant float4* table, const real* value, int n, real4* colour,
@@ -30,7 +30,7 @@ TRI_FN void classify(__constant float4* table, const real* value, int n, real4* 
   }
 }
 
-// Composites the first n of the samples that begin with the i-th; 1 where the ray ends among them.
+// Composites the first n samples, beginning with the i-th; returns 1 if the ray ends among them.
 TRI_FN int composite(__constant Parameters* u, TRI_VOLUME volume, const Ray* ray, int i, int n,
                      const real4* colour, const real* alpha, Gathered* gathered,
                      Counts* counts) {
@@ -68,7 +68,7 @@ TRI_FN int composite(__constant Parameters* u, TRI_VOLUME volume, const Ray* ray
   return 0;
 }
 
-// Takes the n samples from the i-th on; 1 where the ray ends among them.
+// Processes n samples from the i-th on; returns 1 if the ray ends among them.
 TRI_FN int take_batch(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       const Ray* ray, int i, int n, Gathered* gathered, Counts* counts) {
   int lanes = TRI_WHOLE_VECTORS(n);
@@ -94,9 +94,9 @@ TRI_FN int take_batch(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 }
 
 #if TRI_ADAPT
-// Takes the samples from the i-th on and before `stop` as one in the middle of their way
-// (technique::brick_kinds), but not before the first of them, which may be the ray's last and stand
-// for little; 1 where the ray ends there.
+// Processes the samples from the i-th on and before `stop` as one sample in the middle of their way
+// (technique::brick_kinds), but not before the first of them, which may be the ray's last and partial sample.
+// Returns 1 if the ray ends there.
 TRI_FN int take_merged(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                        const Ray* ray, int i, int stop, Gathered* gathered, Counts* counts) {
   real begin = (real)i;
@@ -129,10 +129,10 @@ TRI_FN int take_merged(__constant Parameters* u, TRI_VOLUME volume, __constant f
 #endif
 
 #if TRI_PREINTEGRATED
-// Steps per batch: one value more than steps is fetched.
+// Steps per batch. One more value than steps is fetched.
 #define TRI_STEPS_PER_BATCH (TRI_BATCH > 1 ? TRI_BATCH - 1 : 1)
 
-// Takes the n steps from the i-th on; 1 where the ray ends among them.
+// Processes n steps from the i-th on; returns 1 if the ray ends among them.
 TRI_FN int take_steps(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const float4* pairs, const Ray* ray, int i, int n,
                       Gathered* gathered, Counts* counts) {
@@ -177,18 +177,18 @@ TRI_FN int take_steps(__constant Parameters* u, TRI_VOLUME volume, __constant fl
 #endif
 
 #if TRI_PARTS
-// What a ray is to go on with in the next part of the volume.
+// The state of a ray that continues in the next part of the volume.
 typedef struct {
   Gathered gathered;
   Counts counts;
   Walk walk;
   int i;     // the next sample
-  int stop;  // the end of the run that it lies in
+  int stop;  // the end of its run
   int ended;
 } Pause;
 #define TRI_PAUSES , __global Pause* pauses
 
-// Whether what is taken at i lies in the part: a sample, a step, or the middle of a run to be merged.
+// Whether the position at i lies in the part: a sample, a step, or the middle of a run to be merged.
 TRI_FN int next_is_here(__constant Parameters* u, const Ray* ray, const Walk* walk, int i, int stop) {
   real along = (real)i + (TRI_PREINTEGRATED ? 0.0f : 0.5f);
 #if TRI_ADAPT
@@ -198,7 +198,7 @@ TRI_FN int next_is_here(__constant Parameters* u, const Ray* ray, const Walk* wa
   return is_here(u, ray, along);
 }
 
-// How many of the n samples from the i-th on lie in the part.
+// The number of the n samples from the i-th on that lie in the part.
 TRI_FN int samples_here(__constant Parameters* u, const Ray* ray, int i, int n) {
   real place = TRI_PREINTEGRATED ? 0.0f : 0.5f;
   while (n > 0 && !is_here(u, ray, (real)(i + n - 1) + place)) --n;
@@ -208,8 +208,8 @@ TRI_FN int samples_here(__constant Parameters* u, const Ray* ray, int i, int n) 
 #define TRI_PAUSES
 #endif
 
-// Image: premultiplied RGBA, top row first. Column x of the grid is
-// image column tri_drawn_column(x): x itself for the picture, others beside it for injected extra work.
+// The image is premultiplied RGBA, top row first. Column x of the grid is image column tri_drawn_column(x): x
+// itself for the image, and others beside it for injected extra work.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const int* brick_map, __global float4* image,
                       __global uint* counters, __global const float4* pairs TRI_PAUSES) {

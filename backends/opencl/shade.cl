@@ -1,4 +1,4 @@
-// Headlight shading (scene::Shading) of a colour at p: d is the world direction of the ray.
+// Headlight shading (scene::Shading) of a colour at p; d is the world direction of the ray.
 TRI_FN real4 shade(__constant Parameters* u, TRI_VOLUME volume, real4 colour, real3 p,
                     real3 d) {
   Positions at;

@@ -1,6 +1,6 @@
-// What the shared particle GLSL needs to be Vulkan: one descriptor set, compile-time constants as
-// specialization constants (particle_data.hpp: ParticleConstants). TRI_COUNT, TRI_DEPTH_PROMISE and the
-// macros that choose between shapes are set when the SPIR-V is built.
+// Makes the shared particle GLSL valid for Vulkan: one descriptor set, and compile-time constants as specialization
+// constants (particle_data.hpp: ParticleConstants). TRI_COUNT, TRI_DEPTH_PROMISE and the macros that select shapes
+// are set when the SPIR-V is built.
 #define TRI_BINDING(n) layout(set = 0, binding = n)
 #define TRI_LINK(n) layout(location = n)
 layout(constant_id = 0) const int TRI_COLOUR = 0;

@@ -1,5 +1,4 @@
-// A particle's colour on its way to the pixel. Until resolve_colour, intensity travels in the first
-// component.
+// A particle's colour on its way to the pixel. Before resolve_colour, intensity is in the first component.
 
 // Linear between entry centres, constant outside them.
 vec4 transfer_colour(float intensity) {

@@ -1,7 +1,7 @@
-// Vertex stage of point sprites: the square around the part of the silhouette that lies in the viewport.
-// Spheres that need a larger square than the device draws are left to a second draw, as screen-aligned
-// quads (point_large.vert.glsl). TRI_POINT_MARGIN: pixels to add for a device whose points fall short of
-// their square. TRI_LARGEST_POINT: the device's largest point, in pixels, less this margin.
+// Vertex stage of point sprites: the square around the part of the silhouette that lies in the viewport. Spheres
+// that need a larger square than the device can draw are left to a second draw, as screen-aligned quads
+// (point_large.vert.glsl). TRI_POINT_MARGIN: pixels to add for a device whose points are smaller than their square.
+// TRI_LARGEST_POINT: the device's largest point in pixels, without this margin.
 layout(location = 0) in vec4 sphere;
 layout(location = 1) in vec4 colour;
 layout(location = 2) in uint id;
@@ -15,7 +15,7 @@ void main() {
   sprite_sphere = camera_space(sphere);
   sprite_colour = colour_at_vertex(colour);
   sprite_id = id;
-  sprite_ray = vec3(0.0, 0.0, 1.0);  // a point has one vertex: its rays are made per pixel
+  sprite_ray = vec3(0.0, 0.0, 1.0);  // a point has one vertex, so its rays are computed per pixel
   vec2 low;
   vec2 high;
   image_bounds(sprite_sphere, low, high);

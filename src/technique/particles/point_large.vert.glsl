@@ -1,6 +1,6 @@
-// Vertex stage of the second draw of point sprites: the rectangle around the part of the silhouette that lies
-// in the viewport for the spheres that need a larger square than the device's largest point, and nothing for
-// the others. TRI_PARTICLE, TRI_CORNER: as in quad_instanced.vert.glsl.
+// Vertex stage of the second draw of point sprites. For spheres that need a larger square than the device's largest
+// point, it makes the rectangle around the part of the silhouette that lies in the viewport; for the others
+// nothing. TRI_PARTICLE, TRI_CORNER: as in quad_instanced.vert.glsl.
 TRI_LINK(0) flat out vec4 sprite_sphere;
 TRI_LINK(1) flat out vec4 sprite_colour;
 TRI_LINK(2) flat out uint sprite_id;

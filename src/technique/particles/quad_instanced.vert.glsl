@@ -1,4 +1,4 @@
-// Vertex stage without a vertex buffer. TRI_PARTICLE: the particle by the instance, its base counted in;
+// Vertex stage without a vertex buffer. TRI_PARTICLE: the particle of the instance, including the base instance.
 // TRI_CORNER: 0…3 of a triangle strip.
 TRI_LINK(0) flat out vec4 sprite_sphere;
 TRI_LINK(1) flat out vec4 sprite_colour;

@@ -1,8 +1,8 @@
-// The pixel stage of every sprite technique: the ray through this pixel against the sphere.
-// TRI_DEPTH_PROMISE, where it is defined: what conservative depth may rely on. Depth is reversed and the
-// surface lies behind the sprite, so the layout is that of depths less than the sprite's; the opposite one is a
+// The pixel stage of every sprite technique: intersects the ray through this pixel with the sphere.
+// TRI_DEPTH_PROMISE, if it is defined, is what conservative depth may rely on. Depth is reversed and the surface
+// lies behind the sprite, so the layout qualifier is that for depths less than the sprite's; the opposite one is an
 // injected fault.
-TRI_LINK(0) flat in vec4 sprite_sphere;  // camera space
+TRI_LINK(0) flat in vec4 sprite_sphere;  // in camera space
 TRI_LINK(1) flat in vec4 sprite_colour;
 TRI_LINK(2) flat in uint sprite_id;
 TRI_LINK(3) in vec3 sprite_ray;

@@ -1,10 +1,10 @@
-// Sprites of all techniques: a centre's frame, and from it the corners in clip space. Depth is reversed with
-// an infinite far plane: clip z is `near` everywhere, so that z/w = near/distance, and nothing that matters
-// is nearer than `near`. Rows are counted from the top as Vulkan does: clip y points down.
+// Sprites of all techniques: the frame of a centre, and from it the corners in clip space. Depth is reversed with
+// an infinite far plane: clip z is `near` everywhere, so that z/w = near/distance, and nothing visible is nearer
+// than `near`. Rows are counted from the top as in Vulkan, so clip y points down.
 
 struct Corner {
-  vec4 position;  // clip space
-  vec3 ray;       // a point on the ray through the corner, camera space
+  vec4 position;  // in clip space
+  vec3 ray;       // a point on the ray through the corner, in camera space
 };
 
 Corner corner_at(vec3 place) {
@@ -18,11 +18,11 @@ Corner corner_on_image(vec2 low, vec2 high, vec2 side, float distance) {
                 vec3(place, 1.0));
 }
 
-// No pixel: every corner at one place outside the view.
+// Covers no pixel, because every corner is at one place outside the view.
 Corner nowhere() { return Corner(vec4(2.0, 2.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0)); }
 
-// The part of the image plane that a sphere covers, with a margin of 1/64 pixel, within the viewport.
-// low > high: none. The injected fault takes 1 % off.
+// The part of the image plane that a sphere covers, with a margin of 1/64 pixel, inside the viewport; low > high if
+// there is none. The injected fault removes 1 %.
 void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   vec2 x = tri_sphere_interval(sphere.x, sphere.z, sphere.w);
   vec2 y = tri_sphere_interval(sphere.y, sphere.z, sphere.w);
@@ -38,14 +38,14 @@ void image_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   high = min(end, u.plane.xy);
 }
 
-// Size in pixels of the square point around these bounds.
+// The size in pixels of the square point around these bounds.
 float point_size(vec2 low, vec2 high) {
   vec2 pixels = (high - low) / u.plane.zw;
   return max(pixels.x, pixels.y);
 }
 
-// Where the paper's screen-aligned quad lies: the rectangle around the silhouette where there is one, the
-// whole viewport for a sphere that reaches the plane of the eye. low > high: nowhere.
+// The place of the paper's screen-aligned quad: the rectangle around the silhouette if it exists, else the whole
+// viewport for a sphere that reaches the plane of the eye; low > high if there is none.
 void screen_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   image_bounds(sphere, low, high);
   if (tri_eye_plane(sphere.z, sphere.w) == 1) {
@@ -54,8 +54,8 @@ void screen_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   }
 }
 
-// Of a rectangle at the depth of the sphere's front. TRI_SPRITE_GROWTH: pixels more on each side, for
-// devices that move vertices to a coarse grid.
+// A corner of a rectangle at the depth of the sphere's front. TRI_SPRITE_GROWTH: additional pixels on each side,
+// for devices with a coarse vertex grid.
 Corner front_corner(vec4 sphere, vec2 low, vec2 high, vec2 side) {
   if (TRI_SPRITE_GROWTH > 0.0) {
     low -= TRI_SPRITE_GROWTH * u.plane.zw;
@@ -65,10 +65,10 @@ Corner front_corner(vec4 sphere, vec2 low, vec2 high, vec2 side) {
   return corner_on_image(low, high, side, max(front, u.eye.w));
 }
 
-// The frame in which a ray-aligned sprite lies: across the ray to the centre, just before the sphere.
+// The frame of a ray-aligned sprite: perpendicular to the ray through the centre, just in front of the sphere.
 struct Frame {
   vec3 centre;
-  vec3 right;  // of the length of the sprite's radius
+  vec3 right;  // its length is the radius of the sprite
   vec3 up;
   int everywhere;  // 1: the sprite is the whole viewport
 };
@@ -81,7 +81,7 @@ Frame sprite_frame(vec4 sphere) {
   vec3 right = normalize(cross(v, reference));
   float plane = tri_sprite_plane(d, sphere.w);
   float radius = tri_sprite_radius(d, sphere.w, plane, max(u.plane.z, u.plane.w), u.eye_rest.w);
-  if (TRI_SPRITE_GROWTH > 0.0) {  // a pixel at this depth is at least so large anywhere on the plane
+  if (TRI_SPRITE_GROWTH > 0.0) {  // a pixel at this depth is at least this large anywhere on the plane
     radius += TRI_SPRITE_GROWTH * max(u.plane.z, u.plane.w) * max(sphere.z, 0.0);
   }
   return Frame(v * plane, radius * right, radius * cross(right, v), tri_surrounds(d2, sphere.w));
@@ -93,8 +93,8 @@ Corner quad_corner(Frame frame, vec2 side) {
   return corner_at(frame.centre + side.x * frame.right + side.y * frame.up);
 }
 
-// The k-th of n ≥ 4 corners of the polygon around the circle. Where the sprite is the whole viewport, they
-// are its four corners, the last one again and again.
+// The k-th of n ≥ 4 corners of the polygon around the circle. If the sprite is the whole viewport, these are its
+// four corners, with the last one repeated.
 Corner polygon_corner(Frame frame, int k, int n) {
   if (frame.everywhere == 1) {
     vec2 side = vec2(k == 0 || k >= 3 ? -1.0 : 1.0, k < 2 ? -1.0 : 1.0);

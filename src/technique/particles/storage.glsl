@@ -1,8 +1,8 @@
-// Particles as storage buffers, for the techniques without a vertex buffer, and their cells. Whoever fetches
-// the words of colours otherwise says so by TRI_COLOUR_WORD(n).
+// Particles as storage buffers, for the techniques without a vertex buffer, and their cells. Define
+// TRI_COLOUR_WORD(n) to fetch the words of colours in another way.
 #ifndef TRI_COLOUR_WORD
 layout(std430) TRI_BINDING(3) readonly buffer Spheres { vec4 spheres[]; };
-layout(std430) TRI_BINDING(4) readonly buffer Colours { uint colour_words[]; };  // 1 or 4 per particle
+layout(std430) TRI_BINDING(4) readonly buffer Colours { uint colour_words[]; };  // 1 or 4 words per particle
 layout(std430) TRI_BINDING(5) readonly buffer Ids { uint ids[]; };
 #define TRI_COLOUR_WORD(n) colour_words[n]
 #endif

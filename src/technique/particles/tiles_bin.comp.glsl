@@ -1,17 +1,17 @@
-// One work group per cell, one invocation per particle: small spheres are drawn, large ones counted.
+// One work group per cell, one invocation per particle: small spheres are drawn, large ones are counted.
 layout(local_size_x = 64) in;
 TRI_BINDING(17) uniform samplerBuffer sphere_texels;
 layout(std430) TRI_BINDING(12) readonly buffer CellEnds { uint cell_ends[]; };
 
-// Raises the depth of the pixels that the sphere covers; whether any of them now shows it, or might.
-// One loop over all pixels of the rectangle: loops within loops wait for the longest of every row.
+// Raises the depth of the pixels that the sphere covers. Returns whether any of them shows it now, or might. There
+// is one loop over all pixels of the rectangle, because nested loops would wait for the longest row each time.
 bool draw_small(vec4 sphere, ivec4 rectangle, int count) {
   bool seen = false;
   ivec2 pixel = rectangle.xy;
   int right = rectangle.x + rectangle.z;
   for (int i = 0; i < count; ++i) {
     uint key = sphere_key(sphere, pixel_ray(pixel));
-    if (key > 0u && key >= depth_seen(pixel)) {  // or what it was a moment ago
+    if (key > 0u && key >= depth_seen(pixel)) {  // or its value a moment ago
       atomicMax(pixels[pixel_index(pixel)], key);
       seen = true;
     }
@@ -21,7 +21,7 @@ bool draw_small(vec4 sphere, ivec4 rectangle, int count) {
   return seen;
 }
 
-// Counts an entry for each tile in which something may lie behind the sphere; whether there is one.
+// Counts an entry for each tile that may show something behind the sphere. Returns whether there is one.
 bool count_large(uint front, ivec4 rectangle, int count) {
   ivec2 first = rectangle.xy / TRI_TILE;
   int columns = (rectangle.x + rectangle.z - 1) / TRI_TILE - first.x + 1;
@@ -42,7 +42,7 @@ bool count_large(uint front, ivec4 rectangle, int count) {
   return entered;
 }
 
-// Once: threads would fight for the line that others read from.
+// Only once, because threads would contend for the cache line that others read from.
 void use_tiles(ivec4 rectangle) {
   ivec4 around = tiles_around(rectangle);
   for (int k = 0; k < 4; ++k) {
@@ -59,7 +59,8 @@ void bin(uint particle) {
   bool small = covers && is_small(rectangle);
   int pixel_count = small && front >= farthest_around(rectangle) ? rectangle.z * rectangle.w : 0;
   ivec2 tile_span = (rectangle.xy + rectangle.zw - 1) / TRI_TILE - rectangle.xy / TRI_TILE + 1;
-  // Whether it is seen or not, which hangs on what else was drawn a moment ago: so that work repeats.
+  // This does not depend on whether the sphere is visible, which depends on what else was drawn a moment ago. The
+  // work therefore repeats.
   if (pixel_count > 0) use_tiles(rectangle);
   int tile_count = covers && !small ? tile_span.x * tile_span.y : 0;
   bool seen = draw_small(sphere, rectangle, pixel_count);

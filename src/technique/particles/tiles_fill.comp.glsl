@@ -1,8 +1,8 @@
 // Puts each large sphere of the round into the tiles for which tiles_bin counted it.
 layout(local_size_x = 64) in;
 
-// An entry: the particle, and above it a bit for each quarter of the tile that the sphere may reach. Particles of one
-// storage buffer have fewer bits.
+// An entry consists of the particle and, above it, one bit for each quarter of the tile that the sphere may reach.
+// The particles of one storage buffer need fewer bits than that.
 uint entry(uint particle, ivec4 rectangle, ivec2 tile) {
   ivec2 low = rectangle.xy - TRI_TILE * tile;
   ivec2 high = low + rectangle.zw - 1;

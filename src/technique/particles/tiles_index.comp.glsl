@@ -1,4 +1,4 @@
-// When all depths are known: the first of the small spheres at each pixel's depth.
+// When all depths are known, this pass finds the first of the small spheres at each pixel's depth.
 layout(local_size_x = 64) in;
 
 void main() {

@@ -1,5 +1,5 @@
-// One invocation per tile: whether it is drawn into in this round, and a place for its entries. Their order among tiles
-// means nothing.
+// One invocation per tile: decides whether it is drawn into in this round, and assigns its entries a place. Their
+// order among tiles is arbitrary.
 layout(local_size_x = 64) in;
 
 void list_tile(uint index) {

@@ -1,16 +1,16 @@
-// The nearest that was drawn into this pixel, small or large, and its colour.
+// The nearest particle that was drawn into this pixel, small or large, and its colour.
 TRI_BINDING(19) uniform usamplerBuffer id_texels;
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out uint out_id;
 
 struct Shown {
-  uvec2 keys;  // of depth and particle
+  uvec2 keys;  // depth and particle
   vec4 sphere;
 };
 
 bool is_nearer(uvec2 a, uvec2 b) { return a.x > b.x || (a.x == b.x && a.y < b.y); }
 
-// What tiles_bin, tiles_index and tiles_resolve found.
+// The result of tiles_bin, tiles_index and tiles_resolve.
 Shown found(ivec2 pixel) {
   int place = pixel_index(pixel);
   uvec2 keys = uvec2(0u, TRI_NO_PARTICLE);
@@ -28,8 +28,8 @@ Shown found(ivec2 pixel) {
   return Shown(keys, texelFetch(camera_texels, int(particle)));
 }
 
-// With the tile's few entries, where no pass has drawn them. All of them: one that does not reach this quarter covers
-// nothing here. The loop asks at its end, as next_entry() does.
+// Adds the tile's few entries if no pass has drawn them. It tests all of them; one that does not reach this quarter
+// covers nothing here. The loop's condition is at its end, as in next_entry().
 Shown with_entries(Shown shown, ivec2 pixel) {
   vec2 s = pixel_ray(pixel);
   uvec4 state = tile_state(tile_index(pixel / TRI_TILE));

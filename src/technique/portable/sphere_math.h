@@ -1,12 +1,12 @@
-// Sphere maths in the common subset of C++, GLSL and OpenCL C, as volume_math.h. Everything is in camera
-// space: x right, y up, z the distance along the view axis, and (sx, sy) is the place on the image plane
-// z = 1 that a ray goes through, so that its direction is (sx, sy, 1).
+// Sphere maths in the common subset of C++, GLSL and OpenCL C, like volume_math.h. Everything is in camera space: x
+// to the right, y up, z the distance along the view axis. (sx, sy) is the point on the image plane z = 1 that a ray
+// goes through, so that its direction is (sx, sy, 1).
 
 // ---- From world to camera space -------------------------------------------------------------------
-// A centre's camera coordinate is axis·(P − eye). In plain floats it errs by the rounding of the *largest*
-// product, which at a narrow field of view is more than a pixel. Here products and sums carry their
-// rounding errors along (Dekker 1971; Ogita, Rump, Oishi 2005: Dot2), so that the result is as if computed
-// in twice the precision and then rounded. Axis and eye come in two floats each: the nearest, and the rest.
+// A centre's camera coordinate is axis·(P − eye). In plain floats it has the rounding error of the *largest*
+// product, which for a narrow field of view is more than a pixel. Here products and sums carry their rounding
+// errors along (Dekker 1971; Ogita, Rump, Oishi 2005: Dot2), so that the result is as if computed in twice the
+// precision and then rounded. Axis and eye consist of two floats each: the nearest float, and the rest.
 
 TRI_FN float tri_sum_error(float a, float b, float sum) {
   TRI_PRECISE float part = sum - a;
@@ -57,16 +57,16 @@ TRI_FN float tri_along_axis(float px, float py, float pz, float ex, float ey, fl
 }
 
 // ---- Ray and sphere -------------------------------------------------------------------------------
-// (c, r) against the ray through (sx, sy): with q = |d|² and m = c × d, the ray passes the centre at the
-// distance |m|/√q. The cross product keeps the precision that b² − |c|² + r² loses: every term of m is as
-// small as the distance from the image's centre that it stands for.
+// (c, r) is intersected with the ray through (sx, sy). With q = |d|² and m = c × d, the ray passes the centre at
+// the distance |m|/√q. The cross product keeps the precision that b² − |c|² + r² loses, because every term of m is
+// as small as the distance from the image's centre that it stands for.
 
 TRI_FN float tri_ray_square(float sx, float sy) {
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
   return q;
 }
 
-// r²·q − |m|²: negative, or NaN, where the ray misses.
+// r²·q − |m|², which is negative or NaN if the ray misses.
 TRI_FN float tri_sphere_discriminant(float cx, float cy, float cz, float r, float sx, float sy) {
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
   TRI_PRECISE float mx = cy - cz * sy;
@@ -76,8 +76,8 @@ TRI_FN float tri_sphere_discriminant(float cx, float cy, float cz, float r, floa
   return discriminant;
 }
 
-// Distance along the view axis of the first surface point in front of the eye, for a discriminant ≥ 0: the
-// entry, or the exit where the entry lies behind. Not positive where the whole sphere lies behind.
+// The distance along the view axis of the first surface point in front of the eye, for a discriminant ≥ 0: the
+// entry, or the exit if the entry is behind the eye. Not positive if the whole sphere is behind.
 TRI_FN float tri_sphere_distance(float cx, float cy, float cz, float sx, float sy, float discriminant) {
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
   TRI_PRECISE float b = cx * sx + cy * sy + cz;
@@ -88,24 +88,24 @@ TRI_FN float tri_sphere_distance(float cx, float cy, float cz, float sx, float s
   return distance;
 }
 
-// Cosine between the surface normal and the ray, |n·d|.
+// The cosine between the surface normal and the ray, |n·d|.
 TRI_FN float tri_sphere_cosine(float r, float sx, float sy, float discriminant) {
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
   TRI_PRECISE float cosine = TRI_SQRT(discriminant / q) / r;
   return cosine < 1.0f ? cosine : 1.0f;
 }
 
-// Reversed depth near/Z, 1 for what lies before `near`.
+// Reversed depth near/Z, and 1 for everything nearer than `near`.
 TRI_FN float tri_depth(float near, float distance) {
   TRI_PRECISE float depth = near / distance;
   return depth < 1.0f ? depth : 1.0f;
 }
 
 // ---- Where a sphere lies on the image plane -------------------------------------------------------
-// Exact bounds along one axis (Mara and McGuire 2013): the sphere's silhouette lies between the two
-// tangents in the plane of that axis and the view axis, at the angles φ ± β with φ = atan2(a, z),
-// sin β = r/√(a² + z²); of them the part within (−90°, 90°) is in front of the eye. Returns (low, high),
-// ±3e38 for no bound, low > high for nothing in front. Precise, as one kernel counts what another writes.
+// Exact bounds along one axis (Mara and McGuire 2013). The sphere's silhouette lies between the two tangents in the
+// plane of that axis and the view axis, at the angles φ ± β with φ = atan2(a, z) and sin β = r/√(a² + z²). The part
+// within (−90°, 90°) is in front of the eye. Returns (low, high), ±3e38 for no bound, and low > high if nothing is
+// in front. Precise, because one kernel counts what another one writes.
 TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
   const float huge = 3.0e38f;
   float side = a < 0.0f ? 0.0f - a : a;  // by symmetry the axis points to the sphere's side
@@ -120,46 +120,47 @@ TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
     high = high_z > 0.0f ? (side * k + z * r) / high_z : huge;
     if (low_z <= 0.0f) high = 0.0f - huge;
   }
-  // By component: a choice between vectors keeps loops from being vectorised.
+  // By component, because a choice between vectors keeps loops from being vectorised.
   float first = a < 0.0f ? 0.0f - high : low;
   float second = a < 0.0f ? 0.0f - low : high;
   return TRI_MAKE_FLOAT2(first, second);
 }
 
-// Whether a sphere reaches the plane through the eye that is parallel to the image, or comes so near that
-// its projection grows beyond bounds. The paper's screen-aligned quad, a rectangle around projected tangent
-// points, does not exist for it: it is then the whole viewport, which is what makes that technique costly
-// among near spheres. -1: wholly behind that plane; 1: reaches it; 0: before it.
+// Whether a sphere reaches the plane through the eye that is parallel to the image, or comes so close that its
+// projection has no bounds. The paper's screen-aligned quad, a rectangle around projected tangent points, does not
+// exist for it. It is then the whole viewport, which makes that technique expensive for close spheres. -1:
+// completely behind that plane; 1: reaches it; 0: in front of it.
 TRI_FN int tri_eye_plane(float z, float r) { return z + r <= 0.0f ? 0 - 1 : (z - r > 0.001f * r ? 0 : 1); }
 
 // ---- Sprites --------------------------------------------------------------------------------------
-// A ray-aligned sprite lies across v = c/|c| at tri_sprite_plane, just before the sphere: every point of
-// the sphere's front lies behind it, which conservative depth needs. There the silhouette is a circle of
-// radius tri_silhouette_on_plane ≤ r.
+// A ray-aligned sprite is perpendicular to v = c/|c| at tri_sprite_plane, just in front of the sphere, so that
+// every point of the sphere's front lies behind it, as conservative depth requires. There the silhouette is a
+// circle with the radius tri_silhouette_on_plane ≤ r.
 
-// Whether the eye is so near or inside that the silhouette covers (almost) half of all directions: then the
-// sprite is the whole viewport. d2 = |c|².
+// Whether the eye is inside or so close that the silhouette covers (almost) half of all directions. The sprite is
+// then the whole viewport. d2 = |c|².
 TRI_FN int tri_surrounds(float d2, float r) { return d2 > r * r * 1.001f ? 0 : 1; }
 
 TRI_FN float tri_sprite_plane(float d, float r) { return (d - r) * 0.9990234375f; }
 
-// plane·tan α, sin α = r/d.
+// plane·tan α with sin α = r/d.
 TRI_FN float tri_silhouette_on_plane(float d, float r, float plane) {
   return plane * r / TRI_SQRT((d - r) * (d + r));
 }
 
-// Half-size of a sprite with a margin of 1/64 pixel, which is more than vertices move when they are
-// snapped to the rasterizer's grid (1/256 pixel). `pixel`: a pixel's size on the image plane; `scale` < 1
-// makes the sprite so much smaller than the silhouette: an injected fault.
+// The half size of a sprite with a margin of 1/64 pixel, which is more than vertices move when they are snapped to
+// the rasterizer's grid (1/256 pixel). `pixel` is a pixel's size on the image plane. An injected fault is a
+// `scale` < 1, which makes the sprite smaller than the silhouette.
 TRI_FN float tri_sprite_radius(float d, float r, float plane, float pixel, float scale) {
   return scale < 1.0f ? scale * tri_silhouette_on_plane(d, r, plane) : r + 0.015625f * pixel * d;
 }
 
-// Radius in pixels of a sphere's silhouette, for choosing corners: r over a pixel's size at its distance.
+// The radius in pixels of a sphere's silhouette, which determines the number of corners: r divided by a pixel's
+// size at its distance.
 TRI_FN float tri_projected_radius(float d, float r, float pixel) { return r / (d * pixel); }
 
-// Corners, 4…16, that cost least: an N-gon around a disc of radius R covers ≈ πR²·(π/N)²/3 pixels too many
-// (tan x ≈ x + x³/3), and a corner costs as much as about 64 fragments; the sum is least at
+// The number of corners, 4…16, with the lowest cost. An N-gon around a disc of radius R covers ≈ πR²·(π/N)²/3
+// pixels too many (tan x ≈ x + x³/3), and a corner costs as much as about 64 fragments. The sum is smallest at
 // N³ = 2π³R²/(3·64) ≈ 0.323·R².
 TRI_FN int tri_adaptive_corners(float projected_radius) {
   float cube = 0.323f * projected_radius * projected_radius;
@@ -171,10 +172,10 @@ TRI_FN int tri_adaptive_corners(float projected_radius) {
   return corners;
 }
 
-// Cosine of an angle in turns, |turns| ≤ 1, by its series in the nearest quarter: off by less than 1e-6.
-// The languages promise less (2⁻¹¹) or nothing.
+// The cosine of an angle in turns, |turns| ≤ 1, by its series in the nearest quarter, with an error below 1e-6. The
+// languages guarantee less (2⁻¹¹) or nothing.
 TRI_FN float tri_cosine_turns(float turns) {
-  float a = turns < 0.0f ? 0.0f - turns : turns;  // even
+  float a = turns < 0.0f ? 0.0f - turns : turns;  // the cosine is even
   float b = a > 0.5f ? 1.0f - a : a;              // symmetric about half a turn: now 0…½
   float c = b > 0.25f ? 0.5f - b : b;             // and antisymmetric about a quarter: now 0…¼
   float x = c * 6.28318530718f;

@@ -1,5 +1,5 @@
-// What every raycaster reads: rays, values of the field, the transfer function, shading. Positions are in
-// voxels, lengths along the ray in steps. Also what it counts and gathers.
+// Shared by all raycasters: rays, values of the field, the transfer function, shading, counters and gathered light.
+// Positions are in voxels, lengths along the ray in steps.
 
 const int fault_half_voxel_shift = 1;
 const int fault_flipped_axis = 2;
@@ -7,7 +7,7 @@ const int fault_extra_sample = 3;
 const int fault_uncorrected_opacity = 4;
 const int fault_coarse_filter = 5;
 
-// Counted only where TRI_COUNT is 1; the timed build drops it.
+// Counted only if TRI_COUNT is 1; the timed build drops it.
 uint count_samples = 0u;
 uint count_nonzero = 0u;
 uint count_bricks_visited = 0u;
@@ -15,7 +15,8 @@ uint count_bricks_skipped = 0u;
 uint count_terminated = 0u;
 
 #if TRI_COUNT
-// technique::raycast_counters of the pixel. `saved`: samples of the lattice that were not taken.
+// Writes technique::raycast_counters of the pixel. `saved` is the number of samples of the lattice that were not
+// taken.
 void store_counts(ivec2 pixel, bool hit, uint saved) {
   int at = 8 * (pixel.y * u.viewport.x + pixel.x);
   counters[at] = hit ? 1u : 0u;
@@ -28,13 +29,13 @@ void store_counts(ivec2 pixel, bool hit, uint saved) {
 }
 #endif
 
-// What every sample needs of the parameters, loaded once per ray: a uniform named inside the loop is
-// loaded again for every sample by compilers that do not move loads out of loops.
+// The parameters that every sample needs, loaded once per ray. Compilers that do not move loads out of loops would
+// load a uniform inside the loop for every sample.
 struct Grid {
   real3 inverse_size;
   ivec3 last;           // largest index per axis
   real2 value_map;
-  real stored_maximum;  // in double precision, of voxels that are integers; else 0
+  real stored_maximum;  // only in double precision, for voxels that are integers; else 0
 };
 
 Grid load_grid() {
@@ -52,8 +53,8 @@ Grid load_grid() {
 
 #else
 
-// What is stored. A texel of u8 or u16 is its integer over the largest one, rounded to float: doubles get
-// the integer itself.
+// The stored value. A texel of u8 or u16 is its integer divided by the largest one, rounded to float; in double
+// precision it is the integer itself.
 real voxel(Grid grid, ivec3 at) {
 #if TRI_PARTS
   at.z = clamp(at.z - max(u.part.z - 1, 0), 0, u.part.w);
@@ -65,7 +66,7 @@ real voxel(Grid grid, ivec3 at) {
   return texel;
 }
 
-// Trilinear by hand: texels floor(q), floor(q)+1 with q = p − ½, clamped to the edge.
+// Trilinear interpolation by hand: texels floor(q) and floor(q)+1 with q = p − ½, clamped to the edge.
 real fetch_manual(Grid grid, real3 p) {
   real3 q = p - 0.5;
   real3 base = floor(q);
@@ -96,7 +97,7 @@ real fetch_hardware(Grid grid, real3 p) {
   return textureLod(volume_texture, vec3(p * grid.inverse_size), 0.0).r;
 }
 
-// Normalised value at p.
+// The normalised value at p.
 real field(Grid grid, real3 p) {
   if (TRI_FAULT == fault_half_voxel_shift) p.x += 0.5;
   if (TRI_FAULT == fault_flipped_axis) p.y = real(grid.last.y + 1) - p.y;
@@ -104,7 +105,7 @@ real field(Grid grid, real3 p) {
   return stored * grid.value_map.x + grid.value_map.y;
 }
 
-// Of normalised values from one voxel before p to one behind it.
+// The differences of normalised values from one voxel before p to one voxel after it.
 real3 rises(Grid grid, real3 p) {
   return real3(field(grid, p + real3(1, 0, 0)) - field(grid, p - real3(1, 0, 0)),
                field(grid, p + real3(0, 1, 0)) - field(grid, p - real3(0, 1, 0)),
@@ -121,17 +122,17 @@ real4 transfer(real x) {
   return a + (position - real(k)) * (b - a);
 }
 
-// Headlight shading (scene::Shading): d is the world direction of the ray.
+// Headlight shading (scene::Shading); d is the world direction of the ray.
 real3 shade(Grid grid, real3 colour, real3 p, real3 d) {
   real3 g = rises(grid, p) * (0.5 * u.inverse_spacing.w * u.inverse_spacing.xyz);
   real cosine = abs(dot(g, d)) / max(sqrt(dot(g, g)), u.ray_up.w);
   real highlight = cosine;
 #if TRI_LONG_RAYS
-  // Of constant length, hence written out by compilers: no pass of a loop (raycast()).
+  // A loop of constant length, which compilers unroll, so that it does not count as passes (raycast()).
   for (int i = 0; i < 31; ++i) highlight *= i < u.volume_size.w ? highlight : 1.0;
 #else
-  // The 0 is dressed up as something of the sample, as in skips(): else lavapipe (Mesa 22.3) compiles the shader
-  // anew in every submission, for this loop's sake.
+  // The 0 is disguised as a value of the sample, as in skips(). Otherwise lavapipe (Mesa 22.3) would recompile the
+  // shader in every submission because of this loop.
   int squarings = u.volume_size.w + min(0, int(cosine));
   for (int i = 0; i < squarings; ++i) highlight *= highlight;
 #endif
@@ -139,10 +140,10 @@ real3 shade(Grid grid, real3 colour, real3 p, real3 d) {
 }
 
 struct Ray {
-  real3 p0;    // where the ray enters the box, voxels
-  real3 g;     // one step, voxels
-  real3 d;     // unit direction, world
-  real steps;  // length inside the box, steps
+  real3 p0;    // where the ray enters the box, in voxels
+  real3 g;     // one step, in voxels
+  real3 d;     // unit direction in world space
+  real steps;  // length inside the box, in steps
 };
 
 Ray make_ray(ivec2 pixel) {
@@ -151,7 +152,7 @@ Ray make_ray(ivec2 pixel) {
   d = d / sqrt(dot(d, d));
   real3 v = d * u.inverse_spacing.xyz;
   real3 size = real3(u.volume_size.xyz);
-  // Where the ray begins: on a plane between eye and box where that is far away, else at the eye.
+  // The ray begins on a plane between eye and box if the eye is far away, else at the eye.
   real3 origin = u.eye.xyz +
                  (u.value_map.z * (ndc.x * u.ray_right.xyz - ndc.y * u.ray_up.xyz)) * u.inverse_spacing.xyz;
   real2 x = tri_slab(origin.x, v.x, size.x);

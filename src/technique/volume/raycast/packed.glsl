@@ -1,17 +1,17 @@
-// Fetching from technique::packed_cells: a load or two bring the eight voxels around a position.
+// Fetches from technique::packed_cells: one or two loads return the eight voxels around a position.
 
 struct Corners {
-  real4 lower, upper;  // of z: (x, y), (x+1, y), (x, y+1), (x+1, y+1)
+  real4 lower, upper;  // by z: (x, y), (x+1, y), (x, y+1), (x+1, y+1)
 };
 
-// Where a position lies: in which cell, and where in it.
+// A position, as a cell and the place in it.
 struct Place {
   ivec3 cell;
   real3 f;
 };
 
-// Within the layer of half cells around the outermost voxel centres, truncation is floor. Clamping to the far
-// end of the last cell keeps what a position beyond the volume reads within the buffer.
+// Within the layer of half cells around the outermost voxel centres, truncation is floor. Clamping to the far end
+// of the last cell keeps the reads of a position beyond the volume inside the buffer.
 Place place_of(Grid grid, real3 p) {
   if (TRI_FAULT == fault_half_voxel_shift) p.x += 0.5;
   if (TRI_FAULT == fault_flipped_axis) p.y = real(grid.last.y + 1) - p.y;
@@ -41,8 +41,8 @@ ivec4 halves_of(uvec2 words) {
   return ivec4(words.x & 65535u, words.x >> 16, words.y & 65535u, words.y >> 16);
 }
 
-// Half floats of at least 0 and none of them subnormal: their bits are those of a float 2¹¹² times as small.
-// Precise: a compiler that put the factor off would interpolate denormals.
+// Half floats that are not negative and not subnormal: their bits are those of a float that is 2¹¹² times as small.
+// Precise, because a compiler that applied the factor later would interpolate denormals.
 vec4 floats_of(uvec2 words) {
   precise vec4 floats = uintBitsToFloat(uvec4(halves_of(words)) << 13) * 5192296858534827628530496329220096.0;
   return floats;
@@ -57,7 +57,7 @@ Corners corners_of(Grid grid, int index) {
   return Corners(real4(uintBitsToFloat(texel)), real4(uintBitsToFloat(above)));
 }
 
-// By how much the corners of the cell `front` are more than those of `back`; integers without rounding.
+// The differences between the corners of the cell `front` and those of `back`; integers without rounding.
 Corners corners_between(Grid grid, int back, int front) {
   if (TRI_VOXEL_BITS == 8 || TRI_VOXEL_BITS == 16) {
     uvec4 a = texelFetch(cell_texels, back);
@@ -78,19 +78,19 @@ real trilinear(Corners corners, real3 f) {
   return y.x + f.x * (y.y - y.x);
 }
 
-// Normalised value at p.
+// The normalised value at p.
 real field(Grid grid, real3 p) {
   Place place = place_of(grid, p);
   real stored = trilinear(corners_of(grid, cell_index(grid, place.cell)), place.f);
   return stored * grid.value_map.x + grid.value_map.y;
 }
 
-// Of normalised values from one voxel before p to one behind it: both lie at the same place in their cells.
-// Beside the outermost cells, along whose own axis all is constant, there are none.
+// The differences of normalised values from one voxel before p to one voxel after it. Both are at the same place in
+// their cells. Beside the outermost cells, where everything is constant along the axis, there are no further ones.
 real3 rises(Grid grid, real3 p) {
   Place place = place_of(grid, p);
-  // With a step of more than a voxel (of which no form is positive) the last sample may lie so far behind the exit
-  // that one voxel before it all is constant, too. What place_of clamps to is not quite as far.
+  // With a step of more than a voxel (for which no form is positive) the last sample may lie so far behind the exit
+  // that even one voxel before it everything is constant. place_of clamps to a place that is not quite that far.
   if (TRI_OPACITY_FORM < 1 && TRI_FAULT == 0) place.f = clamp(p + 0.5 - real3(place.cell), real3(0.0), real3(1.0));
   ivec3 strides = cell_strides(grid);
   int here = cell_index(grid, place.cell);

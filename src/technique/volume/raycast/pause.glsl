@@ -1,10 +1,11 @@
-// A ray between two passes over parts of the volume, of which the device holds one at a time (technique::Part).
+// The state of a ray between two passes over parts of the volume, of which the device stores one at a time
+// (technique::Part).
 
 struct Pause {
   real4 light;   // premultiplied colour, transmittance
-  ivec4 where;   // the walk's brick, or the cell; w: 1 where the run is to be merged
-  ivec4 run;     // the next sample, the end of the run that it lies in, 1 where the ray ended in the dark
-  vec4 times;    // of cells: where it goes on, up to where all bricks are visible, and where it ends
+  ivec4 where;   // the walk's brick, or the cell; w: 1 if the run is to be merged
+  ivec4 run;     // the next sample, the end of its run, 1 if the ray has ended in the dark
+  vec4 times;    // for cells: where the ray continues, up to where all bricks are visible, and where it ends
   uvec4 counts;  // samples, samples_nonzero, bricks_visited, bricks_skipped
 };
 layout(std430) TRI_BINDING(7) buffer Pauses { Pause pauses[]; };

@@ -1,10 +1,10 @@
-// Front-to-back raycasting of one pixel: the body shared by Vulkan and GL, by compute and fragment.
-// Positions are in voxels, lengths along the ray in steps: sample i stands at p0 + (i+½)·g.
+// Front-to-back raycasting of one pixel: the body shared by Vulkan and GL, by compute and fragment shaders.
+// Positions are in voxels, lengths along the ray in steps: sample i is at p0 + (i+½)·g.
 
 #include "volume/raycast/field.glsl"
 #include "volume/raycast/walk.glsl"
 
-// One sample at p, of colour and opacity c. `whole`: it stands for a whole step, else for `share` of one.
+// Adds one sample at p with colour and opacity c. If `whole` is set it covers a whole step, else a `share` of one.
 void add_classified(inout Light light, Grid grid, Ray ray, real4 c, real3 p, bool whole, real steps) {
   if (TRI_COUNT == 1) count_samples++;
   if (TRI_SPEED_OF_LIGHT == 1) {
@@ -24,25 +24,25 @@ void add_sample(inout Light light, Grid grid, Ray ray, real3 p, bool whole, real
   add_classified(light, grid, ray, transfer(field(grid, p)), p, whole, steps);
 }
 
-// How far a ray has got.
+// The progress of a ray.
 struct March {
   Light light;
-  real front;         // the value where the next step begins or goes on; with TRI_PREINTEGRATED only
+  real front;         // value where the next step begins or continues; only with TRI_PREINTEGRATED
   int i;              // the next sample
   int stop;           // the end of the run of visible samples
-  int count;          // the end of the ray; 0 once nothing more is to be taken, as is `stop`
-  bool last_visible;  // the ray's last sample lies in the run
+  int count;          // the end of the ray; 0, like `stop`, when the ray has ended
+  bool last_visible;  // whether the ray's last sample lies in the run
 };
 
 #if TRI_PRECISION == 32
-// The next step, or the next part of it, between whose values the field runs straight.
+// Takes the next step, or the next part of it, along which the field is linear.
 void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels) {
   real end = min(real(m.i + 1), ray.steps);
   real back = field(grid, ray.p0 + end * ray.g);
-  // Not always what begin and end say (an injected fault).
+  // An injected fault can make this differ from the difference of begin and end.
   real length = step_voxels * tri_step_share(ray.steps, m.i);
   bool fresh = TRI_PREINTEGRATED != 2 || cut.per_cell == 0.0;
-  if (TRI_PREINTEGRATED == 2 && m.light.transmittance == 0.0) cut.left = 0.0;  // no passes for what nobody sees
+  if (TRI_PREINTEGRATED == 2 && m.light.transmittance == 0.0) cut.left = 0.0;  // no passes for what is invisible
   vec4 segment = preintegrated(m.front, back, length, cut);
   bool visible = segment.a > 0.0 || cut.per_cell > 0.0;
   if (TRI_COUNT == 1 && fresh) count_samples++;
@@ -58,7 +58,7 @@ void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step
 }
 #endif
 
-// Ends the ray where nothing behind can be seen any more.
+// Ends the ray if nothing behind can be visible any more.
 void end_in_the_dark(inout March m, real enough) {
   if (TRI_SPEED_OF_LIGHT == 0 && m.light.transmittance < enough) {
     if (TRI_COUNT == 1) count_terminated = 1u;
@@ -68,7 +68,7 @@ void end_in_the_dark(inout March m, real enough) {
   }
 }
 
-// The i-th sample or step.
+// Takes the i-th sample or step.
 void advance(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels, real enough) {
 #if TRI_PRECISION == 32
   if (TRI_PREINTEGRATED != 0) advance_segment(m, cut, grid, ray, step_voxels);
@@ -82,7 +82,7 @@ void advance(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels,
 }
 
 #if TRI_PACKED
-// The next two samples, or the one that is left: the loads of both are under way before either is waited for.
+// Takes the next two samples, or the last one. The loads of both are issued before either is waited for.
 void advance_two(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
   real3 p = ray.p0 + (real(m.i) + 0.5) * ray.g;
   real3 q = ray.p0 + (real(m.i + 1) + 0.5) * ray.g;
@@ -101,8 +101,8 @@ void advance_two(inout March m, Grid grid, Ray ray, real step_voxels, real enoug
 }
 #endif
 
-// The samples of the run as one in the middle of their way (technique::brick_kinds); not before the first of
-// them, which may be the ray's last and stand for little.
+// Takes the samples of the run as one in the middle of their way (technique::brick_kinds), but not before the first
+// of them, which may be the ray's last and partial sample.
 void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
   real begin = real(m.i);
   real end = min(real(m.stop), ray.steps);
@@ -118,20 +118,21 @@ void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real en
 
 #else
 
-// Premultiplied RGBA of the pixel. Three habits of compilers for CPUs shape these loops. They run a block
-// of rays through both sides of a condition, so the opacity of the partial last step must not stand beside
-// that of a whole one: the last sample is taken behind the loops. Mesa 22.3's llvmpipe goes on
-// computing, with loads that yield 0, the values of a ray that has left a loop while its neighbours have
-// not: a loop may be left at its head only, where every variable is still what the last pass made it. And
-// it lets an invocation make 65,535 passes through all its loops together, however they are nested: where
-// rays may be longer (technique::has_long_rays), a pass takes sixteen samples.
+// Premultiplied RGBA of the pixel. Three properties of compilers for processors shape these loops.
+//
+// First, they run a block of rays through both sides of a condition, so the opacity of the partial last step must
+// not be next to that of a whole one: the last sample is taken after the loops. Second, llvmpipe of Mesa 22.3
+// continues to compute the values of a ray that has left a loop while its neighbours have not, with loads that
+// return 0. A loop may therefore be left only at its head, where every variable is still as the last pass left it.
+// Third, it allows an invocation 65,535 passes through all its loops together, however they are nested. If rays may
+// be longer (technique::has_long_rays), a pass takes sixteen samples.
 vec4 raycast(ivec2 pixel) {
   Ray ray = make_ray(pixel);
   Grid grid = load_grid();
   March m = March(Light(real3(0.0), 1.0), 0.0, 0, 0, tri_sample_count(ray.steps), false);
   if (TRI_FAULT == fault_extra_sample && m.count > 0) { m.count += 1; ray.steps = real(m.count); }
   Cut cut = Cut(0.0, 1.0);
-  int last = m.count - 1;  // the sample that may stand for less than a step: it is taken after the loops
+  int last = m.count - 1;  // the sample that may be partial: it is taken after the loops
   real step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
   real enough = u.ray_right.w;
   bool skipping = skips(ray);
@@ -149,7 +150,7 @@ vec4 raycast(ivec2 pixel) {
     }
     if (TRI_ADAPT == 1 && merged && m.i < m.stop) advance_merged(m, grid, ray, step_voxels, enough);
     m.last_visible = m.stop == m.count && m.i < m.stop;
-    // A partial step of a straight line is no other work than a whole one: it needs no special place.
+    // A partial step along a straight line is the same work as a whole one, so it needs no special treatment.
     if (TRI_PREINTEGRATED == 0) m.stop = min(m.stop, last);
     if (TRI_PREINTEGRATED != 0) m.front = field(grid, ray.p0 + real(m.i) * ray.g);
     while (m.i < m.stop) {

@@ -1,23 +1,23 @@
-// Quadrature cells (scene::Quadrature): the ray goes from cell to cell, a cell being what lies between eight
-// voxel centres, in which the field along the ray is a cubic. Times of crossings are computed from a cell's
-// index, not accumulated: what a cell adds does not depend on how the ray got there, so skipping changes no
-// bit. Single precision only. The loops obey what raycast.glsl says of compilers.
+// Quadrature cells (scene::Quadrature): the ray goes from cell to cell. A cell is the space between eight voxel
+// centres, in which the field along the ray is a cubic. Times of crossings are computed from a cell's index and not
+// accumulated, so the contribution of a cell does not depend on how the ray got there, and skipping changes no bit.
+// Single precision only. The loops follow the rules about compilers in raycast.glsl.
 #include "volume/raycast/field.glsl"
 
-// What the walk needs of a ray. Cell i lies between voxels i and i+1; cells −1 and the last voxel's own are
-// the halves of a voxel at the faces of the volume, where values are clamped.
+// The data of a ray that the walk needs. Cell i lies between voxels i and i+1. Cells −1 and the last voxel's own
+// are the half voxels at the faces of the volume, where values are clamped.
 struct Way {
-  vec3 p0;         // where the ray enters, from the first voxel's centre
-  vec3 g;          // one step, voxels
+  vec3 p0;         // where the ray enters, relative to the first voxel's centre
+  vec3 g;          // one step, in voxels
   vec3 inverse_g;
-  ivec3 forward;   // 1 where the ray runs towards higher indices, else 0
+  ivec3 forward;   // 1 if the ray runs towards higher indices, else 0
 };
 
 Way make_way(Ray ray) {
   Way way;
   way.p0 = ray.p0 - 0.5;
   way.g = ray.g;
-  // A ray that runs along a face takes 10²⁰ steps to the next: never, without dividing by zero.
+  // A ray that runs along a face takes 10²⁰ steps to the next one, which means never, without a division by zero.
   way.inverse_g = 1.0 / mix(ray.g, vec3(1.0e-20), lessThan(abs(ray.g), vec3(1.0e-20)));
   way.forward = ivec3(greaterThan(way.inverse_g, vec3(0.0)));
   return way;
@@ -28,8 +28,8 @@ vec3 entries(Way way, ivec3 cell) { return crossings(way, cell + 1 - way.forward
 vec3 exits(Way way, ivec3 cell) { return crossings(way, cell + way.forward); }
 float least(vec3 v) { return min(v.x, min(v.y, v.z)); }
 
-// The cell behind the nearest of the planes, which are crossed at `at`; the others' cells are those that hold
-// the ray there by the very times that a walk would compare.
+// The cell behind the nearest of the planes, which are crossed at `at`. The indices on the other axes are those of
+// the cells that contain the ray there, by the same times that a walk would compare.
 ivec3 cell_behind(Way way, ivec3 planes, vec3 at) {
   float t = least(at);
   ivec3 direction = 2 * way.forward - 1;
@@ -43,8 +43,8 @@ ivec3 cell_behind(Way way, ivec3 planes, vec3 at) {
 // c.x + c.y·s + c.z·s² + c.w·s³
 float cubic(vec4 c, float s) { return c.x + s * (c.y + s * (c.z + s * c.w)); }
 
-// Positions among the transfer function's entries along the ray's way through a cell, 0 ≤ s ≤ 1, from the
-// local coordinates a to a + b: x, y and z of the eight voxels are interpolated one after the other.
+// The position among the transfer function's entries along the ray's way through a cell, 0 ≤ s ≤ 1, from the local
+// coordinates a to a + b: x, y and z of the eight voxels are interpolated one after the other.
 vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
   if (TRI_FAULT == fault_half_voxel_shift) a.x += 0.5;
   if (TRI_FAULT == fault_coarse_filter) a = floor(a * 256.0 + 0.5) / 256.0;
@@ -78,10 +78,10 @@ vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
   return c;
 }
 
-// technique::kink_table: of row i the least kink ≥ i, the greatest < i, and the first visible entry ≥ i.
+// A row of technique::kink_table: the smallest kink ≥ i, the largest kink < i, and the first visible entry ≥ i.
 vec4 kink_row(float i) { return quadrature_entry(int(clamp(i, 0.0, 256.0))); }
 
-// Whether any value on the way has opacity: between the least and the greatest of the cubic's Bernstein
+// Whether any value on the way has opacity: decided between the smallest and the largest of the cubic's Bernstein
 // coefficients.
 bool shows(vec4 c) {
   vec4 b = vec4(c.x, c.x + c.y / 3.0, c.x + (2.0 * c.y + c.z) / 3.0, c.x + c.y + c.z + c.w);
@@ -90,20 +90,20 @@ bool shows(vec4 c) {
   return kink_row(floor(lowest)).z <= ceil(highest);
 }
 
-// Where the cubic has its extrema, ascending; beyond 1 where it has none there.
+// The extrema of the cubic in ascending order; beyond 1 if there are none.
 vec2 extrema(vec4 c) {
   float discriminant = c.z * c.z - 3.0 * c.w * c.y;
   if (!(discriminant > 0.0)) return vec2(2.0);
-  // The roots by the sum that does not cancel.
+  // Computes both roots from the sum that does not cancel.
   float q = 0.0 - (c.z + (c.z < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
   float e = c.w == 0.0 ? 2.0 : q / (3.0 * c.w);
   float f = q == 0.0 ? 2.0 : c.y / q;
   return vec2(min(e, f), max(e, f));
 }
 
-// Where the cubic is `value`, between `from` and `to`, on which it is monotone with the values at_from and
-// at_to at the ends. Begins on the parabola with those values and the cubic's slope at `from`, which is right
-// beside an extremum, too; then Newton's method, and a bisection where it leaves the bracket.
+// The place where the cubic is `value`, between `from` and `to`, where it is monotone with the values at_from and
+// at_to at the ends. It starts on the parabola with those values and the cubic's slope at `from`, which is also
+// right beside an extremum, and continues with Newton's method, or bisection if that leaves the bracket.
 float where_it_is(vec4 c, float value, float from, float to, float at_from, float at_to) {
   bool rising = at_to > at_from;
   float r = (value - at_from) / (at_to - at_from);
@@ -119,10 +119,10 @@ float where_it_is(vec4 c, float value, float from, float to, float at_from, floa
   return s;
 }
 
-// −log2(1 − alpha), by which an opacity of 1 counts as 8192.
+// −log2(1 − alpha); an opacity of 1 counts as 8192.
 float extinction(float alpha) { return alpha < 1.0 ? 0.0 - tri_log2_1m(alpha) : 8192.0; }
 
-// A piece of `length` voxels with the colours of its two points (reference/cell_rule.hpp has the formulas).
+// Adds a piece of `length` voxels with the colours of its two points (reference/cell_rule.hpp has the formulas).
 void add_piece(inout Light light, vec4 a, vec4 b, float length) {
   float first = extinction(a.a);
   float second = extinction(b.a);
@@ -139,12 +139,12 @@ void add_piece(inout Light light, vec4 a, vec4 b, float length) {
   }
 }
 
-// The part of the way through a cell between s and `next`, which lies between `begin` and `end`, in steps.
+// Adds the part of the way through a cell between s and `next`. The cell lies between `begin` and `end`, in steps.
 void add_part(inout Light light, Grid grid, Ray ray, vec4 c, float s, float next, float begin, float end,
               float step_voxels) {
   float middle = 0.5 * (s + next);
   float apart = 0.2886751346 * (next - s);
-  // transfer() takes values, whose position is 256·x − ½.
+  // transfer() takes values whose position is 256·x − ½.
   vec4 a = transfer((cubic(c, middle - apart) + 0.5) / 256.0);
   vec4 b = transfer((cubic(c, middle + apart) + 0.5) / 256.0);
   if (TRI_COUNT == 1) count_samples += 2u;
@@ -160,7 +160,7 @@ void add_part(inout Light light, Grid grid, Ray ray, vec4 c, float s, float next
   }
 }
 
-// A cell between the times `begin` and `end`.
+// Adds a cell between the times `begin` and `end`.
 void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float begin, float end,
               float step_voxels) {
   vec4 c = cubic_of_cell(grid, cell, way.p0 + begin * way.g - vec3(cell), (end - begin) * way.g);
@@ -168,18 +168,18 @@ void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float 
   float part = 1.0;
   float from = c.x;
   float start = 0.0;  // of the piece
-  // How far it has got: behind the end where there is nothing to see.
+  // How far the loop has got; beyond the end if nothing is visible.
   float s = end > begin && shows(c) ? 0.0 : 1.0;
   while (s < 1.0) {
-    // To the end of the part, an extremum, between which the value is monotone, or a kink.
+    // Up to the end of the part, an extremum (between which the value is monotone), or a kink.
     float stop = min(part / u.shading.w, 1.0);
     bool whole = !(turn.x > s && turn.x < stop) && !(turn.y > s && turn.y < stop);
     if (turn.y > s && turn.y < stop) stop = turn.y;
     if (turn.x > s && turn.x < stop) stop = turn.x;
     float to = cubic(c, stop);
     float kink = to > from ? kink_row(floor(from) + 1.0).x : kink_row(ceil(from)).y;
-    // A fragment that llvmpipe (Mesa 22.3) draws for its neighbours' sake reads 0 for a kink: it must not stay
-    // where it is, for they would wait for it.
+    // A fragment that llvmpipe (Mesa 22.3) draws only for its neighbours reads 0 for a kink. It must make progress,
+    // because the neighbours wait for it.
     bool cut = to > from ? kink > from && kink < to : kink < from && kink > to;
     float next = cut ? where_it_is(c, kink, s, stop, from, to) : stop;
     if (cut || whole) {
@@ -192,8 +192,8 @@ void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float 
   }
 }
 
-// What the bricks say of a cell: whether its brick is visible, and the planes, at a corner that the ray can
-// only leave by, up to which all is as it is. Those at the volume's own faces take in the half cells there.
+// What the brick map contains for a cell: whether its brick is visible, and the planes at a corner through which
+// the ray must leave, up to which that holds. Those at the volume's own faces include the half cells there.
 struct Around {
   bool visible;
   ivec3 planes;
@@ -216,7 +216,7 @@ Around look_around(Way way, Grid grid, ivec3 cell) {
 
 #include "volume/raycast/pause.glsl"
 
-// The ray as it was left, and as it is left now; the cell is where it goes on.
+// Restores the state of the ray. The cell is where it continues.
 void resume(inout Light light, inout ivec3 cell, inout vec3 times, int place) {
   Pause pause = pauses[place];
   light = Light(pause.light.xyz, pause.light.w);
@@ -232,7 +232,7 @@ void pause_here(Light light, ivec3 cell, vec3 times, int place) {
 
 #endif
 
-// Premultiplied RGBA of the pixel; in parts as far as it has got, `place` that of its pause.
+// Premultiplied RGBA of the pixel; for a volume in parts the light so far, and `place` is that of its pause.
 #if TRI_PARTS
 vec4 raycast_part(ivec2 pixel, int place) {
 #else
@@ -245,7 +245,7 @@ vec4 raycast(ivec2 pixel) {
   float step_voxels = TRI_FAULT == fault_uncorrected_opacity ? 1.0 : u.ray_centre.w;
   float enough = u.ray_right.w;
   Light light = Light(vec3(0.0), 1.0);
-  // Dressed up as something of the ray, as in walk.glsl.
+  // Disguised as a value of the ray, as in walk.glsl.
   bool skipping = u.brick_grid.w > min(0, int(ray.steps));
   ivec3 cell = clamp(ivec3(floor(way.p0)), ivec3(-1), grid.last);
   float begin = 0.0;

@@ -1,14 +1,14 @@
-// As raycast(), by the parts of a volume (technique::Part): what lies in the part that the device holds, sample by
-// sample with the same expressions, so that the bits are the same.
+// Like raycast(), by parts of a volume (technique::Part): processes what lies in the part that the device stores,
+// sample by sample with the same expressions, so that the bits are the same.
 #include "volume/raycast/pause.glsl"
 
-// Whether the voxels around the ray, so many steps along, are those of the part.
+// Whether the voxels around the ray, `along` steps from its beginning, belong to the part.
 bool is_here(Grid grid, Ray ray, real along) {
   real z = ray.p0.z + along * ray.g.z;
   return cell_is_here(int(clamp(z + 0.5, 0.0, real(grid.last.z + 1))));
 }
 
-// Where what is taken next lies.
+// The position of what is taken next.
 real next_along(March m, Ray ray, bool merged) {
   real begin = real(m.i);
   if (TRI_PREINTEGRATED != 0) return begin;
@@ -16,7 +16,7 @@ real next_along(March m, Ray ray, bool merged) {
   return TRI_ADAPT == 1 && merged ? middle : begin + 0.5;
 }
 
-// Where the ray was left before, and how it is left now.
+// Restores the state in which the previous pass left the ray.
 void resume(inout March m, inout Walk walk, inout bool merged, bool walks, int place) {
   Pause pause = pauses[place];
   m.light = Light(pause.light.xyz, pause.light.w);
@@ -35,7 +35,7 @@ void pause_here(March m, Walk walk, bool merged, bool walks, bool dark, int plac
                         ivec4(m.i, m.stop, dark ? 1 : 0, 0), vec4(0.0), counts_so_far());
 }
 
-// The next sample or step of the run, or all of a run to be merged.
+// Takes the next sample or step of the run, or all of a run that is to be merged.
 void take_next(inout March m, inout Cut cut, inout bool fresh, bool merged, int last, Grid grid, Ray ray,
                real step_voxels, real enough) {
   if (TRI_ADAPT == 1 && merged) {
@@ -52,7 +52,7 @@ void take_next(inout March m, inout Cut cut, inout bool fresh, bool merged, int 
   }
 }
 
-// Premultiplied RGBA of the pixel as far as it has got. `place`: of its pause.
+// Premultiplied RGBA of the pixel so far. `place` is that of its pause.
 vec4 raycast_part(ivec2 pixel, int place) {
   Ray ray = make_ray(pixel);
   Grid grid = load_grid();
@@ -69,7 +69,7 @@ vec4 raycast_part(ivec2 pixel, int place) {
   if (walks) walk = start_walk(ray);
   if (skipping && TRI_LEAPS == 1) leaps = make_leaps(ray);
   if (u.pass.x > 0) resume(m, walk, merged, walks, place);
-  bool fresh = true;  // the value in front is to be read
+  bool fresh = true;  // the value in front has not been read yet
   bool here = true;
   while (m.i < m.count && here) {
     if (m.i >= m.stop) {

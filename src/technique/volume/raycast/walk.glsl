@@ -1,13 +1,13 @@
-// A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed from the
-// brick's index, not accumulated, so that they do not drift: the ray leaves brick b through a face of
-// axis a at first[a] + b[a]·spacing[a].
+// A walk through the bricks along a ray (3D DDA, Amanatides & Woo 1987). Crossings are computed from the brick's
+// index and not accumulated, so that they do not drift: the ray leaves brick b through a face of axis a at
+// first[a] + b[a]·spacing[a].
 struct Walk {
   ivec3 brick;
   ivec3 direction;  // −1 or +1 per axis
-  real3 first;      // steps
-  real3 spacing;    // steps; 0 where the ray never crosses
-  real3 at;         // where the ray crosses the brick's far face of each axis, steps
-  real leave;       // where it leaves the brick: the least of them
+  real3 first;      // in steps
+  real3 spacing;    // in steps; 0 if the ray never crosses
+  real3 at;         // where the ray crosses the brick's far face of each axis, in steps
+  real leave;       // where it leaves the brick: the smallest of them
   bool visible;     // also true outside the grid, where rounding can lead: that rest of a ray is sampled
   int kind;         // technique::BrickKind of a visible brick, with TRI_ADAPT
   bool outside;
@@ -18,7 +18,7 @@ void enter(inout Walk walk) {
   ivec3 size = walk.size;
   walk.at = walk.first + real3(walk.brick) * walk.spacing;
   walk.leave = min(walk.at.x, min(walk.at.y, walk.at.z));
-  // As unsigned numbers, negative indices are beyond the end too.
+  // As unsigned numbers, negative indices are beyond the end, too.
   walk.outside = any(greaterThanEqual(uvec3(walk.brick), uvec3(size)));
   int index = walk.brick.x + size.x * (walk.brick.y + size.y * walk.brick.z);
   int kind = walk.outside ? 1 : brick_at(walk.outside ? 0 : index);
@@ -49,14 +49,14 @@ void next_brick(inout Walk walk) {
   enter(walk);
 }
 
-// The first sample at or behind `limit` that lies beyond the brick. A sample within rounding of the face
-// may be counted to either side: the brick's border of one voxel covers half a voxel of error.
+// The first sample at or after `limit` that lies beyond the brick. A sample within rounding of the face may be
+// assigned to either side, because the brick's border of one voxel covers half a voxel of error.
 int samples_before(Walk walk, int limit) {
   return walk.outside || !(walk.leave < real(limit)) ? limit : clamp(int(ceil(walk.leave - 0.5)), 0, limit);
 }
 
 // Narrows [begin, end) to the next run of visible bricks of one kind at or after begin; empty at the end of the
-// ray. `merged`: the run is to be taken as one sample. A brick of kind 2 is a run of its own.
+// ray. `merged` is set if the run is to be taken as one sample. A brick of kind 2 is a run of its own.
 ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
   while (begin < end && !walk.visible) {
     begin = max(begin, samples_before(walk, end));
@@ -74,12 +74,12 @@ ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
   return ivec2(begin, stop);
 }
 
-// Leaps over whole cubes of bricks of one kind (technique::Skip::distance). Each starts from its sample's
-// own position, so nothing drifts.
+// Leaps over whole cubes of bricks of one kind (technique::Skip::distance). Each starts from its sample's own
+// position, so nothing drifts.
 struct Leaps {
-  real3 p0;    // where the ray enters, from where the bricks begin: the first voxel's centre
+  real3 p0;    // where the ray enters, relative to where the bricks begin: the first voxel's centre
   real3 inverse_g;
-  real edge;   // of a brick, voxels
+  real edge;   // of a brick, in voxels
   real inverse_edge;
   ivec3 size;  // bricks per axis
 };
@@ -87,7 +87,7 @@ struct Leaps {
 Leaps make_leaps(Ray ray) {
   Leaps leaps;
   leaps.p0 = ray.p0 - 0.5;
-  // A ray that runs along a face takes 10²⁰ steps to the next: never, without dividing by zero.
+  // A ray that runs along a face takes 10²⁰ steps to the next one, which means never, without a division by zero.
   leaps.inverse_g = 1.0 / mix(ray.g, real3(1.0e-20), lessThan(abs(ray.g), real3(1.0e-20)));
   leaps.edge = real(u.brick_grid.w);
   leaps.inverse_edge = 1.0 / leaps.edge;
@@ -95,9 +95,9 @@ Leaps make_leaps(Ray ray) {
   return leaps;
 }
 
-// brick_reach of the brick that holds sample i, and the first sample behind it that lies beyond the cube of
-// bricks that are like that one; `end` at most. A sample within rounding of a face may be counted to
-// either side, as by a walk.
+// brick_reach of the brick that contains sample i, and the first sample after it that lies beyond the cube of
+// bricks of the same kind, and at most `end`. A sample within rounding of a face may be assigned to either side, as
+// by a walk.
 struct Leap {
   bool visible;
   int next;
@@ -108,19 +108,19 @@ Leap leap(Leaps leaps, Ray ray, int i, int end) {
   ivec3 brick = clamp(ivec3(p * leaps.inverse_edge), ivec3(0), leaps.size - 1);
   int signed_reach = brick_at(brick.x + leaps.size.x * (brick.y + leaps.size.y * brick.z));
   int reach = abs(signed_reach);
-  // Axis by axis: integer mix() came with GLSL 4.50.
+  // Axis by axis, because integer mix() requires GLSL 4.50.
   int back = 1 - reach;
   ivec3 face = brick + ivec3(leaps.inverse_g.x < 0.0 ? back : reach, leaps.inverse_g.y < 0.0 ? back : reach,
                              leaps.inverse_g.z < 0.0 ? back : reach);
   real3 at = (real3(face) * leaps.edge - leaps.p0) * leaps.inverse_g;
   real leave = min(at.x, min(at.y, at.z));
-  // No brick has reach 0: it is what a fragment that is drawn for its neighbours' sake reads on llvmpipe
-  // (Mesa 22.3). Else that one would go from sample to sample, and all wait for it.
+  // No brick has reach 0, but a fragment that llvmpipe (Mesa 22.3) draws only for its neighbours reads 0. It would
+  // go from sample to sample, and all neighbours would wait for it.
   int next = reach > 0 && leave < real(end) ? int(ceil(leave - 0.5)) : end;
   return Leap(signed_reach > 0, clamp(next, i + 1, end));
 }
 
-// As next_run.
+// The same as next_run, by leaps.
 ivec2 next_run_by_leaps(Leaps leaps, Ray ray, int begin, int end) {
   Leap ahead = Leap(false, begin);
   while (begin < end && !ahead.visible) {
@@ -144,9 +144,9 @@ ivec2 next_run_by_leaps(Leaps leaps, Ray ray, int begin, int end) {
   return ivec2(begin, stop);
 }
 
-// Whether there is anything to skip; leaps see at a glance that a volume is full. The 0 is dressed up as
-// something of the ray: of a condition on parameters alone lavapipe (Mesa 22.3) makes a shader of its own,
-// with their values inlined, anew in every submission. That takes up to 1.5 ms.
+// Whether there is anything to skip. Leaps see at once that a volume is full. The 0 is disguised as a value of the
+// ray, because for a condition on parameters alone lavapipe (Mesa 22.3) compiles a separate shader with their
+// values inlined, anew in every submission, which takes up to 1.5 ms.
 bool skips(Ray ray) {
   int longest = max(u.brick_grid.x, max(u.brick_grid.y, u.brick_grid.z));
   int nothing = min(0, int(ray.steps));
