@@ -14,49 +14,24 @@ function(triptych_floor room out)
   message(FATAL_ERROR "room '${room}' has no floor; add it to TRIPTYCH_FLOORS in cmake/room.cmake")
 endfunction()
 
-# What nearly every file includes: parsing it was half of the time of a build.
-set(TRIPTYCH_COMMON_HEADERS
-  <algorithm> <array> <chrono> <cmath> <filesystem> <functional> <map> <memory> <optional> <ranges> <set> <span>
-  <string> <string_view> <variant> <vector> <fmt/format.h> <nlohmann/json.hpp>)
-
-# Rooms that compute pictures are optimised as far as the compiler can. The others wait for them; a quarter of a
-# build's time is saved by -O1 there.
-set(TRIPTYCH_COMPUTING_ROOMS core scene technique reference)
-function(triptych_optimise_less target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+# Files of a target are compiled in batches, as most of a compilation is reading headers. Off: every file on its own,
+# which shows whether it includes what it uses (ci/build alone).
+option(TRIPTYCH_UNITY "Compile the files of a target in batches" ON)
+set(TRIPTYCH_UNITY_BATCH 8 CACHE STRING "How many files a batch holds")
+function(triptych_batch target)
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD ${TRIPTYCH_UNITY} UNITY_BUILD_BATCH_SIZE ${TRIPTYCH_UNITY_BATCH})
 endfunction()
 
-# triptych_parsed_headers(NAME header...): parsed once for all targets that say REUSE_FROM NAME. They must be
-# optimised alike, else the compiler refuses what was parsed.
-function(triptych_parsed_headers name)
-  file(WRITE ${CMAKE_BINARY_DIR}/${name}.cpp "")
-  add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/${name}.cpp)
-  target_link_libraries(${name} PRIVATE triptych_options fmt::fmt nlohmann_json::nlohmann_json)
-  target_precompile_headers(${name} PRIVATE ${TRIPTYCH_COMMON_HEADERS} ${ARGN})
-endfunction()
-triptych_parsed_headers(triptych_headers_computing)
-triptych_parsed_headers(triptych_headers)
-triptych_optimise_less(triptych_headers)
-
-# triptych_room(NAME SOURCES file... [ROOMS room...] [PUBLIC lib...] [PRIVATE lib...] [HEADERS header...])
-# A static library triptych_NAME that sees the headers of the rooms it names and no others above it. HEADERS are
-# parsed once beside the common ones.
+# triptych_room(NAME SOURCES file... [ROOMS room...] [PUBLIC lib...] [PRIVATE lib...])
+# A static library triptych_NAME that sees the headers of the rooms it names and of no other room.
 function(triptych_room name)
-  cmake_parse_arguments(arg "" "" "SOURCES;ROOMS;PUBLIC;PRIVATE;HEADERS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;ROOMS;PUBLIC;PRIVATE" ${ARGN})
   triptych_floor(${name} own)
   add_library(triptych_${name} STATIC ${arg_SOURCES})
   target_include_directories(triptych_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
   target_link_libraries(triptych_${name} PRIVATE triptych_options fmt::fmt nlohmann_json::nlohmann_json)
-  if(name IN_LIST TRIPTYCH_COMPUTING_ROOMS)
-    target_precompile_headers(triptych_${name} REUSE_FROM triptych_headers_computing)
-  else()
-    triptych_optimise_less(triptych_${name})
-    if(arg_HEADERS)
-      target_precompile_headers(triptych_${name} PRIVATE ${TRIPTYCH_COMMON_HEADERS} ${arg_HEADERS})
-    else()
-      target_precompile_headers(triptych_${name} REUSE_FROM triptych_headers)
-    endif()
-  endif()
+  triptych_batch(triptych_${name})
   foreach(room IN LISTS arg_ROOMS)
     triptych_floor(${room} other)
     if(NOT other LESS own)
@@ -84,13 +59,7 @@ function(triptych_test name)
   foreach(room IN LISTS arg_ROOMS)
     target_link_libraries(${name} PRIVATE triptych_${room})
   endforeach()
-  triptych_optimise_less(${name})
-  if(NOT TARGET triptych_headers_test)
-    triptych_parsed_headers(triptych_headers_test <gmock/gmock.h> <gtest/gtest.h>)
-    target_link_libraries(triptych_headers_test PRIVATE GTest::gmock)
-    triptych_optimise_less(triptych_headers_test)
-  endif()
-  target_precompile_headers(${name} REUSE_FROM triptych_headers_test)
+  triptych_batch(${name})
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
   endif()

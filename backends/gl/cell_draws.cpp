@@ -8,7 +8,7 @@ namespace {
 // Bindings of technique/particles/cull.comp.glsl, and its work group's size.
 constexpr GLuint binding_cells = 6;
 constexpr GLuint binding_commands = 7;
-constexpr GLuint group_size = 64;
+constexpr GLuint cull_group_size = 64;
 
 // DrawArraysIndirectCommand of the specification.
 struct DrawCommand {
@@ -43,7 +43,7 @@ void CellDraws::cull(const Api& gl) const {
   if (count_ == 0) return;
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_cells, cells_.get());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_commands, commands_.get());
-  gl.DispatchCompute((static_cast<GLuint>(count_) + group_size - 1) / group_size, 1, 1);
+  gl.DispatchCompute((static_cast<GLuint>(count_) + cull_group_size - 1) / cull_group_size, 1, 1);
 }
 
 void CellDraws::draw(const Api& gl, GLenum mode) const {

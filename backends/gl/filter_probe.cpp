@@ -18,12 +18,12 @@ namespace {
 // Of shaders/filter_probe.comp.
 constexpr GLuint unit_volume = 1;
 constexpr GLuint binding_probe = 4;
-constexpr int group_size = 64;
+constexpr int probe_group_size = 64;
 
 // A power of two, so that dividing a position by it is exact and only the filter's error is seen;
 // more than the tiles that renderers cut volumes into, whose seams are a place to err (softpipe).
 constexpr int edge = 64;
-constexpr int point_count = 512 * group_size;
+constexpr int point_count = 512 * probe_group_size;
 using Point = std::array<float, 4>;  // position in voxels; the value found there
 
 scene::VoxelGrid random_bits(scene::VoxelFormat format, core::Random& random) {
@@ -85,7 +85,7 @@ void fetch(const Api& gl, const scene::VoxelGrid& grid, std::vector<Point>& poin
   gl.ActiveTexture(GL_TEXTURE0 + unit_volume);
   gl.BindTexture(GL_TEXTURE_3D, volume.get());
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_probe, probe.get());
-  gl.DispatchCompute(point_count / group_size, 1, 1);
+  gl.DispatchCompute(point_count / probe_group_size, 1, 1);
   gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   gl.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0,
                       static_cast<GLsizeiptr>(std::span(points).size_bytes()), points.data());

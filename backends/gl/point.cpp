@@ -8,7 +8,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-Sprites sprites(const Api& gl) {
+Sprites point_sprites(const Api& gl) {
   const double margin = point_margin(gl);
   const std::string largest =
       fmt::format("#define TRI_LARGEST_POINT {:#.9g}\n#define TRI_POINT_MARGIN {:#.9g}\n",
@@ -22,7 +22,7 @@ Sprites sprites(const Api& gl) {
 }  // namespace
 
 ParticleTechnique point() {
-  return sprite_technique<&sprites>();
+  return sprite_technique<&point_sprites>();
 }
 
 }  // namespace triptych::gl_backend

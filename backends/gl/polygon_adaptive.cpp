@@ -5,14 +5,14 @@
 namespace triptych::gl_backend {
 namespace {
 
-Sprites sprites(const Api& /*gl*/) {
+Sprites polygon_adaptive_sprites(const Api& /*gl*/) {
   return tessellated("adaptive");
 }
 
 }  // namespace
 
 ParticleTechnique polygon_adaptive() {
-  return sprite_technique<&sprites>();
+  return sprite_technique<&polygon_adaptive_sprites>();
 }
 
 }  // namespace triptych::gl_backend

@@ -8,11 +8,12 @@
 namespace triptych::gl_backend {
 namespace {
 
-Sprites sprites(const Api& /*gl*/) {
+Sprites polygon_tess_sprites(const Api& /*gl*/) {
   return tessellated("polygon");
 }
 
-std::optional<std::string> unsupported(const Api& gl, const measure::ParticleWork& work) {
+std::optional<std::string> polygon_tess_unsupported(const Api& gl,
+                                                    const measure::ParticleWork& work) {
   const int corners = work.options.corners;
   // Of the outline's four edges the longest has a quarter of the corners, rounded up.
   const std::int64_t most =
@@ -20,13 +21,13 @@ std::optional<std::string> unsupported(const Api& gl, const measure::ParticleWor
   if (corners > most) {
     return fmt::format("polygons of {} corners, GL_MAX_TESS_GEN_LEVEL allows {}", corners, most);
   }
-  return sprites_unsupported(gl, work, sprites(gl));
+  return sprites_unsupported(gl, work, polygon_tess_sprites(gl));
 }
 
 }  // namespace
 
 ParticleTechnique polygon_tess() {
-  return {&unsupported, sprite_technique<&sprites>().make};
+  return {&polygon_tess_unsupported, sprite_technique<&polygon_tess_sprites>().make};
 }
 
 }  // namespace triptych::gl_backend

@@ -6,14 +6,14 @@
 namespace triptych::gl_backend {
 namespace {
 
-Sprites sprites(const Api& gl) {
+Sprites quad_instanced_sprites(const Api& gl) {
   return {{GL_TRIANGLE_STRIP, true, false, {instance_stage(gl, "quad_instanced.vert.glsl")}}};
 }
 
 }  // namespace
 
 ParticleTechnique quad_instanced() {
-  return sprite_technique<&sprites>();
+  return sprite_technique<&quad_instanced_sprites>();
 }
 
 }  // namespace triptych::gl_backend

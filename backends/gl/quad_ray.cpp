@@ -5,14 +5,14 @@
 namespace triptych::gl_backend {
 namespace {
 
-Sprites sprites(const Api& /*gl*/) {
+Sprites quad_ray_sprites(const Api& /*gl*/) {
   return from_geometry_stage(false);
 }
 
 }  // namespace
 
 ParticleTechnique quad_ray() {
-  return sprite_technique<&sprites>();
+  return sprite_technique<&quad_ray_sprites>();
 }
 
 }  // namespace triptych::gl_backend

@@ -5,14 +5,14 @@
 namespace triptych::gl_backend {
 namespace {
 
-Sprites sprites(const Api& /*gl*/) {
+Sprites quad_screen_sprites(const Api& /*gl*/) {
   return from_geometry_stage(true);
 }
 
 }  // namespace
 
 ParticleTechnique quad_screen() {
-  return sprite_technique<&sprites>();
+  return sprite_technique<&quad_screen_sprites>();
 }
 
 }  // namespace triptych::gl_backend

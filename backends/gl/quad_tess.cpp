@@ -5,14 +5,14 @@
 namespace triptych::gl_backend {
 namespace {
 
-Sprites sprites(const Api& /*gl*/) {
+Sprites quad_tess_sprites(const Api& /*gl*/) {
   return tessellated("quad");
 }
 
 }  // namespace
 
 ParticleTechnique quad_tess() {
-  return sprite_technique<&sprites>();
+  return sprite_technique<&quad_tess_sprites>();
 }
 
 }  // namespace triptych::gl_backend

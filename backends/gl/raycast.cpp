@@ -7,12 +7,12 @@
 namespace triptych::gl_backend {
 namespace {
 
-std::optional<std::string> unsupported(const Api& gl, const measure::VolumeWork& work) {
+std::optional<std::string> raycast_unsupported(const Api& gl, const measure::VolumeWork& work) {
   return ComputePass::unsupported(gl, work.scene.width, work.scene.height);
 }
 
-std::unique_ptr<measure::Prepared> prepare(Context& context, Stamps stamps,
-                                           const measure::VolumeWork& work) {
+std::unique_ptr<measure::Prepared> prepare_raycast(Context& context, Stamps stamps,
+                                                   const measure::VolumeWork& work) {
   Constants constants = constants_of(work);
   constants.parts = !cut_of(context.gl(), "raycast", work).parts.empty();
   return prepare_volume(
@@ -24,7 +24,7 @@ std::unique_ptr<measure::Prepared> prepare(Context& context, Stamps stamps,
 }  // namespace
 
 VolumeTechnique raycast() {
-  return {&unsupported, &prepare};
+  return {&raycast_unsupported, &prepare_raycast};
 }
 
 }  // namespace triptych::gl_backend

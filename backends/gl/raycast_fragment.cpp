@@ -92,7 +92,8 @@ class FragmentPass final : public Pass {
   Target target_;
 };
 
-std::optional<std::string> unsupported(const Api& gl, const measure::VolumeWork& work) {
+std::optional<std::string> raycast_fragment_unsupported(const Api& gl,
+                                                        const measure::VolumeWork& work) {
   const std::int64_t edge = gl.limit(GL_MAX_RENDERBUFFER_SIZE);
   if (std::max(work.scene.width, work.scene.height) > edge) {
     return fmt::format("{}x{} pixels, GL_MAX_RENDERBUFFER_SIZE is {}", work.scene.width,
@@ -107,8 +108,8 @@ std::optional<std::string> unsupported(const Api& gl, const measure::VolumeWork&
   return std::nullopt;
 }
 
-std::unique_ptr<measure::Prepared> prepare(Context& context, Stamps stamps,
-                                           const measure::VolumeWork& work) {
+std::unique_ptr<measure::Prepared> prepare_raycast_fragment(Context& context, Stamps stamps,
+                                                            const measure::VolumeWork& work) {
   return prepare_volume(
       context, stamps, work, constants_of(work),
       std::make_unique<FragmentPass>(context.gl(), work.scene.width, work.scene.height,
@@ -118,7 +119,7 @@ std::unique_ptr<measure::Prepared> prepare(Context& context, Stamps stamps,
 }  // namespace
 
 VolumeTechnique raycast_fragment() {
-  return {&unsupported, &prepare};
+  return {&raycast_fragment_unsupported, &prepare_raycast_fragment};
 }
 
 }  // namespace triptych::gl_backend

@@ -7,12 +7,13 @@
 namespace triptych::gl_backend {
 namespace {
 
-std::optional<std::string> unsupported(const Api& gl, const measure::VolumeWork& work) {
+std::optional<std::string> speed_of_light_unsupported(const Api& gl,
+                                                      const measure::VolumeWork& work) {
   return ComputePass::unsupported(gl, work.scene.width, work.scene.height);
 }
 
-std::unique_ptr<measure::Prepared> prepare(Context& context, Stamps stamps,
-                                           const measure::VolumeWork& work) {
+std::unique_ptr<measure::Prepared> prepare_speed_of_light(Context& context, Stamps stamps,
+                                                          const measure::VolumeWork& work) {
   Constants constants = constants_of(work);
   constants.speed_of_light = true;
   return prepare_volume(
@@ -24,7 +25,7 @@ std::unique_ptr<measure::Prepared> prepare(Context& context, Stamps stamps,
 }  // namespace
 
 VolumeTechnique speed_of_light() {
-  return {&unsupported, &prepare};
+  return {&speed_of_light_unsupported, &prepare_speed_of_light};
 }
 
 }  // namespace triptych::gl_backend

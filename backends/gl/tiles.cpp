@@ -21,10 +21,10 @@ namespace {
 using measure::Purpose;
 using technique::Culling;
 
-constexpr GLuint group_size = 64;
+constexpr GLuint tile_group_size = 64;
 constexpr std::array<std::string_view, 7> passes{"cells",   "bin",    "place", "fill",
                                                  "resolve", "settle", "index"};
-enum Pass : std::size_t { cells, bin, place, fill, resolve, settle, index };
+enum TilePass : std::size_t { cells, bin, place, fill, resolve, settle, index };
 
 struct Programs {
   std::array<Program, passes.size()> of;
@@ -151,13 +151,13 @@ class TilesDrawing final : public Drawing {
                      GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   }
 
-  static void run(const Api& gl, const Programs& programs, Pass pass, GLuint groups) {
+  static void run(const Api& gl, const Programs& programs, TilePass pass, GLuint groups) {
     gl.UseProgram(programs.of[pass].get());
     gl.DispatchCompute(groups, 1, 1);
     finish(gl);
   }
 
-  static void run_on(const Api& gl, const Programs& programs, Pass pass,
+  static void run_on(const Api& gl, const Programs& programs, TilePass pass,
                      const technique::TileRound& round, GLuint groups) {
     const GLuint program = programs.of[pass].get();
     gl.UseProgram(program);
@@ -168,7 +168,7 @@ class TilesDrawing final : public Drawing {
 
   static void bin_cells(const Api& gl, const Programs& programs,
                         const technique::TileRound& round) {
-    run_on(gl, programs, cells, round, (round.cells + group_size - 1) / group_size);
+    run_on(gl, programs, cells, round, (round.cells + tile_group_size - 1) / tile_group_size);
     run_on(gl, programs, bin, round, round.cells);
   }
 
@@ -216,7 +216,7 @@ class TilesDrawing final : public Drawing {
   std::optional<Counting> counting_;
 };
 
-std::optional<std::string> unsupported(const Api& gl, const measure::ParticleWork& work) {
+std::optional<std::string> tiles_unsupported(const Api& gl, const measure::ParticleWork& work) {
   if (auto reason = particles_unsupported(gl, work, true)) return reason;
   return TileBuffers::unsupported(gl, work.scene);
 }
@@ -228,7 +228,7 @@ std::unique_ptr<Drawing> make(const Api& gl, const measure::ParticleWork& work) 
 }  // namespace
 
 ParticleTechnique tiles() {
-  return {&unsupported, &make};
+  return {&tiles_unsupported, &make};
 }
 
 }  // namespace triptych::gl_backend

@@ -8,7 +8,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-constexpr std::uint32_t group = 64;  // cull.comp.glsl
+constexpr std::uint32_t cull_group_size = 64;  // cull.comp.glsl
 
 std::vector<CullPass> passes_of(technique::Culling culling) {
   using enum technique::Culling;
@@ -58,7 +58,7 @@ void CellCulling::record(const vk::raii::CommandBuffer& commands, CullPass pass,
   const auto build = std::ranges::find_if(
       builds_, [&](const Build& each) { return each.pass == pass && each.counting == counting; });
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, build->pipeline);
-  commands.dispatch((cells_ + group - 1) / group, 1, 1);
+  commands.dispatch((cells_ + cull_group_size - 1) / cull_group_size, 1, 1);
   barrier(commands);
 }
 

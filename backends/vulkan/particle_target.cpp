@@ -8,7 +8,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-constexpr vk::Format colour_format = vk::Format::eR32G32B32A32Sfloat;
+constexpr vk::Format attachment_format = vk::Format::eR32G32B32A32Sfloat;
 constexpr vk::Format id_format = vk::Format::eR32Uint;
 constexpr vk::Format depth_format = vk::Format::eD32Sfloat;
 
@@ -39,9 +39,9 @@ vk::AttachmentDescription attachment(vk::Format format, bool continued) {
 
 vk::raii::RenderPass make_pass(const Gpu& gpu, bool continued) {
   using enum vk::ImageLayout;
-  const std::array<vk::AttachmentDescription, 3> attachments{attachment(colour_format, continued),
-                                                             attachment(id_format, continued),
-                                                             attachment(depth_format, continued)};
+  const std::array<vk::AttachmentDescription, 3> attachments{
+      attachment(attachment_format, continued), attachment(id_format, continued),
+      attachment(depth_format, continued)};
   const std::array<vk::AttachmentReference, 2> colours{
       {{.attachment = 0, .layout = eColorAttachmentOptimal},
        {.attachment = 1, .layout = eColorAttachmentOptimal}}};
@@ -92,7 +92,7 @@ ParticleTarget::ParticleTarget(const Gpu& gpu, const scene::ParticleScene& scene
       clear_{vk::ClearColorValue(scene.background),
              vk::ClearColorValue(std::array<std::uint32_t, 4>{core::Image::no_particle, 0, 0, 0}),
              vk::ClearDepthStencilValue{.depth = cleared_depth}},
-      colour_(make_target(gpu, scene, colour_format)),
+      colour_(make_target(gpu, scene, attachment_format)),
       ids_(make_target(gpu, scene, id_format)),
       depth_(make_target(gpu, scene, depth_format)),
       clearing_(make_pass(gpu, false)),
@@ -102,7 +102,7 @@ ParticleTarget::ParticleTarget(const Gpu& gpu, const scene::ParticleScene& scene
                                     colour_.extent())) {}
 
 std::vector<vk::Format> ParticleTarget::formats() {
-  return {colour_format, id_format, depth_format};
+  return {attachment_format, id_format, depth_format};
 }
 
 std::optional<std::string> ParticleTarget::format_reason(const Gpu& gpu) {

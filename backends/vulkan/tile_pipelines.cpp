@@ -6,8 +6,8 @@ namespace triptych::vulkan_backend {
 namespace {
 
 // In the order of TilePass.
-constexpr std::array<std::string_view, 7> passes{"cells",   "bin",    "place", "fill",
-                                                 "resolve", "settle", "index"};
+constexpr std::array<std::string_view, 7> pass_names{"cells",   "bin",    "place", "fill",
+                                                     "resolve", "settle", "index"};
 constexpr std::string_view show_vertex = "tiles_show.vert.spv";
 constexpr std::string_view show_fragment = "tiles_show.frag.spv";
 
@@ -19,7 +19,7 @@ std::string_view code_of(std::string_view pass, bool counting) {
 
 TilePipelines::TilePipelines(const Gpu& gpu, const Layout& layout, const Specialization& constants,
                              bool counting) {
-  for (const std::string_view pass : passes) {
+  for (const std::string_view pass : pass_names) {
     pipelines_.push_back(compute_pipeline(gpu, layout, code_of(pass, counting), constants));
   }
 }
@@ -34,7 +34,7 @@ vk::Pipeline tiles_show(const Gpu& gpu, const Layout& layout, const vk::raii::Re
 
 std::string tiles_hash(const Specialization& constants) {
   std::vector<std::string_view> codes{spirv(show_vertex), spirv(show_fragment)};
-  for (const std::string_view pass : passes) codes.push_back(code_of(pass, false));
+  for (const std::string_view pass : pass_names) codes.push_back(code_of(pass, false));
   return code_hash(codes, constants);
 }
 

@@ -18,7 +18,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-constexpr std::uint32_t group = 64;
+constexpr std::uint32_t tile_group_size = 64;
 
 struct RoundOf {  // shaders/tiles_prelude.glsl
   std::uint32_t first_cell;
@@ -105,7 +105,7 @@ TilesFrames::TilesFrames(const Gpu& gpu, const Instance& instance,
                                static_cast<std::int32_t>(options_.culling), rounds_.spheres()}),
       data_(gpu, work, arrangement),
       buffers_(gpu, work, data_, rounds_),
-      tile_groups_(groups_for(buffers_.tiles(), group)),
+      tile_groups_(groups_for(buffers_.tiles(), tile_group_size)),
       target_(gpu, work.scene,
               options_.fault == technique::ParticleFault::reversed_depth ? 1.0F : 0.0F),
       layout_(make_layout(gpu, tile_bindings(), sizeof(RoundOf))),
@@ -145,7 +145,7 @@ void TilesFrames::push(const vk::raii::CommandBuffer& commands, std::uint32_t fi
 void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                       const technique::TileRound& round, std::uint32_t again) const {
   push(commands, round.first, round.cells);
-  run(commands, pipelines[TilePass::cells], groups_for(round.cells, group));
+  run(commands, pipelines[TilePass::cells], groups_for(round.cells, tile_group_size));
   barrier(commands);
   run(commands, pipelines[TilePass::bin], round.cells);
   if (again > 0) run(commands, pipelines[TilePass::bin], again);

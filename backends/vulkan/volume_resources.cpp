@@ -17,7 +17,7 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-constexpr std::uint32_t passes = 2;
+constexpr std::uint32_t pass_count = 2;
 constexpr std::uint32_t storage_buffers = 5;  // bricks, output, counters, quadrature, pauses
 constexpr std::uint32_t texel_buffers = 4;    // cells, table, bricks, quadrature
 // What bricks and quadrature may be read as.
@@ -121,8 +121,8 @@ VolumeResources::VolumeResources(const Gpu& gpu, const measure::VolumeWork& work
       quadrature_(upload_quadrature(gpu, work.scene)),
       parameters_(make_parameters(work, map, parts)),
       layout_(make_layout(gpu, volume_bindings(is_packed(work), !parts.empty()))),
-      pool_(make_pool(gpu, passes, storage_buffers, is_packed(work) ? texel_buffers : 0)),
-      sets_(allocate_sets(gpu, pool_, layout_, passes)) {
+      pool_(make_pool(gpu, pass_count, storage_buffers, is_packed(work) ? texel_buffers : 0)),
+      sets_(allocate_sets(gpu, pool_, layout_, pass_count)) {
   const int held = technique::most_held(parts);
   if (is_packed(work)) {
     texels_.emplace(make_texels(work, held));

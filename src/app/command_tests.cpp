@@ -19,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ListArguments {
+struct TestsArguments {
   std::vector<std::string> plans;
   std::string out;
   std::string folder;
 };
 
-core::ExitCode list_tests(const ListArguments& arguments) {
+core::ExitCode list_tests(const TestsArguments& arguments) {
   const Registry registry = make_registry();
   const measure::Listing listing = registry.devices();
   std::vector<report::PlanTests> tests;

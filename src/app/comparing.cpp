@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void tell_progress(const comparison::ComparisonProgress& progress) {
+void print_comparison_progress(const comparison::ComparisonProgress& progress) {
   if (progress.loading) return show_loading(*progress.loading);
   const auto seconds = progress.left.count();
   const std::string left = seconds > 0 ? fmt::format(", left at most {} s", seconds) : "";
@@ -76,7 +76,7 @@ class Comparer {
     for (const measure::InjectedFault& each : options.faults) measure::check_fault(each.fault);
     if (comparing.budget_s > 0) options.budget = std::chrono::seconds(comparing.budget_s);
     comparison::ComparisonResult result = comparison::compare(
-        options, registry_.suite(options.plan.suite), store_, truths_, tell_progress);
+        options, registry_.suite(options.plan.suite), store_, truths_, print_comparison_progress);
     clear_line();
     return {std::move(result), command_of(comparing, typed, options.plan)};
   }

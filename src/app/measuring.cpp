@@ -30,7 +30,7 @@ std::string outcome_text(const record::Record& record) {
 }
 
 // On a terminal with the time left, elsewhere of configurations that are done.
-void tell_progress(const measure::Progress& progress) {
+void print_progress(const measure::Progress& progress) {
   if (progress.loading) return show_loading(*progress.loading);
   const std::string what = progress.record != nullptr ? outcome_text(*progress.record) : "";
   if (watched()) {
@@ -108,7 +108,7 @@ std::vector<measure::RunResult> measure_on(const Bench& bench,
     runs.push_back({plan, bench.registry.suite(plan.suite), options});
   }
   std::vector<measure::RunResult> results =
-      measure::run_plans(runs, bench.devices, bench.store, tell_progress);
+      measure::run_plans(runs, bench.devices, bench.store, print_progress);
   for (const auto& [fault, only] : measure::faults_that_hit_nothing(runs, bench.devices)) {
     say("triptych: --inject {}@{} hits nothing: no configuration or device is called so; `triptych "
         "list PLAN` tells their names, which leave defaults out\n",

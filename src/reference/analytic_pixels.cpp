@@ -11,7 +11,7 @@
 namespace triptych::reference {
 namespace {
 
-constexpr double rounding = 0x1.0p-24;
+constexpr double float_rounding = 0x1.0p-24;
 
 struct Chord {
   glm::dvec3 direction{};
@@ -61,8 +61,8 @@ double table_error(const Setting& setting, double length) {
   const double left = std::exp(-u * medium.largest);
   const double slope = u * medium.slope;
   const double bend = u * medium.curvature + slope * slope;
-  const double alpha = bend / (8.0 * 255.0 * 255.0) + rounding * (1.0 - left + slope);
-  return length * alpha / (u * left) + 2.0 * rounding;
+  const double alpha = bend / (8.0 * 255.0 * 255.0) + float_rounding * (1.0 - left + slope);
+  return length * alpha / (u * left) + 2.0 * float_rounding;
 }
 
 // The distances along the ray at which z crosses one of the planes, with both ends, in ascending
@@ -219,7 +219,7 @@ double unsure_zone(const Setting& setting, double face) {
   double squares = 0;
   for (const double delta : spacing) squares += delta * delta;
   const double s = face - std::sqrt(squares);
-  const double h = shell_of(setting).reach * (1.0 / 510.0 + 2.0 * rounding);
+  const double h = shell_of(setting).reach * (1.0 / 510.0 + 2.0 * float_rounding);
   const double discriminant = (s - h) * (s - h) - squares / 2.0;
   if (!(s > h) || !(discriminant >= 0)) return std::numeric_limits<double>::infinity();
   return 0.5 * (s + h - std::sqrt(discriminant));
@@ -369,7 +369,7 @@ AnalyticPixel wave_pixel(const Setting& setting, int x, int y) {
   const double width = k * setting.layer_z;
   const double stored = wave.amplitude + 1.0 / 256;
   const double inside = brightest * width * width * (1.0 / 6.0 + 1.0 / 8.0) +
-                        rounding * stored / light.gradient_floor;
+                        float_rounding * stored / light.gradient_floor;
   const double halves = std::min(length, setting.layer_z / std::abs(chord.direction.z));
   const double steepness = light.diffuse + light.specular * light.exponent;
   return finish(setting, channels,

@@ -37,7 +37,7 @@ constexpr int most_halvings = 48;
 // The extinction per voxel length of opacity 1: nothing behind 1e-10 of a voxel is visible.
 constexpr double most_extinction = 1e12;
 // A smaller change is regarded as rounding.
-constexpr double rounding = 0x1.0p-48;
+constexpr double least_tolerance = 0x1.0p-48;
 
 // The part of the ray between two planes of voxel centres, with s from 0 to 1.
 struct Cell {
@@ -188,8 +188,8 @@ class ConvergedRaycaster {
     const PieceLight back = light(middle, b);
     const PieceLight both = front.before(back);
     const double change = std::exp(-sum_.depth) * difference(both, whole);
-    const double allowed =
-        std::max(0.9 * share_per_voxel_ * length * (b - a) + 0x1.0p-20 * tolerance_, rounding);
+    const double allowed = std::max(
+        0.9 * share_per_voxel_ * length * (b - a) + 0x1.0p-20 * tolerance_, least_tolerance);
     if (change <= allowed || level == most_halvings) {
       sum_ = sum_.before(both);
       pixel_.bound += change;

@@ -11,7 +11,7 @@ namespace triptych::reference {
 
 namespace {
 
-constexpr double last_entry = 255;
+constexpr double last_bounded_entry = 255;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // The largest depth of a chunk of several cells, and the light that is cut off after three
 // coefficients.
@@ -50,12 +50,12 @@ PreintegrationBound::PreintegrationBound(const Table& table, const ErrorModel& m
 }
 
 PreintegrationBound::Rgba PreintegrationBound::at(double position) const {
-  return table_.at(std::clamp(position, 0.0, last_entry));
+  return table_.at(std::clamp(position, 0.0, last_bounded_entry));
 }
 
 PreintegrationBound::Reach PreintegrationBound::reach(double lo, double hi) const {
-  const double first = std::clamp(std::floor(lo), 0.0, last_entry - 1);
-  const double last = std::clamp(std::floor(hi), 0.0, last_entry - 1);
+  const double first = std::clamp(std::floor(lo), 0.0, last_bounded_entry - 1);
+  const double last = std::clamp(std::floor(hi), 0.0, last_bounded_entry - 1);
   Reach reach;
   for (double k = first; k <= last; k += 1.0) {
     const Rgba a = at(k);

@@ -10,7 +10,7 @@ namespace triptych::reference {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unreached = std::numeric_limits<double>::infinity();
 
 double largest_difference(const std::array<double, 4>& a, const std::array<double, 4>& b) {
   double largest = 0;
@@ -69,14 +69,14 @@ std::array<double, 3> SpherePicture::colour(std::size_t index) const {
 SpherePixel SphereTracer::operator()(int x, int y) {
   const View view = this->view(x, y);
   candidates_.clear();
-  covered_ = distance_ = infinity;
+  covered_ = distance_ = unreached;
   const double slack = picture_.model.depth_relative * picture_.tree.farthest();
   picture_.tree.walk(
       view.direction, [&] { return (covered_ + slack) / view.along * (1 + 1e-12); },
       [&](std::uint32_t place) { meet(view, place); });
 
   SpherePixel pixel;
-  const bool hit = distance_ < infinity;
+  const bool hit = distance_ < unreached;
   if (hit) {
     const Passage ray = pass(view, shown_);
     pixel.rgba = shaded(shown_, std::sqrt(ray.half_squared) / ray.radius);
@@ -84,10 +84,10 @@ SpherePixel SphereTracer::operator()(int x, int y) {
     pixel.id = picture_.scene.particles->ids[picture_.tree.sphere(shown_).index];
   } else {
     std::ranges::copy(picture_.scene.background, pixel.rgba.begin());
-    pixel.depth = infinity;
+    pixel.depth = unreached;
     pixel.id = core::Image::no_particle;
   }
-  const bool covers = covered_ < infinity;
+  const bool covers = covered_ < unreached;
   pixel.certain = covers == hit && std::ranges::none_of(candidates_, [this](const Candidate& c) {
                     return is_rival(c);
                   });
@@ -130,7 +130,7 @@ void SphereTracer::meet(const View& view, std::uint32_t place) {
   if (reached.covers) covered_ = std::min(covered_, reached.farthest * view.along + error);
 
   const double distance = first_surface(ray);
-  if (!(distance <= distance_) || distance == infinity) return;
+  if (!(distance <= distance_) || distance == unreached) return;
   const auto id = [&](std::uint32_t other) {
     return picture_.scene.particles->ids[picture_.tree.sphere(other).index];
   };
@@ -142,7 +142,7 @@ void SphereTracer::meet(const View& view, std::uint32_t place) {
 
 bool SphereTracer::is_rival(const Candidate& candidate) const {
   if (candidate.nearest > covered_) return false;  // it became a candidate before that was known
-  if (distance_ == infinity) return true;
+  if (distance_ == unreached) return true;
   const SphereTree::Sphere& shown = picture_.tree.sphere(shown_);
   const SphereTree::Sphere& other = picture_.tree.sphere(candidate.place);
   return other.centre != shown.centre || other.radius != shown.radius;
@@ -174,8 +174,8 @@ void SphereTracer::bound_shown(const View& view, SpherePixel& pixel) const {
 }
 
 void SphereTracer::bound_all(const View& view, SpherePixel& pixel) const {
-  pixel.depth_bound = infinity;
-  if (covered_ == infinity) {
+  pixel.depth_bound = unreached;
+  if (covered_ == unreached) {
     std::array<double, 4> background{};
     std::ranges::copy(picture_.scene.background, background.begin());
     pixel.bound = largest_difference(pixel.rgba, background);

@@ -14,11 +14,11 @@
 namespace triptych::report {
 namespace {
 
-struct Axis {
+struct CostAxis {
   std::string title;
   std::string unit;  // of a value, after it
 };
-Axis axis_of(Cost cost) {
+CostAxis axis_of(Cost cost) {
   switch (cost) {
     case Cost::time:
       return {"time of a frame, ms", "ms"};

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t shown_openly = 10;
 constexpr std::size_t most_characters = 60000;
-constexpr std::size_t longest_command = 4000;
+constexpr std::size_t longest_listed_command = 4000;
 constexpr std::size_t most_of_bounds = 8000;
 
 std::string rows(const Overview& all) {
@@ -31,7 +31,7 @@ std::string item(const Cause& cause) {
                                  judge::name_of(first.check), markdown_escaped(place_of(cause)),
                                  markdown_escaped(whole_message_of(cause)));
   const std::string command = command_of(first, *cause.result);
-  if (!command.empty() && command.size() < longest_command) text += fenced(command, "  ");
+  if (!command.empty() && command.size() < longest_listed_command) text += fenced(command, "  ");
   return text;
 }
 

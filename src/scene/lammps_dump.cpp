@@ -12,7 +12,7 @@ namespace triptych::scene {
 namespace {
 
 constexpr std::string_view item = "ITEM: ";
-using Words = std::vector<std::string_view>;
+using DumpWords = std::vector<std::string_view>;
 
 // The simulation's box, to undo scaling.
 struct Cell {
@@ -74,7 +74,7 @@ Cell read_cell(LineReader& reader, std::string_view header) {
 }
 
 Columns parse_columns(std::string_view header, const LineReader& reader) {
-  const Words names = split_words(header);
+  const DumpWords names = split_words(header);
   const auto find = [&names](std::string_view name) -> std::optional<std::size_t> {
     const auto found = std::ranges::find(names, name);
     if (found == names.end()) return std::nullopt;
@@ -131,7 +131,7 @@ class RowReader {
   RowReader(Atoms& atoms, const Columns& columns, const Cell& cell, const LineReader& reader)
       : atoms_(atoms), columns_(columns), cell_(cell), reader_(reader) {}
 
-  void add(const Words& row) {
+  void add(const DumpWords& row) {
     if (row.size() != columns_.count) {
       reader_.reject(fmt::format("expected {} values, found {}", columns_.count, row.size()));
     }
@@ -150,7 +150,7 @@ class RowReader {
   }
 
  private:
-  [[nodiscard]] std::string kind_of(const Words& row) const {
+  [[nodiscard]] std::string kind_of(const DumpWords& row) const {
     if (columns_.element) return proper_symbol(row[*columns_.element]);
     return columns_.type ? std::string(row[*columns_.type]) : std::string("1");
   }
@@ -186,7 +186,7 @@ ParticleSet read_lammps_dump(LineReader& reader, std::uint64_t frame, ColourKind
     atoms.places.reserve(reader.room(*header.count, 2 * columns.count));
     RowReader rows(atoms, columns, cell, reader);
     const int first_line = reader.line() + 1;
-    Words row;
+    DumpWords row;
     for (std::uint64_t i = 0; i < *header.count; ++i) {
       split_words_into(reader.require(atoms_wanted), row);
       rows.add(row);

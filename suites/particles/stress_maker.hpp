@@ -1,13 +1,26 @@
 #pragma once
 // Building blocks of the stress scenes.
 
+#include <charconv>
 #include <glm/vec3.hpp>
+#include <string_view>
 
 #include "suites/particles/stress_cases.hpp"
 
 namespace triptych::particles_suite {
 
 using scene::looking;
+
+// Width and height of most stress images, in pixels.
+inline constexpr int stress_side = 96;
+
+// The number that a variant such as "1e6" or "64x48" begins with; 0 where it begins with none.
+template <typename Number>
+[[nodiscard]] Number number_in(std::string_view variant) {
+  Number number = 0;
+  std::from_chars(variant.data(), variant.data() + variant.size(), number);
+  return number;
+}
 
 // A unit vector that is oblique to all axes.
 [[nodiscard]] glm::dvec3 oblique();

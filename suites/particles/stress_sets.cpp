@@ -1,6 +1,5 @@
 // Stress scenes about sets of particles, and about the frame they are drawn into.
 
-#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -16,15 +15,7 @@
 namespace triptych::particles_suite {
 namespace {
 
-constexpr int side = 96;  // of an image, in pixels
 constexpr double fov = 60;
-
-template <typename Number>
-Number number_in(std::string_view variant) {
-  Number number = 0;
-  std::from_chars(variant.data(), variant.data() + variant.size(), number);
-  return number;
-}
 
 StressScene generated(std::string_view generator, std::uint64_t count, scene::ColourKind colour,
                       int width, int height) {
@@ -52,7 +43,7 @@ void shuffle(scene::ParticleSet& set) {
 }  // namespace
 
 StressScene stress_no_sphere(std::string_view variant, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({0, 0, 4}, {0, 0, 0}, fov), side, side);
+  StressMaker maker(colour, looking({0, 0, 4}, {0, 0, 0}, fov), stress_side, stress_side);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   const glm::dvec3 before{0, 0, 0.5};
@@ -76,7 +67,7 @@ StressScene stress_no_sphere(std::string_view variant, scene::ColourKind colour)
 
 // The same five spheres eight times, with equal ones far apart in the set.
 StressScene stress_coincident(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({1, 0.7, 4}, {0, 0, 0}, fov), side, side);
+  StressMaker maker(colour, looking({1, 0.7, 4}, {0, 0, 0}, fov), stress_side, stress_side);
   for (int copy = 0; copy < 8; ++copy) {
     maker.add({0, 0, 0}, 0.9);
     maker.add({1.1, 0.6, 0.2}, 0.5);
@@ -90,7 +81,7 @@ StressScene stress_coincident(std::string_view, scene::ColourKind colour) {
 // A lattice whose edges are as long as the radius. Each sphere cuts into 18 others, and its visible
 // part is bounded by the bisecting planes.
 StressScene stress_interpenetrating(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({3, 2.2, 4.1}, {0, 0, 0}, 45), side, side);
+  StressMaker maker(colour, looking({3, 2.2, 4.1}, {0, 0, 0}, 45), stress_side, stress_side);
   for (int z = 0; z < 4; ++z) {
     for (int y = 0; y < 4; ++y) {
       for (int x = 0; x < 4; ++x) maker.add(0.5 * glm::dvec3{x, y, z} - 0.75, 0.5);
@@ -117,12 +108,12 @@ StressScene stress_pile(std::string_view variant, scene::ColourKind colour) {
 
 StressScene stress_count(std::string_view variant, scene::ColourKind colour) {
   const std::uint64_t count = number_in<std::uint64_t>(variant);
-  if (count > 0) return generated("uniform", count, colour, side, side);
-  return StressMaker(colour, looking({0, 0, 3}, {0, 0, 0}, fov), side, side).take();
+  if (count > 0) return generated("uniform", count, colour, stress_side, stress_side);
+  return StressMaker(colour, looking({0, 0, 3}, {0, 0, 0}, fov), stress_side, stress_side).take();
 }
 
 StressScene stress_order(std::string_view variant, scene::ColourKind colour) {
-  StressScene scene = generated("coincident", 3000, colour, side, side);
+  StressScene scene = generated("coincident", 3000, colour, stress_side, stress_side);
   if (variant == "shuffled") shuffle(scene.particles);
   return scene;
 }
@@ -130,7 +121,7 @@ StressScene stress_order(std::string_view variant, scene::ColourKind colour) {
 // Two crowds on both sides of a wall. The eye jumps from one side to the other, so that nothing
 // that was visible before is useful, and most of what was hidden is needed.
 StressScene stress_jump(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({3, 2, -24}, {0, 0, 0}, fov), side, side);
+  StressMaker maker(colour, looking({3, 2, -24}, {0, 0, 0}, fov), stress_side, stress_side);
   for (int y = 0; y < 21; ++y) {
     for (int x = 0; x < 21; ++x) maker.add({x - 10.0, y - 10.0, 0}, 0.75);
   }
@@ -179,13 +170,14 @@ StressScene stress_widest(std::string_view, scene::ColourKind colour) {
 
 StressScene stress_field_of_view(std::string_view variant, scene::ColourKind colour) {
   if (variant == "0.001") {
-    StressMaker maker(colour, looking(10.0 * oblique(), {0, 0, 0}, 0.001), side, side);
+    StressMaker maker(colour, looking(10.0 * oblique(), {0, 0, 0}, 0.001), stress_side,
+                      stress_side);
     for (int i = 0; i < 5; ++i) maker.add_at(16 + 15.0 * i, 20 + 13.0 * i, 10, 6 + 2.0 * i);
     return maker.take();
   }
   // The image shows nearly a half space, so that the spheres at the side look large.
   const scene::Camera camera = looking({0.1, 0.2, 0.3}, {0.4, 0.1, -2}, 179);
-  StressMaker maker(colour, camera, side, side);
+  StressMaker maker(colour, camera, stress_side, stress_side);
   for (int i = 0; i < 8; ++i) {
     const double around = 2 * std::numbers::pi * (i + 0.3) / 8;
     const glm::dvec3 aside = std::cos(around) * camera.right() + std::sin(around) * camera.up;
@@ -198,7 +190,7 @@ StressScene stress_field_of_view(std::string_view variant, scene::ColourKind col
 // The letter F with its lower end closer to the eye. No flip and no exchange of axes leaves it
 // unchanged.
 StressScene stress_asymmetric(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, fov), side, side);
+  StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, fov), stress_side, stress_side);
   for (int i = 0; i < 7; ++i) maker.add_at(30, 16 + 10.0 * i, 5 - 0.3 * i, 7);
   for (int i = 1; i < 4; ++i) maker.add_at(30 + 11.0 * i, 16, 5 + 0.2 * i, 6);
   for (int i = 1; i < 3; ++i) maker.add_at(30 + 11.0 * i, 45, 4 + 0.2 * i, 5);

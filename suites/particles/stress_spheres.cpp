@@ -1,6 +1,5 @@
 // Stress scenes about the geometry of one or a few spheres.
 
-#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -11,15 +10,6 @@
 namespace triptych::particles_suite {
 namespace {
 
-constexpr int side = 96;  // of an image, in pixels
-
-double number_in(std::string_view variant) {
-  double number = 0;
-  std::from_chars(variant.data(), variant.data() + variant.size(), number);
-  return number;
-}
-
-// The field of view that shows a height at a distance.
 double fov_of(double height, double distance) {
   return 2 * std::atan(height / (2 * distance)) * 180 / std::numbers::pi;
 }
@@ -35,7 +25,8 @@ void add_pair(StressMaker& maker) {
 // Everything is multiplied by one power of two in world units, which commutes with rounding.
 StressScene stress_scale(std::string_view variant, scene::ColourKind colour) {
   const double scale = variant == "small" ? 0x1.0p-20 : variant == "large" ? 0x1.0p20 : 1.0;
-  StressMaker maker(colour, looking(scale * 5.0 * oblique(), {0, 0, 0}, 40), side, side);
+  StressMaker maker(colour, looking(scale * 5.0 * oblique(), {0, 0, 0}, 40), stress_side,
+                    stress_side);
   maker.add({0, 0, 0}, scale);
   maker.add(scale * glm::dvec3{1.2, 0.3, 0.1}, 0.2 * scale);
   maker.add(scale * glm::dvec3{-0.9, 0.8, 0.7}, 0.6 * scale);
@@ -47,7 +38,7 @@ StressScene stress_scale(std::string_view variant, scene::ColourKind colour) {
 // cannot resolve here.
 StressScene stress_far(std::string_view variant, scene::ColourKind colour) {
   constexpr int larger_side = 160;
-  const double distance = number_in(variant);
+  const double distance = number_in<double>(variant);
   const scene::Camera camera = looking(distance * oblique(), {0, 0, 0}, fov_of(5, distance));
   StressMaker maker(colour, camera, larger_side, larger_side);
   maker.add({0, 0, 0}, 1);
@@ -56,7 +47,7 @@ StressScene stress_far(std::string_view variant, scene::ColourKind colour) {
 }
 
 StressScene stress_giant(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({1, 2, 7}, {0, 0, 0}, 60), side, side);
+  StressMaker maker(colour, looking({1, 2, 7}, {0, 0, 0}, 60), stress_side, stress_side);
   maker.add({0, 0, 0}, 1);
   maker.add({0, -10001, 0}, 10000);
   maker.add({2.5, 0, -1}, 1);
@@ -67,7 +58,8 @@ StressScene stress_inside(std::string_view variant, scene::ColourKind colour) {
   glm::dvec3 eye{0, 0, 0};
   if (variant == "off_centre") eye = {0.3, 0.2, 0.1};
   if (variant == "under_surface") eye = 0.9999 * oblique();
-  StressMaker maker(colour, looking(eye, eye + glm::dvec3{0.7, 0.2, -2.1}, 90), side, side);
+  StressMaker maker(colour, looking(eye, eye + glm::dvec3{0.7, 0.2, -2.1}, 90), stress_side,
+                    stress_side);
   add_pair(maker);
   maker.add({0.5, 0.15, -0.6}, 0.15);  // also inside, in front of the shell
   maker.add({0.9, 0.3, -2.5}, 0.8);    // outside: hidden by the shell
@@ -76,12 +68,12 @@ StressScene stress_inside(std::string_view variant, scene::ColourKind colour) {
 
 // Looks along the tangent, so that the horizon crosses the image.
 StressScene stress_skimming(std::string_view variant, scene::ColourKind colour) {
-  const double distance = number_in(variant);
+  const double distance = number_in<double>(variant);
   const glm::dvec3 up = oblique();
   const glm::dvec3 ahead = glm::normalize(glm::cross(up, glm::dvec3{0, 1, 0}));
   scene::Camera camera = looking(distance * up, distance * up + ahead, 100);
   camera.up = up;
-  StressMaker maker(colour, camera, side, side);
+  StressMaker maker(colour, camera, stress_side, stress_side);
   maker.add({0, 0, 0}, 1);
   // Half sunk into the ground, in front of the horizon, on it and behind it.
   for (const double angle : {0.004, 0.014, 0.1, 0.5}) {
@@ -92,7 +84,7 @@ StressScene stress_skimming(std::string_view variant, scene::ColourKind colour) 
 }
 
 StressScene stress_near_plane(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, 110), side, side);
+  StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, 110), stress_side, stress_side);
   maker.add({1.3, 0.2, -0.1}, 1);
   maker.add({-0.9, -0.5, -0.3}, 0.7);
   maker.add({0.1, 1.2, -0.4}, 0.8);
@@ -102,7 +94,7 @@ StressScene stress_near_plane(std::string_view, scene::ColourKind colour) {
 }
 
 StressScene stress_behind(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, 150), side, side);
+  StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, 150), stress_side, stress_side);
   maker.add({1.5, 0.1, 0.3}, 1.4);
   maker.add({-0.5, -1.2, 0.2}, 1.1);
   maker.add({0.2, 0.1, 3}, 2.5);  // completely behind the eye
@@ -111,32 +103,33 @@ StressScene stress_behind(std::string_view, scene::ColourKind colour) {
 }
 
 StressScene stress_wide(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({0.3, 0.2, 0.1}, {-1, 0.4, -2}, 150), side, side);
-  for (const double x : {7.0, side - 5.0}) {
-    for (const double y : {6.0, side - 8.0}) maker.add_at(x, y, 1, 6);
+  StressMaker maker(colour, looking({0.3, 0.2, 0.1}, {-1, 0.4, -2}, 150), stress_side, stress_side);
+  for (const double x : {7.0, stress_side - 5.0}) {
+    for (const double y : {6.0, stress_side - 8.0}) maker.add_at(x, y, 1, 6);
   }
-  maker.add_at(side / 2.0, side / 2.0, 1.5, 5);
+  maker.add_at(stress_side / 2.0, stress_side / 2.0, 1.5, 5);
   return maker.take();
 }
 
 // Centres on the edges and corners of the image. Outside of it, one sphere that reaches a pixel
 // into the image and one that ends a pixel before it.
 StressScene stress_edges(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({2, 1, 4}, {0, 0, 0}, 50), side, side);
-  for (const double x : {0.0, side / 2.0, 1.0 * side}) {
-    for (const double y : {0.0, side / 2.0, 1.0 * side}) maker.add_at(x, y, 3 + 0.01 * x, 9);
+  StressMaker maker(colour, looking({2, 1, 4}, {0, 0, 0}, 50), stress_side, stress_side);
+  for (const double x : {0.0, stress_side / 2.0, 1.0 * stress_side}) {
+    for (const double y : {0.0, stress_side / 2.0, 1.0 * stress_side})
+      maker.add_at(x, y, 3 + 0.01 * x, 9);
   }
   maker.add_at(-11, 25, 4, 12);
-  maker.add_at(side + 9, 25, 4, 8);
+  maker.add_at(stress_side + 9, 25, 4, 8);
   return maker.take();
 }
 
 // Radii of a hundredth of a pixel. Spheres on the centre of every eighth pixel of every eighth row
 // are visible; those on a pixel corner four pixels further are missed by every ray.
 StressScene stress_subpixel(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking(oblique(), {0, 0, 0}, 60), side, side);
-  for (int y = 4; y < side; y += 8) {
-    for (int x = 4; x < side; x += 8) {
+  StressMaker maker(colour, looking(oblique(), {0, 0, 0}, 60), stress_side, stress_side);
+  for (int y = 4; y < stress_side; y += 8) {
+    for (int x = 4; x < stress_side; x += 8) {
       maker.add_at(x + 0.5, y + 0.5, 1, 0.01);
       maker.add_at(x + 4.0, y + 4.0, 1, 0.01);
     }
@@ -147,7 +140,7 @@ StressScene stress_subpixel(std::string_view, scene::ColourKind colour) {
 // Seven spheres that look equally large because each is as large as its distance. Each overlaps the
 // next one, which is ten times as far away.
 StressScene stress_depth_range(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({0, 0, 0}, {0.3, -0.1, -1}, 60), side, side);
+  StressMaker maker(colour, looking({0, 0, 0}, {0.3, -0.1, -1}, 60), stress_side, stress_side);
   double depth = 1e-3;
   for (int i = 0; i < 7; ++i, depth *= 10) {
     maker.add_at(14 + 11.3 * i, 46 + (i % 2 == 0 ? 3.7 : -2.9), depth, 12);

@@ -21,7 +21,7 @@ std::string failing(const std::string& kind, const std::string& only) {
 }
 
 // The last line, without the program's name.
-std::string printed_command(const std::string& output) {
+std::string last_command(const std::string& output) {
   constexpr std::string_view program = "\ntriptych ";
   const std::size_t begin = output.rfind(program);
   if (begin == std::string::npos) return {};
@@ -37,7 +37,7 @@ TEST(Reduce, ACrashIsReducedToWhatItNeeds) {
   EXPECT_THAT(result.output, HasSubstr("crashed: "));
   EXPECT_THAT(result.output, HasSubstr("viewport 64 → 1"));
   EXPECT_THAT(result.output, HasSubstr("data generate:mandelbulb:96 → generate:mandelbulb:1,"));
-  const std::string command = printed_command(result.output);
+  const std::string command = last_command(result.output);
   EXPECT_THAT(command, HasSubstr("--set step=0.5"));
   EXPECT_THAT(command, Not(HasSubstr("--set skip")));  // the default is what it needs
   const Result again = program.run(command, crash);
@@ -60,7 +60,7 @@ TEST(Reduce, TheFolderHoldsWhatAReportNeeds) {
   EXPECT_THAT(text, HasSubstr("With any plainer level of one factor it does not fail so."));
   EXPECT_THAT(program.read("r/frame.json"), HasSubstr("transfer_function"));
   EXPECT_FALSE(std::filesystem::exists(program.folder() / "r/.reduce.sqlite"));
-  const Result again = program.run(printed_command(result.output), failing("crash", "none"));
+  const Result again = program.run(last_command(result.output), failing("crash", "none"));
   EXPECT_EQ(again.code, 1) << again.output;
 }
 

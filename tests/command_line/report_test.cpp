@@ -32,11 +32,11 @@ class ReportTest : public testing::Test {
   Program program_;
 };
 
-constexpr const char* small = " --set data=generate:gaussian_blob:16 --set viewport=16";
+constexpr const char* small_scene = " --set data=generate:gaussian_blob:16 --set viewport=16";
 
 TEST_F(ReportTest, EveryChartIsDrawn) {
-  measure(std::string("volume/quick") + small);
-  measure(std::string("volume/accuracy") + small);
+  measure(std::string("volume/quick") + small_scene);
+  measure(std::string("volume/accuracy") + small_scene);
   const std::string page = report();
   EXPECT_THAT(page, HasSubstr("RMSE against the limit"));
   EXPECT_THAT(page, HasSubstr("time of a frame, ms"));
@@ -51,7 +51,7 @@ TEST_F(ReportTest, EveryChartIsDrawn) {
 }
 
 TEST_F(ReportTest, NeedsNoNetwork) {
-  measure(std::string("volume/quick") + small);
+  measure(std::string("volume/quick") + small_scene);
   const std::string page = report();
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
   EXPECT_THAT(page, HasSubstr("null:scripted"));
@@ -59,8 +59,8 @@ TEST_F(ReportTest, NeedsNoNetwork) {
 }
 
 TEST_F(ReportTest, BeginsWithTheVerdictThenPicturesThenPlans) {
-  measure(std::string("volume/quick") + small);
-  measure(std::string("volume/speed") + small);
+  measure(std::string("volume/quick") + small_scene);
+  measure(std::string("volume/speed") + small_scene);
   const std::string page = report();
   const auto header = page.find("<header id=\"verdict\"");
   EXPECT_LT(header, page.find("<a href=\"#plan0\">volume/quick</a>"));
@@ -70,7 +70,7 @@ TEST_F(ReportTest, BeginsWithTheVerdictThenPicturesThenPlans) {
 }
 
 TEST_F(ReportTest, ReplacesNeitherTheStoreNorItself) {
-  measure(std::string("volume/quick --untimed") + small);
+  measure(std::string("volume/quick --untimed") + small_scene);
   const std::string store = program_.read("s.sqlite");
   const Result over_store = program_.run("report --store s.sqlite --out ./s.sqlite");
   EXPECT_EQ(over_store.code, 3);
@@ -82,7 +82,7 @@ TEST_F(ReportTest, ReplacesNeitherTheStoreNorItself) {
 }
 
 TEST_F(ReportTest, WritesBothFilesOrNeither) {
-  measure(std::string("volume/quick --untimed") + small);
+  measure(std::string("volume/quick --untimed") + small_scene);
   std::filesystem::create_directory(program_.folder() / "folder");
   const std::string command = "report --store s.sqlite --baselines b --out page.html ";
   const Result refused = program_.run(command + "--benchmark-json folder");
@@ -94,8 +94,8 @@ TEST_F(ReportTest, WritesBothFilesOrNeither) {
 
 // Of one plan alone it would leave out what a store that CI keeps is there for.
 TEST_F(ReportTest, BenchmarkJsonHoldsEveryPlan) {
-  measure(std::string("volume/quick") + small);
-  measure(std::string("volume/speed") + small);
+  measure(std::string("volume/quick") + small_scene);
+  measure(std::string("volume/speed") + small_scene);
   static_cast<void>(report("--benchmark-json benchmark.json"));
   const auto json = nlohmann::json::parse(program_.read("benchmark.json"));
   EXPECT_TRUE(json.at("context").contains("device null:scripted"));

@@ -13,9 +13,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* volume = "volume";
-constexpr const char* particles = "particles";
-
 struct Fault {
   const char* name;
   const char* plan;

@@ -16,6 +16,10 @@
 
 namespace triptych::layer {
 
+// Names of the suites that are drawn through the layer.
+inline constexpr const char* volume = "volume";
+inline constexpr const char* particles = "particles";
+
 class Layered {
  public:
   // `change` as TRIPTYCH_LAYER has it; empty: the driver as it is.

@@ -11,8 +11,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* volume = "volume";
-constexpr const char* particles = "particles";
 constexpr const char* draws = "--set technique=raycast_fragment";
 
 struct Lowered {

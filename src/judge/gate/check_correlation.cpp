@@ -14,7 +14,7 @@ namespace {
 
 constexpr double rounded = 1e-5;  // of ln, in texts
 
-std::string percent(double log_ratio) {
+std::string percent_text(double log_ratio) {
   return fmt::format("{:+.3g} %", 100 * std::expm1(log_ratio));
 }
 
@@ -102,14 +102,14 @@ std::string subject_text(const Movement& movement) {
 
 std::string range_text(const Movement& movement) {
   if (std::abs(movement.most - movement.least) <= rounded) return {};
-  return fmt::format(", {} to {}", percent(movement.least), percent(movement.most));
+  return fmt::format(", {} to {}", percent_text(movement.least), percent_text(movement.most));
 }
 
 Finding finding_of(const Moved& moved, const Movement& movement) {
   const bool dearer = movement.log_ratio > 0;
   std::string message =
       fmt::format("{}{} instructions against what was accepted{}; off the stored residuals with {}",
-                  subject_text(movement), percent(movement.log_ratio), range_text(movement),
+                  subject_text(movement), percent_text(movement.log_ratio), range_text(movement),
                   fmt::join(moved.beside, ", "));
   const record::Record& first = *moved.records[movement.members.front()];
   Finding finding =
@@ -163,8 +163,8 @@ const CorrelationPair* nearest(const DeviceCost& device,
 
 Finding finding_of(const DeviceCost& device, const CorrelationPair& pair, const OffTheLine& off) {
   const std::string by =
-      fmt::format("{} ± {:.2g} % instructions, off the line of {}, q = {:.2g}", percent(off.effect),
-                  100 * std::expm1(off.error), pair.device_a, off.q);
+      fmt::format("{} ± {:.2g} % instructions, off the line of {}, q = {:.2g}",
+                  percent_text(off.effect), 100 * std::expm1(off.error), pair.device_a, off.q);
   Finding finding = about_device(device, Verdict::advisory, {});
   if (off.level.empty()) {
     finding.configuration = pair.points[off.members.front()].configuration;

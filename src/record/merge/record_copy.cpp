@@ -38,7 +38,7 @@ std::vector<std::string> other_columns(const SQLite::Database& database) {
 }
 
 // As a writer has them: seq, run, then all but seq as they are read.
-std::vector<std::string> record_columns(const std::vector<std::string>& others) {
+std::vector<std::string> columns_with(const std::vector<std::string>& others) {
   std::vector<std::string> columns{"seq", "run"};
   columns.insert(columns.end(), named.begin(), named.end() - 1);
   columns.insert(columns.end(), others.begin(), others.end());
@@ -109,7 +109,7 @@ RecordCopy::RecordCopy(const std::vector<Source>& sources, const SQLite::Databas
       tell_(tell),
       others_(other_columns(out)),
       parts_(parts_of(out)),
-      record_writer_(out, "record", record_columns(others_)) {
+      record_writer_(out, "record", columns_with(others_)) {
   for (const Part& part : parts_) {
     std::vector<std::string> columns{"record"};
     columns.insert(columns.end(), part.columns.begin(), part.columns.end());

@@ -8,20 +8,20 @@
 namespace triptych::technique {
 namespace {
 
-constexpr std::size_t entries = 256;
+constexpr std::size_t table_entries = 256;
 constexpr float none = 3.0e38F;
 
 }  // namespace
 
 QuadratureTable kink_table(const scene::TransferFunction& function) {
   const auto kinks = scene::kinks(function);
-  QuadratureTable table(entries + 1, {none, -none, none, 0});
-  for (std::size_t i = entries; i-- > 0;) {
+  QuadratureTable table(table_entries + 1, {none, -none, none, 0});
+  for (std::size_t i = table_entries; i-- > 0;) {
     table[i] = table[i + 1];
     if (kinks[i]) table[i][0] = static_cast<float>(i);
     if (function.entries[i][3] > 0) table[i][2] = static_cast<float>(i);
   }
-  for (std::size_t i = 0; i < entries; ++i) {
+  for (std::size_t i = 0; i < table_entries; ++i) {
     table[i + 1][1] = kinks[i] ? static_cast<float>(i) : table[i][1];
   }
   return table;
@@ -43,9 +43,9 @@ std::uint64_t quadrature_table_bytes(scene::Quadrature quadrature) {
   constexpr std::uint64_t row = 4 * sizeof(float);
   switch (quadrature) {
     case scene::Quadrature::preintegrated:
-      return row * texels_per_pair * entries * entries;
+      return row * texels_per_pair * table_entries * table_entries;
     case scene::Quadrature::cells:
-      return row * (entries + 1);
+      return row * (table_entries + 1);
     case scene::Quadrature::midpoint:
       break;
   }

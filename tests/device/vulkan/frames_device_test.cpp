@@ -13,8 +13,6 @@ namespace {
 using measure::Purpose;
 using technique::Skip;
 
-constexpr std::array<std::string_view, 2> picture_techniques{"raycast", "raycast_fragment"};
-
 record::Counts counters(measure::Device& device, std::string_view technique,
                         const scene::VolumeScene& scene, const technique::RaycastOptions& options) {
   return device.prepare(make_work(technique, scene, options))->frame(Purpose::counters).counts;

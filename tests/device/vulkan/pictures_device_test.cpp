@@ -15,8 +15,6 @@ using technique::RaycastOptions;
 using technique::Sampler;
 using technique::Skip;
 
-constexpr std::array<std::string_view, 2> picture_techniques{"raycast", "raycast_fragment"};
-
 struct Verdict {
   int outside = 0;  // channels beyond their pixel's bound
   double worst = 0;

@@ -1,9 +1,11 @@
 #pragma once
 // The API's devices, opened as its cases want them.
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "backends/vulkan/backend.hpp"
@@ -16,6 +18,9 @@ using test::make_scene;
 using test::make_work;
 using test::picture;
 using test::SceneOptions;
+
+// Volume techniques that draw an image.
+inline constexpr std::array<std::string_view, 2> picture_techniques{"raycast", "raycast_fragment"};
 
 // With the validation layer where it is installed: then any message of it fails the case.
 inline std::unique_ptr<measure::Backend> backend_under_test() {

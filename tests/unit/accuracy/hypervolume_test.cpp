@@ -12,7 +12,7 @@ namespace {
 
 const double decade = std::log(10.0);
 
-AccuracyCase at(double time_ns, double rmse) {
+AccuracyCase case_at(double time_ns, double rmse) {
   return {.configuration = {},
           .factors = {},
           .time_ns = time_ns,
@@ -32,37 +32,39 @@ double area_of(const std::vector<AccuracyCase>& cases, double reference_error = 
 // 1 ms is three decades below the second, 1e-2 two below 1: 3·2; what it takes from 1e-2 to 1e-4 is
 // 10 ms: 2·2 more.
 TEST(Hypervolume, IsTheSumOfRectangles) {
-  EXPECT_NEAR(area_of({at(1e6, 1e-2)}), 6, 1e-12);
-  EXPECT_NEAR(area_of({at(1e6, 1e-2), at(1e7, 1e-4)}), 10, 1e-12);
-  EXPECT_NEAR(area_of({at(1e6, 1e-2), at(1e7, 1e-4)}, 0.1), 7, 1e-12);
+  EXPECT_NEAR(area_of({case_at(1e6, 1e-2)}), 6, 1e-12);
+  EXPECT_NEAR(area_of({case_at(1e6, 1e-2), case_at(1e7, 1e-4)}), 10, 1e-12);
+  EXPECT_NEAR(area_of({case_at(1e6, 1e-2), case_at(1e7, 1e-4)}, 0.1), 7, 1e-12);
 }
 
 TEST(Hypervolume, IsOfTheFrontAlone) {
-  const double alone = area_of({at(1e6, 1e-2), at(1e7, 1e-4)});
-  EXPECT_EQ(area_of({at(1e7, 1e-4), at(2e6, 2e-2), at(1e6, 1e-2), at(1e7, 1e-3)}), alone);
-  EXPECT_GT(area_of({at(1e6, 1e-2), at(5e6, 1e-3), at(1e7, 1e-4)}), alone);
+  const double alone = area_of({case_at(1e6, 1e-2), case_at(1e7, 1e-4)});
+  EXPECT_EQ(
+      area_of({case_at(1e7, 1e-4), case_at(2e6, 2e-2), case_at(1e6, 1e-2), case_at(1e7, 1e-3)}),
+      alone);
+  EXPECT_GT(area_of({case_at(1e6, 1e-2), case_at(5e6, 1e-3), case_at(1e7, 1e-4)}), alone);
 }
 
 TEST(Hypervolume, EndsAtTheCorner) {
   EXPECT_EQ(area_of({}), 0);
-  EXPECT_EQ(area_of({at(1e6, 1)}), 0);     // no better than nothing
-  EXPECT_EQ(area_of({at(2e9, 1e-4)}), 0);  // too late
-  EXPECT_NEAR(area_of({at(1e5, 2), at(1e6, 0.1), at(2e9, 1e-3)}), 3, 1e-12);
-  AccuracyCase untimed = at(0, 1e-3);
+  EXPECT_EQ(area_of({case_at(1e6, 1)}), 0);     // no better than nothing
+  EXPECT_EQ(area_of({case_at(2e9, 1e-4)}), 0);  // too late
+  EXPECT_NEAR(area_of({case_at(1e5, 2), case_at(1e6, 0.1), case_at(2e9, 1e-3)}), 3, 1e-12);
+  AccuracyCase untimed = case_at(0, 1e-3);
   untimed.time_ns.reset();
-  EXPECT_NEAR(area_of({at(1e6, 1e-2), untimed}), 6, 1e-12);
+  EXPECT_NEAR(area_of({case_at(1e6, 1e-2), untimed}), 6, 1e-12);
 }
 
 // Rounding to floats is where errors end: 0 is as good as 2⁻²⁴.
 TEST(Hypervolume, AnExactPictureHasAFiniteArea) {
-  EXPECT_NEAR(area_of({at(1e6, 0)}), 3 * 24 * std::log10(2.0), 1e-12);
-  EXPECT_EQ(area_of({at(1e6, 1e-9)}), area_of({at(1e6, 0)}));
+  EXPECT_NEAR(area_of({case_at(1e6, 0)}), 3 * 24 * std::log10(2.0), 1e-12);
+  EXPECT_EQ(area_of({case_at(1e6, 1e-9)}), area_of({case_at(1e6, 0)}));
 }
 
 // All times by 2.5: the area is less by ln 2.5 over four decades of error, and that factor is told.
 TEST(Hypervolume, TellsHowManyTimesAsLongADeviceTakes) {
   const auto area_at = [](double factor) {
-    const std::vector<AccuracyCase> cases{at(1e6 * factor, 1e-2), at(1e7 * factor, 1e-4)};
+    const std::vector<AccuracyCase> cases{case_at(1e6 * factor, 1e-2), case_at(1e7 * factor, 1e-4)};
     return front_area(cases, pareto_front(cases), 1);
   };
   const auto best = area_at(1);
@@ -74,12 +76,12 @@ TEST(Hypervolume, TellsHowManyTimesAsLongADeviceTakes) {
 }
 
 TEST(Hypervolume, IsNotToldWhereNothingWasTimed) {
-  AccuracyCase untimed = at(0, 1e-3);
+  AccuracyCase untimed = case_at(0, 1e-3);
   untimed.time_ns.reset();
   const std::vector<AccuracyCase> cases{untimed};
   EXPECT_TRUE(pareto_front(cases).empty());
   EXPECT_FALSE(front_area(cases, pareto_front(cases), 1));
-  EXPECT_FALSE(front_area(std::vector{at(1e6, 2)}, std::vector<std::size_t>{0}, 1));
+  EXPECT_FALSE(front_area(std::vector{case_at(1e6, 2)}, std::vector<std::size_t>{0}, 1));
 }
 
 }  // namespace

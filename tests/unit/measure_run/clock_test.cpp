@@ -12,19 +12,18 @@
 namespace triptych::measure {
 namespace {
 
-using technique::Work;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr double ms = 1e6;
+constexpr double millisecond = 1e6;
 
 record::ClockTrust verdict_on(const ScriptedPrepared::Script& script) {
   ScriptedPrepared prepared(script);
-  return calibrate(prepared, Work::compute);
+  return calibrate(prepared, technique::Work::compute);
 }
 
 record::ClockTrust verdict_on_ratio(double ratio) {
-  return verdict_on([=](int) { return frame_of(30 * ms, ratio * 30 * ms); });
+  return verdict_on([=](int) { return frame_of(30 * millisecond, ratio * 30 * millisecond); });
 }
 
 TEST(Calibrate, BelievesAnExactClockAndOneThatLeavesOutTheLaunch) {
@@ -48,8 +47,9 @@ TEST(Calibrate, DoesNotBelieveClocksThatReadTooLittleOrTooMuch) {
 }
 
 TEST(Calibrate, DoesNotBelieveAClockThatJitters) {
-  const auto trust =
-      verdict_on([](int n) { return frame_of(30 * ms, (n % 2 == 0 ? 0.5 : 0.99) * 30 * ms); });
+  const auto trust = verdict_on([](int n) {
+    return frame_of(30 * millisecond, (n % 2 == 0 ? 0.5 : 0.99) * 30 * millisecond);
+  });
   EXPECT_FALSE(trust.trusted);
   EXPECT_NEAR(trust.ratio_low, 0.5, 1e-12);
   EXPECT_NEAR(trust.ratio_high, 0.99, 1e-12);
@@ -58,7 +58,8 @@ TEST(Calibrate, DoesNotBelieveAClockThatJitters) {
 TEST(Calibrate, ExcusesOneLateWakeUpButNoOtherOddity) {
   const auto odd_one = [](double wall_ms, double device_ms) {
     return verdict_on([=](int n) {
-             return n == 5 ? frame_of(wall_ms * ms, device_ms * ms) : frame_of(30 * ms, 29.8 * ms);
+             return n == 5 ? frame_of(wall_ms * millisecond, device_ms * millisecond)
+                           : frame_of(30 * millisecond, 29.8 * millisecond);
            })
         .trusted;
   };
@@ -68,7 +69,7 @@ TEST(Calibrate, ExcusesOneLateWakeUpButNoOtherOddity) {
 }
 
 TEST(Calibrate, SaysWhenTheDeviceTellsNoTime) {
-  const auto trust = verdict_on([](int) { return frame_of(30 * ms); });
+  const auto trust = verdict_on([](int) { return frame_of(30 * millisecond); });
   EXPECT_FALSE(trust.offered);
   EXPECT_FALSE(trust.trusted);
   EXPECT_THAT(trust.verdict, HasSubstr("tells no time"));
@@ -76,38 +77,40 @@ TEST(Calibrate, SaysWhenTheDeviceTellsNoTime) {
 
 TEST(Calibrate, SurvivesTimesThatAreNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(verdict_on([=](int) { return frame_of(30 * ms, nan); }).trusted);
-  EXPECT_FALSE(verdict_on([=](int) { return frame_of(nan, 30 * ms); }).trusted);
+  EXPECT_FALSE(verdict_on([=](int) { return frame_of(30 * millisecond, nan); }).trusted);
+  EXPECT_FALSE(verdict_on([=](int) { return frame_of(nan, 30 * millisecond); }).trusted);
   EXPECT_FALSE(verdict_on([](int) { return frame_of(0, 0); }).trusted);
 }
 
 TEST(Calibrate, TakesFewerFramesWhereTheyAreLong) {
-  ScriptedPrepared prepared = steady(900 * ms, 899 * ms);
-  EXPECT_TRUE(calibrate(prepared, Work::draw).trusted);
+  ScriptedPrepared prepared = steady(900 * millisecond, 899 * millisecond);
+  EXPECT_TRUE(calibrate(prepared, technique::Work::draw).trusted);
   EXPECT_LE(prepared.calls.size(), 5U);
 }
 
 TEST(Plausible, NeedsATimePerFrameAboveZeroAndWithinTheWallTime) {
-  EXPECT_TRUE(plausible({1 * ms, 2 * ms}, {1.1 * ms, 2 * ms}));
+  EXPECT_TRUE(plausible({1 * millisecond, 2 * millisecond}, {1.1 * millisecond, 2 * millisecond}));
   EXPECT_TRUE(plausible({5e3}, {4e3}));  // within a tick
   EXPECT_FALSE(plausible({}, {}));
-  EXPECT_FALSE(plausible({1 * ms}, {1 * ms, 1 * ms}));
-  EXPECT_FALSE(plausible({0}, {1 * ms}));
-  EXPECT_FALSE(plausible({1.1 * ms}, {1 * ms}));
+  EXPECT_FALSE(plausible({1 * millisecond}, {1 * millisecond, 1 * millisecond}));
+  EXPECT_FALSE(plausible({0}, {1 * millisecond}));
+  EXPECT_FALSE(plausible({1.1 * millisecond}, {1 * millisecond}));
 }
 
 TEST(Plausible, ExcusesLaunchesAndAFewLateWakeUpsButNotMissingWork) {
-  EXPECT_TRUE(plausible({0.05 * ms}, {0.3 * ms}));   // a short frame on a fast device
-  EXPECT_FALSE(plausible({0.05 * ms}, {1.3 * ms}));  // the same of a frame that is not short
-  const std::vector<double> wall_ns(8, 30 * ms);
-  std::vector<double> device_ns(8, 29 * ms);
-  device_ns[2] = device_ns[5] = 5 * ms;
+  EXPECT_TRUE(
+      plausible({0.05 * millisecond}, {0.3 * millisecond}));  // a short frame on a fast device
+  EXPECT_FALSE(plausible({0.05 * millisecond},
+                         {1.3 * millisecond}));  // the same of a frame that is not short
+  const std::vector<double> wall_ns(8, 30 * millisecond);
+  std::vector<double> device_ns(8, 29 * millisecond);
+  device_ns[2] = device_ns[5] = 5 * millisecond;
   EXPECT_TRUE(plausible(device_ns, wall_ns));
-  device_ns[6] = 5 * ms;
+  device_ns[6] = 5 * millisecond;
   EXPECT_FALSE(plausible(device_ns, wall_ns));
 }
 
-// Frames last 0.1 ms per voxel length at step 1 and grow with the number of samples.
+// Frames last 0.1 millisecond per voxel length at step 1 and grow with the number of samples.
 class GrowingDevice final : public Device {
  public:
   explicit GrowingDevice(double finest_step) : finest_step_(finest_step) {}
@@ -121,7 +124,7 @@ class GrowingDevice final : public Device {
   double filter_weight_error(const VolumePath&) const override { return 0; }
   std::unique_ptr<Prepared> prepare(const measure::Work& work) override {
     const double step = std::get<VolumeWork>(work.scene).scene.step_voxels;
-    longest_ns = 0.1 * ms / step;
+    longest_ns = 0.1 * millisecond / step;
     return std::make_unique<ScriptedPrepared>(
         // 30 us of launch that the device's clock leaves out
         [ns = longest_ns](int) { return frame_of(ns + 3e4, ns); });
@@ -136,7 +139,7 @@ class GrowingDevice final : public Device {
 TEST(CalibrateClock, LengthensFramesUntilTheLaunchNoLongerMatters) {
   FakeSuite suite;
   GrowingDevice device(0);
-  const record::ClockTrust trust = calibrate_clock(device, suite, Work::compute);
+  const record::ClockTrust trust = calibrate_clock(device, suite, technique::Work::compute);
   EXPECT_TRUE(trust.trusted) << trust.verdict;
   EXPECT_GE(device.longest_ns, ClockLimits::least_frame_ns);
 }
@@ -144,7 +147,7 @@ TEST(CalibrateClock, LengthensFramesUntilTheLaunchNoLongerMatters) {
 TEST(CalibrateClock, SaysThatShortFramesTellLittleWhereNothingLongerRuns) {
   FakeSuite suite;
   GrowingDevice device(1);
-  const record::ClockTrust trust = calibrate_clock(device, suite, Work::compute);
+  const record::ClockTrust trust = calibrate_clock(device, suite, technique::Work::compute);
   EXPECT_FALSE(trust.trusted);
   EXPECT_THAT(trust.verdict, HasSubstr("frames this short tell little"));
 }
@@ -152,7 +155,7 @@ TEST(CalibrateClock, SaysThatShortFramesTellLittleWhereNothingLongerRuns) {
 TEST(CalibrateClock, SaysWhyAKindOfWorkCannotBeCalibrated) {
   FakeSuite suite;
   GrowingDevice device(2);
-  const record::ClockTrust trust = calibrate_clock(device, suite, Work::draw);
+  const record::ClockTrust trust = calibrate_clock(device, suite, technique::Work::draw);
   EXPECT_FALSE(trust.offered);
   EXPECT_EQ(trust.verdict, "not calibrated: too many samples");
 }

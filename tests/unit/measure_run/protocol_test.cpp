@@ -13,14 +13,13 @@
 namespace triptych::measure {
 namespace {
 
-using technique::Work;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 constexpr double ms = 1e6;
 
-std::vector<record::ClockTrust> trusting(Work kind) {
+std::vector<record::ClockTrust> trusting(technique::Work kind) {
   record::ClockTrust trust;
   trust.work = technique::name_of(kind);
   trust.offered = true;
@@ -31,7 +30,7 @@ std::vector<record::ClockTrust> trusting(Work kind) {
 
 Measurement measured(Prepared& prepared, const Protocol& protocol = {},
                      const std::vector<record::ClockTrust>& clocks = {}) {
-  return measure(prepared, protocol, Work::compute, clocks, "test");
+  return measure(prepared, protocol, technique::Work::compute, clocks, "test");
 }
 
 std::vector<std::string> repeated(const std::string& call, int times) {
@@ -86,7 +85,7 @@ TEST(Protocol, TheLoopAsksForItsOwnLengthWhateverFills100Ms) {
 
 TEST(Protocol, EveryRawValueOfTheTimedFramesArrivesUnchanged) {
   ScriptedPrepared prepared([](int n) { return frame_of(50 * ms + n / 3.0, 49 * ms + n / 7.0); });
-  const record::Record record = measured(prepared, {}, trusting(Work::compute)).record;
+  const record::Record record = measured(prepared, {}, trusting(technique::Work::compute)).record;
   ASSERT_EQ(record.wall_ns.size(), 8U);
   ASSERT_EQ(record.device_ns.size(), 8U);
   for (int i = 0; i < 8; ++i) {
@@ -129,14 +128,14 @@ TEST(Protocol, UntimedIsOneFrameForThePictureAndOneForTheCounters) {
 TEST(Protocol, ADeviceThatMissesOneTimeToldNone) {
   ScriptedPrepared prepared(
       [](int n) { return n == 9 ? frame_of(50 * ms) : frame_of(50 * ms, 49 * ms); });
-  const record::Record record = measured(prepared, {}, trusting(Work::compute)).record;
+  const record::Record record = measured(prepared, {}, trusting(technique::Work::compute)).record;
   EXPECT_THAT(record.device_ns, IsEmpty());
   EXPECT_EQ(record.clock(), "wall");
 }
 
 TEST(Protocol, AClockIsTrustedOnlyForTheKindItWasCalibratedFor) {
   ScriptedPrepared prepared = steady(50 * ms, 49 * ms);
-  const record::Record record = measured(prepared, {}, trusting(Work::draw)).record;
+  const record::Record record = measured(prepared, {}, trusting(technique::Work::draw)).record;
   EXPECT_FALSE(record.device_clock_trusted);
   EXPECT_THAT(record.device_ns, Each(49 * ms));  // kept all the same
 }
@@ -145,13 +144,14 @@ TEST(Protocol, ATrustedClockThatLiesInThisConfigurationIsNotBelieved) {
   for (const double device_ns : {0.0, 60 * ms, std::numeric_limits<double>::quiet_NaN()}) {
     ScriptedPrepared prepared(
         [=](int n) { return frame_of(50 * ms, n == 6 ? device_ns : 49 * ms); });
-    EXPECT_EQ(measured(prepared, {}, trusting(Work::compute)).record.clock(), "wall") << device_ns;
+    EXPECT_EQ(measured(prepared, {}, trusting(technique::Work::compute)).record.clock(), "wall")
+        << device_ns;
   }
 }
 
 TEST(Protocol, ATrustedClockThatLeavesOutTheWorkOfThisConfigurationIsNotBelieved) {
   ScriptedPrepared prepared = steady(28 * ms, 0.009 * ms);
-  const record::Record record = measured(prepared, {}, trusting(Work::compute)).record;
+  const record::Record record = measured(prepared, {}, trusting(technique::Work::compute)).record;
   EXPECT_EQ(record.clock(), "wall");
   EXPECT_THAT(record.device_ns, Each(0.009 * ms));
   EXPECT_EQ(
@@ -171,7 +171,7 @@ TEST(Protocol, AnErrorOfAFrameComesOutAsItWas) {
 
 TEST(Protocol, BenchmarkEntriesCarrySamplesStatisticsAndCountsAsFlatKeys) {
   ScriptedPrepared prepared([](int n) { return frame_of((50 + n) * ms, (49 + n) * ms); });
-  const record::Record record = measured(prepared, {}, trusting(Work::compute)).record;
+  const record::Record record = measured(prepared, {}, trusting(technique::Work::compute)).record;
   const auto entries = record::unpack_benchmark_entries(record.benchmark_json);
   ASSERT_TRUE(entries.is_array());
   std::vector<double> samples;

@@ -13,7 +13,7 @@
 namespace triptych::reference {
 namespace {
 
-scene::VolumeScene scene_of(std::string_view data, std::string_view function) {
+scene::VolumeScene volume_scene_of(std::string_view data, std::string_view function) {
   scene::VolumeScene scene{
       .grid = std::make_shared<const scene::VoxelGrid>(
           scene::encode(scene::generate_volume(data, {24, 24, 24}), scene::VoxelFormat::f32)),
@@ -34,7 +34,7 @@ double rms(const Truth& a, const Truth& b) {
 
 TEST(CellsPicture, TendsToTheLimitOfTheMidpointRule) {
   for (const char* function : {"haze", "surfaces"}) {
-    scene::VolumeScene scene = scene_of("mandelbulb", function);
+    scene::VolumeScene scene = volume_scene_of("mandelbulb", function);
     const Truth limit = render_volume_converged(scene, 1e-6);
     scene.step_voxels = 1.0 / 16;
     EXPECT_LT(rms(render_volume(scene), limit), 1e-6) << function;
@@ -52,7 +52,7 @@ scene::TransferFunction roof(double ridge) {
 }
 
 double order_of(std::string_view data, double ridge) {
-  scene::VolumeScene scene = scene_of(data, "haze");
+  scene::VolumeScene scene = volume_scene_of(data, "haze");
   scene.transfer_function = roof(ridge);
   scene.step_voxels = 1.0 / 32;
   const Truth limit = render_volume(scene);
@@ -73,7 +73,7 @@ TEST(CellsPicture, IsOfFourthOrder) {
 
 // Steps longer than a cell cut none of it.
 TEST(CellsPicture, IsTheSameForEveryStepFromACellOn) {
-  scene::VolumeScene scene = scene_of("mandelbulb", "haze");
+  scene::VolumeScene scene = volume_scene_of("mandelbulb", "haze");
   const Truth one = render_volume(scene);
   scene.step_voxels = 7;
   EXPECT_EQ(render_volume(scene).rgba, one.rgba);

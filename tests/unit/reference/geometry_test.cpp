@@ -14,7 +14,7 @@
 namespace triptych::reference {
 namespace {
 
-double largest_difference(const Truth& a, const Truth& b) {
+double largest_difference_of_equal_sizes(const Truth& a, const Truth& b) {
   EXPECT_EQ(a.rgba.size(), b.rgba.size());
   double largest = 0;
   for (std::size_t i = 0; i < a.rgba.size(); ++i) {
@@ -91,7 +91,7 @@ TEST(Reference, AllOctantsMirrorEachOther) {
         }
       }
     }
-    EXPECT_LT(largest_difference(first, truth), 1e-9) << octant;
+    EXPECT_LT(largest_difference_of_equal_sizes(first, truth), 1e-9) << octant;
   }
 }
 
@@ -160,7 +160,7 @@ TEST(Reference, ZeroComponentIsTheLimitOfASmallOne) {
   const Truth straight = render_volume(scene);
   EXPECT_GT(straight.rgba[3], 0.05);
   scene.camera.forward = glm::dvec3{1e-9, -1e-9, -1};
-  EXPECT_LT(largest_difference(straight, render_volume(scene)), 1e-6);
+  EXPECT_LT(largest_difference_of_equal_sizes(straight, render_volume(scene)), 1e-6);
 }
 
 TEST(Reference, OneVoxelIsABox) {
@@ -190,7 +190,7 @@ TEST(Reference, OneLayerEqualsTwoHalves) {
   thin.grid = make_grid({9, 8, 2}, {1, 1, 1}, scene::VoxelFormat::u8, value);
   const Truth a = render_volume(thick);
   EXPECT_GT(a.rgba[4 * (11 * 29 + 14)], 0.0);
-  EXPECT_LT(largest_difference(a, render_volume(thin)), 1e-13);
+  EXPECT_LT(largest_difference_of_equal_sizes(a, render_volume(thin)), 1e-13);
 }
 
 TEST(Reference, AnisotropicSpacingConvergesToTheClosedForm) {
@@ -266,7 +266,7 @@ TEST(Reference, EveryFormatIsTheSameFieldWhereItIsExact) {
        {scene::VoxelFormat::u8, scene::VoxelFormat::u16, scene::VoxelFormat::f16}) {
     scene.grid = make_grid({6, 6, 6}, {1, 1, 1}, format, value);
     const double rounded = format == scene::VoxelFormat::f16 ? 1e-3 : 1e-6;
-    EXPECT_LT(largest_difference(truth, render_volume(scene)), rounded);
+    EXPECT_LT(largest_difference_of_equal_sizes(truth, render_volume(scene)), rounded);
   }
 }
 

@@ -13,7 +13,7 @@
 namespace triptych::reference {
 namespace {
 
-scene::VolumeScene scene_of(scene::Camera camera, double size = 1, int voxels = 24) {
+scene::VolumeScene volume_seen_by(scene::Camera camera, double size = 1, int voxels = 24) {
   const auto value = [](int x, int y, int z) { return (x + y + z) % 7 < 3 ? 0.0 : 0.1 * (x % 5); };
   scene::TransferFunction table = constant_table({1, 1, 1, 0.125F});
   table.entries[0][3] = 0;
@@ -46,11 +46,11 @@ TEST(OpenCounts, CoverArithmeticThatRoundsOtherwise) {
   const FloatOptions options;
   double largest = 0;
   for (const scene::Camera& camera : {oblique(), within_a_face(), diagonal(), straight()}) {
-    const scene::VolumeScene scene = scene_of(camera);
+    const scene::VolumeScene scene = volume_seen_by(camera);
     const auto open = open_counts(scene, float_model(scene, options), {});
     const FloatCounts plain = count_float(scene, options);
     for (const double size : {3.0, 0.7, 1.0 / 3, 1e-3, 1234.5}) {
-      const FloatCounts other = count_float(scene_of(camera, size), options);
+      const FloatCounts other = count_float(volume_seen_by(camera, size), options);
       EXPECT_LE(std::abs(other.hits - plain.hits), open.at("rays_hit")) << size;
       EXPECT_LE(std::abs(other.samples - plain.samples), open.at("samples")) << size;
       EXPECT_LE(std::abs(other.nonzero - plain.nonzero), open.at("samples_nonzero")) << size;
@@ -62,7 +62,7 @@ TEST(OpenCounts, CoverArithmeticThatRoundsOtherwise) {
 
 // One more sample of a tenth of the rays is beyond them.
 TEST(OpenCounts, AreFewInAGeneralPosition) {
-  const scene::VolumeScene scene = scene_of(oblique());
+  const scene::VolumeScene scene = volume_seen_by(oblique());
   const FloatOptions options;
   const FloatCounts counts = count_float(scene, options);
   for (const BrickPlanes planes : {BrickPlanes{}, BrickPlanes{8, 0}, BrickPlanes{2, 0.5}}) {
@@ -74,7 +74,7 @@ TEST(OpenCounts, AreFewInAGeneralPosition) {
 }
 
 TEST(OpenCounts, AreWholeRaysWhereTheyRunWithinAFace) {
-  const scene::VolumeScene face = scene_of(within_a_face());
+  const scene::VolumeScene face = volume_seen_by(within_a_face());
   const FloatOptions options;
   const auto open = open_counts(face, float_model(face, options), {8, 0});
   EXPECT_GE(open.at("rays_hit"), 1);
@@ -86,7 +86,7 @@ TEST(OpenCounts, AreWholeRaysWhereTheyRunWithinAFace) {
 TEST(OpenCounts, AreNoneOfExactArithmetic) {
   for (const scene::Quadrature quadrature :
        {scene::Quadrature::midpoint, scene::Quadrature::cells}) {
-    scene::VolumeScene scene = scene_of(oblique());
+    scene::VolumeScene scene = volume_seen_by(oblique());
     scene.quadrature = quadrature;
     for (const auto& [name, count] : open_counts(scene, {}, {8, 0})) {
       EXPECT_EQ(name == "samples_nonzero" ? 0 : count, 0) << name;
@@ -96,7 +96,7 @@ TEST(OpenCounts, AreNoneOfExactArithmetic) {
 
 TEST(OpenCounts, OfCellsAreThePiecesThatEndTogether) {
   const FloatOptions options;
-  scene::VolumeScene scene = scene_of(diagonal());
+  scene::VolumeScene scene = volume_seen_by(diagonal());
   scene.grid = make_grid({24, 24, 24}, {1, 1, 1}, scene::VoxelFormat::f32,
                          [](int x, int y, int z) { return 0.2 + (x + 2 * y + 3 * z) / 300.0; });
   scene.quadrature = scene::Quadrature::cells;

@@ -16,7 +16,7 @@
 namespace triptych::scene {
 namespace {
 
-struct Facts {
+struct ParticleFacts {
   std::size_t count;
   std::uint64_t frames;
   std::map<float, std::size_t> by_radius;  // of the first frame
@@ -25,9 +25,9 @@ struct Facts {
   std::size_t kinds;
 };
 
-const std::map<std::string, Facts>& known_facts() {
+const std::map<std::string, ParticleFacts>& known_particle_facts() {
   // Mn and Ca share the radius of what is not listed, P and S the radius 1.8.
-  static const std::map<std::string, Facts> facts{
+  static const std::map<std::string, ParticleFacts> facts{
       {"crambin_1crn_327.pdb",
        {327,
         1,
@@ -74,7 +74,7 @@ const std::map<std::string, Facts>& known_facts() {
   return facts;
 }
 
-void expect_facts(const std::string& name, const Facts& facts,
+void expect_facts(const std::string& name, const ParticleFacts& facts,
                   const std::vector<std::filesystem::path>& folders) {
   const ParticleSet set = load_particles(name, ColourKind::rgba8, folders);
   EXPECT_EQ(set.count(), facts.count);
@@ -115,8 +115,8 @@ TEST(RealData, EveryParticleFileLoadsAsDescribed) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     SCOPED_TRACE(name);
-    const auto found = known_facts().find(name);
-    if (found == known_facts().end()) {
+    const auto found = known_particle_facts().find(name);
+    if (found == known_particle_facts().end()) {
       EXPECT_GT(load_particles(name, ColourKind::rgba32, {folder}).count(), 0U);
       continue;
     }

@@ -26,7 +26,7 @@ scene::VolumeScene scene_of(scene::Volume volume, std::string_view function) {
           .transfer_function = scene::load_transfer_function(function)};
 }
 
-scene::VolumeScene generated(std::string_view name, std::string_view function) {
+scene::VolumeScene generated_volume(std::string_view name, std::string_view function) {
   return scene_of(scene::generate_volume(name, {40, 40, 40}), function);
 }
 
@@ -84,7 +84,7 @@ std::array<double, 4> composite(const std::vector<Sample>& samples, double lengt
 
 TEST(BrickKinds, MergedBricksKeepTheirBudget) {
   core::Random random(11);
-  scene::VolumeScene scene = generated("uniform_box", "haze");
+  scene::VolumeScene scene = generated_volume("uniform_box", "haze");
   const double longest = 40 * std::sqrt(3.0);
   int merged_bricks = 0;
   for (int n = 0; n < 4000; ++n) {
@@ -123,7 +123,7 @@ TEST(BrickKinds, MergedBricksKeepTheirBudget) {
 // The criterion itself, with the extremes found by looking at many values.
 TEST(BrickKinds, AreThoseOfTheCriterion) {
   core::Random random(12);
-  scene::VolumeScene scene = generated("uniform_box", "haze");
+  scene::VolumeScene scene = generated_volume("uniform_box", "haze");
   const double longest = 40 * std::sqrt(3.0);
   int decided = 0;
   for (int n = 0; n < 2000; ++n) {
@@ -165,7 +165,7 @@ TEST(BrickKinds, AreThoseOfTheCriterion) {
 }
 
 TEST(BrickKinds, AHomogeneousBrickIsMergedForAnyBudget) {
-  const scene::VolumeScene scene = generated("uniform_box", "haze");
+  const scene::VolumeScene scene = generated_volume("uniform_box", "haze");
   EXPECT_EQ(brick_kinds(one_brick(0.6F, 0.6F), scene, 1e-12)[0], homogeneous);
   EXPECT_EQ(brick_kinds(one_brick(0.6F, 0.7F), scene, 1e-12)[0], sampled);
   EXPECT_EQ(brick_kinds(one_brick(0.0F, 0.0F), scene, 0.5)[0], invisible);
@@ -175,20 +175,20 @@ TEST(BrickKinds, HomogeneousBricksAreNumberedByTheirValue) {
   const BrickRanges ranges{.counts = {5, 1, 1},
                            .minimum = {0.6F, 0.7F, 0.6F, 0.7F, 0.6F},
                            .maximum = {0.6F, 0.7F, 0.8F, 0.7F, 0.6F}};
-  const auto kinds = brick_kinds(ranges, generated("uniform_box", "haze"), 1e-12);
+  const auto kinds = brick_kinds(ranges, generated_volume("uniform_box", "haze"), 1e-12);
   EXPECT_EQ(kinds, (std::vector<std::int32_t>{homogeneous, homogeneous + 1, sampled,
                                               homogeneous + 1, homogeneous}));
 }
 
 TEST(BrickKinds, AnOpaqueBrickIsNot) {
-  scene::VolumeScene scene = generated("uniform_box", "haze");
+  scene::VolumeScene scene = generated_volume("uniform_box", "haze");
   scene.transfer_function.entries.fill({1, 1, 1, 1});
   EXPECT_EQ(brick_kinds(one_brick(0.2F, 0.4F), scene, 0.5)[0], sampled);
 }
 
 // Shading brightens by as much as the range of values lets the gradient be steep.
 TEST(BrickKinds, ShadingCountsAsColour) {
-  scene::VolumeScene scene = generated("uniform_box", "haze");
+  scene::VolumeScene scene = generated_volume("uniform_box", "haze");
   scene.transfer_function.entries.fill({0.5F, 0.5F, 0.5F, 0.25F});
   EXPECT_EQ(brick_kinds(one_brick(0.2F, 0.4F), scene, 1e-3)[0], merged);
   scene.shading.enabled = true;
@@ -199,7 +199,7 @@ TEST(BrickKinds, ShadingCountsAsColour) {
 }
 
 TEST(BrickKinds, AreTheMapOfBricks) {
-  const scene::VolumeScene scene = generated("nested_shells", "haze");
+  const scene::VolumeScene scene = generated_volume("nested_shells", "haze");
   const auto visible = brick_map(scene, Skip::bricks);
   const auto kinds = brick_map(scene, Skip::bricks, 1e-3);
   ASSERT_EQ(kinds.size(), visible.size());

@@ -17,13 +17,13 @@ namespace {
 
 constexpr std::size_t per_cell = 512;
 
-scene::ParticleScene scene_of(scene::ParticleSet set) {
+scene::ParticleScene scene_without_camera(scene::ParticleSet set) {
   scene::ParticleScene scene;
   scene.particles = std::make_shared<const scene::ParticleSet>(std::move(set));
   return scene;
 }
 
-scene::ParticleSet generated(std::string_view name, std::uint64_t count) {
+scene::ParticleSet generated_set(std::string_view name, std::uint64_t count) {
   return scene::generate_particles(name, count, scene::ColourKind::rgba8);
 }
 
@@ -39,7 +39,7 @@ std::vector<std::size_t> counts_of(const scene::ParticleScene& scene, const Divi
 // those together with the wall's.
 TEST(Division, AWallIsPartedFromWhatIsBehindIt) {
   constexpr std::size_t wall = 316 * 316;
-  const scene::ParticleScene scene = scene_of(generated("hidden", 1'000'000));
+  const scene::ParticleScene scene = scene_without_camera(generated_set("hidden", 1'000'000));
   const Division division(scene, per_cell);
   const std::vector<std::size_t> counts = counts_of(scene, division);
   std::vector<bool> shows_wall(division.parts());
@@ -53,7 +53,8 @@ TEST(Division, AWallIsPartedFromWhatIsBehindIt) {
 
 // A part of evenly spread particles pays from 1.5 times their number on; 512 ± 23 stay together.
 TEST(Division, EvenlySpreadParticlesStayInTheCellsOfTheGrid) {
-  const scene::ParticleScene scene = scene_of(generated("uniform", 13 * 13 * 13 * 512));
+  const scene::ParticleScene scene =
+      scene_without_camera(generated_set("uniform", 13 * 13 * 13 * 512));
   const Grid grid(*scene.particles, per_cell);
   const Division division(scene, per_cell);
   EXPECT_EQ(division.parts(), grid.cells() + 1);
@@ -61,15 +62,15 @@ TEST(Division, EvenlySpreadParticlesStayInTheCellsOfTheGrid) {
 
 // One far away makes all the others lie in one cell of the grid.
 TEST(Division, AFarParticleDoesNotKeepTheOthersTogether) {
-  scene::ParticleSet set = generated("uniform", 20'000);
+  scene::ParticleSet set = generated_set("uniform", 20'000);
   set.spheres[777][0] = 1e5F;
-  const scene::ParticleScene scene = scene_of(std::move(set));
+  const scene::ParticleScene scene = scene_without_camera(std::move(set));
   const Division division(scene, per_cell);
   for (const std::size_t count : counts_of(scene, division)) EXPECT_LT(count, 2 * per_cell);
 }
 
 TEST(Division, CoincidentCentresAreInOnePart) {
-  const scene::ParticleScene scene = scene_of(generated("coincident", 40'000));
+  const scene::ParticleScene scene = scene_without_camera(generated_set("coincident", 40'000));
   const Division division(scene, per_cell);
   EXPECT_GT(division.parts(), 20U);
   std::map<std::array<float, 3>, std::uint32_t> part_at;
@@ -87,7 +88,7 @@ TEST(Division, APileHasNoPlaneThatDividesIt) {
     ASSERT_TRUE(scene::append(set, {1, 2, 3, 0.5}, i));
     set.rgba8.push_back(i);
   }
-  const scene::ParticleScene scene = scene_of(std::move(set));
+  const scene::ParticleScene scene = scene_without_camera(std::move(set));
   const Division division(scene, per_cell);
   const std::vector<std::size_t> counts = counts_of(scene, division);
   EXPECT_EQ(*std::ranges::max_element(counts), 5000U);

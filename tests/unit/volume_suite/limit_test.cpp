@@ -13,7 +13,7 @@
 namespace triptych::volume_suite {
 namespace {
 
-measure::Configuration configuration_of(const measure::Suite& suite, const std::string& data) {
+measure::Configuration limited_configuration(const measure::Suite& suite, const std::string& data) {
   measure::Configuration configuration = measure::default_plan(suite, {}).configurations.front();
   configuration["data"] = data;
   configuration["transfer_function"] = own_transfer_function;
@@ -33,7 +33,7 @@ double largest_difference(const core::Image& a, const core::Image& b) {
 // What the table cannot represent, by analytic_scenes.hpp's model, is below 4e-5 for the ramp.
 TEST(Limit, OfARampIsItsClosedForm) {
   const auto suite = make_suite({});
-  const measure::Configuration ramp = configuration_of(*suite, "analytic:v2_ramp:16");
+  const measure::Configuration ramp = limited_configuration(*suite, "analytic:v2_ramp:16");
   const measure::Limit limit = suite->limit(ramp);
   const auto exact = suite->closed_form(ramp);
   ASSERT_TRUE(exact);
@@ -45,7 +45,7 @@ TEST(Limit, OfARampIsItsClosedForm) {
 
 TEST(Limit, IsNotWhatACoarseStepGives) {
   const auto suite = make_suite({});
-  measure::Configuration ramp = configuration_of(*suite, "analytic:v2_ramp:16");
+  measure::Configuration ramp = limited_configuration(*suite, "analytic:v2_ramp:16");
   ramp["step"] = "2";
   const accuracy::TruthPair truth = suite->truth(ramp, {});
   EXPECT_GT(largest_difference(suite->limit(ramp).image, truth.truth), 1e-3);
@@ -53,7 +53,7 @@ TEST(Limit, IsNotWhatACoarseStepGives) {
 
 TEST(Limit, DoesNotDependOnStepOrStorage) {
   const auto suite = make_suite({});
-  measure::Configuration a = configuration_of(*suite, "analytic:v4_gaussian:8");
+  measure::Configuration a = limited_configuration(*suite, "analytic:v4_gaussian:8");
   measure::Configuration b = a;
   b["step"] = "0.25";
   b["voxel"] = "u8";
@@ -65,10 +65,10 @@ TEST(Limit, DoesNotDependOnStepOrStorage) {
 
 TEST(Limit, OnlyAProblemsOwnPictureHasAClosedForm) {
   const auto suite = make_suite({});
-  measure::Configuration ramp = configuration_of(*suite, "analytic:v2_ramp:8");
+  measure::Configuration ramp = limited_configuration(*suite, "analytic:v2_ramp:8");
   ramp["transfer_function"] = "haze";
   EXPECT_FALSE(suite->closed_form(ramp));
-  EXPECT_FALSE(suite->closed_form(configuration_of(*suite, "generate:uniform_box:8")));
+  EXPECT_FALSE(suite->closed_form(limited_configuration(*suite, "generate:uniform_box:8")));
 }
 
 TEST(AnalyticData, NamesAProblemAndASize) {
