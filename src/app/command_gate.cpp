@@ -16,6 +16,7 @@
 #include "measure/plan/plan.hpp"
 #include "measure/system/stopwatch.hpp"
 #include "measure/worker/listing.hpp"
+#include "record/check.hpp"
 
 namespace triptych::app {
 namespace {
@@ -223,8 +224,8 @@ void add_gate_commands(Commands& commands) {
   add_baselines_option(command, arguments.baselines);
   command
       .add_option("--check", arguments.checks,
-                  "Judge only these of image,counters,statistics,cost,memory,timing,correlation,"
-                  "accuracy,stress (default: those of the plan)")
+                  fmt::format("Judge only these of {} (default: those of the plan)",
+                              record::text_of(record::every_check())))
       ->delimiter(',');
   command
       .add_option("--without", arguments.without,
