@@ -14,8 +14,8 @@ function(triptych_floor room out)
   message(FATAL_ERROR "room '${room}' has no floor; add it to TRIPTYCH_FLOORS in cmake/room.cmake")
 endfunction()
 
-# Files of a target are compiled in batches, as most of a compilation is reading headers. Off: every file on its own,
-# which shows whether it includes what it uses (ci/build alone).
+# The files of a target are compiled in batches, because most of the compilation time is spent on reading headers. When this is off,
+# every file is compiled alone, which shows whether it includes everything that it uses.
 option(TRIPTYCH_UNITY "Compile the files of a target in batches" ON)
 set(TRIPTYCH_UNITY_BATCH 8 CACHE STRING "How many files a batch holds")
 function(triptych_batch target)
@@ -24,7 +24,7 @@ function(triptych_batch target)
 endfunction()
 
 # triptych_room(NAME SOURCES file... [ROOMS room...] [PUBLIC lib...] [PRIVATE lib...])
-# A static library triptych_NAME that sees the headers of the rooms it names and of no other room.
+# Makes a static library triptych_NAME that can include the headers of the given rooms and of no others.
 function(triptych_room name)
   cmake_parse_arguments(arg "" "" "SOURCES;ROOMS;PUBLIC;PRIVATE" ${ARGN})
   triptych_floor(${name} own)
@@ -42,7 +42,7 @@ function(triptych_room name)
   target_link_libraries(triptych_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
 endfunction()
 
-# Tests that are emulated (cmake/arm64.cmake) take longer by this factor.
+# Time limits of tests are multiplied by this factor, for example under an emulator (cmake/arm64.cmake).
 set(TRIPTYCH_PATIENCE 1 CACHE STRING "How many times longer than usual a test may take")
 # triptych_patience(SECONDS OUT)
 function(triptych_patience seconds out)
@@ -51,7 +51,7 @@ function(triptych_patience seconds out)
 endfunction()
 
 # triptych_test(NAME SOURCES file... ROOMS room... [LABELS label...] [LIBS lib...])
-# One GoogleTest program; its cases are found by CTest.
+# Makes a GoogleTest program. CTest finds its test cases.
 function(triptych_test name)
   cmake_parse_arguments(arg "" "" "SOURCES;ROOMS;LABELS;LIBS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
@@ -67,8 +67,8 @@ function(triptych_test name)
   triptych_patience(300 timeout)
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT ${discovery}
                        PROPERTIES TIMEOUT ${timeout})
-  # gtest_discover_tests cannot hand on a list, so the labels are set on the tests that it found. Processes that share
-  # PoCL's kernel cache crash, so one of them at a time.
+  # gtest_discover_tests cannot pass a list of labels, so they are set on the tests that it found. Processes that share PoCL's kernel
+  # cache crash, so only one of them runs at a time.
   set(lock "")
   if("opencl" IN_LIST arg_LABELS)
     set(lock " RESOURCE_LOCK pocl_cache")
