@@ -1,6 +1,6 @@
 #pragma once
-// Configurations whose frames a scene cannot tell apart: one of them is measured, the others take
-// over what it told.
+// Configurations that are exactly the same work in a scene. One of them is measured, and the others
+// copy its results.
 
 #include <map>
 #include <optional>
@@ -12,20 +12,21 @@
 
 namespace triptych::measure {
 
-// A configuration measured before whose frames were the very work that another would do.
+// A configuration that was measured before and does exactly the work of another one.
 struct Equivalent {
   std::string key;
   std::string reason;  // for people: "skip: no brick of this scene is empty"
 };
 
-// What one device has measured. A ray that never gets darker than some transmittance ends nowhere
-// early below it: of configurations that differ by that threshold alone, one frame's picture tells
-// for all. Everything else a suite has to know beforehand (Suite::plain).
+// The configurations that one device has measured. If the transmittance of a ray never falls below
+// some value, an early termination below it changes nothing. For configurations that differ only in
+// that threshold, the image of one frame therefore shows whether they are equivalent. A suite knows
+// all other equivalences in advance (Suite::plain).
 class Equivalents {
  public:
   [[nodiscard]] std::optional<Equivalent> find(const PlainWork& plain) const;
 
-  // `picture` as drawn by the configuration `key`.
+  // Adds the configuration `key`, whose image is `picture`.
   void add(const PlainWork& plain, const std::string& key, const Work& work,
            const core::Image& picture);
 
@@ -38,8 +39,8 @@ class Equivalents {
   std::map<Configuration, std::vector<Known>> known_;  // by PlainWork::levels
 };
 
-// Of all pixels' rays, from the alpha of a premultiplied picture over the work's background; 0
-// where the background hides it, and for what is no volume.
+// The smallest transmittance of all pixels' rays, from the alpha of a premultiplied image over the
+// work's background; 0 if the background is opaque, and for anything other than a volume.
 [[nodiscard]] double least_transmittance(const Work& work, const core::Image& picture);
 
 }  // namespace triptych::measure

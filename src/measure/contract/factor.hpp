@@ -1,5 +1,5 @@
 #pragma once
-// What the suites' lists of factors have in common.
+// Shared by the factor lists of the suites.
 
 #include <array>
 #include <string>
@@ -14,25 +14,25 @@ enum class Decides : std::uint8_t { the_picture, how_it_is_made };
 
 [[nodiscard]] Factor choice(std::string name, std::vector<std::string> levels, std::string standard,
                             Decides decides, std::string summary);
-// `words`: values that stand for a number which the suite knows.
+// `words` are values that stand for a number, which the suite knows.
 [[nodiscard]] Factor number(std::string name, double minimum, double maximum, std::string standard,
                             Decides decides, std::string summary,
                             std::vector<std::string> words = {});
-// Its values are checked by Suite::check. It decides the picture.
+// A factor that decides the image and whose values are checked by Suite::check.
 [[nodiscard]] Factor text(std::string name, std::string standard, std::string summary);
 
-// The factor `technique` of a suite: the catalogue's, in its order. "auto" are those that draw a
-// picture.
+// The factor `technique` of a suite, with the techniques of the catalogue in its order. "auto"
+// stands for those that draw an image.
 [[nodiscard]] Factor technique_factor(std::string_view suite, std::string standard,
                                       std::string summary);
 
-// "N" or "WxH" → {width, height}; throws InputError.
+// Parses "N" or "WxH" to {width, height}. Throws InputError.
 [[nodiscard]] std::array<int, 2> parse_viewport(std::string_view value);
 
-// The value of a factor of kind number.
+// The value of a numeric factor.
 [[nodiscard]] double as_number(const Configuration& configuration, const std::string& factor);
 
-// "camera" of frame.json.
+// The value of "camera" in frame.json.
 [[nodiscard]] nlohmann::json camera_json(const scene::Camera& camera);
 
 }  // namespace triptych::measure

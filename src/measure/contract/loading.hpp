@@ -1,6 +1,6 @@
 #pragma once
-// Telling how far the loading of a large data set has come: a suite says it, a worker hands it to
-// its supervisor, the program shows it.
+// Progress of loading a large data set: a suite reports it, a worker sends it to its supervisor,
+// and the program shows it.
 
 #include <chrono>
 #include <functional>
@@ -9,15 +9,16 @@
 namespace triptych::measure {
 
 struct Loading {
-  std::string what;  // the `data` factor
-  double share = 0;  // done, in [0, 1]
+  std::string what;  // the value of the factor `data`
+  double share = 0;  // share that is done, in [0, 1]
 };
 
 using OnLoading = std::function<void(const Loading&)>;
 
-// Hands on to `tell` what is worth a word: nothing of a load shorter than two seconds, of others
-// one word every two seconds at most, and the end (share 1) of those of which a word was said. A
-// load begins with another name or a smaller share than the last. `now` is for tests.
+// Passes on to `tell` only what is worth reporting: nothing for a load shorter than two seconds;
+// for others one report every two seconds at most, and the end (share 1) of those that were
+// reported. A load begins with another name or a smaller share than the previous report. `now` is
+// for tests.
 [[nodiscard]] OnLoading paced(
     OnLoading tell,
     std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now);

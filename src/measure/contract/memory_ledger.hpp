@@ -1,5 +1,5 @@
 #pragma once
-// What a backend holds on its device, kept by the backend's own objects.
+// The memory that a backend uses on its device, recorded by the backend's own objects.
 
 #include <atomic>
 #include <cstdint>
@@ -19,8 +19,8 @@ class MemoryLedger {
   using Sum = std::atomic<std::uint64_t> Sums::*;
 
  public:
-  // Bytes of one object, until it is destroyed. It may outlive the ledger and end on any thread, as
-  // a driver's callback does.
+  // The bytes of one object until it is destroyed. It may outlive the ledger, and may end on any
+  // thread, for example in a driver's callback.
   class Entry {
    public:
     Entry() = default;
@@ -54,10 +54,10 @@ class MemoryLedger {
 
   [[nodiscard]] Entry buffer(std::uint64_t bytes) const { return {sums_, &Sums::buffers, bytes}; }
   [[nodiscard]] Entry image(std::uint64_t bytes) const { return {sums_, &Sums::images, bytes}; }
-  // What every frame moves to the device anew, for as long as there are such frames.
+  // The bytes that every frame uploads to the device, for as long as there are such frames.
   [[nodiscard]] Entry moved(std::uint64_t bytes) const { return {sums_, &Sums::moved, bytes}; }
 
-  // Device::memory().
+  // The result of Device::memory().
   [[nodiscard]] record::Counts counts() const {
     record::Counts counts{{"buffers", sums_->buffers}, {"images", sums_->images}};
     if (sums_->moved > 0) counts.emplace("moved", sums_->moved);

@@ -1,6 +1,6 @@
 #pragma once
-// How plans spell the data of stress suites, "stress:CASE" or "stress:CASE:VARIANT", and the level
-// of other factors that means what belongs to the data.
+// The names of stress data in plans, "stress:CASE" or "stress:CASE:VARIANT", and the level of other
+// factors that selects the value that belongs to the data.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,8 +21,8 @@ inline constexpr std::string_view stress_prefix = "stress:";
 // A case of a suite's catalogue with one of its variants.
 template <typename Case>
 struct StressChoice {
-  const Case* of = nullptr;  // into the catalogue
-  std::string_view variant;  // of its variants; empty where it has none
+  const Case* of = nullptr;  // in the catalogue
+  std::string_view variant;  // one of its variants; empty if it has none
 };
 
 template <typename Case>
@@ -31,8 +31,8 @@ template <typename Case>
                      choice.variant);
 }
 
-// A Case has a `name` and `variants`; the catalogue outlives the choice. nullopt for data that is
-// no stress data. Throws InputError, saying what there is, for an unknown case or variant.
+// A Case has a `name` and `variants`. The catalogue must outlive the choice. nullopt for other
+// data. Throws InputError with the known names for an unknown case or variant.
 template <typename Case>
 [[nodiscard]] std::optional<StressChoice<Case>> choose_stress(std::string_view data,
                                                               const std::vector<Case>& cases) {

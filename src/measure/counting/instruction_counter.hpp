@@ -1,6 +1,6 @@
 #pragma once
-// The worker's side of counting: how many instructions this process has executed, told by the
-// emulator that it runs under (counting/emulator.hpp).
+// The worker's side of counting: the number of instructions that this process has executed,
+// reported by the emulator that it runs under (counting/emulator.hpp).
 
 #include <array>
 #include <cstdint>
@@ -11,22 +11,22 @@
 
 namespace triptych::measure {
 
-// Over all threads. Reading it costs the process a few instructions of its own.
+// Counts over all threads. Reading the counter costs the process a few instructions.
 class InstructionCounter {
  public:
-  // Since the process began, in the order of counting/protocol.h.
+  // Counts since the process began, in the order of counting/protocol.h.
   using Snapshot = std::array<std::uint64_t, TRIPTYCH_COUNTS>;
 
-  // nullopt where this process runs natively, or under another tool than ours.
+  // nullopt if this process runs natively, or under another tool.
   [[nodiscard]] static std::optional<InstructionCounter> of_this_process();
 
   [[nodiscard]] Snapshot now() const;
 
-  // As record::Record::cost names them: "device_code", "driver", "libc", "program", "allocations",
-  // "misses".
+  // The names are those of record::Record::cost: "device_code", "driver", "libc", "program",
+  // "allocations", "misses".
   [[nodiscard]] static record::Counts between(const Snapshot& before, const Snapshot& after);
 
-  // Does `act`, keeps what it took and returns its result.
+  // Runs `act`, stores the counts and returns its result.
   template <typename Act>
   auto counting(record::Counts& taken, const Act& act) const {
     const Snapshot before = now();
@@ -35,8 +35,8 @@ class InstructionCounter {
     return result;
   }
 
-  // Returns when no other thread executes anything any more, or after two seconds: a driver's
-  // thread that still writes a cache would be counted to the frame that comes next.
+  // Returns when no other thread executes anything any more, or after two seconds. Otherwise a
+  // driver's thread that still writes a cache would be counted with the next frame.
   void wait_until_quiet() const;
 
  private:

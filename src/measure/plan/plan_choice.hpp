@@ -1,5 +1,5 @@
 #pragma once
-// What is taken of a plan, as people write it.
+// The part of a plan that a user selects on the command line.
 
 #include <string>
 #include <vector>
@@ -9,12 +9,13 @@
 namespace triptych::measure {
 
 struct PlanChoice {
-  std::vector<std::string> set = {};  // "factor=a,b" each
-  std::string shard = {};             // "i/n"; empty: all of it
+  std::vector<std::string> set = {};  // each is "factor=a,b"
+  std::string shard = {};             // "i/n"; empty: the whole plan
 
-  // As load_plan(); all throw core::InputError.
+  // Like load_plan(). All functions throw core::InputError.
   [[nodiscard]] Plan load(const std::string& plan, const FindSuite& find_suite) const;
-  // "factor=a,b" → {factor, {a, b}}, each value as record::escaped spells it or plainly.
+  // "factor=a,b" → {factor, {a, b}}. Each value may be written plainly or as record::escaped writes
+  // it.
   [[nodiscard]] Overrides overrides() const;
   [[nodiscard]] Shard part() const;
 };

@@ -1,5 +1,6 @@
 #pragma once
-// All combinations of factors' values, in the order in which they are measured, made one by one.
+// All combinations of the factors' values, in the order in which they are measured. They are made
+// one by one.
 
 #include <cstddef>
 #include <functional>
@@ -13,31 +14,33 @@
 
 namespace triptych::measure {
 
-// What a plan gives, each in its one spelling; a factor left out has its default.
+// The values in a plan, each in its one spelling. A factor that is left out has its default.
 using ValuesByFactor = std::map<std::string, std::vector<std::string>>;
 
-// The suite's factors; those before vary more slowly.
+// The factors of the suite; earlier ones vary more slowly.
 [[nodiscard]] std::vector<const Factor*> slowest_first(const Suite& suite);
 
-// Those of one block of values or more, none twice, one data set after the other.
+// The combinations of one or more blocks of values, without duplicates, one data set after the
+// other.
 class Combinations {
  public:
   using Use = std::function<void(const Configuration&)>;
 
-  // The suite must live as long.
+  // The suite must outlive this object.
   Combinations(const Suite& suite, const std::vector<ValuesByFactor>& blocks);
 
-  // Throws InputError for a shard that cannot be.
+  // Throws InputError for an invalid shard.
   void for_each(const Shard& shard, const Use& use) const;
 
-  // How many there are at most of a block; the largest number where there are more.
+  // The largest possible number of combinations of a block, or the largest number of the type if
+  // there are more.
   [[nodiscard]] std::size_t most_of(std::size_t block) const;
 
   // Factors with more than one value.
   [[nodiscard]] std::vector<std::string> varied() const;
 
  private:
-  // A factor and its values; those before it vary more slowly.
+  // A factor and its values. Earlier axes vary more slowly.
   struct Axis {
     std::string factor;
     std::vector<std::string> values;
@@ -49,7 +52,8 @@ class Combinations {
   void for_each_of(const std::string& data, const Use& use) const;
 
   std::vector<Block> blocks_;
-  std::vector<std::string> data_;  // all data sets, in order; one without a name where none is told
+  // All data sets in order; one without a name if there is no such factor.
+  std::vector<std::string> data_;
 };
 
 }  // namespace triptych::measure

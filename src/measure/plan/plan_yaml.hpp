@@ -1,6 +1,5 @@
 #pragma once
-// The YAML of a plan as text with places, before anything is known of its suite. Used by plan.cpp
-// alone.
+// The YAML of a plan as text with places, before its suite is known. Only plan.cpp uses it.
 
 #include <string>
 #include <string_view>
@@ -24,15 +23,15 @@ struct PlanEntry {
 struct PlanText {
   PlacedText suite;
   std::string summary;
-  record::Checks checks;           // empty where it says none
+  record::Checks checks;           // empty if the plan does not state any
   std::vector<PlanEntry> entries;  // in the order of the file, no factor twice
-  // What stands under `also`: further combinations, by entries in the place of those above.
+  // The entries under `also`: further combinations, in which they replace the entries above.
   std::vector<std::vector<PlanEntry>> also;
 };
 
-// `file` is what errors call the text. Throws InputError for what is not YAML, not one mapping, has
-// no `suite`, a key twice, an empty list, a value that is not a scalar or has none, an `also`
-// that is not a list of mappings.
+// `file` is the name of the text in errors. Throws InputError if the text is not YAML or not one
+// mapping, or for a missing `suite`, a duplicate key, an empty list, a value that is missing or not
+// a scalar, or an `also` that is not a list of mappings.
 [[nodiscard]] PlanText parse_plan(std::string_view yaml, const std::string& file);
 
 }  // namespace triptych::measure

@@ -2,9 +2,9 @@
 
 namespace triptych::measure {
 
-// The index-th of `count` parts of a plan, from 1. Cut along data sets where that can be: as many
-// whole ones for each as there are; what is left by configuration, so that none has more than one
-// above another.
+// The index-th of `count` parts of a plan, counted from 1. The plan is divided by data sets as far
+// as possible, with the same number of whole data sets in each part. The rest is divided by
+// configuration, so that no part has more than one more than another.
 struct Shard {
   int index = 1;
   int count = 1;

@@ -1,7 +1,6 @@
 #pragma once
-// Google Benchmark as the driver of timed loops: one benchmark is registered, run and forgotten at
-// a time; nothing is printed. Its own JSON entries are kept, so that tools made for them can be
-// used.
+// Google Benchmark drives the timed loops. One benchmark at a time is registered, run and removed;
+// nothing is printed. Its JSON entries are kept, so that tools for Google Benchmark can be used.
 
 #include <functional>
 #include <map>
@@ -10,8 +9,8 @@
 
 namespace triptych::measure {
 
-// Makes the library ready and takes from it every choice that its environment variables
-// (BENCHMARK_*) could make for it. Cheap, and harmless when called again.
+// Initializes the library and makes it independent of its environment variables (BENCHMARK_*).
+// Cheap, and may be called repeatedly.
 void initialize_benchmarks();
 
 struct BenchmarkResult {
@@ -20,21 +19,21 @@ struct BenchmarkResult {
       entries;  // array: the repetitions, then mean, median, minimum, quartiles, maximum, …
 };
 
-// What one iteration says of itself: the time that counts, and facts kept as flat keys of its
+// The result of one iteration: its time, and further facts that are stored as flat keys of its
 // entry.
 struct IterationTime {
   double ns = 0;
   std::map<std::string, double> facts;
 };
 
-// Each frame as a repetition of its own with the time it reports (UseManualTime): the JSON holds
-// every sample, and the statistics the library makes of them. An exception from `frame` ends the
-// loop and comes out as it was. Throws core::Error when the library did not run what it was told
-// to.
+// Runs each frame as a repetition of its own, with the time that it reports (UseManualTime). The
+// JSON contains every sample and the library's statistics of them. An exception from `frame` ends
+// the loop and is passed on unchanged. Throws core::Error if the library did not run what was
+// requested.
 [[nodiscard]] BenchmarkResult time_frames(const std::string& name, int frames,
                                           const std::function<IterationTime()>& frame);
 
-// Frames back to back, the wall time taken once around all of them by the library itself.
+// Runs frames back to back. The library measures the wall time once for all of them.
 [[nodiscard]] BenchmarkResult time_loop(const std::string& name, int frames,
                                         const std::function<void()>& frame);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Injected faults: to prove that the gate catches them and that a worker's death costs one
+// Injected faults prove that the gate finds them, and that the death of a worker costs one
 // configuration.
 
 #include <span>
@@ -12,35 +12,36 @@
 
 namespace triptych::measure {
 
-// A fault put into what is measured, to prove that the gate catches it: a technique::Fault by
-// name, "slowdown:PERCENT" (real extra work), "crash", "hang", "device_lost", "lost_counter".
+// A fault that is put into what is measured: the name of a technique::Fault, "slowdown:PERCENT"
+// (real extra work), "crash", "hang", "device_lost" or "lost_counter".
 struct InjectedFault {
   std::string fault;
-  // Levels, "technique=raycast,step=2", or a glob over configuration keys and device ids; empty:
-  // everywhere.
+  // Levels, such as "technique=raycast,step=2", or a glob over configuration keys and device ids;
+  // empty: everywhere.
   std::string only;
 };
 
-// "FAULT" or "FAULT@ONLY" each; whether there is such a fault is not asked (check_fault).
+// Parses texts of the form "FAULT" or "FAULT@ONLY". Whether the fault exists is checked by
+// check_fault.
 [[nodiscard]] std::vector<InjectedFault> parse_faults(std::span<const std::string> faults);
 
-// The faults of those that are meant for a configuration on a device.
+// The faults that apply to a configuration on a device.
 [[nodiscard]] std::vector<std::string> faults_for(std::span<const InjectedFault> all,
                                                   const std::string& configuration,
                                                   const std::string& device);
 
-// "half_voxel_shift, …, slowdown:PERCENT (0.01 to 100)".
+// The text "half_voxel_shift, …, slowdown:PERCENT (0.01 to 100)".
 [[nodiscard]] std::string fault_names();
 
-// Throws InputError for a name that is none of the faults, naming those there are.
+// Throws InputError with the known faults for an unknown name.
 void check_fault(std::string_view fault);
 
-// Puts the fault into what is drawn, or does at once what it says: "crash" ends this process with
-// SIGSEGV, "hang" never returns, "device_lost" throws DeviceLost. Throws NotSupported when this
-// kind of work has no such fault.
+// Puts the fault into what is drawn, or executes it immediately: "crash" ends this process with
+// SIGSEGV, "hang" never returns, "device_lost" throws DeviceLost. Throws NotSupported if this kind
+// of work does not have the fault.
 void inject(std::string_view fault, Work& work);
 
-// "lost_counter" takes the first of our own counters away; other faults change nothing here.
+// "lost_counter" removes the first of Triptych's counters. Other faults change nothing here.
 void inject(std::string_view fault, record::Record& record);
 
 }  // namespace triptych::measure

@@ -1,6 +1,6 @@
 #pragma once
-// `technique: auto`: every technique is measured, and of each scene and device the fastest is told
-// with the numbers that say so. The choice is made of records alone: what repeats in them repeats.
+// `technique: auto`: every technique is measured, and the fastest one of each scene and device is
+// reported with its numbers. The choice depends on records only, so it repeats if they do.
 
 #include <functional>
 #include <set>
@@ -12,44 +12,46 @@
 
 namespace triptych::measure {
 
-// What the choice rests on: times, on the device's clock where it is trusted for all that compete,
-// else on the wall clock; or, of plans that count them, the instructions of device code and driver.
+// The measurement that decides: times, on the device clock if it is trusted for all competitors,
+// otherwise on the wall clock; or instructions of device code and driver, for plans that count
+// them.
 enum class Ruler : std::uint8_t { device_clock, wall_clock, instructions };
 
 struct Contestant {
   const record::Record* record = nullptr;
-  double amount = 0;   // nanoseconds of the fastest frame, or instructions: what disturbs only adds
-  double usually = 0;  // nanoseconds, the median; of instructions the same
+  // Nanoseconds of the fastest frame (disturbances only add time), or instructions.
+  double amount = 0;
+  double usually = 0;  // median in nanoseconds; for instructions the same as `amount`
 };
 
 struct FastestAnswer {
   std::string device;
   std::string scene;  // the factors that were not chosen
   Ruler ruler = Ruler::wall_clock;
-  std::vector<Contestant> contestants;  // the fastest first; of equals the first measured
+  std::vector<Contestant> contestants;  // the fastest first; among equal ones the first measured
   std::vector<const record::Record*> not_drawn;
 };
 
-// Of every scene and device with more than one level of the factors chosen; of one measured
-// repeatedly the fastest record counts. The records must outlive the result.
+// Answers for every scene and device with more than one level of the chosen factors. If one was
+// measured repeatedly, its fastest record counts. The records must outlive the result.
 [[nodiscard]] std::vector<FastestAnswer> answer_fastest(const std::vector<record::Record>& records,
                                                         const Suite& suite,
                                                         const std::set<std::string>& chosen);
 
-// Of a plan's one scene on one device, by a short trial of all and one more of those that may yet
-// turn out to be the fastest: what disturbs a trial may double a time. No answer, or one without
-// contestants: nothing could be told. The answers point into the records.
+// The result for a plan with one scene on one device: a short trial of all, and another one of
+// those that may still be the fastest, because a disturbance may double a time. If nothing can be
+// decided, there is no answer, or one without contestants. The answers refer to the records.
 struct FastestTried {
   std::vector<record::Record> records;
   std::vector<FastestAnswer> answers;
 };
-// `trial`: measures the plan, and returns its records.
+// `trial` measures the plan and returns its records.
 [[nodiscard]] FastestTried try_for_fastest(
     Plan plan, const Suite& suite,
     const std::function<std::vector<record::Record>(const Plan&)>& trial);
 
-// One line of text: the choice, and by how much it beats each other one. One whose fastest frame is
-// below the usual one of the choice is as fast.
+// One line of text with the choice and its advantage over each other one. A competitor whose
+// fastest frame is below the median of the choice counts as equally fast.
 [[nodiscard]] std::string describe(const FastestAnswer& answer,
                                    const std::set<std::string>& chosen);
 

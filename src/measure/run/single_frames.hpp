@@ -1,5 +1,5 @@
 #pragma once
-// Frames that are drawn one at a time, each chosen when the one before was seen.
+// Draws frames one at a time. Each can be chosen after the previous one was seen.
 
 #include <string>
 
@@ -7,19 +7,19 @@
 
 namespace triptych::measure {
 
-// One device with its worker, which is replaced where it dies. A frame for the picture and one for
-// the counters each, untimed; records and pictures go to the store. What is passed must live as
-// long.
+// One device with its worker, which is replaced if it dies. For each configuration it draws one
+// frame for the image and one for the counters, without times. Records and images are written to
+// the store. All arguments must outlive this object.
 class SingleFrames {
  public:
-  // Throws InputError as run_plans() does.
+  // Throws InputError like run_plans().
   SingleFrames(const Suite& suite, std::string device, record::Store& store,
                const RunOptions& options, InterruptGuard& interrupts);
 
-  // Throws Interrupted, and IoError when the store cannot be written.
+  // Throws Interrupted, and IoError if the store cannot be written.
   [[nodiscard]] record::Record draw(const Configuration& configuration);
 
-  // What it turned out to be when it was opened. Throws InputError where it never was.
+  // The device as it was when it was opened. Throws InputError if it never was.
   [[nodiscard]] record::Device device() const;
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
-// What decides, on a device that is the processor, which code a driver generates.
+// The properties of the processor that decide which code a driver generates, on a device that is
+// the processor.
 
 #include <map>
 #include <span>
@@ -8,11 +9,11 @@
 
 namespace triptych::measure {
 
-// The instruction-set flags of this processor that compilers of device code make use of, sorted, by
-// spaces: "avx avx2 avx512f fma …". Empty where /proc/cpuinfo does not tell.
+// The instruction-set flags of this processor that compilers of device code use, sorted and
+// separated by spaces: "avx avx2 avx512f fma …". Empty if /proc/cpuinfo does not contain them.
 [[nodiscard]] std::string cpu_features();
 
-// Those of the named environment variables that are set, with their values.
+// The named environment variables that are set, with their values.
 [[nodiscard]] std::map<std::string, std::string> set_variables(
     std::span<const std::string_view> names);
 

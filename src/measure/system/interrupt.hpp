@@ -1,6 +1,6 @@
 #pragma once
-// SIGINT and SIGTERM as something that a loop can wait for beside its pipes, instead of dying in
-// the middle of them.
+// Makes SIGINT and SIGTERM events for which a loop can wait together with its pipes, so that the
+// process does not die in the middle of work.
 
 #include <atomic>
 #include <csignal>
@@ -12,8 +12,8 @@
 
 namespace triptych::measure {
 
-// A signal asked the run to stop: its workers are gone, every record made so far is in the store,
-// and `resume` goes on from there. Whoever has a store and a --resume to offer says so.
+// A signal asked the run to stop. Its workers have ended, every record so far is in the store, and
+// `resume` continues from there. Callers that have a store and a --resume print how to continue.
 class Interrupted : public core::Error {
  public:
   explicit Interrupted(int signal, const std::string& what = "interrupted")
@@ -24,9 +24,9 @@ class Interrupted : public core::Error {
   int signal_;
 };
 
-// While it lives, SIGINT, SIGTERM and SIGPIPE are blocked in the calling thread and arrive at fd();
-// writing to a pipe nobody reads is then an error code. Destroying it restores what was; an
-// interrupt that nobody asked for is raised again.
+// While this object lives, SIGINT, SIGTERM and SIGPIPE are blocked in the calling thread and arrive
+// at fd(). Writing to a pipe without a reader is then an error code. The destructor restores the
+// previous state; an interrupt that nobody has taken is raised again.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -34,9 +34,11 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  [[nodiscard]] int fd() const noexcept { return signals_.get(); }  // readable when a signal waits
-  // The interrupting signal, if one has come; SIGPIPE is dropped. Once there, it is there for
-  // everybody who asks, on any thread.
+  [[nodiscard]] int fd() const noexcept {
+    return signals_.get();
+  }  // readable if a signal is waiting
+  // The interrupting signal, if one has arrived; SIGPIPE is dropped. Once it has arrived, every
+  // caller on any thread gets it.
   [[nodiscard]] std::optional<int> take();
 
  private:

@@ -3,7 +3,7 @@
 
 namespace triptych::measure {
 
-// Wall time since it was made.
+// The wall time since its construction.
 class Stopwatch {
  public:
   [[nodiscard]] std::chrono::steady_clock::duration elapsed() const {
