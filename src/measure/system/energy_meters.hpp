@@ -16,9 +16,8 @@ namespace triptych::measure {
 class EnergyMeters {
  public:
   // The meters that this machine has and this process may read, in microjoules:
-  //   package-0, package-0/dram   processors and their memory, from Linux's powercap (RAPL); on
-  //   most
-  //                               systems only root can read them
+  //   package-0, package-0/dram   processors and their memory, from Linux's powercap (RAPL); most
+  //                               systems allow only root to read them
   //   i915-0, xe-0                Intel's GPUs, from their kernel drivers' hwmon
   //   nvidia-0                    NVIDIA's GPUs since Volta, from NVML
   // Tests set `system` and `nvml`.

@@ -1,5 +1,5 @@
 #pragma once
-// What is right of a record, from its suite.
+// The reference image, bound, limit and expectations of a record, from its suite.
 
 #include <functional>
 #include <map>
@@ -16,26 +16,27 @@ namespace triptych::measure {
 
 using FindSuiteWithTruth = std::function<SuiteWithTruth&(std::string_view)>;  // throws InputError
 
-// Truths by record, rendered once: kept in memory as long as this, and, where the store can be
-// added to, there for the next time. What a suite throws for want of data is thrown by each.
+// Reference images by record, each rendered once. They are kept in memory as long as this object,
+// and in the store for the next time if it can be written. Every function throws what the suite
+// throws if data is missing.
 class Truths {
  public:
   Truths(FindSuiteWithTruth suite, record::Store& store)
       : suite_(std::move(suite)), store_(store) {}
 
   [[nodiscard]] const accuracy::TruthPair& of(const record::Record& record);
-  // What must hold of the record beside its truth.
+  // The expectations of the record in addition to its bound.
   [[nodiscard]] std::vector<record::Expectation> expectations_of(
       const record::Record& record) const {
     return suite_(record.suite).expectations(record.factors);
   }
-  // SuiteWithTruth::open_counts.
+  // See SuiteWithTruth::open_counts.
   [[nodiscard]] const std::map<std::string, double>& open_counts_of(const record::Record& record);
-  // SuiteWithTruth::data_hash; empty where the data are not here.
+  // See SuiteWithTruth::data_hash; empty if the data is not available.
   [[nodiscard]] std::string data_hash_of(const record::Record& record);
-  // nullptr where the record's scene has none.
+  // nullptr if the record's scene has no limit.
   [[nodiscard]] const accuracy::LimitPicture* limit_of(const record::Record& record);
-  // The picture that a record of the store names.
+  // The image that a record of the store refers to.
   [[nodiscard]] core::Image picture_of(const record::Record& record) const {
     return store_.picture(record.image);
   }
@@ -44,7 +45,7 @@ class Truths {
   [[nodiscard]] accuracy::TruthPair find_or_render(const record::Record& record);
   [[nodiscard]] accuracy::LimitPicture find_or_render_limit(const record::Record& record,
                                                             const std::string& key);
-  // The pair kept under the names, rendered where there is none.
+  // The pair that is kept under these names; rendered if there is none.
   [[nodiscard]] accuracy::TruthPair kept(const std::string& scene, const std::string& version,
                                          const std::function<accuracy::TruthPair()>& render);
 
