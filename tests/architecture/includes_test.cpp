@@ -127,6 +127,9 @@ TEST(Includes, NoApiHeaderOutsideItsBackend) {
       {"vulkan", std::regex(R"(vulkan/.*)")},
       {"gl", std::regex(R"((EGL|GL|GLES\w*|glad|KHR)/.*)")},
   };
+  for (const std::string& api : apis_of_backends()) {
+    EXPECT_TRUE(headers.contains(api)) << "add the pattern of the headers of " << api;
+  }
   for (const std::string folder : {"src", "backends", "suites"}) {
     for (const auto& file : files_below(folder, code_endings)) {
       for (const auto& [api, header] : headers) {

@@ -12,7 +12,7 @@
 namespace triptych::architecture {
 namespace {
 
-const std::vector<std::string> apis{"opencl", "vulkan", "gl"};
+const std::vector<std::string> apis = apis_of_backends();
 
 // Lines "technique: reason" of a backend's unsupported.txt; # begins a comment.
 std::map<std::string, std::string> unsupported(const std::string& api) {
@@ -34,6 +34,15 @@ bool implemented(const std::string& api, const std::string& technique) {
 
 TEST(Matrix, CatalogueIsThere) {
   EXPECT_GE(technique::catalogue().size(), 3U);
+  EXPECT_GE(apis.size(), 3U);
+}
+
+TEST(Matrix, EveryApiOfTheCatalogueHasABackend) {
+  for (const technique::Technique& each : technique::catalogue()) {
+    for (const std::string& api : each.apis) {
+      EXPECT_EQ(std::ranges::count(apis, api), 1) << each.id << " names the API " << api;
+    }
+  }
 }
 
 TEST(Matrix, EveryCellIsImplementedOrExplained) {

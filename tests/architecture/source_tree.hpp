@@ -35,6 +35,18 @@ inline std::string read(const std::filesystem::path& file) {
   return text.str();
 }
 
+// The names of the backends that draw through an API, which are the folders in backends/ except the
+// simulated one.
+inline std::vector<std::string> apis_of_backends() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder / "backends")) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && name != "null") names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 // The texts between the delimiters of every #include of a file.
 inline std::vector<std::string> includes_of(const std::filesystem::path& file) {
   static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])", std::regex::multiline);
