@@ -89,7 +89,7 @@ std::string list_as_text(const WindowSystem& system) {
   } catch (const core::Error& error) {
     broken.push_back({std::string(system.name), error.what()});
   }
-  for (const auto& [what, reason] : broken) reasons.push_back({what, reason});
+  for (const measure::Broken& each : broken) reasons.push_back({each.what, each.reason});
   return core::json_text({{"devices", devices}, {"broken", reasons}});
 }
 

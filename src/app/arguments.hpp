@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "measure/plan/plan_choice.hpp"
-#include "record/hung.hpp"
+#include "record/reason.hpp"
 
 namespace triptych::app {
 

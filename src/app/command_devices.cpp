@@ -5,22 +5,28 @@
 #include "app/arguments.hpp"
 #include "app/registry.hpp"
 #include "measure/worker/listing.hpp"
+#include "report/words/outcome.hpp"
 
 namespace triptych::app {
 namespace {
 
 using measure::Greeting;
+using report::words::text_of;
+
+std::string why(const measure::Broken& broken) {
+  return broken.ended ? text_of(*broken.ended) : broken.reason;
+}
 
 void print_text(const std::vector<Greeting>& greeted, const std::vector<measure::Broken>& broken) {
   for (const Greeting& each : greeted) {
     fmt::print("{}\n  {} ({}), driver {}, {}\n", each.device.id, each.device.name,
                each.device.vendor, each.device.driver_version, each.device.api_version);
-    if (!each.refused.empty()) fmt::print("  cannot be used: {}\n", each.refused);
+    if (each.refused) fmt::print("  cannot be used: {}\n", text_of(*each.refused));
     for (const record::ClockTrust& clock : each.clocks) {
       fmt::print("  clock for {}: {}\n", clock.work, clock.verdict);
     }
     for (const auto& [statistic, verdict] : each.device.statistics_calibration) {
-      fmt::print("  statistic {}: {}\n", statistic, verdict);
+      fmt::print("  statistic {}: {}\n", statistic, text_of(verdict));
     }
     std::string limits;
     for (const auto& [name, value] : each.device.limits)
@@ -31,7 +37,7 @@ void print_text(const std::vector<Greeting>& greeted, const std::vector<measure:
     }
   }
   for (const measure::Broken& each : broken)
-    fmt::print("not usable: {}: {}\n", each.what, each.reason);
+    fmt::print("not usable: {}: {}\n", each.what, why(each));
 }
 
 void print_json(const std::vector<Greeting>& greeted, const std::vector<measure::Broken>& broken) {
@@ -40,11 +46,11 @@ void print_json(const std::vector<Greeting>& greeted, const std::vector<measure:
     core::Json entry = each.device;
     entry["key"] = each.device.key();
     entry["clocks"] = each.clocks;
-    if (!each.refused.empty()) entry["refused"] = each.refused;
+    if (each.refused) entry["refused"] = *each.refused;
     json["devices"].push_back(std::move(entry));
   }
   for (const measure::Broken& each : broken) {
-    json["broken"].push_back({{"what", each.what}, {"reason", each.reason}});
+    json["broken"].push_back({{"what", each.what}, {"reason", why(each)}});
   }
   print(json);
 }

@@ -13,12 +13,12 @@
 #include "measure/worker/listing.hpp"
 #include "measure/worker/own_program.hpp"
 #include "record/factor_list.hpp"
-#include "record/hung.hpp"
 #include "reduction/reduce.hpp"
 #include "reduction/trial.hpp"
 #include "report/bug_report.hpp"
 #include "report/command.hpp"
 #include "report/frame_folder.hpp"
+#include "report/words/finding.hpp"
 
 namespace triptych::app {
 namespace {
@@ -45,13 +45,13 @@ measure::RunOptions options_of(const ReduceArguments& arguments) {
 std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
                         const reduction::Failure& failure, const record::Record& record,
                         const record::Device& device) {
-  const bool picture = failure.kind != reduction::other_counters;
+  const bool picture = failure.cause != judge::Cause::values_changed;
   report::Command command{.command = picture ? "render" : "reduce",
                           .object = std::string(frame.suite.name()),
                           .device = frame.device,
                           .factors = record::parse_factor_list(record.configuration),
                           .injected = arguments.frame.faults,
-                          .limit = record::limit_in(failure.message),
+                          .limit = failure.reason.limit(),
                           .more = {"--truth", "--out", "again"},
                           .environment = device.environment};
   if (!picture) command.more.insert(command.more.begin(), {"--against", arguments.against});
@@ -79,7 +79,7 @@ std::vector<std::string> write_frame(const OneFrame& frame, const reduction::Tri
 }
 
 report::BugReport report_of(const OneFrame& frame, const reduction::Reduction& reduction) {
-  report::BugReport report{.message = reduction.failure.message,
+  report::BugReport report{.message = report::words::text_of(reduction.failure),
                            .device = {},
                            .system = {},
                            .command = {},
@@ -121,7 +121,7 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
     fmt::print("{} does not fail: there is nothing to make smaller\n", frame.device);
     return core::ExitCode::pass;
   }
-  say("{}: {}\n", frame.device, first->message);
+  say("{}: {}\n", frame.device, report::words::text_of(*first));
   const auto on_step = [](const reduction::Step& step) {
     say("{:>4} frames: {} {} → {}\n", step.frame, step.factor, step.from, step.to);
   };

@@ -15,8 +15,8 @@
 #include "measure/request/fastest.hpp"
 #include "measure/run/runner.hpp"
 #include "measure/worker/own_program.hpp"
-#include "record/bad_input.hpp"
 #include "report/frame_folder.hpp"
+#include "report/words/finding.hpp"
 
 namespace triptych::app {
 namespace {
@@ -37,8 +37,8 @@ core::ExitCode hold_against_truth(const core::Image& image, const judge::TruthPa
   if (held.white > 0) {
     fmt::print("{}: white is an error of {:.3g}\n", (out / "difference.png").string(), held.white);
   }
-  fmt::print("{}\n", held.message);
-  return held.right ? core::ExitCode::pass : core::ExitCode::regression;
+  fmt::print("{}\n", report::words::text_of(held.what));
+  return held.right() ? core::ExitCode::pass : core::ExitCode::regression;
 }
 
 struct Drawing {
@@ -119,8 +119,7 @@ core::ExitCode render(const RenderArguments& arguments) {
   const auto [run, record] = !plan.automatic.empty() ? draw_the_fastest(drawing, plan)
                              : arguments.error       ? draw_within_error(drawing, plan, truths)
                                                      : draw_one(drawing, plan);
-  record::require_drawable(record);
-  if (record.outcome != record::Outcome::measured) throw core::InputError(record.reason);
+  record::require_measured(record);
   if (record.image.empty()) throw core::InputError(record.technique + " draws no picture");
   const core::Image image = store.picture(record.image);
   report::write_picture(out, "image", image);

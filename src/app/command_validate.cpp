@@ -14,6 +14,7 @@
 #include "judge/gate/flakes.hpp"
 #include "measure/run/runner.hpp"
 #include "measure/system/stopwatch.hpp"
+#include "report/words/finding.hpp"
 
 namespace triptych::app {
 namespace {
@@ -117,7 +118,11 @@ class Validation {
 
   core::ExitCode tell(double seconds) {
     if (!arguments_.write_expect.empty()) {
-      core::write_text(arguments_.write_expect, judge::expected_text(judge::as_expected(results_)));
+      const auto reason_of = [](const judge::Finding& finding) {
+        return report::words::text_of(static_cast<const judge::Observation&>(finding));
+      };
+      core::write_text(arguments_.write_expect,
+                       judge::expected_text(judge::as_expected(results_, reason_of)));
     }
     return tell_verdict(store_, truths_, results_, seconds,
                         {.folder = arguments_.out,

@@ -16,6 +16,8 @@
 #include "app/version.hpp"
 #include "core/foreign_error.hpp"
 #include "measure/plan/plan_values.hpp"
+#include "record/reason.hpp"
+#include "report/words/outcome.hpp"
 
 namespace triptych {
 namespace {
@@ -88,6 +90,9 @@ ExitCode run(int argc, char** argv) {
 ExitCode run_and_catch(int argc, char** argv) {
   try {
     return core::naming({}, [&] { return run(argc, argv); });
+  } catch (const record::NotMeasured& error) {
+    app::say("triptych: {}\n", report::words::text_of(error.outcome(), error.reason()));
+    return error.exit_code();
   } catch (const core::NotSupported& error) {
     app::say("triptych: {}\n", error.what());
     return ExitCode::cannot_judge;

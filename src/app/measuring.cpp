@@ -13,16 +13,18 @@
 #include "measure/request/fastest.hpp"
 #include "measure/worker/listing.hpp"
 #include "measure/worker/own_program.hpp"
+#include "report/words/outcome.hpp"
 
 namespace triptych::app {
 namespace {
 
 std::string outcome_text(const record::Record& record) {
   if (record.outcome != record::Outcome::measured) {
-    return fmt::format("{}: {}", record::name_of(record.outcome), record.reason);
+    return report::words::text_of(record.outcome, record.reason);
   }
   if (!record.same_as.empty()) {
-    return fmt::format("the same as {} ({})", record.same_as, record.reason);
+    return fmt::format("the same as {} ({})", record.same_as,
+                       report::words::text_of(record.reason));
   }
   const auto summary = record::summarise(record.time_ns());
   return summary ? fmt::format("{:.3f} ms ({})", summary->median / 1e6, record.clock())

@@ -8,6 +8,7 @@
 
 #include "comparison/times.hpp"
 #include "measure/system/stopwatch.hpp"
+#include "report/words/outcome.hpp"
 
 namespace triptych::comparison {
 namespace {
@@ -24,7 +25,9 @@ measure::RunOptions options_for(const measure::SideOptions& side,
 // With its first configuration a side that cannot be opened ends all.
 void require_opened(const record::Store& store, const record::Record* record) {
   if (record == nullptr || record->outcome == record::Outcome::measured) return;
-  if (store.devices(record->run).empty()) throw core::NotSupported(record->reason);
+  if (store.devices(record->run).empty()) {
+    throw core::NotSupported(report::words::text_of(record->reason));
+  }
 }
 
 RunSide side_of(const record::Store& store, const measure::RunResult& result) {

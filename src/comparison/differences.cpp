@@ -7,11 +7,13 @@
 #include <cmath>
 #include <set>
 
-#include "accuracy/image_fault.hpp"
 #include "accuracy/image_metrics.hpp"
 #include "judge/agreement.hpp"
 #include "judge/baselines/frame_change.hpp"
 #include "judge/gate/open_counts.hpp"
+#include "judge/image_observation.hpp"
+#include "report/words/finding.hpp"
+#include "report/words/outcome.hpp"
 
 namespace triptych::comparison {
 namespace {
@@ -103,7 +105,7 @@ class Finder {
 
   // How a side ended that did not measure it.
   static std::string end_of(std::string_view name, const record::Record& record) {
-    return fmt::format("{} {}: {}", name, record::name_of(record.outcome), record.reason);
+    return fmt::format("{} {}", name, report::words::text_of(record.outcome, record.reason));
   }
 
   bool both_measured() {
@@ -126,11 +128,14 @@ class Finder {
     return false;
   }
 
-  static std::string fault_of(const ComparedSide& side) {
-    if (side.truth == nullptr) return {};
-    return accuracy::image_fault(
+  // Nothing where the image is right, or there is no reference image to compare it with.
+  static std::optional<judge::Observation> fault_of(const ComparedSide& side) {
+    if (side.truth == nullptr) return std::nullopt;
+    judge::Observation what = judge::image_observation(
         accuracy::compare(side.image, side.truth->truth, side.truth->bound), side.image,
-        side.truth->truth, "the truth");
+        side.truth->truth, judge::Against::reference);
+    if (what.cause == judge::Cause::within_bound) return std::nullopt;
+    return what;
   }
 
   void image() {
@@ -139,18 +144,20 @@ class Finder {
       const ComparedSide& without = a_.truth == nullptr ? a_ : b_;
       add(Kind::unjudged, "image", "no truth to judge by: " + without.no_truth);
     }
-    const std::string wrong_a = fault_of(a_);
-    const std::string wrong_b = fault_of(b_);
-    if (!wrong_b.empty() && !wrong_a.empty()) {
-      add(Kind::unjudged, "image", fmt::format("both are wrong, b: {}; a: {}", wrong_b, wrong_a));
-    } else if (!wrong_b.empty()) {
-      add(Kind::regression, "image", "b: " + wrong_b);
-    } else if (!wrong_a.empty()) {
-      add(b_.truth == nullptr ? Kind::unjudged : Kind::fixed, "image", "a: " + wrong_a);
+    const auto wrong_a = fault_of(a_);
+    const auto wrong_b = fault_of(b_);
+    using report::words::text_of;
+    if (wrong_b && wrong_a) {
+      add(Kind::unjudged, "image",
+          fmt::format("both are wrong, b: {}; a: {}", text_of(*wrong_b), text_of(*wrong_a)));
+    } else if (wrong_b) {
+      add(Kind::regression, "image", "b: " + text_of(*wrong_b));
+    } else if (wrong_a) {
+      add(b_.truth == nullptr ? Kind::unjudged : Kind::fixed, "image", "a: " + text_of(*wrong_a));
     }
-    if (!wrong_a.empty() || !wrong_b.empty()) {
-      result_.void_time = fmt::format("the picture of {} is wrong, so its time means nothing",
-                                      wrong_b.empty() ? "a" : "b");
+    if (wrong_a || wrong_b) {
+      result_.void_time =
+          fmt::format("the image of {} is wrong, so its time means nothing", wrong_b ? "b" : "a");
     } else if (a_.record.image != b_.record.image) {
       other_bits();
     }
@@ -182,10 +189,11 @@ class Finder {
     const double frame = judge::frame_of(before);
     const double ratio = frame > 0 ? judge::frame_of(now) / frame : 1;
     const bool more = same_device_ ? change.more : same_id_ && ratio > 1 + frame_across_setups;
-    if (!change.texts.empty()) {
-      add(more ? Kind::regression : Kind::changed, "cost",
-          fmt::format("{}", fmt::join(change.texts, "; ")), ratio);
+    std::string text;
+    for (const judge::Change& each : change.changes) {
+      text += (text.empty() ? "" : "; ") + report::words::text_of(each);
     }
+    if (!text.empty()) add(more ? Kind::regression : Kind::changed, "cost", text, ratio);
     preparing();
   }
 
@@ -193,8 +201,8 @@ class Finder {
     const double before = judge::frame_of(a_.record.prepare_cost);
     const double now = judge::frame_of(b_.record.prepare_cost);
     if (before > 0 && std::abs(now / before - 1) > of_preparing) {
-      add(Kind::changed, "cost of preparing", judge::change_text("instructions", before, now),
-          now / before);
+      add(Kind::changed, "cost of preparing",
+          fmt::format("instructions {:.0f} → {:.0f}", before, now), now / before);
     }
   }
 
@@ -253,15 +261,15 @@ class Finder {
       return;
     }
     const auto ratio = ratio_of(*a, *b);
-    const std::string on_a = judge::statistic_reservation(a_.device.statistics_calibration, name);
-    const std::string on_b = judge::statistic_reservation(b_.device.statistics_calibration, name);
-    const bool unsteady = judge::is_unsteady(on_a) || judge::is_unsteady(on_b);
+    const auto on_a = judge::worth_of(a_.device.statistics_calibration, name);
+    const auto on_b = judge::worth_of(b_.device.statistics_calibration, name);
+    const bool unsteady = on_a.is_unsteady() || on_b.is_unsteady();
     if (same_driver_ && !unsteady) {
       add(Kind::regression, about, change(*a, *b) + ", on the same driver", ratio);
-    } else if (!on_a.empty() || !on_b.empty()) {
+    } else if (!on_a.is_exact() || !on_b.is_exact()) {
       add(Kind::calibration, about,
-          fmt::format("{}; a: {}; b: {}", change(*a, *b), on_a.empty() ? "exact" : on_a,
-                      on_b.empty() ? "exact" : on_b),
+          fmt::format("{}; a: {}; b: {}", change(*a, *b), report::words::text_of(on_a),
+                      report::words::text_of(on_b)),
           ratio);
     } else if (std::ranges::find(judge::portable_statistics, name) !=
                judge::portable_statistics.end()) {
@@ -300,6 +308,17 @@ std::string_view name_of(DifferenceKind kind) {
   return "changed";
 }
 
+namespace {
+
+std::string text_of(const std::string& limit) {
+  return limit;
+}
+std::string text_of(const record::StatisticWorth& worth) {
+  return report::words::text_of(worth);
+}
+
+}  // namespace
+
 std::vector<Difference> find_differences(const record::Device& a, const record::Device& b) {
   std::vector<Difference> differences;
   if (a.id != b.id) return differences;
@@ -312,11 +331,12 @@ std::vector<Difference> find_differences(const record::Device& a, const record::
       // A run calibrates what its techniques need: what one lacks was not looked at.
       if (kind == Kind::calibration && !both) continue;
       if (before == of_a.end()) {
-        differences.push_back({kind, about, "new: " + now->second});
+        differences.push_back({kind, about, "new: " + text_of(now->second)});
       } else if (now == of_b.end()) {
-        differences.push_back({kind, about, "gone, was " + before->second});
+        differences.push_back({kind, about, "gone, was " + text_of(before->second)});
       } else if (before->second != now->second) {
-        differences.push_back({kind, about, fmt::format("{} → {}", before->second, now->second)});
+        differences.push_back(
+            {kind, about, fmt::format("{} → {}", text_of(before->second), text_of(now->second))});
       }
     }
   };

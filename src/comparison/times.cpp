@@ -10,12 +10,18 @@
 
 #include "measure/protocol/injected_fault.hpp"
 #include "measure/system/stopwatch.hpp"
+#include "report/words/outcome.hpp"
 
 namespace triptych::comparison {
 namespace {
 
 using measure::Side;
 using measure::SideClock;
+
+std::string text_of(const measure::SideEnded& ended) {
+  return fmt::format("{} {}", name_of(ended.side()),
+                     report::words::text_of(ended.outcome(), ended.reason()));
+}
 
 // A configuration with what it takes to go on measuring it.
 struct Entry {
@@ -60,12 +66,12 @@ class Timer {
     } catch (const measure::SideEnded& ended) {
       held_ = nullptr;
       entry.compared.ended = ended.outcome();
-      entry.compared.reason = ended.what();
+      entry.compared.reason = text_of(ended);
       const bool fault_of_b =
           ended.side() == Side::b && ended.outcome() != record::Outcome::skipped;
       if (fault_of_b) {
         entry.compared.differences.push_back(
-            {.kind = DifferenceKind::regression, .about = "outcome", .text = ended.what()});
+            {.kind = DifferenceKind::regression, .about = "outcome", .text = text_of(ended)});
       }
     }
     entry.compared.seconds += stopwatch.seconds();

@@ -31,6 +31,7 @@ class JsonNode {
   [[nodiscard]] double positive_number() const;
   [[nodiscard]] double number_from_zero() const;  // 0 or more
   [[nodiscard]] std::uint64_t whole_number() const;
+  [[nodiscard]] const Json& value() const noexcept { return *value_; }
   [[noreturn]] void fail(std::string_view message) const;
 
  private:

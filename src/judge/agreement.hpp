@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "record/statistic_worth.hpp"
+
 namespace triptych::judge {
 
 // Root mean square between any two devices' pictures on default paths, in full scale.
@@ -25,14 +27,9 @@ inline constexpr std::array<std::string_view, 5> portable_statistics{
     "input_assembly_vertices", "input_assembly_primitives", "geometry_primitives",
     "tessellation_control_patches", "compute_invocations"};
 
-// Why a number cannot be held against other drivers' (`calibration`:
-// Device::statistics_calibration); empty where it can. A calibration that nobody looked at says
-// nothing: its numbers are taken as they are.
-[[nodiscard]] std::string statistic_reservation(
-    const std::map<std::string, std::string>& calibration, const std::string& statistic);
-// Whether that is another number of the same picture each time: nothing to hold a driver to.
-[[nodiscard]] inline bool is_unsteady(std::string_view reservation) {
-  return reservation.starts_with("unsteady");
-}
+// What a statistic is worth by Device::statistics_calibration; only exact ones are compared with
+// those of other drivers. Without any calibration the numbers are taken as they are.
+[[nodiscard]] record::StatisticWorth worth_of(
+    const std::map<std::string, record::StatisticWorth>& calibration, const std::string& statistic);
 
 }  // namespace triptych::judge

@@ -2,16 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
-#include "core/error.hpp"
+#include "record/names.hpp"
 
 namespace triptych::record {
 namespace {
 
-constexpr std::array<std::pair<Check, std::string_view>, 9> check_names{{
+constexpr Names<Check, 9> check_names{{
     {Check::image, "image"},
     {Check::counters, "counters"},
     {Check::statistics, "statistics"},
@@ -26,16 +22,11 @@ constexpr std::array<std::pair<Check, std::string_view>, 9> check_names{{
 }  // namespace
 
 std::string_view name_of(Check check) {
-  return std::ranges::find(check_names, check, &std::pair<Check, std::string_view>::first)->second;
+  return name_in(check_names, check);
 }
 
 Check check(std::string_view name) {
-  const auto* const found =
-      std::ranges::find(check_names, name, &std::pair<Check, std::string_view>::second);
-  if (found != check_names.end()) return found->first;
-  std::string known;
-  for (const auto& [each, text] : check_names) known += fmt::format("{} ", text);
-  throw core::InputError(fmt::format("unknown check '{}'; there are: {}", name, known));
+  return named_in(check_names, "check", name);
 }
 
 Checks every_check() {

@@ -14,15 +14,6 @@
 namespace triptych::record {
 namespace {
 
-constexpr std::array<std::pair<Outcome, std::string_view>, 6> outcome_names{{
-    {Outcome::measured, "measured"},
-    {Outcome::skipped, "skipped"},
-    {Outcome::failed, "failed"},
-    {Outcome::crashed, "crashed"},
-    {Outcome::hung, "hung"},
-    {Outcome::lost, "lost"},
-}};
-
 // Keeps a key one line and its parts apart: "; " stands only between parts.
 std::string one_line(std::string_view text) {
   std::string result;
@@ -88,21 +79,6 @@ std::vector<double> sorted_numbers(std::vector<double> samples) {
 }
 
 }  // namespace
-
-std::string_view name_of(Outcome outcome) {
-  return std::ranges::find(outcome_names, outcome, &std::pair<Outcome, std::string_view>::first)
-      ->second;
-}
-
-Outcome outcome(std::string_view name) {
-  const auto* const found =
-      std::ranges::find(outcome_names, name, &std::pair<Outcome, std::string_view>::second);
-  if (found == outcome_names.end()) {
-    throw core::InputError(fmt::format(
-        "unknown outcome '{}'; expected measured, skipped, failed, crashed, hung or lost", name));
-  }
-  return found->first;
-}
 
 std::string Device::key() const {
   std::string key = fmt::format("{}; driver {}; API {}", one_line(id), one_line(driver_version),

@@ -12,19 +12,11 @@
 #include <vector>
 
 #include "record/check.hpp"
+#include "record/device_fault.hpp"
+#include "record/reason.hpp"
+#include "record/statistic_worth.hpp"
 
 namespace triptych::record {
-
-enum class Outcome : std::uint8_t {
-  measured,
-  skipped,  // the device or technique cannot do this; `reason` says why
-  failed,   // an error of ours or of the API
-  crashed,  // the worker died
-  hung,     // the worker was stopped at its time limit
-  lost      // the device was lost
-};
-[[nodiscard]] std::string_view name_of(Outcome outcome);
-[[nodiscard]] Outcome outcome(std::string_view name);  // throws InputError
 
 // What identifies a device. `id` is "<api>:<driver>[#n]".
 struct Device {
@@ -39,11 +31,10 @@ struct Device {
   std::map<std::string, std::string>
       environment;                            // variables that are set and change code generation
   std::map<std::string, std::string> limits;  // in the API's own names
-  // What each pipeline statistic is worth, as scenes of known answer showed
-  // (measure/protocol/statistics_calibration.hpp): statistic → "exact", else "differs: …" or
-  // another word and what was seen. Empty where nobody looked. It follows from the driver and is no
-  // part of any key.
-  std::map<std::string, std::string> statistics_calibration = {};
+  // One entry per statistic; empty where no scene was drawn. It depends on the driver alone, so it
+  // is not part of any key.
+  std::map<std::string, StatisticWorth> statistics_calibration = {};
+  std::vector<DeviceFault> faults = {};  // not part of any key either
 
   // id, driver version, API version, CPU features or else the name of the hardware, environment:
   // what timings and bits depend on.
@@ -88,7 +79,7 @@ struct Record {
 
   Outcome outcome = Outcome::failed;
   // For every outcome but measured, and for what was not measured itself.
-  std::string reason;
+  Reason reason;
   // The configuration of the same run and device whose frames these are: the scene cannot tell the
   // two apart, and one of them was measured. Empty: this one was.
   std::string same_as;
@@ -143,6 +134,16 @@ struct Record {
   // "<suite>.<plan's last part>.<check>.<device>", e.g. volume.quick.image.vulkan:lavapipe.
   [[nodiscard]] std::string test_id(std::string_view check) const;
 };
+
+// Broken input is not the device's fault: its configurations are skipped, and cannot be judged.
+[[nodiscard]] inline bool has_bad_input(const Record& record) {
+  return record.outcome == Outcome::skipped && record.reason.cause == Cause::bad_input;
+}
+
+// Throws NotMeasured for a record that was not.
+inline void require_measured(const Record& record) {
+  if (record.outcome != Outcome::measured) throw NotMeasured(record.outcome, record.reason);
+}
 
 // One `triptych run` on one machine.
 struct Run {

@@ -32,6 +32,10 @@ requires std::is_integral_v<T> Json encode(T value) {
   return value;
 }
 
+Json encode(const Reason& reason);
+Json encode(const StatisticWorth& worth);
+Json encode(const DeviceFault& fault);
+
 template <typename T>
 Json encode(const std::vector<T>& values) {
   Json result = Json::array();
@@ -89,6 +93,10 @@ void decode(const Json& json, T& value) {
   value = json.get<T>();
 }
 
+void decode(const Json& json, Reason& reason);
+void decode(const Json& json, StatisticWorth& worth);
+void decode(const Json& json, DeviceFault& fault);
+
 template <typename T>
 void decode(const Json& json, std::vector<T>& values) {
   if (!json.is_array()) throw core::InputError("expected a list");
@@ -132,6 +140,7 @@ void visit_fields(auto& device, Visit&& visit) requires
   visit("environment", device.environment);
   visit("limits", device.limits);
   visit("statistics_calibration", device.statistics_calibration);
+  visit("faults", device.faults);
 }
 
 template <typename Visit>
@@ -146,7 +155,36 @@ void visit_fields(auto& trust, Visit&& visit) requires
   visit("verdict", trust.verdict);
 }
 
-// `outcome` is not in the list: it travels by its name.
+// Enums are not in the lists: they travel by their names.
+template <typename Visit>
+void visit_fields(auto& reason, Visit&& visit) requires
+    std::is_same_v<std::remove_cvref_t<decltype(reason)>, Reason> {
+  visit("numbers", reason.numbers);
+  visit("subject", reason.subject);
+  visit("code", reason.code);
+  visit("not_tried", reason.not_tried);
+  visit("shared_levels", reason.shared_levels);
+  visit("detail", reason.detail);
+  visit("last_words", reason.last_words);
+}
+
+template <typename Visit>
+void visit_fields(auto& fault, Visit&& visit) requires
+    std::is_same_v<std::remove_cvref_t<decltype(fault)>, DeviceFault> {
+  visit("subject", fault.subject);
+  visit("detail", fault.detail);
+  visit("last_words", fault.last_words);
+}
+
+template <typename Visit>
+void visit_fields(auto& worth, Visit&& visit) requires
+    std::is_same_v<std::remove_cvref_t<decltype(worth)>, StatisticWorth> {
+  visit("low", worth.low);
+  visit("high", worth.high);
+  visit("counter", worth.counter);
+  visit("detail", worth.detail);
+}
+
 template <typename Visit>
 void visit_fields(auto& record, Visit&& visit) requires
     std::is_same_v<std::remove_cvref_t<decltype(record)>, Record> {
@@ -207,8 +245,69 @@ void read_fields(const Json& json, T& value) {
   visit_fields(value, [&](const char* name, auto& field) { read(json, name, field); });
 }
 
+// An enum by its name; one that is absent keeps its value.
+template <typename Enum>
+void read_name(const Json& json, const char* name, Enum& value, Enum (*named)(std::string_view)) {
+  std::string text(name_of(value));
+  read(json, name, text);
+  value = named(text);
+}
+
+Json encode(const Reason& reason) {
+  return reason;
+}
+Json encode(const StatisticWorth& worth) {
+  return worth;
+}
+Json encode(const DeviceFault& fault) {
+  return fault;
+}
+void decode(const Json& json, DeviceFault& fault) {
+  from_json(json, fault);
+}
+void decode(const Json& json, Reason& reason) {
+  from_json(json, reason);
+}
+void decode(const Json& json, StatisticWorth& worth) {
+  from_json(json, worth);
+}
+
 }  // namespace
 
+void to_json(Json& json, const Reason& reason) {
+  write_fields(json, reason);
+  json["cause"] = name_of(reason.cause);
+  json["stage"] = name_of(reason.stage);
+}
+void from_json(const Json& json, Reason& reason) {
+  read_fields(json, reason);
+  read_name(json, "cause", reason.cause, cause);
+  read_name(json, "stage", reason.stage, stage);
+}
+void to_json(Json& json, const StatisticWorth& worth) {
+  if (worth == StatisticWorth{.worth = worth.worth}) {
+    json = name_of(worth.worth);
+    return;
+  }
+  write_fields(json, worth);
+  json["worth"] = name_of(worth.worth);
+}
+void from_json(const Json& json, StatisticWorth& value) {
+  if (json.is_string()) {
+    value.worth = worth(json.get<std::string>());
+    return;
+  }
+  read_fields(json, value);
+  read_name(json, "worth", value.worth, worth);
+}
+void to_json(Json& json, const DeviceFault& fault) {
+  write_fields(json, fault);
+  json["kind"] = name_of(fault.kind);
+}
+void from_json(const Json& json, DeviceFault& fault) {
+  read_fields(json, fault);
+  read_name(json, "kind", fault.kind, device_fault_kind);
+}
 void to_json(Json& json, const Device& device) {
   write_fields(json, device);
 }
@@ -239,9 +338,7 @@ void to_json(Json& json, const Record& record) {
 
 void from_json(const Json& json, Record& record) {
   read_fields(json, record);
-  std::string name(name_of(record.outcome));
-  read(json, "outcome", name);
-  record.outcome = outcome(name);
+  read_name(json, "outcome", record.outcome, outcome);
 }
 
 }  // namespace triptych::record

@@ -31,7 +31,7 @@ struct TruthImage {
 
 class Store {
  public:
-  static constexpr int schema_version = 6;
+  static constexpr int schema_version = 7;
   enum class Mode { read, append };  // append creates the file when it is missing
 
   // Throws IoError (cannot open, read-only, disk full) and InputError (not a store, or of another

@@ -10,6 +10,8 @@
 #include <unordered_map>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
+#include "core/json_text.hpp"
 #include "record/store_seal.hpp"
 #include "record/store_values.hpp"
 
@@ -19,7 +21,8 @@ namespace {
 // The same columns in the same order for writing and reading. What a record can derive (clock,
 // frames, medians) is written beside them for people's queries and never read back.
 constexpr std::string_view record_columns =
-    "run, suite, plan, configuration, scene, technique, device, outcome, reason, injected, "
+    "run, suite, plan, configuration, scene, technique, device, outcome, cause, stage, "
+    "numbers, subject, code, not_tried, shared_levels, detail, last_words, injected, "
     "device_clock_trusted, warm_up_frames, frames_per_100ms, loop_wall_ns, loop_frames, "
     "prepare_ns, overhead_ns, peak_memory_bytes, image, data_hash, kernel_hash, counted_by, "
     "benchmark_json, seal";
@@ -32,6 +35,15 @@ std::optional<double> median(const std::vector<double>& samples) {
   return summary->median;
 }
 
+std::string numbers_text(const Reason& reason) {
+  return reason.numbers.empty() ? "{}" : core::json_text(core::Json(reason).at("numbers"));
+}
+
+// Numbers that are not finite are written as text.
+std::map<std::string, double> numbers_of(const std::string& text) {
+  return core::Json{{"numbers", core::Json::parse(text)}}.get<Reason>().numbers;
+}
+
 std::int64_t insert_row(const SQLite::Database& database, const Record& r) {
   const auto columns = std::ranges::count(record_columns, ',') + 1;
   const auto derived = std::ranges::count(derived_columns, ',') + 1;
@@ -42,7 +54,9 @@ std::int64_t insert_row(const SQLite::Database& database, const Record& r) {
       fmt::format("INSERT INTO record ({}, {}) VALUES ({})", record_columns, derived_columns,
                   places),
       r.run, r.suite, r.plan, r.configuration, r.scene, r.technique, r.device, name_of(r.outcome),
-      r.reason, r.injected, r.device_clock_trusted, r.warm_up_frames, r.frames_per_100ms,
+      name_of(r.reason.cause), name_of(r.reason.stage), numbers_text(r.reason), r.reason.subject,
+      r.reason.code, r.reason.not_tried, r.reason.shared_levels, r.reason.detail,
+      r.reason.last_words, r.injected, r.device_clock_trusted, r.warm_up_frames, r.frames_per_100ms,
       r.loop_wall_ns, r.loop_frames, r.prepare_ns, r.overhead_ns, r.peak_memory_bytes, r.image,
       r.data_hash, r.kernel_hash, r.counted_by, r.benchmark_json, seal_of(r),  //
       r.clock(), r.time_ns().size(), median(r.time_ns()), median(r.wall_ns), median(r.device_ns));
@@ -58,14 +72,22 @@ struct Row {
 void read_row(SQLite::Statement& row, Row& of, Record& r) {
   std::uint64_t number = 0;
   std::string outcome_name;
+  std::string cause_name;
+  std::string stage_name;
+  std::string numbers;
   Reader reader(row);
   reader >> number >> r.run >> r.suite >> r.plan >> r.configuration >> r.scene >> r.technique >>
-      r.device >> outcome_name >> r.reason >> r.injected >> r.device_clock_trusted >>
-      r.warm_up_frames >> r.frames_per_100ms >> r.loop_wall_ns >> r.loop_frames >> r.prepare_ns >>
-      r.overhead_ns >> r.peak_memory_bytes >> r.image >> r.data_hash >> r.kernel_hash >>
-      r.counted_by >> r.benchmark_json >> of.seal;
+      r.device >> outcome_name >> cause_name >> stage_name >> numbers >> r.reason.subject >>
+      r.reason.code >> r.reason.not_tried >> r.reason.shared_levels >> r.reason.detail >>
+      r.reason.last_words >> r.injected >> r.device_clock_trusted >> r.warm_up_frames >>
+      r.frames_per_100ms >> r.loop_wall_ns >> r.loop_frames >> r.prepare_ns >> r.overhead_ns >>
+      r.peak_memory_bytes >> r.image >> r.data_hash >> r.kernel_hash >> r.counted_by >>
+      r.benchmark_json >> of.seal;
   of.seq = static_cast<std::int64_t>(number);
   r.outcome = outcome(outcome_name);
+  r.reason.cause = cause(cause_name);
+  r.reason.stage = stage(stage_name);
+  if (numbers != "{}") r.reason.numbers = numbers_of(numbers);
 }
 
 void insert_samples(const SQLite::Database& database, std::int64_t record, std::string_view clock,

@@ -60,18 +60,37 @@ std::vector<ClockTrust> read_clocks(const SQLite::Database& database, std::uint6
   return clocks;
 }
 
-std::map<std::string, std::string> read_calibration(const SQLite::Database& database,
-                                                    std::uint64_t device) {
-  std::map<std::string, std::string> calibration;
-  SQLite::Statement rows = prepared(
-      database, "SELECT statistic, verdict FROM statistics_calibration WHERE device = ?", device);
+std::map<std::string, StatisticWorth> read_calibration(const SQLite::Database& database,
+                                                       std::uint64_t device) {
+  std::map<std::string, StatisticWorth> calibration;
+  SQLite::Statement rows = prepared(database,
+                                    "SELECT statistic, worth, low, high, counter, detail FROM "
+                                    "statistics_calibration WHERE device = ?",
+                                    device);
   while (rows.executeStep()) {
     std::string statistic;
-    Reader reader(rows);
-    reader >> statistic;
-    reader >> calibration[statistic];
+    std::string name;
+    StatisticWorth value;
+    Reader(rows) >> statistic >> name >> value.low >> value.high >> value.counter >> value.detail;
+    value.worth = worth(name);
+    calibration.emplace(std::move(statistic), std::move(value));
   }
   return calibration;
+}
+
+std::vector<DeviceFault> read_faults(const SQLite::Database& database, std::uint64_t device) {
+  std::vector<DeviceFault> faults;
+  SQLite::Statement rows = prepared(database,
+                                    "SELECT kind, subject, detail, last_words FROM device_fault "
+                                    "WHERE device = ? ORDER BY seq",
+                                    device);
+  while (rows.executeStep()) {
+    std::string kind;
+    DeviceFault& fault = faults.emplace_back();
+    Reader(rows) >> kind >> fault.subject >> fault.detail >> fault.last_words;
+    fault.kind = device_fault_kind(kind);
+  }
+  return faults;
 }
 
 }  // namespace
@@ -120,7 +139,16 @@ void insert_device(const SQLite::Database& database, const std::string& run, con
             "verdict) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
             device, c.work, c.offered, c.trusted, c.ratio, c.ratio_low, c.ratio_high, c.verdict);
   }
-  insert_map(database, "statistics_calibration", device, d.statistics_calibration);
+  for (const auto& [statistic, worth] : d.statistics_calibration) {
+    execute(database, "INSERT INTO statistics_calibration VALUES (?, ?, ?, ?, ?, ?, ?)", device,
+            statistic, name_of(worth.worth), worth.low, worth.high, worth.counter, worth.detail);
+  }
+  for (const DeviceFault& fault : d.faults) {
+    execute(database,
+            "INSERT INTO device_fault (device, kind, subject, detail, last_words) VALUES (?, ?, "
+            "?, ?, ?)",
+            device, name_of(fault.kind), fault.subject, fault.detail, fault.last_words);
+  }
 }
 
 std::vector<Store::DeviceEntry> read_devices(const SQLite::Database& database,
@@ -142,6 +170,7 @@ std::vector<Store::DeviceEntry> read_devices(const SQLite::Database& database,
     d.environment = map_of(environment);
     d.limits = map_of(limits);
     d.statistics_calibration = read_calibration(database, seq);
+    d.faults = read_faults(database, seq);
     std::vector<ClockTrust> clocks = read_clocks(database, seq);
     require_seal(seal, seal_of(d, clocks), fmt::format("device '{}'", d.id));
     entries.push_back({std::move(d), std::move(clocks)});

@@ -70,7 +70,15 @@ CREATE TABLE record (
   technique TEXT NOT NULL,
   device TEXT NOT NULL,
   outcome TEXT NOT NULL,
-  reason TEXT NOT NULL,
+  cause TEXT NOT NULL,
+  stage TEXT NOT NULL,
+  numbers TEXT NOT NULL,
+  subject TEXT NOT NULL,
+  code TEXT NOT NULL,
+  not_tried INTEGER NOT NULL,
+  shared_levels TEXT NOT NULL,
+  detail TEXT NOT NULL,
+  last_words TEXT NOT NULL,
   injected TEXT NOT NULL,
   clock TEXT NOT NULL,
   frames INTEGER NOT NULL,
@@ -167,9 +175,22 @@ CREATE TABLE truth (
 CREATE TABLE statistics_calibration (
   device INTEGER NOT NULL REFERENCES device (seq) ON DELETE CASCADE,
   statistic TEXT NOT NULL,
-  verdict TEXT NOT NULL,
+  worth TEXT NOT NULL,
+  low REAL,
+  high REAL,
+  counter TEXT NOT NULL,
+  detail TEXT NOT NULL,
   PRIMARY KEY (device, statistic)
 ) STRICT, WITHOUT ROWID;
+CREATE TABLE device_fault (
+  seq INTEGER PRIMARY KEY,
+  device INTEGER NOT NULL REFERENCES device (seq) ON DELETE CASCADE,
+  kind TEXT NOT NULL,
+  subject TEXT NOT NULL,
+  detail TEXT NOT NULL,
+  last_words TEXT NOT NULL
+) STRICT;
+CREATE INDEX device_fault_of_device ON device_fault (device);
 CREATE TABLE same_as (
   record INTEGER PRIMARY KEY REFERENCES record (seq) ON DELETE CASCADE,
   configuration TEXT NOT NULL

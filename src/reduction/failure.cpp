@@ -1,50 +1,53 @@
 #include "reduction/failure.hpp"
 
-#include <fmt/format.h>
+#include <utility>
 
-#include "accuracy/image_fault.hpp"
 #include "accuracy/image_metrics.hpp"
-#include "core/text.hpp"
-#include "judge/gate/counters_fault.hpp"
+#include "judge/gate/counter_changes.hpp"
+#include "judge/image_observation.hpp"
 
 namespace triptych::reduction {
 namespace {
 
-// Its first clause: those that follow tell of single pixels.
-Failure failure(std::string message) {
-  std::string kind = core::without_numbers(message.substr(0, message.find(';')));
-  return {std::move(message), std::move(kind)};
-}
-
-std::string picture_fault(const record::Record& record, const Evidence& evidence) {
-  if (record.image.empty()) return {};
+std::optional<judge::Observation> image_fault(const record::Record& record,
+                                              const Evidence& evidence) {
+  if (record.image.empty()) return std::nullopt;
   const judge::TruthPair pair = evidence.truth(record);
   const core::Image image = evidence.picture(record);
-  return accuracy::image_fault(accuracy::compare(image, pair.truth, pair.bound), image, pair.truth,
-                               "the truth");
+  judge::Observation what =
+      judge::image_observation(accuracy::compare(image, pair.truth, pair.bound), image, pair.truth,
+                               judge::Against::reference);
+  if (what.cause == judge::Cause::within_bound) return std::nullopt;
+  return what;
 }
 
-std::string counters_fault(const record::Record& record, const Evidence& evidence) {
+std::vector<judge::Change> counter_changes(const record::Record& record, const Evidence& evidence) {
   if (!evidence.other) return {};
   const record::Record other = evidence.other(record);
   if (other.outcome != record::Outcome::measured) return {};
   judge::StoredCounters counted;
   for (const auto& [name, value] : other.counters) counted[name][other.device] = value;
-  return judge::counters_fault(record, counted, evidence.open_counts);
+  return judge::counter_changes(record, counted, evidence.open_counts);
 }
 
 }  // namespace
 
+bool is_same_kind(const Failure& a, const Failure& b) {
+  if (a.cause == judge::Cause::values_changed) return b.cause == a.cause;
+  return judge::kind_of(a) == judge::kind_of(b);
+}
+
 std::optional<Failure> failure_of(const record::Record& record, const Evidence& evidence) {
+  using judge::Cause;
   if (record.outcome == record::Outcome::skipped) return std::nullopt;
   if (record.outcome != record::Outcome::measured) {
-    return failure(fmt::format("{}: {}", record::name_of(record.outcome), record.reason));
+    return Failure{.cause = Cause::ended, .outcome = record.outcome, .reason = record.reason};
   }
-  if (std::string wrong = picture_fault(record, evidence); !wrong.empty()) {
-    return failure(std::move(wrong));
-  }
-  if (std::string changed = counters_fault(record, evidence); !changed.empty()) {
-    return Failure{std::move(changed), std::string(other_counters)};
+  if (auto wrong = image_fault(record, evidence)) return wrong;
+  if (auto changed = counter_changes(record, evidence); !changed.empty()) {
+    return Failure{.cause = Cause::values_changed,
+                   .against = judge::Against::other_devices,
+                   .changes = std::move(changed)};
   }
   return std::nullopt;
 }

@@ -3,24 +3,20 @@
 
 #include <functional>
 #include <optional>
-#include <string>
-#include <string_view>
 
 #include "core/image.hpp"
+#include "judge/finding.hpp"
 #include "judge/gate/open_counts.hpp"
 #include "judge/stress/stress.hpp"
 #include "record/record.hpp"
 
 namespace triptych::reduction {
 
-// Of one kind are those of one check with the same words, whatever their numbers.
-struct Failure {
-  std::string message;  // one line
-  std::string kind;
-};
+// How a frame fails: it ended without an image, its image is wrong, or its counters changed.
+using Failure = judge::Observation;
 
-// The kind of a failure of counters.
-inline constexpr std::string_view other_counters = "counters";
+// Whether two frames fail in the same way, whatever the numbers are; other counters are one way.
+[[nodiscard]] bool is_same_kind(const Failure& a, const Failure& b);
 
 // Where what a record is held against comes from.
 struct Evidence {

@@ -64,7 +64,7 @@ class Search {
       measure::Configuration smaller = result_.smallest;
       smaller[factor.name] = level;
       const std::optional<Failure> failure = ask(smaller);
-      if (!failure || failure->kind != result_.failure.kind) continue;
+      if (!failure || !is_same_kind(*failure, result_.failure)) continue;
       result_.smallest = std::move(smaller);
       result_.failure = *failure;
       result_.steps.push_back({factor.name, from, level, result_.frames});

@@ -6,8 +6,7 @@
 
 #include "core/error.hpp"
 #include "measure/system/stopwatch.hpp"
-#include "record/bad_input.hpp"
-#include "record/hung.hpp"
+#include "report/words/finding.hpp"
 
 namespace triptych::reduction {
 
@@ -41,13 +40,13 @@ Evidence Trial::evidence(const measure::Configuration& configuration) {
 
 std::optional<Failure> Trial::first(const measure::Configuration& start) {
   std::optional<Failure> first = (*this)(start);
-  record::require_drawable(last_);
+  if (last_.outcome == record::Outcome::skipped) record::require_measured(last_);
   if (!first) return first;
   std::optional<Failure> again = (*this)(start);
-  if (again && again->kind == first->kind) return again;
+  if (again && is_same_kind(*again, *first)) return again;
   throw core::NotSupported(fmt::format(
-      "it fails differently when drawn again, and no smaller frame would tell: {}; then {}",
-      first->message, again ? again->message : "it is right"));
+      "it fails differently when it is drawn again, so it cannot be made smaller: {}; then {}",
+      report::words::text_of(*first), again ? report::words::text_of(*again) : "it is right"));
 }
 
 std::chrono::seconds limit_by_first_frame(const measure::Suite& suite, const std::string& device,

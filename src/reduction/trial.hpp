@@ -24,7 +24,7 @@ class Trial {
   std::optional<Failure> operator()(const measure::Configuration& configuration);
 
   // Of the first frame, drawn twice: what fails once of two times cannot be made smaller, and is
-  // NotSupported. Throws as record::require_drawable does.
+  // NotSupported. Throws record::NotMeasured where it was skipped.
   [[nodiscard]] std::optional<Failure> first(const measure::Configuration& start);
 
   [[nodiscard]] const record::Record& last() const noexcept { return last_; }

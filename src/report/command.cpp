@@ -4,7 +4,7 @@
 
 #include "core/quoting.hpp"
 #include "record/factor_list.hpp"
-#include "record/hung.hpp"
+#include "record/reason.hpp"
 
 namespace triptych::report {
 

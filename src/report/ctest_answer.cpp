@@ -9,6 +9,7 @@
 #include "accuracy/image_metrics.hpp"
 #include "core/image_io.hpp"
 #include "core/quoting.hpp"
+#include "report/words/finding.hpp"
 
 namespace triptych::report {
 namespace {
@@ -54,14 +55,15 @@ std::string ctest_answer(const judge::GateResult& result, const record::Store& s
   for (const judge::Finding& finding : result.findings) {
     if (finding.verdict == judge::Verdict::pass) continue;
     text += fmt::format("{} {}: {}\n", judge::name_of(finding.verdict),
-                        core::printable(finding.configuration), core::printable(finding.message));
+                        core::printable(finding.configuration),
+                        core::printable(words::text_of(finding)));
   }
   if (!result.findings.empty()) {
     const judge::Finding& worst = result.findings.front();
     for (const auto& [name, value] : worst.numbers) text += number(name, value);
     if (truth && !worst.device.empty()) text += pictures(store, result.run, truth, worst);
   }
-  return text + result.headline() + "\n";
+  return text + words::headline(result) + "\n";
 }
 
 std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
@@ -73,7 +75,7 @@ std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
     const bool sums_up = finding.verdict == judge::Verdict::pass && finding.configuration.empty() &&
                          finding.check != judge::Check::correlation;
     if (!idle && !sums_up) return std::nullopt;
-    if (idle && reason.empty()) reason = finding.message;
+    if (idle && reason.empty()) reason = words::text_of(finding);
   }
   if (reason.empty()) return std::nullopt;
   return reason;

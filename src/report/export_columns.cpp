@@ -1,6 +1,7 @@
 #include "report/export_columns.hpp"
 
 #include "core/json_text.hpp"
+#include "report/words/outcome.hpp"
 
 namespace triptych::report {
 namespace {
@@ -59,7 +60,12 @@ Columns<RecordSource> what_it_was() {
       {{"device", "text", "", "the device's id, see devices"}, of(&Record::device)},
       {{"outcome", "text", "", "measured, skipped, failed, crashed, hung or lost"},
        [](const RecordSource& s) { return std::string(name_of(s.record.outcome)); }},
-      {{"reason", "text", "", "of what was not measured"}, of(&Record::reason)},
+      {{"cause", "text", "", "why it was not measured, see docs/store.md"},
+       [](const RecordSource& s) { return std::string(name_of(s.record.reason.cause)); }},
+      {{"reason", "text", "", "the cause as a sentence"},
+       [](const RecordSource& s) {
+         return s.record.reason == record::Reason{} ? "" : words::text_of(s.record.reason);
+       }},
       {{"same_as", "text", "", "the equivalent configuration whose frames these are"},
        of(&Record::same_as)},
       {{"injected", "text", "", "the injected fault"}, of(&Record::injected)},

@@ -10,11 +10,8 @@
 #include <string_view>
 #include <tuple>
 
-#include "core/text.hpp"
 #include "record/device_id.hpp"
 #include "record/factor_list.hpp"
-#include "record/hung.hpp"
-#include "record/not_tried.hpp"
 #include "report/command.hpp"
 
 namespace triptych::report {
@@ -24,16 +21,6 @@ using judge::Check;
 using judge::Finding;
 using judge::Verdict;
 using Factors = std::map<std::string, std::string>;
-
-// What findings of one cause have in common: "# of # pixels are over the bound".
-std::string shape_of(const Finding& finding) {
-  const std::string_view message = finding.message;
-  std::string shape(message.substr(0, message.find(record::not_tried)));
-  for (const std::string_view end : {" [injected: ", "; cache misses "}) {  // more code misses more
-    shape.erase(std::min(shape.find(end), shape.size()));
-  }
-  return core::without_numbers(shape) + fmt::format("{}", fmt::join(finding.injected, "+"));
-}
 
 Factors factors_of(const Finding& finding) {
   return record::parse_factor_list(finding.configuration);
@@ -74,12 +61,6 @@ double size_of(const Finding& finding) {
   return size;
 }
 
-bool ended_a_program(const Finding& finding) {
-  static constexpr std::array<std::string_view, 4> ends{"crashed:", "hung:", "lost:", "failed:"};
-  return std::ranges::any_of(
-      ends, [&](std::string_view end) { return finding.message.starts_with(end); });
-}
-
 // What left the line because its own instructions grew: the cause is told already.
 bool is_told_by_cost(const Finding& finding, std::span<const Finding> findings) {
   if (finding.check != Check::correlation || finding.verdict != Verdict::regression) return false;
@@ -107,7 +88,7 @@ using Members = std::vector<const Finding*>;
 
 bool is_smaller(const Finding* a, const Finding* b) {
   const auto key = [](const Finding* each) {
-    const bool tried = each->message.find(record::not_tried) == std::string::npos;
+    const bool tried = !each->reason.not_tried;
     return std::tuple(!tried, size_of(*each), each->configuration.size());
   };
   return key(a) < key(b);
@@ -137,14 +118,14 @@ class Grouping {
         changed_.insert(place);
         continue;
       }
-      by_shape_[{finding.verdict, finding.check, finding.device, shape_of(finding)}].push_back(
+      by_kind_[{finding.verdict, finding.check, finding.device, kind_of(finding)}].push_back(
           &finding);
     }
   }
 
   [[nodiscard]] std::vector<FindingGroup> groups() const {
     std::vector<FindingGroup> all;
-    for (const auto& [key, members] : by_shape_) {
+    for (const auto& [key, members] : by_kind_) {
       std::map<std::string, Members> by_technique;
       for (const Finding* each : members) by_technique[technique_of(*each)].push_back(each);
       const auto& known = levels_of(*members.front());
@@ -177,7 +158,7 @@ class Grouping {
     const Finding* first = *std::ranges::min_element(members, is_smaller);
     FindingGroup group{first, members.size(), signature_of(members)};
     group.members = members;
-    group.shape = shape_of(*first);
+    group.kind = kind_of(*first);
     if (const auto found = passes_.find({first->check, first->configuration});
         found != passes_.end() && !first->configuration.empty()) {
       group.right_on = found->second;
@@ -240,13 +221,12 @@ class Grouping {
   // By configuration, devices.
   std::map<std::pair<Check, std::string_view>, std::vector<std::string>> passes_;
   std::map<std::pair<Check, std::string_view>, std::vector<std::string>> wrong_;
-  std::map<std::tuple<Verdict, Check, std::string_view, std::string>, Members> by_shape_;
+  std::map<std::tuple<Verdict, Check, std::string_view, std::string>, Members> by_kind_;
 };
 
 // A hang too, whose limit `render` takes.
 bool is_told_by_a_picture(const Finding& finding) {
-  return finding.check == Check::image || finding.check == Check::stress ||
-         record::limit_in(finding.message);
+  return finding.check == Check::image || finding.check == Check::stress || finding.reason.limit();
 }
 
 // What is wrong by what is stored alone is measured and judged again, into a store of its own.
@@ -279,21 +259,11 @@ bool is_known(const judge::GateResult& result) {
 
 }  // namespace
 
-std::string FindingGroup::subject() const {
-  return configurations == 1 ? first->configuration
-                             : fmt::format("{} configurations", configurations);
-}
-
-std::string FindingGroup::whose() const {
+Blame FindingGroup::blame() const {
   const bool drawn = first->check == Check::image || first->check == Check::stress ||
                      first->check == Check::counters;
   if (first->verdict != Verdict::regression || !drawn) return {};
-  const auto verb = [](const std::vector<std::string>& devices, const char* one, const char* many) {
-    return fmt::format("{} {}", fmt::join(devices, ", "), devices.size() == 1 ? one : many);
-  };
-  if (!wrong_on.empty()) {
-    return fmt::format("not the driver's: {} wrong, too", verb(wrong_on, "is", "are"));
-  }
+  if (!wrong_on.empty()) return {Blame::Of::not_the_driver, wrong_on};
   if (!first->injected.empty()) return {};
   const std::string api = first->device.substr(0, first->device.find(':') + 1);
   const auto by_its_api = [&](const std::vector<std::string>& devices) {
@@ -301,17 +271,13 @@ std::string FindingGroup::whose() const {
     for (const std::string& each : devices) {
       const bool itself = each == first->device;  // of another version
       const bool other = record::family_of(each) != record::family_of(first->device);
-      if (each.starts_with(api) && (itself || other)) {
-        same.push_back(each + (itself ? " of another version" : ""));
-      }
+      if (each.starts_with(api) && (itself || other)) same.push_back(each);
     }
     return same;
   };
-  if (const auto now = by_its_api(right_on); !now.empty()) {
-    return fmt::format("the driver's: {} right by the same API", verb(now, "is", "are"));
-  }
-  if (const auto then = by_its_api(first->accepted_on); !then.empty()) {
-    return fmt::format("the driver's: {} right by the same API", verb(then, "was", "were"));
+  if (auto now = by_its_api(right_on); !now.empty()) return {Blame::Of::driver, std::move(now)};
+  if (auto then = by_its_api(first->accepted_on); !then.empty()) {
+    return {Blame::Of::driver_since_accepted, std::move(then)};
   }
   return {};
 }
@@ -323,7 +289,7 @@ std::vector<FindingGroup> grouped(std::span<const Finding> findings) {
 bool have_one_cause(const FindingGroup& a, const FindingGroup& b) {
   const auto key = [](const FindingGroup& group) {
     return std::tuple(group.first->verdict, std::string_view(group.first->device),
-                      std::string_view(group.shape));
+                      std::string_view(group.kind));
   };
   if (key(a) != key(b)) return false;
   if (ended_a_program(*a.first)) return true;
@@ -363,7 +329,7 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
                   .device = finding.device,
                   .factors = factors_of(finding),
                   .injected = finding.injected,
-                  .limit = record::limit_in(finding.message),
+                  .limit = finding.reason.limit(),
                   .more = {"--truth", "--out", "repro"}};
   // Counting has a limit of its own.
   if (finding.check == Check::cost) command.limit.reset();

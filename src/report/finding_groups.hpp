@@ -1,6 +1,7 @@
 #pragma once
-// Findings by cause: what says the same of many configurations is told once.
+// Findings by cause: configurations that fail in the same way are reported once.
 
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -9,6 +10,18 @@
 #include "judge/gate/gate.hpp"
 
 namespace triptych::report {
+
+// The party at fault, as far as other devices show it.
+struct Blame {
+  enum class Of : std::uint8_t {
+    unknown,
+    driver,                 // `devices` are right by the same API
+    driver_since_accepted,  // they were right by the same API when they were accepted
+    not_the_driver          // `devices` of other families of drivers are wrong too
+  };
+  Of of = Of::unknown;
+  std::vector<std::string> devices = {};
+};
 
 // It points into what it was made of.
 struct FindingGroup {
@@ -26,23 +39,19 @@ struct FindingGroup {
   // it.
   std::size_t changed_with_it = 0;
   std::vector<const judge::Finding*> members = {};
-  std::string shape = {};  // of its messages: "# of # pixels are over the bound"
-  // The configuration, or "12 configurations"; empty for a finding about a whole device or plan.
-  [[nodiscard]] std::string subject() const;
-  // Whose it is, as far as other devices tell: "the driver's: vulkan:x is right by the same API",
-  // "not the driver's: gl:y is wrong, too"; empty where they do not.
-  [[nodiscard]] std::string whose() const;
+  std::string kind = {};  // judge::kind_of its findings
+  [[nodiscard]] Blame blame() const;
 };
 
-// Of the same check, verdict and device, the same message but for its numbers, and the same
-// technique unless all or three techniques say it. Worst first: regressions, what could not be
+// Findings of a group have the same check, verdict, device and cause, and the same technique unless
+// all or three techniques have that cause. Worst first: regressions, what could not be
 // judged, the rest; in these what ended a program before what it drew, in the order of the checks,
 // the most configurations first. Left out is a regression of correlation that one of cost explains,
 // and one of counters or statistics where the picture is wrong: that is counted in changed_with_it.
 [[nodiscard]] std::vector<FindingGroup> grouped(std::span<const judge::Finding> findings);
 
-// Whether groups of two plans have one cause: of one device and verdict, they say the same of a
-// technique by one check. What ends a program has one cause wherever it says the same.
+// Whether groups of two plans have one cause: they are of one device, verdict, check and technique,
+// and of one kind. What ends a program in the same way is one cause under any check.
 [[nodiscard]] bool have_one_cause(const FindingGroup& a, const FindingGroup& b);
 
 // Takes in a group of the same cause; true where its smallest case is now the other's.

@@ -13,6 +13,8 @@
 #include "report/junit.hpp"
 #include "report/markdown.hpp"
 #include "report/verdict_json.hpp"
+#include "report/words/cause.hpp"
+#include "report/words/finding.hpp"
 
 namespace triptych::report {
 namespace {
@@ -39,10 +41,10 @@ std::string log_of(const judge::GateResult& result) {
   for (const FindingGroup& group : grouped(result.findings)) {
     const judge::Finding& finding = *group.first;
     if (finding.verdict == judge::Verdict::pass) continue;
-    const std::string subject = group.subject();
+    const std::string subject = words::subject(group);
     text += fmt::format("{:<12} {}{}{}: {}\n", judge::name_of(finding.verdict),
                         core::printable(finding.test), subject.empty() ? "" : " ",
-                        core::printable(subject), core::printable(finding.message));
+                        core::printable(subject), core::printable(words::text_of(finding)));
     text += details_of(group, result);
   }
   std::map<judge::Verdict, int> counts;
@@ -50,7 +52,7 @@ std::string log_of(const judge::GateResult& result) {
   for (const auto& [verdict, count] : counts) {
     text += fmt::format("{} {}  ", count, judge::name_of(verdict));
   }
-  return text + fmt::format("\n{}\n", result.headline());
+  return text + fmt::format("\n{}\n", words::headline(result));
 }
 
 }  // namespace

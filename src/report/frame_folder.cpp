@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "accuracy/image_fault.hpp"
 #include "accuracy/image_metrics.hpp"
 #include "core/image_io.hpp"
 #include "core/json.hpp"
+#include "judge/image_observation.hpp"
 
 namespace triptych::report {
 namespace {
@@ -49,10 +49,9 @@ void write_picture(const std::filesystem::path& folder, const std::string& name,
 HeldAgainstTruth write_difference(const std::filesystem::path& folder, const core::Image& image,
                                   const judge::TruthPair& pair) {
   const accuracy::ImageComparison comparison = accuracy::compare(image, pair.truth, pair.bound);
-  std::string wrong = accuracy::image_fault(comparison, image, pair.truth, "the truth");
   write_picture(folder, "truth", pair.truth);
-  HeldAgainstTruth held{.right = wrong.empty(), .message = std::move(wrong)};
-  if (held.right) held.message = "within the bound of the truth; " + describe(comparison);
+  HeldAgainstTruth held{
+      judge::image_observation(comparison, image, pair.truth, judge::Against::reference)};
   if (!comparison.size_mismatch) {
     held.white = comparison.largest.error > 0 ? comparison.largest.error : 1;
     core::write_png(accuracy::difference_image(image, pair.truth, 1 / held.white),

@@ -23,11 +23,11 @@ void remove_frame(const std::filesystem::path& folder);
 void write_picture(const std::filesystem::path& folder, const std::string& name,
                    const core::Image& image);
 
-// A picture held against its truth: the judge's words, and whether it is right.
+// An image compared with its reference image.
 struct HeldAgainstTruth {
-  bool right = false;
-  std::string message;
+  judge::Observation what;
   double white = 0;  // error that is white in difference.png; 0: sizes differ, there is none
+  [[nodiscard]] bool right() const { return what.cause == judge::Cause::within_bound; }
 };
 
 // Writes truth.exr, truth.png and difference.png. Throws IoError.

@@ -7,6 +7,7 @@
 
 #include "report/finding_groups.hpp"
 #include "report/html.hpp"
+#include "report/words/finding.hpp"
 
 namespace triptych::report {
 namespace {
@@ -18,18 +19,39 @@ bool is_skip(const Finding& finding) {
   return finding.verdict == Verdict::skipped || finding.verdict == Verdict::advisory;
 }
 
+// The cause and all numbers, so that a reader need not parse the message.
+std::string properties(const Finding& finding) {
+  std::string text;
+  const auto add = [&](std::string_view name, std::string_view value) {
+    text +=
+        fmt::format("        <property name=\"{}\" value=\"{}\"/>\n", escape(name), escape(value));
+  };
+  add("cause", judge::name_of(finding.cause));
+  if (finding.against != judge::Against::nothing) {
+    add("against", judge::name_of(finding.against));
+  }
+  if (finding.advice.advice != judge::Advice::none) {
+    add("advice", judge::name_of(finding.advice.advice));
+  }
+  if (finding.reason.cause != record::Cause::none) {
+    add("outcome", record::name_of(finding.outcome));
+    add("outcome_cause", record::name_of(finding.reason.cause));
+    for (const auto& [name, value] : finding.reason.numbers) add(name, fmt::to_string(value));
+  }
+  for (const auto& [name, value] : finding.numbers) add(name, fmt::to_string(value));
+  for (const judge::Change& each : finding.changes) {
+    if (each.before) add(each.name + ".before", fmt::to_string(*each.before));
+    if (each.now) add(each.name + ".now", fmt::to_string(*each.now));
+  }
+  return "      <properties>\n" + text + "      </properties>\n";
+}
+
 std::string test_case(const Finding& finding, const judge::GateResult& result) {
   const std::string name = finding.configuration.empty() ? "plan" : finding.configuration;
   std::string text = fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n",
                                  escape(finding.test), escape(name));
-  if (!finding.numbers.empty()) {
-    text += "      <properties>\n";
-    for (const auto& [key, value] : finding.numbers) {
-      text += fmt::format("        <property name=\"{}\" value=\"{}\"/>\n", escape(key), value);
-    }
-    text += "      </properties>\n";
-  }
-  const std::string message = escape(finding.message);
+  text += properties(finding);
+  const std::string message = escape(words::text_of(finding));
   if (is_open(finding)) {
     const std::string command = escape(command_of(finding, result));
     text +=

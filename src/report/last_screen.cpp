@@ -7,6 +7,8 @@
 #include "core/quoting.hpp"
 #include "core/text.hpp"
 #include "report/overview.hpp"
+#include "report/words/cause.hpp"
+#include "report/words/finding.hpp"
 
 namespace triptych::report {
 namespace {
@@ -49,16 +51,6 @@ std::string time_text(double seconds) {
   return fmt::format("{:.0f} min", seconds / 60);
 }
 
-// What to do stands at the end, behind the last semicolon: it stays.
-std::string shortened(std::string_view text, std::size_t limit) {
-  const std::string whole = core::printable(text);
-  if (width_of(whole) <= limit) return whole;
-  const std::string end = whole.substr(std::min(whole.rfind("; "), whole.size()));
-  const std::size_t kept = width_of(end);
-  if (kept > limit / 2) return core::printable(text, limit);
-  return core::printable(text, limit - kept) + end;
-}
-
 class Screen {
  public:
   explicit Screen(const ScreenOptions& options)
@@ -75,7 +67,7 @@ class Screen {
     waived(all);
     causes(all, files);
     list(files);
-    add(fmt::format("  exit {}", meaning_of(all.code)));
+    add(fmt::format("  exit {}", words::meaning_of(all.code)));
     return text_;
   }
 
@@ -94,7 +86,8 @@ class Screen {
     const std::string left =
         fmt::format("Triptych   {} {} · {}{}", all.devices, all.devices == 1 ? "device" : "devices",
                     time_text(seconds), all.part ? " · a part of the plans" : "");
-    const std::string right = fmt::format("{} ({})", word_of(all.code), static_cast<int>(all.code));
+    const std::string right =
+        fmt::format("{} ({})", words::word_of(all.code), static_cast<int>(all.code));
     const std::size_t used = width_of(left) + width_of(right);
     add(left + std::string(used + 3 < width_ ? width_ - used : 3, ' ') +
         coloured(right, verdict_of(all.code)));
@@ -107,11 +100,11 @@ class Screen {
     const judge::Finding& first = *cause.group.first;
     return fmt::format(
         "  {} {}", sign_of(first),
-        core::printable(
-            fmt::format("{} {} {}: {}", judge::name_of(first.check),
-                        first.device.empty() ? "of" : "on",
-                        first.device.empty() ? cause.result->plan : first.device, first.message),
-            width_ - 4));
+        core::printable(fmt::format("{} {} {}: {}", judge::name_of(first.check),
+                                    first.device.empty() ? "of" : "on",
+                                    first.device.empty() ? cause.result->plan : first.device,
+                                    words::text_of(first)),
+                        width_ - 4));
   }
 
   [[nodiscard]] std::string sign_of(const judge::Finding& finding) const {
@@ -123,7 +116,8 @@ class Screen {
     std::size_t shown = 0;
     for (const Cause& cause : all.aside) {
       if (cause.group.first->verdict != Verdict::waived || ++shown > most_waived) continue;
-      add(core::printable(fmt::format("  – {}: {}", place_of(cause), message_of(cause)), width_));
+      add(core::printable(fmt::format("  – {}: {}", words::place(cause), words::found(cause)),
+                          width_));
     }
     if (shown > most_waived) add(fmt::format("  – {} more are waived", shown - most_waived));
     if (shown > 0) add("");
@@ -152,13 +146,9 @@ class Screen {
     const judge::Finding& first = *cause.group.first;
     std::vector<std::string> lines{fmt::format(
         "  {} {}", sign_of(first),
-        core::printable(fmt::format("{}: {}", judge::name_of(first.check), place_of(cause)),
+        core::printable(fmt::format("{}: {}", judge::name_of(first.check), words::place(cause)),
                         width_ - 4))};
-    std::string message = shortened(message_of(cause), longest_message * (width_ - 6));
-    if (const std::string whose = cause.group.whose(); !whose.empty()) {
-      message += "; " + core::printable(whose);
-    }
-    append_wrapped(lines, message, "");
+    append_wrapped(lines, message_of(cause), "");
     const std::string command = command_of(first, *cause.result);
     // Cut short it would be another command.
     if (width_of(command) > longest_command) {
@@ -167,6 +157,17 @@ class Screen {
       append_wrapped(lines, command, " \\");
     }
     return lines;
+  }
+
+  // Shortens a long description of the finding, but neither the blame nor the advice.
+  [[nodiscard]] std::string message_of(const Cause& cause) const {
+    std::string rest;
+    for (const std::string& each : {words::advice(*cause.group.first), words::blame(cause.group)}) {
+      if (!each.empty()) rest += "; " + core::printable(each);
+    }
+    const std::size_t room = longest_message * (width_ - 6);
+    const std::size_t left = room > 2 * width_of(rest) ? room - width_of(rest) : room / 2;
+    return core::printable(words::found(cause), left) + rest;
   }
 
   // Broken at spaces outside quotes, of a command never between an option and its value; `end`

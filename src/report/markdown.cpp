@@ -6,6 +6,7 @@
 
 #include "core/quoting.hpp"
 #include "report/overview.hpp"
+#include "report/words/cause.hpp"
 
 namespace triptych::report {
 namespace {
@@ -28,8 +29,8 @@ std::string rows(const Overview& all) {
 std::string item(const Cause& cause) {
   const judge::Finding& first = *cause.group.first;
   std::string text = fmt::format("- **{}** {}: {}  \n  {}\n", judge::name_of(first.verdict),
-                                 judge::name_of(first.check), markdown_escaped(place_of(cause)),
-                                 markdown_escaped(whole_message_of(cause)));
+                                 judge::name_of(first.check), markdown_escaped(words::place(cause)),
+                                 markdown_escaped(words::text_of(cause)));
   const std::string command = command_of(first, *cause.result);
   if (!command.empty() && command.size() < longest_listed_command) text += fenced(command, "  ");
   return text;
@@ -83,7 +84,8 @@ std::string markdown_escaped(std::string_view text, std::size_t limit) {
 
 std::string markdown(std::span<const judge::GateResult> results) {
   const Overview all = overview(results);
-  std::string text = fmt::format("## {} ({})", word_of(all.code), static_cast<int>(all.code));
+  std::string text =
+      fmt::format("## {} ({})", words::word_of(all.code), static_cast<int>(all.code));
   for (const judge::GateResult& result : results) {
     text +=
         fmt::format("{} {}", &result == results.data() ? ":" : ",", markdown_escaped(result.plan));

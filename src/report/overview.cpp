@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/exit_code.hpp"
+#include "report/words/check.hpp"
 
 namespace triptych::report {
 namespace {
@@ -16,28 +17,6 @@ using judge::Check;
 using judge::Finding;
 using judge::GateResult;
 using judge::Verdict;
-
-struct Kind {
-  Check check;
-  std::string_view name;
-  std::string_view wrong;   // "18 of 66 wrong"
-  std::string_view passed;  // "264 within their bounds"
-  std::string_view none;    // where nothing was decided
-  bool always;              // has its row though it was not checked
-};
-
-constexpr std::array kinds{
-    Kind{Check::image, "Pictures", "wrong", "within their bounds", "not checked", true},
-    Kind{Check::counters, "Counters", "changed", "as stored", "not checked", true},
-    Kind{Check::statistics, "Statistics", "changed", "as stored", "not checked", true},
-    Kind{Check::cost, "Cost", "changed", "as stored", "not checked", true},
-    Kind{Check::memory, "Memory", "changed", "as stored", "not checked", true},
-    Kind{Check::timing, "Times", "slower", "not slower", "not checked", true},
-    Kind{Check::correlation, "Devices", "off the line", "along the line", "shown, not judged",
-         false},
-    Kind{Check::accuracy, "Accuracy", "changed", "as stored", "not checked", false},
-    Kind{Check::stress, "Stress", "below their score", "at their score", "not checked", false},
-};
 
 constexpr std::size_t named_devices = 3;
 
@@ -71,7 +50,7 @@ std::string places(const std::map<std::string, Tally>& by_device, Verdict verdic
   return rest > 0 ? text + fmt::format("; {} devices more", rest) : text;
 }
 
-KindRow row_of(const Kind& kind, std::span<const GateResult* const> results) {
+KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const> results) {
   std::map<std::string, Tally> by_device;
   std::map<Verdict, std::size_t> all;
   std::size_t right = 0;
@@ -92,20 +71,20 @@ KindRow row_of(const Kind& kind, std::span<const GateResult* const> results) {
   const bool shown =  // and no more: nobody asked for a verdict
       kind.check == Check::timing &&
       std::ranges::none_of(results, [](const GateResult* each) { return each->times_decided; });
-  KindRow row{kind.check, kind.name, "–", Verdict::skipped, std::string(kind.none)};
+  KindRow row{kind.check, kind.label, "–", Verdict::skipped, std::string(kind.none)};
   if (all[Verdict::regression] > 0) {
-    row = {kind.check, kind.name, "FAIL", Verdict::regression,
+    row = {kind.check, kind.label, "FAIL", Verdict::regression,
            places(by_device, Verdict::regression, kind.wrong)};
   } else if (all[Verdict::cannot_judge] > 0) {
-    row = {kind.check, kind.name, "no verdict", Verdict::cannot_judge,
+    row = {kind.check, kind.label, "no verdict", Verdict::cannot_judge,
            places(by_device, Verdict::cannot_judge, "not judged")};
     if (right > 0) row.sentence += fmt::format("; {} {}", right, kind.passed);
   } else if (right > 0 && shown) {
     row.sentence = fmt::format("{} shown, not judged", right);
   } else if (right > 0) {
-    row = {kind.check, kind.name, "pass", Verdict::pass, fmt::format("{} {}", right, kind.passed)};
+    row = {kind.check, kind.label, "pass", Verdict::pass, fmt::format("{} {}", right, kind.passed)};
   } else if (all[Verdict::waived] > 0) {
-    row = {kind.check, kind.name, "waived", Verdict::waived, ""};
+    row = {kind.check, kind.label, "waived", Verdict::waived, ""};
   }
   for (const auto& [verdict, word] : {std::pair(Verdict::waived, "waived"),
                                       {Verdict::improved, "better"},
@@ -117,7 +96,7 @@ KindRow row_of(const Kind& kind, std::span<const GateResult* const> results) {
   return row;
 }
 
-bool was_checked(const Kind& kind, std::span<const GateResult* const> results) {
+bool was_checked(const words::CheckWords& kind, std::span<const GateResult* const> results) {
   return std::ranges::any_of(results, [&](const GateResult* result) {
     return std::ranges::any_of(result->findings,
                                [&](const Finding& each) { return each.check == kind.check; });
@@ -159,7 +138,7 @@ Overview overview(std::span<const GateResult* const> results) {
                              [](const Cause& cause) { return cause.group.first->verdict; });
   }
   all.bounds = nearest_bounds(results);
-  for (const Kind& kind : kinds) {
+  for (const words::CheckWords& kind : words::check_words) {
     if (!kind.always && !was_checked(kind, results)) continue;
     all.rows.push_back(row_of(kind, results));
     const bool passed = all.rows.back().worst == Verdict::pass;
@@ -173,61 +152,6 @@ Overview overview(std::span<const GateResult> results) {
   std::vector<const GateResult*> all;
   for (const GateResult& result : results) all.push_back(&result);
   return overview(std::span<const GateResult* const>(all));
-}
-
-std::string_view word_of(core::ExitCode code) {
-  switch (code) {
-    case core::ExitCode::pass:
-      return "PASS";
-    case core::ExitCode::regression:
-      return "FAIL";
-    default:
-      return "CANNOT JUDGE";
-  }
-}
-
-std::string_view meaning_of(core::ExitCode code) {
-  switch (code) {
-    case core::ExitCode::pass:
-      return "0: all that was asked for is right";
-    case core::ExitCode::regression:
-      return "1: something is wrong or has changed";
-    default:
-      return "2: something could not be judged, which is no pass";
-  }
-}
-
-std::string place_of(const Cause& cause) {
-  const Finding& first = *cause.group.first;
-  std::string text = first.device.empty() ? cause.result->plan : first.device;
-  if (first.device.empty() && cause.plans > 1) {
-    return fmt::format("{} and {} more", text, cause.plans - 1);
-  }
-  if (!cause.group.signature.empty()) text += ", " + cause.group.signature;
-  if (cause.group.configurations > 1) {
-    text += fmt::format(" ({})", cause.group.subject());
-  }
-  return text;
-}
-
-std::string message_of(const Cause& cause) {
-  const FindingGroup& group = cause.group;
-  std::string text = group.first->message;
-  if (!group.right_on.empty() && group.first->verdict == Verdict::regression) {
-    text += fmt::format("; {} {} right", fmt::join(group.right_on, ", "),
-                        group.right_on.size() == 1 ? "is" : "are");
-  }
-  if (group.changed_with_it > 0) {
-    text += group.configurations == 1
-                ? "; its counters changed too"
-                : fmt::format("; counters of {} changed too", group.changed_with_it);
-  }
-  return text;
-}
-
-std::string whole_message_of(const Cause& cause) {
-  const std::string whose = cause.group.whose();
-  return message_of(cause) + (whose.empty() ? "" : "; " + whose);
 }
 
 }  // namespace triptych::report

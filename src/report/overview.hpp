@@ -41,17 +41,4 @@ struct Overview {
 [[nodiscard]] Overview overview(std::span<const judge::GateResult* const> results);
 [[nodiscard]] Overview overview(std::span<const judge::GateResult> results);
 
-// "FAIL", "PASS", "CANNOT JUDGE"
-[[nodiscard]] std::string_view word_of(core::ExitCode code);
-// "1: something is wrong" for people who meet the number.
-[[nodiscard]] std::string_view meaning_of(core::ExitCode code);
-
-// "vulkan:lavapipe, technique=raycast (12 configurations)"; the plans where neither is known. Text
-// of unknown origin.
-[[nodiscard]] std::string place_of(const Cause& cause);
-// The message; of several configurations the smallest is named. Text of unknown origin.
-[[nodiscard]] std::string message_of(const Cause& cause);
-// With whose it is.
-[[nodiscard]] std::string whole_message_of(const Cause& cause);
-
 }  // namespace triptych::report

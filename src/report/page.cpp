@@ -5,6 +5,7 @@
 #include "report/html.hpp"
 #include "report/page_frame.hpp"
 #include "report/page_sections.hpp"
+#include "report/words/finding.hpp"
 #include "triptych_report_embedded.hpp"
 
 namespace triptych::report {
@@ -50,7 +51,7 @@ std::string plan_part(const PlanReport& report, const PlanData& plan) {
              "<section id=\"{}\" data-kind=\"plan\" data-suite=\"{}\" data-device=\"{}\"><h2>{}"
              "</h2><p>{}</p>",
              plan.prefix, escape(suite_of(plan)), devices_of(plan), escape(plan.name),
-             escape(report.verdict.headline())) +
+             escape(words::headline(report.verdict))) +
          system_line(report.run) + common_line(plan) + changes_section(plan) +
          accuracy_section(plan) + correlation_section(plan) + devices_section(plan) +
          times_section(plan) + speed_of_light_section(plan) + needed_section(plan) +

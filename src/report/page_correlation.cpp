@@ -9,6 +9,7 @@
 #include "report/page_frame.hpp"
 #include "report/page_sections.hpp"
 #include "report/scatter_figure.hpp"
+#include "report/words/finding.hpp"
 
 namespace triptych::report {
 namespace {
@@ -25,13 +26,14 @@ std::string technique_in(const std::string& configuration) {
 
 std::string fit_text(const CorrelationPair& pair) {
   const judge::CorrelationLine& line = pair.line;
-  if (!std::isfinite(line.slope)) return "<p>" + escape(line.refusal) + ".</p>\n";
+  if (!std::isfinite(line.slope)) return "<p>" + escape(words::refusal(line)) + ".</p>\n";
   return fmt::format(
       "<p>{} configurations; ln y = {:.3f} + {:.3f} ln x, scatter {:.2g} %; Pearson’s r {:.4f}, of "
       "the logarithms {:.4f}. {}</p>\n",
       line.configurations, line.intercept, line.slope, 100 * std::expm1(line.scale), line.pearson,
       line.rho,
-      line.admitted() ? "" : "<b class=\"cannot_judge\">Refused</b>: " + escape(line.refusal));
+      line.admitted() ? ""
+                      : "<b class=\"cannot_judge\">Refused</b>: " + escape(words::refusal(line)));
 }
 
 // The one place that knows how a pair is kept.

@@ -12,6 +12,7 @@
 #include "core/image_io.hpp"
 #include "report/html.hpp"
 #include "report/share_of_bound.hpp"
+#include "report/words/outcome.hpp"
 
 namespace triptych::report {
 namespace {
@@ -147,10 +148,11 @@ Panel panel_of(const PictureScene& scene, const SameBits& group) {
   const auto* pair = std::get_if<judge::TruthPair>(&found);
   const std::string reference = pair ? figure(picture(pair->truth, "the truth"), "the truth") : "";
   if (record.image.empty()) {
-    return {.html = titled(scene, group, reference + tile(record),
-                           "<b class=\"regression\">" + escape(record.reason) + "</b>"),
-            .wrong = true,
-            .drawn = false};
+    return {
+        .html = titled(scene, group, reference + tile(record),
+                       "<b class=\"regression\">" + escape(words::text_of(record.reason)) + "</b>"),
+        .wrong = true,
+        .drawn = false};
   }
   const std::string name = name_of(scene, group);
   const Image image = scene.sources.store.picture(record.image);

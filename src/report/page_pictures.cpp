@@ -22,7 +22,8 @@ std::vector<SameBits> grouped_by_bits(const std::vector<const record::Record*>& 
   for (const record::Record* record : records) {
     const auto same = std::ranges::find_if(groups, [&](const SameBits& group) {
       return group.front()->device == record->device && group.front()->image == record->image &&
-             group.front()->reason == record->reason;
+             group.front()->outcome == record->outcome &&
+             record::is_same_kind(group.front()->reason, record->reason);
     });
     if (same != groups.end()) {
       same->push_back(record);

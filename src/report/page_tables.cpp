@@ -10,6 +10,7 @@
 #include "report/html.hpp"
 #include "report/page_frame.hpp"
 #include "report/page_sections.hpp"
+#include "report/words/outcome.hpp"
 
 namespace triptych::report {
 namespace {
@@ -21,10 +22,10 @@ std::string calibration_text(const record::Device& device) {
   std::string text;
   int exact = 0;
   for (const auto& [statistic, verdict] : device.statistics_calibration) {
-    if (verdict == "exact") {
+    if (verdict.is_exact()) {
       ++exact;
     } else {
-      text += fmt::format("<div>{}: {}</div>", escape(statistic), escape(verdict));
+      text += fmt::format("<div>{}: {}</div>", escape(statistic), escape(words::text_of(verdict)));
     }
   }
   if (device.statistics_calibration.empty()) return "none told";
@@ -62,7 +63,7 @@ std::string taken_over(const PlanData& plan) {
   for (const record::Record& record : plan.records) {
     if (record.same_as.empty()) continue;
     rows.push_back({escape(record.configuration), escape(record.device), escape(record.same_as),
-                    escape(record.reason)});
+                    escape(words::text_of(record.reason))});
   }
   if (rows.size() == 1) return {};
   return folded(fmt::format("{} configurations measured as another, which their scene cannot tell "

@@ -12,6 +12,7 @@
 #include "report/overview.hpp"
 #include "report/page_frame.hpp"
 #include "report/page_sections.hpp"
+#include "report/words/cause.hpp"
 
 namespace triptych::report {
 namespace {
@@ -50,7 +51,7 @@ std::string contents(const Overview& all) {
   for (std::size_t i = 0; i < shown; ++i) {
     const Cause& cause = all.open[i];
     text += fmt::format("<li><a href=\"#{}\">{}: {}</a></li>", cause_id(i),
-                        judge::name_of(cause.group.first->check), breakable(place_of(cause)));
+                        judge::name_of(cause.group.first->check), breakable(words::place(cause)));
   }
   if (shown < all.open.size()) {
     text += fmt::format("<li><a href=\"#{}\">{} more</a></li>", cause_id(shown),
@@ -67,8 +68,8 @@ std::string card(const Overview& all, std::span<const PlanData> plans) {
   return fmt::format(
       "<header id=\"verdict\" class=\"{}\"><h1>{} ({})</h1><p class=\"lead\">{}</p>{}"
       "<p>Triptych · {} {}{}{}</p></header>\n",
-      css_class(all.code), word_of(all.code), static_cast<int>(all.code), lead(all), contents(all),
-      all.devices, all.devices == 1 ? "device" : "devices",
+      css_class(all.code), words::word_of(all.code), static_cast<int>(all.code), lead(all),
+      contents(all), all.devices, all.devices == 1 ? "device" : "devices",
       all.part ? " · a part of the plans" : "", names);
 }
 
@@ -152,7 +153,7 @@ std::string article(const Cause& cause, const PlanData& plan, const std::string&
       "</article>\n",
       judge::name_of(first.verdict), id, is_open(first) ? "finding" : "remark",
       escape(first.device), escape(suite_of(plan)), judge::name_of(first.check),
-      breakable(place_of(cause)), escape(whole_message_of(cause)), links(cause, plan),
+      breakable(words::place(cause)), escape(words::text_of(cause)), links(cause, plan),
       first.configuration.empty()
           ? ""
           : fmt::format("<p class=\"system\">{}{}</p>", several ? "the smallest: " : "",

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "report/words/finding.hpp"
+
 namespace triptych::report {
 namespace {
 
@@ -11,6 +13,35 @@ using core::Json;
 // JSON has neither infinities nor NaN.
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json changes_of(const judge::Observation& what) {
+  Json changes = Json::array();
+  for (const judge::Change& each : what.changes) {
+    Json change{{"name", each.name}, {"unit", judge::name_of(each.unit)}};
+    if (each.before) change["before"] = number(*each.before);
+    if (each.now) change["now"] = number(*each.now);
+    if (!each.accepted.empty()) change["accepted"] = each.accepted;
+    if (each.allowed > 0) change["allowed"] = number(each.allowed);
+    changes.push_back(std::move(change));
+  }
+  return changes;
+}
+
+// Leaves out empty members, except the cause and the numbers.
+Json observed(const judge::Observation& what) {
+  Json json{{"cause", judge::name_of(what.cause)}, {"numbers", what.numbers}};
+  if (what.against != judge::Against::nothing) json["against"] = judge::name_of(what.against);
+  if (!what.changes.empty()) json["changes"] = changes_of(what);
+  if (!what.names.empty()) json["names"] = what.names;
+  if (!what.facts.empty()) json["facts"] = what.facts;
+  if (!what.detail.empty()) json["detail"] = what.detail;
+  if (what.reason.cause != record::Cause::none) {
+    json["outcome"] = record::name_of(what.outcome);
+    json["reason"] = what.reason;
+  }
+  for (const judge::Observation& each : what.because) json["because"].push_back(observed(each));
+  return json;
 }
 
 }  // namespace
@@ -37,20 +68,42 @@ Json to_json(const judge::CorrelationPair& pair) {
             {"rho", number(line.rho)},
             {"pearson", number(line.pearson)},
             {"admitted", line.admitted()},
-            {"refusal", line.refusal}}},
+            {"refusal", judge::name_of(line.refusal)}}},
           {"points", std::move(points)}};
+}
+
+Json to_json(const judge::Finding& finding) {
+  Json json = observed(finding);
+  json["check"] = judge::name_of(finding.check);
+  json["verdict"] = judge::name_of(finding.verdict);
+  json["test"] = finding.test;
+  json["device"] = finding.device;
+  json["configuration"] = finding.configuration;
+  json["message"] = words::text_of(finding);
+  if (!finding.subject.empty()) json["subject"] = finding.subject;
+  if (!finding.injected.empty()) json["injected"] = finding.injected;
+  if (finding.measured_before) json["measured_before"] = true;
+  if (finding.advice.advice != judge::Advice::none) {
+    json["advice"] = {{"kind", judge::name_of(finding.advice.advice)},
+                      {"command", finding.advice.command}};
+  }
+  if (finding.excuse.of != judge::Excuse::Of::nothing) {
+    json["excuse"] = {{"kind", judge::name_of(finding.excuse.of)},
+                      {"known", judge::name_of(finding.excuse.known)},
+                      {"reason", finding.excuse.reason},
+                      {"expiry", finding.excuse.expiry}};
+  }
+  if (finding.drawn_again != judge::Again::not_drawn) {
+    json["drawn_again"] = judge::name_of(finding.drawn_again);
+  }
+  for (const judge::Observation& each : finding.again) json["again"] = observed(each);
+  return json;
 }
 
 Json to_json(const judge::GateResult& result) {
   Json findings = Json::array();
   for (const judge::Finding& finding : result.findings) {
-    findings.push_back({{"check", judge::name_of(finding.check)},
-                        {"verdict", judge::name_of(finding.verdict)},
-                        {"test", finding.test},
-                        {"device", finding.device},
-                        {"configuration", finding.configuration},
-                        {"message", finding.message},
-                        {"numbers", Json(finding.numbers)}});
+    findings.push_back(to_json(finding));
   }
   Json correlations = Json::array();
   for (const judge::CorrelationPair& pair : result.correlations)
@@ -61,7 +114,7 @@ Json to_json(const judge::GateResult& result) {
   return {{"plan", result.plan},
           {"run", result.run},
           {"exit_code", static_cast<int>(result.exit_code())},
-          {"headline", result.headline()},
+          {"headline", words::headline(result)},
           {"findings", std::move(findings)},
           {"correlations", std::move(correlations)},
           {"accuracies", std::move(accuracies)}};

@@ -94,7 +94,7 @@ class Verdict(PageTest):
     def test_every_fault_is_found(self):
         page = self.opened("fail")
         texts = page.value(f"{FINDINGS}.map(each => each.textContent)")
-        for fault, says in {"half_voxel_shift": "over the bound", "crash": "SIGSEGV", "hang": "no answer within",
+        for fault, says in {"half_voxel_shift": "exceed the error bound", "crash": "SIGSEGV", "hang": "no answer within",
                             "lost_counter": "", "slowdown:20": "instructions"}.items():
             self.assertTrue([text for text in texts if f"[injected: {fault}]" in text and says in text],
                             f"{fault} in {texts}")

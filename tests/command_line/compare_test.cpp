@@ -72,16 +72,18 @@ TEST_F(Compare, TooMuchNoiseCannotBeToldAndSaysWhatWouldSettleIt) {
 TEST_F(Compare, AWrongPictureIsARegressionWhateverTheTime) {
   const std::string wrong = R"(, "failures": [{"kind": "wrong_image", "at": "image"}])";
   const Result result = compare(b_as(0.5, wrong));
-  expect_verdict(result, 1, "pixels are over the bound against the truth");
-  EXPECT_NE(result.output.find("the picture of b is wrong"), std::string::npos) << result.output;
+  expect_verdict(result, 1, "pixels exceed the error bound of the reference image");
+  EXPECT_NE(result.output.find("the image of b is wrong"), std::string::npos) << result.output;
 }
 
 TEST_F(Compare, ACrashOfBIsARegressionOfAMerelyADoubt) {
-  expect_verdict(compare(b_as(1), "--inject crash"), 1, "b crashed: killed by SIGSEGV");
+  expect_verdict(compare(b_as(1), "--inject crash"), 1,
+                 "b crashed: the worker was killed by SIGSEGV");
   const Result of_a = program.run(
       fmt::format("compare volume/quick --a null:scripted --b '{}' {}", b_as(1), tiny_plan),
       script(1, 1, R"(, "failures": [{"kind": "crash", "at": "prepare", "only": "*width=16,*"}])"));
-  expect_verdict(of_a, 2, "technique=raycast,viewport=16: a crashed: killed by SIGABRT");
+  expect_verdict(of_a, 2,
+                 "technique=raycast,viewport=16: a crashed: the worker was killed by SIGABRT");
 }
 
 TEST_F(Compare, WithoutTimesOnlyWhatRepeatsIsTold) {

@@ -125,7 +125,7 @@ TEST_P(Examples, AreRedForAWrongPictureAndSayIt) {
   const Result done = run(GetParam()(), "{}");
   EXPECT_EQ(done.code, 1) << done.output;
   EXPECT_THAT(done.output.substr(done.output.find("## ")),
-              AllOf(HasSubstr("pixels are over the bound"), HasSubstr("image")));
+              AllOf(HasSubstr("pixels exceed the error bound"), HasSubstr("image")));
 }
 
 // Takes about ten minutes: only where a package of the named release is given.

@@ -30,7 +30,7 @@ TEST(Memory, DataThatNeedMoreFailTheirConfigurationAlone) {
   const Result result = program.run(small + data + "--memory 300M");
   EXPECT_EQ(result.code, 0) << result.output;
   EXPECT_THAT(result.output, HasSubstr("out of host memory with data generate:gaussian_blob:500; "
-                                       "this worker may allocate 300 MiB"));
+                                       "the worker may allocate 300 MiB"));
   EXPECT_THAT(result.output, HasSubstr("1 measured, 0 skipped, 1 failed"));
 }
 
@@ -47,7 +47,7 @@ TEST(Memory, IsNotWhatVoxelsInAFileTake) {
           " --set data=generate:sparse_field:820 --set budget=16 --set viewport=16 --truth --out o",
       "{}", "sh -c 'ulimit -d 400000; exec \"$@\"' sh");
   EXPECT_EQ(result.code, 0) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("within the bound of the truth"));
+  EXPECT_THAT(result.output, HasSubstr("within the error bound of the reference image"));
 }
 
 TEST(Memory, ASizeIsANumberOfBytes) {

@@ -71,11 +71,11 @@ TEST_F(Paste, TheCommandOfAWrongPictureShowsIt) {
   ASSERT_FALSE(command.arguments.empty()) << judged.output;
   const Result pasted = paste(command, broken);
   EXPECT_EQ(pasted.code, 1) << command.arguments << pasted.output;
-  EXPECT_THAT(pasted.output, HasSubstr("pixels are over the bound against the truth"));
+  EXPECT_THAT(pasted.output, HasSubstr("pixels exceed the error bound of the reference image"));
   EXPECT_TRUE(std::filesystem::exists(program.folder() / "repro/difference.png"));
   const Result mended = paste(command, script(""));
   EXPECT_EQ(mended.code, 0) << mended.output;
-  EXPECT_THAT(mended.output, HasSubstr("within the bound of the truth"));
+  EXPECT_THAT(mended.output, HasSubstr("within the error bound of the reference image"));
 }
 
 struct Injected {
@@ -113,8 +113,7 @@ TEST_P(PasteInjected, TheCommandShowsTheFaultAndNothingWithoutIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, PasteInjected,
-                         testing::Values(Injected{"crash", "crashed: killed by SIGSEGV", 3,
-                                                  "SIGSEGV"},
+                         testing::Values(Injected{"crash", "killed by SIGSEGV", 3, "SIGSEGV"},
                                          Injected{"hang", "hung: no answer within 2 s", 3,
                                                   "no answer within 2 s", "--limit 2"},
                                          Injected{"device_lost", "lost: ", 3, "device_lost"},

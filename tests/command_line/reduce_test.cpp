@@ -49,7 +49,8 @@ TEST(Reduce, TheFolderHoldsWhatAReportNeeds) {
   const Program program;
   const Result result = program.run(scene + "--set viewport=8", failing("crash", "none"));
   ASSERT_EQ(result.code, 1) << result.output;  // the scripted device's pattern is no true picture
-  EXPECT_THAT(result.output, HasSubstr("1 of 1 pixels are over the bound against the truth"));
+  EXPECT_THAT(result.output,
+              HasSubstr("1 of 1 pixels exceed the error bound of the reference image"));
   for (const char* file : {"image.exr", "image.png", "truth.exr", "truth.png", "difference.png"}) {
     EXPECT_TRUE(std::filesystem::exists(program.folder() / "r" / file)) << file;
   }

@@ -64,8 +64,8 @@ TEST_F(ReportTest, BeginsWithTheVerdictThenPicturesThenPlans) {
   const std::string page = report();
   const auto header = page.find("<header id=\"verdict\"");
   EXPECT_LT(header, page.find("<a href=\"#plan0\">volume/quick</a>"));
-  EXPECT_LT(header, page.find("<th scope=\"row\">Pictures</th>"));
-  EXPECT_LT(page.find("<th scope=\"row\">Pictures</th>"), page.find("<h2 id=\"pictures\">"));
+  EXPECT_LT(header, page.find("<th scope=\"row\">Images</th>"));
+  EXPECT_LT(page.find("<th scope=\"row\">Images</th>"), page.find("<h2 id=\"pictures\">"));
   EXPECT_LT(page.find("<h2 id=\"pictures\">"), page.find("<section id=\"plan0\">"));
 }
 

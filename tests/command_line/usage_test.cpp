@@ -110,7 +110,7 @@ TEST(Usage, ADeviceThatIsNotThere) {
 TEST(Usage, ADeviceOfNoApiSaysHowItsWorkerEnded) {
   const Program program;
   expect_refused(program.run("compare volume/quick --a bogus:x --b null:scripted"), 2,
-                 "its worker died: exited with code 3; it last said: triptych: unknown API");
+                 "the worker exited with code 3; its last output: triptych: unknown API");
 }
 
 // Each command offers what it has.

@@ -71,7 +71,7 @@ TEST_F(Validate, WhatFailsOnceIsAFlakeAndIsTold) {
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(program.read("known.json"), HasSubstr(R"("outcome":"flake")"));
   EXPECT_THAT(program.read("validation/gate.log"),
-              HasSubstr("flake, right when drawn again: crashed: "));
+              HasSubstr("flake, right when it was drawn again: crashed: "));
   // The store holds what failed.
   const Result gate = program.run(
       "gate volume/quick --shard 1/400 --store validation/validation.sqlite --check image", script);

@@ -55,6 +55,14 @@ std::string read_text(const core::JsonNode& node) {
   return node.text();
 }
 
+record::StatisticWorth read_worth(const core::JsonNode& node) {
+  try {
+    return node.value().get<record::StatisticWorth>();
+  } catch (const core::InputError& error) {
+    node.fail(error.what());
+  }
+}
+
 record::Counts read_counts(const core::JsonNode& node) {
   return read_members<std::uint64_t>(node,
                                      [](const core::JsonNode& n) { return n.whole_number(); });
@@ -183,7 +191,7 @@ struct Baselines::Cache {
   std::optional<ByName<ByName<std::uint64_t>>> scores;
   std::optional<ByName<DriverCost>> cost;
   std::map<fs::path, ByName<record::Counts>> statistics;
-  std::map<fs::path, ByName<std::string>> calibrations;
+  std::map<fs::path, ByName<record::StatisticWorth>> calibrations;
   std::map<fs::path, ByName<StoredTiming>> timings;
   std::optional<std::vector<Waiver>> waivers;
 
@@ -201,13 +209,14 @@ struct Baselines::Cache {
     return table(images, Layout::images, read_stored_image);
   }
   // The calibration lies in the same file; one that was accepted without has none.
-  const ByName<std::string>& calibration_of(const fs::path& path) {
+  const ByName<record::StatisticWorth>& calibration_of(const fs::path& path) {
     const auto known = calibrations.find(path);
     if (known != calibrations.end()) return known->second;
-    ByName<std::string> calibration;
+    ByName<record::StatisticWorth> calibration;
     if (const auto file = core::JsonFile::read(path);
         file && file->value().contains("calibration")) {
-      calibration = read_members<std::string>(file->root().at("calibration"), read_text);
+      calibration =
+          read_members<record::StatisticWorth>(file->root().at("calibration"), read_worth);
     }
     return calibrations.emplace(path, std::move(calibration)).first->second;
   }
@@ -334,7 +343,7 @@ std::map<std::string, record::Counts> Baselines::statistics_of_all_drivers(
   return result;
 }
 
-std::map<std::string, std::string> Baselines::statistics_calibration(
+std::map<std::string, record::StatisticWorth> Baselines::statistics_calibration(
     const std::string& driver) const {
   return cache_->calibration_of(folder_ / (Layout::statistics_folder + driver + ".json"));
 }

@@ -119,7 +119,7 @@ class Baselines {
       const std::string& configuration) const;
   // Device::statistics_calibration of a stored driver, by Device::statistics_key(); empty where
   // nobody looked.
-  [[nodiscard]] std::map<std::string, std::string> statistics_calibration(
+  [[nodiscard]] std::map<std::string, record::StatisticWorth> statistics_calibration(
       const std::string& driver) const;
   // By configuration; empty: nothing stored of this device key.
   [[nodiscard]] const std::map<std::string, StoredTiming>& timings(

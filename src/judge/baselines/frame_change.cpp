@@ -1,7 +1,5 @@
 #include "judge/baselines/frame_change.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "judge/baselines/cost_tolerance.hpp"
@@ -9,11 +7,11 @@
 namespace triptych::judge {
 namespace {
 
-void compare(FrameChange& change, std::string_view name, double before, double now,
+void compare(FrameChange& change, std::string_view name, Unit unit, double before, double now,
              double tolerated) {
   if (std::abs(now - before) <= tolerated) return;
   (now > before ? change.more : change.less) = true;
-  change.texts.push_back(change_text(name, before, now));
+  change.changes.push_back({std::string(name), unit, before, now, {}, tolerated});
 }
 
 }  // namespace
@@ -26,35 +24,31 @@ std::optional<double> count_of(const record::Counts& counts, std::string_view na
 
 double frame_of(const record::Counts& cost) {
   double sum = 0;
-  for (const auto& [part, name] : cost_parts) sum += count_of(cost, part).value_or(0);
+  for (const std::string_view part : cost_parts) sum += count_of(cost, part).value_or(0);
   return sum;
-}
-
-std::string change_text(std::string_view name, double before, double now) {
-  const std::string share =
-      before > 0 ? fmt::format("{:+.3g} %", 100 * (now - before) / before) : "new";
-  return fmt::format("{} {:.0f} → {:.0f} ({})", name, before, now, share);
 }
 
 FrameChange frame_change(const record::Record& now, const record::Counts& before) {
   FrameChange change;
   const double frame = frame_of(before);
-  for (const auto& [part, name] : cost_parts) {
+  for (const std::string_view part : cost_parts) {
     const double stored = count_of(before, part).value_or(0);
-    compare(change, name, stored, count_of(now.cost, part).value_or(0),
+    compare(change, part, Unit::instructions, stored, count_of(now.cost, part).value_or(0),
             cost_tolerance(part, now.device, now.technique, stored, frame));
   }
   const auto misses = count_of(before, "misses");
   const auto misses_now = count_of(now.cost, "misses");
   if (misses && misses_now) {
     if (const auto tolerated = misses_tolerance(now.technique, *misses)) {
-      compare(change, "cache misses of generated code", *misses, *misses_now, *tolerated);
+      compare(change, "misses", Unit::misses, *misses, *misses_now, *tolerated);
     }
   }
   const auto allocations = count_of(before, "allocations");
   const auto allocations_now = count_of(now.cost, "allocations");
-  if (!change.texts.empty() && allocations && allocations_now && *allocations != *allocations_now) {
-    change.texts.push_back(change_text("allocations", *allocations, *allocations_now));
+  if (!change.changes.empty() && allocations && allocations_now &&
+      *allocations != *allocations_now) {
+    change.changes.push_back(
+        {"allocations", Unit::allocations, *allocations, *allocations_now, {}, 0});
   }
   return change;
 }

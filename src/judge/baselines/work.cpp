@@ -1,18 +1,8 @@
 #include "judge/baselines/work.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 namespace triptych::judge {
-namespace {
-
-double percent(double log_ratio) {
-  return 100 * std::expm1(log_ratio);
-}
-
-}  // namespace
-
 std::optional<WorkChange> work_change(
     const record::Counts& now,
     const std::function<std::optional<double>(const std::string&)>& then) {
@@ -46,12 +36,6 @@ std::optional<WorkChange> work_change(const record::Counts& now, const Baselines
     if (value == counter->second.end()) return std::nullopt;
     return static_cast<double>(value->second);
   });
-}
-
-std::string why_text(const std::optional<WorkChange>& work, double log_time_ratio) {
-  if (!work) return "no counter tells whether it is more work";
-  return fmt::format("work ({}) {:+.1f} %, time per unit of work {:+.1f} %", work->unit,
-                     percent(work->log_ratio), percent(log_time_ratio - work->log_ratio));
 }
 
 }  // namespace triptych::judge

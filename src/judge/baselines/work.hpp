@@ -32,7 +32,4 @@ struct WorkChange {
                                                     const std::string& configuration,
                                                     const std::string& device);
 
-// "work (samples) +20.0 %, time per unit of work +2.1 %" of a change of the time.
-[[nodiscard]] std::string why_text(const std::optional<WorkChange>& work, double log_time_ratio);
-
 }  // namespace triptych::judge

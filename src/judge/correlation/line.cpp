@@ -1,13 +1,12 @@
 #include "judge/correlation/line.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "estimation/regression.hpp"
 #include "estimation/statistics.hpp"
+#include "record/names.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -41,25 +40,24 @@ Values plain(Values logarithms) {
 }
 
 // Written so that a number that is none is refused.
-std::string refusal_of(const CorrelationLine& line) {
+LineRefusal refusal_of(const CorrelationLine& line) {
   if (line.configurations < Model::least_configurations) {
-    return fmt::format("{} configurations in common, {} are needed", line.configurations,
-                       Model::least_configurations);
+    return LineRefusal::too_few_configurations;
   }
-  if (!(line.rho >= Model::least_rho)) {
-    return fmt::format("the correlation of logarithms is {:.3f}, {} is needed", line.rho,
-                       Model::least_rho);
-  }
+  if (!(line.rho >= Model::least_rho)) return LineRefusal::low_correlation;
   if (!(line.slope >= Model::least_slope && line.slope <= Model::largest_slope)) {
-    return fmt::format("the slope is {:.3f}, outside {} to {}", line.slope, Model::least_slope,
-                       Model::largest_slope);
+    return LineRefusal::slope_out_of_range;
   }
-  if (!(line.scale <= Model::largest_scale)) {
-    return fmt::format("residuals scatter by {:.3f} in ln, at most {} is allowed", line.scale,
-                       Model::largest_scale);
-  }
-  return {};
+  return line.scale <= Model::largest_scale ? LineRefusal::none : LineRefusal::large_scatter;
 }
+
+constexpr record::Names<LineRefusal, 5> refusal_names{{
+    {LineRefusal::none, "none"},
+    {LineRefusal::too_few_configurations, "too_few_configurations"},
+    {LineRefusal::low_correlation, "low_correlation"},
+    {LineRefusal::slope_out_of_range, "slope_out_of_range"},
+    {LineRefusal::large_scatter, "large_scatter"},
+}};
 
 double two_sided(double z, double degrees) {
   return 2 * estimation::student_t_upper_tail(std::abs(z), degrees);
@@ -160,6 +158,10 @@ std::vector<OffTheLine> configurations_off(const Values& x, const estimation::Ro
 }
 
 }  // namespace
+
+std::string_view name_of(LineRefusal refusal) {
+  return record::name_in(refusal_names, refusal);
+}
 
 void fit_line(CorrelationPair& pair) {
   CorrelationLine& line = pair.line;

@@ -2,10 +2,22 @@
 // Two devices, point by point: what the report draws and `gate --json` gives.
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace triptych::judge {
+
+// Why nothing can be concluded from a line; LineModel has the limits.
+enum class LineRefusal : std::uint8_t {
+  none,
+  too_few_configurations,
+  low_correlation,
+  slope_out_of_range,
+  large_scatter
+};
+[[nodiscard]] std::string_view name_of(LineRefusal refusal);
 
 // y = intercept + slope·x of logarithms, so that a factor between two devices is the intercept.
 struct CorrelationLine {
@@ -13,12 +25,12 @@ struct CorrelationLine {
   // NaN where there are too few points for a line.
   double intercept = 0;
   double slope = 0;
-  double scale = 0;     // robust standard deviation of the residuals, in ln
-  double rho = 0;       // Pearson's r of the logarithms
-  double pearson = 0;   // of the values themselves, as the paper has it
-  std::string refusal;  // why nothing can be told from this line; empty: something can
+  double scale = 0;    // robust standard deviation of the residuals, in ln
+  double rho = 0;      // Pearson's r of the logarithms
+  double pearson = 0;  // of the values themselves, as the paper has it
+  LineRefusal refusal = LineRefusal::none;
 
-  [[nodiscard]] bool admitted() const { return refusal.empty(); }
+  [[nodiscard]] bool admitted() const { return refusal == LineRefusal::none; }
   [[nodiscard]] double at(double x) const { return intercept + slope * x; }
 };
 

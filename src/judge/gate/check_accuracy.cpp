@@ -1,7 +1,5 @@
 // Errors against the limit: told of every scene and device, and held to what was accepted.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
@@ -42,23 +40,19 @@ std::optional<double> allowed_on(const std::map<std::string, StoredError>& store
 Finding judge_error(const RunView& view, const record::Record& record,
                     const accuracy::PictureError& error) {
   const auto limit = allowed_on(view.baselines.errors(record.configuration), record.device);
-  const auto about = [&](Verdict verdict, std::string message) {
-    Finding finding = finding_about(record, Check::accuracy, verdict, std::move(message));
-    set_number(finding, "rmse", error.rmse);
-    set_number(finding, "max_error", error.largest);
-    set_number(finding, "error_99", error.error_99);
-    set_number(finding, "lattice", error.lattice);
-    set_number(finding, "arithmetic", error.arithmetic);
-    if (limit) set_number(finding, "bound", *limit);
-    return finding;
-  };
-  if (!limit) {
-    return about(Verdict::cannot_judge,
-                 "no stored error for this configuration; accept it: " + view.accept_command());
-  }
-  const std::string what =
-      fmt::format("RMSE {:.3g} against the limit, allowed {:.3g}", error.rmse, *limit);
-  return about(error.rmse <= *limit ? Verdict::pass : Verdict::regression, what);
+  const bool kept = limit && error.rmse <= *limit;
+  Finding finding =
+      limit ? finding_about(record, Check::accuracy, kept ? Verdict::pass : Verdict::regression,
+                            {.cause = Cause::error, .against = Against::baseline})
+            : finding_about(record, Check::accuracy, Verdict::cannot_judge,
+                            {.cause = Cause::not_stored}, view.accept());
+  set_number(finding, "rmse", error.rmse);
+  set_number(finding, "max_error", error.largest);
+  set_number(finding, "error_99", error.error_99);
+  set_number(finding, "lattice", error.lattice);
+  set_number(finding, "arithmetic", error.arithmetic);
+  if (limit) set_number(finding, "bound", *limit);
+  return finding;
 }
 
 // The order that the accepted errors of a family give: nothing but errors is stored.
@@ -81,20 +75,15 @@ std::optional<accuracy::Order> stored_order(const RunView& view,
 // same steps give none any more, errors of another kind than the step's have grown.
 Finding judge_order(const RunView& view, const record::Device& device,
                     const std::optional<accuracy::Order>& now, const accuracy::Order& stored) {
-  const std::string accepted =
-      fmt::format("accepted {:.2f} ± {:.2f}", stored.order, stored.half_width);
-  if (!now) {
-    return finding_about(
-        view, device, Check::accuracy, Verdict::cannot_judge,
-        "no order in the step can be fitted: too few errors are the step's own; " + accepted);
-  }
+  Observation what{.cause = now ? Cause::order : Cause::no_order, .against = Against::baseline};
+  set_number(what, "stored_order", stored.order);
+  set_number(what, "stored_half_width", stored.half_width);
+  if (!now) return finding_about(view, device, Check::accuracy, Verdict::cannot_judge, what);
+  set_number(what, "order", now->order);
+  set_number(what, "half_width", now->half_width);
   const bool fallen = now->order < stored.order - stored.half_width - now->half_width;
-  Finding finding = finding_about(
-      view, device, Check::accuracy, fallen ? Verdict::regression : Verdict::pass,
-      fmt::format("order {:.2f} ± {:.2f} in the step, {}", now->order, now->half_width, accepted));
-  set_number(finding, "order", now->order);
-  set_number(finding, "stored_order", stored.order);
-  return finding;
+  return finding_about(view, device, Check::accuracy, fallen ? Verdict::regression : Verdict::pass,
+                       std::move(what));
 }
 
 void judge_orders(const RunView& view, const accuracy::AccuracyScene& scene,
@@ -146,7 +135,7 @@ class AccuracyCheck {
     try {
       measure_error(record);
     } catch (const core::Error& error) {
-      add(record, Verdict::cannot_judge, fmt::format("its error cannot be told: {}", error.what()));
+      add(record, Verdict::cannot_judge, {.cause = Cause::unknown_error, .detail = error.what()});
     }
   }
 
@@ -156,8 +145,9 @@ class AccuracyCheck {
   }
 
  private:
-  void add(const record::Record& record, Verdict verdict, std::string message) {
-    out_.findings.push_back(finding_about(record, Check::accuracy, verdict, std::move(message)));
+  void add(const record::Record& record, Verdict verdict, Observation what, Advised advice = {}) {
+    out_.findings.push_back(
+        finding_about(record, Check::accuracy, verdict, std::move(what), std::move(advice)));
   }
 
   void measure_error(const record::Record& record) {
@@ -165,20 +155,17 @@ class AccuracyCheck {
     if (limit == nullptr) {
       // Of a scene without a limit there is none to be missed.
       if (view_.baselines.errors(record.configuration).empty()) return;
-      add(record, Verdict::cannot_judge,
-          "an error is stored, but its scene has no limit; accept it anew: " +
-              view_.accept_command());
+      add(record, Verdict::cannot_judge, {.cause = Cause::no_limit_any_more}, view_.accept());
       return;
     }
     if (record.image.empty()) {
-      add(record, Verdict::cannot_judge, "the record holds no picture; run the plan again");
+      add(record, Verdict::cannot_judge, {.cause = Cause::no_image}, {Advice::run_again});
       return;
     }
     const auto error = accuracy::picture_error(view_.store.picture(record.image),
                                                view_.request.truth(record).truth, limit->image);
     if (!error) {
-      add(record, Verdict::regression,
-          "the picture cannot be compared: of another size, or with values that are not finite");
+      add(record, Verdict::regression, {.cause = Cause::not_comparable});
       return;
     }
     const std::string_view clock = by_the_wall_.contains(record.device) ? "wall" : "device";
@@ -205,8 +192,8 @@ AccuracyFindings check_accuracies(const RunView& view) {
     check.finish();
   }
   if (result.findings.empty() && result.scenes.empty()) {
-    result.findings.push_back(finding_about(view, Check::accuracy, Verdict::cannot_judge,
-                                            "no scene here has a limit to tell errors against"));
+    result.findings.push_back(
+        finding_about(view, Check::accuracy, Verdict::cannot_judge, {.cause = Cause::no_limit}));
   }
   return result;
 }

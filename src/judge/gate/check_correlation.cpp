@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -12,19 +9,12 @@
 namespace triptych::judge {
 namespace {
 
-constexpr double rounded = 1e-5;  // of ln, in texts
-
-std::string percent_text(double log_ratio) {
-  return fmt::format("{:+.3g} %", 100 * std::expm1(log_ratio));
-}
-
 const record::Record& any_record(const DeviceCost& device) {
   return *device.configurations.begin()->second.record;
 }
 
-Finding about_device(const DeviceCost& device, Verdict verdict, std::string message) {
-  Finding finding =
-      finding_about(any_record(device), Check::correlation, verdict, std::move(message));
+Finding about_device(const DeviceCost& device, Verdict verdict, Observation what) {
+  Finding finding = finding_about(any_record(device), Check::correlation, verdict, std::move(what));
   finding.configuration.clear();
   return finding;
 }
@@ -93,33 +83,21 @@ Moved movements_of(const DeviceCost& device, const std::vector<DeviceCost>& devi
   return moved;
 }
 
-std::string subject_text(const Movement& movement) {
-  const std::size_t n = movement.members.size();
-  if (movement.of == Movement::Of::everything) return fmt::format("everything ({}) by ", n);
-  if (movement.of == Movement::Of::level) return fmt::format("{} ({}) by ", movement.level, n);
-  return {};
-}
-
-std::string range_text(const Movement& movement) {
-  if (std::abs(movement.most - movement.least) <= rounded) return {};
-  return fmt::format(", {} to {}", percent_text(movement.least), percent_text(movement.most));
-}
-
 Finding finding_of(const Moved& moved, const Movement& movement) {
-  const bool dearer = movement.log_ratio > 0;
-  std::string message =
-      fmt::format("{}{} instructions against what was accepted{}; off the stored residuals with {}",
-                  subject_text(movement), percent_text(movement.log_ratio), range_text(movement),
-                  fmt::join(moved.beside, ", "));
+  const bool more = movement.log_ratio > 0;
   const record::Record& first = *moved.records[movement.members.front()];
   Finding finding =
-      finding_about(first, Check::correlation, dearer ? Verdict::regression : Verdict::improved,
-                    std::move(message));
+      finding_about(first, Check::correlation, more ? Verdict::regression : Verdict::improved,
+                    {.cause = Cause::residual_moved,
+                     .against = Against::other_devices,
+                     .names = {moved.beside.begin(), moved.beside.end()}});
   if (movement.of != Movement::Of::configuration) {
     finding.configuration.clear();
     finding.subject = movement.of == Movement::Of::level ? movement.level : "everything";
   }
   set_number(finding, "ratio", std::exp(movement.log_ratio));
+  set_number(finding, "least_ratio", std::exp(movement.least));
+  set_number(finding, "largest_ratio", std::exp(movement.most));
   set_number(finding, "configurations", static_cast<double>(movement.members.size()));
   return finding;
 }
@@ -132,17 +110,21 @@ void judge_accepted(const Moved& moved, std::vector<Finding>& findings) {
   if (!movements.empty()) return;
   findings.push_back(
       about_device(*moved.device, Verdict::pass,
-                   fmt::format("the residuals of {} configurations with {} are as stored",
-                               moved.records.size(), fmt::join(moved.held, ", "))));
+                   {.cause = Cause::residuals_as_stored,
+                    .against = Against::other_devices,
+                    .numbers = {{"configurations", static_cast<double>(moved.records.size())}},
+                    .names = {moved.held.begin(), moved.held.end()}}));
 }
 
 // --- new devices: the line of an accepted one ----------------------------------------------------
 
-std::string fit_text(const CorrelationPair& pair) {
-  const CorrelationLine& line = pair.line;
-  return fmt::format(
-      "{} configurations, ln cost = {:.3f} + {:.3f} ln cost there, scatter {:.2g} %, r = {:.3f}",
-      line.configurations, line.intercept, line.slope, 100 * std::expm1(line.scale), line.pearson);
+void add_fit(Observation& what, const CorrelationLine& line) {
+  set_number(what, "configurations", static_cast<double>(line.configurations));
+  set_number(what, "intercept", line.intercept);
+  set_number(what, "slope", line.slope);
+  set_number(what, "scale", line.scale);
+  set_number(what, "rho", line.rho);
+  set_number(what, "pearson", line.pearson);
 }
 
 // Of a new device, which accepted one can judge it: the line with the least scatter, the admitted
@@ -162,19 +144,16 @@ const CorrelationPair* nearest(const DeviceCost& device,
 }
 
 Finding finding_of(const DeviceCost& device, const CorrelationPair& pair, const OffTheLine& off) {
-  const std::string by =
-      fmt::format("{} ± {:.2g} % instructions, off the line of {}, q = {:.2g}",
-                  percent_text(off.effect), 100 * std::expm1(off.error), pair.device_a, off.q);
-  Finding finding = about_device(device, Verdict::advisory, {});
+  Finding finding = about_device(device, Verdict::advisory,
+                                 {.cause = Cause::off_the_line,
+                                  .against = Against::other_devices,
+                                  .facts = {{"other", pair.device_a}}});
   if (off.level.empty()) {
     finding.configuration = pair.points[off.members.front()].configuration;
-    finding.message = by;
   } else {
     finding.subject = off.level;
-    finding.message =
-        fmt::format("{} ({}): {} against the rest", off.level, off.members.size(), by);
   }
-  finding.message += "; this device was never accepted: its character, or a slower program";
+  set_number(finding, "configurations", static_cast<double>(off.members.size()));
   set_number(finding, "ratio", std::exp(off.effect));
   set_number(finding, "standard_error", off.error);
   set_number(finding, "q", off.q);
@@ -194,11 +173,14 @@ void judge_new(const DeviceCost& device, std::vector<CorrelationPair>& pairs,
                std::vector<Finding>& findings) {
   const CorrelationPair* found = nearest(device, pairs);
   if (found == nullptr || !found->line.admitted()) {
-    const std::string reason =
-        found == nullptr ? fmt::format("no other device's cost by {} is stored", device.counted_by)
-                         : fmt::format("{}: {}", found->device_a, found->line.refusal);
-    findings.push_back(
-        about_device(device, Verdict::advisory, fmt::format("cannot correlate: {}", reason)));
+    Observation what{.cause = Cause::no_partner, .facts = {{"counted_by", device.counted_by}}};
+    if (found != nullptr) {
+      what = {.cause = Cause::no_line,
+              .facts = {{"other", found->device_a},
+                        {"refusal", std::string(name_of(found->line.refusal))}}};
+      add_fit(what, found->line);
+    }
+    findings.push_back(about_device(device, Verdict::advisory, std::move(what)));
     return;
   }
   CorrelationPair& pair = pairs[static_cast<std::size_t>(found - pairs.data())];
@@ -208,9 +190,11 @@ void judge_new(const DeviceCost& device, std::vector<CorrelationPair>& pairs,
     if (off.level.empty()) pair.points[off.members.front()].outlier = true;
   }
   if (!all.empty()) return;
-  findings.push_back(
-      about_device(device, Verdict::advisory,
-                   fmt::format("as {} lets expect: {}", pair.device_a, fit_text(pair))));
+  Observation what{.cause = Cause::on_the_line,
+                   .against = Against::other_devices,
+                   .facts = {{"other", pair.device_a}}};
+  add_fit(what, pair.line);
+  findings.push_back(about_device(device, Verdict::advisory, std::move(what)));
 }
 
 // --- pairs ---------------------------------------------------------------------------------------
@@ -257,7 +241,7 @@ void report_uncounted(const CorrelationInput& input, const std::vector<DeviceCos
   for (const record::Record* record : input.records) {
     if (!told.insert(record->device).second) continue;
     findings.push_back(finding_about(*record, Check::correlation, Verdict::skipped,
-                                     "no instructions were counted"));
+                                     {.cause = Cause::not_reported}));
     findings.back().configuration.clear();
   }
 }

@@ -2,8 +2,6 @@
 // emulator: device code, the driver and cache misses decide, each by itself; allocations and what
 // preparing costs are shown.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -19,16 +17,18 @@ namespace {
 struct Note {
   std::size_t changed = 0;
   double worst = 0;
-  std::string text;
+  std::string configuration;
+  Change largest;
 
-  void add(const std::string& configuration, std::string_view name, double before, double now,
-           double tolerated) {
-    const double change = std::abs(now - before) / std::max(before, 1.0);
-    if (change <= tolerated) return;
+  void add(const std::string& in, Change change, double tolerated) {
+    const double before = *change.before;
+    const double share = std::abs(*change.now - before) / std::max(before, 1.0);
+    if (share <= tolerated) return;
     ++changed;
-    if (change <= worst) return;
-    worst = change;
-    text = configuration + ": " + change_text(name, before, now);
+    if (share <= worst) return;
+    worst = share;
+    configuration = in;
+    largest = std::move(change);
   }
 };
 
@@ -43,14 +43,15 @@ class DeviceCostCheck {
     const auto counted = std::ranges::find_if(
         records_, [](const record::Record* record) { return !record->cost.empty(); });
     if (counted == records_.end()) {
-      add(findings, stored_ != nullptr ? Verdict::cannot_judge : Verdict::skipped,
-          stored_ != nullptr ? "its instructions were not counted, though they were when it was "
-                               "accepted: count them, or leave cost out of --check"
-                             : "its instructions were not counted");
+      const bool accepted = stored_ != nullptr;
+      add(findings, accepted ? Verdict::cannot_judge : Verdict::skipped,
+          {.cause = accepted ? Cause::no_longer_reported : Cause::not_reported},
+          {accepted ? Advice::count : Advice::none});
     } else if (const auto other = counted_otherwise(**counted)) {
       add(findings, Verdict::cannot_judge,
-          fmt::format("its instructions were counted by {} and by {}: run the plan again",
-                      (*counted)->counted_by, *other));
+          {.cause = Cause::two_counters,
+           .facts = {{"counted_by", (*counted)->counted_by}, {"other", *other}}},
+          {Advice::run_again});
     } else if (stored_ == nullptr || stored_->counted_by != (*counted)->counted_by) {
       tell_other(**counted, findings);
     } else {
@@ -61,8 +62,10 @@ class DeviceCostCheck {
   }
 
  private:
-  void add(std::vector<Finding>& findings, Verdict verdict, std::string message) const {
-    findings.push_back(finding_about(view_, device_, Check::cost, verdict, std::move(message)));
+  void add(std::vector<Finding>& findings, Verdict verdict, Observation what,
+           Advised advice = {}) const {
+    findings.push_back(
+        finding_about(view_, device_, Check::cost, verdict, std::move(what), std::move(advice)));
   }
 
   // By what else than that record: a resumed run, or one merged of shards.
@@ -81,8 +84,7 @@ class DeviceCostCheck {
       if (other == nullptr && cost.device == device_.id) other = &cost;
     }
     if (other == nullptr) {
-      return add(findings, Verdict::advisory,
-                 "no cost is stored of this device; store it with " + view_.accept_command());
+      return add(findings, Verdict::advisory, {.cause = Cause::no_stored_device}, view_.accept());
     }
     std::vector<double> ratios;
     for (const record::Record* record : records_) {
@@ -91,14 +93,17 @@ class DeviceCostCheck {
       const double before = frame_of(there->second.frame);
       if (before > 0) ratios.push_back(frame_of(record->cost) / before);
     }
-    std::string message = fmt::format(
-        "nothing is judged: this is {} counted by {}, stored is {} counted by {}",
-        device_.driver_version, counted.counted_by, other->driver_version, other->counted_by);
+    Observation what{.cause = Cause::other_counter,
+                     .against = Against::other_devices,
+                     .facts = {{"driver_version", device_.driver_version},
+                               {"counted_by", counted.counted_by},
+                               {"other_version", other->driver_version},
+                               {"other", other->counted_by}}};
     if (!ratios.empty()) {
-      message += fmt::format("; median of {} configurations {:+.3g} % instructions", ratios.size(),
-                             100 * (estimation::median(ratios) - 1));
+      what.numbers["configurations"] = static_cast<double>(ratios.size());
+      set_number(what, "median_ratio", estimation::median(ratios));
     }
-    add(findings, Verdict::advisory, std::move(message));
+    add(findings, Verdict::advisory, std::move(what));
   }
 
   void compare(const record::Record& record, std::vector<Finding>& findings) {
@@ -115,17 +120,17 @@ class DeviceCostCheck {
 
   static Finding judge(const record::Record& record, const record::Counts& stored) {
     const double frame = frame_of(stored);
-    const FrameChange changes = frame_change(record, stored);
-    const Verdict verdict = changes.more   ? Verdict::regression
-                            : changes.less ? Verdict::improved
-                                           : Verdict::pass;
+    FrameChange found = frame_change(record, stored);
+    const Verdict verdict = found.more   ? Verdict::regression
+                            : found.less ? Verdict::improved
+                                         : Verdict::pass;
     const double all = frame_of(record.cost);
     Finding finding =
         finding_about(record, Check::cost, verdict,
-                      changes.texts.empty()
-                          ? fmt::format("{:.0f} instructions, as stored", all)
-                          : fmt::format("{} in all; {}", change_text("instructions", frame, all),
-                                        fmt::join(changes.texts, "; ")));
+                      {.cause = found.changes.empty() ? Cause::as_stored : Cause::values_changed,
+                       .against = Against::baseline,
+                       .numbers = {{"instructions", all}, {"stored_instructions", frame}},
+                       .changes = std::move(found.changes)});
     if (frame > 0) set_number(finding, "ratio", all / frame);
     for (const auto& [name, count] : record.cost) {
       set_number(finding, name, static_cast<double>(count));
@@ -139,37 +144,39 @@ class DeviceCostCheck {
   void note(const record::Record& record, const StoredCost& stored) {
     constexpr double of_preparing = 0.05;
     const auto add_to = [&](Note& into, const record::Counts& before, const record::Counts& now,
-                            std::string_view part, std::string_view name, double tolerated) {
+                            const std::string& part, Unit unit, double tolerated) {
       const auto a = count_of(before, part);
       const auto b = count_of(now, part);
-      if (a && b) into.add(record.configuration, name, *a, *b, tolerated);
+      if (a && b) into.add(record.configuration, {part, unit, *a, *b, {}, 0}, tolerated);
     };
-    add_to(allocations_, stored.frame, record.cost, "allocations", "allocations", 0);
-    add_to(preparing_, stored.prepare, record.prepare_cost, "driver", "driver", of_preparing);
+    add_to(allocations_, stored.frame, record.cost, "allocations", Unit::allocations, 0);
+    add_to(preparing_, stored.prepare, record.prepare_cost, "driver", Unit::instructions,
+           of_preparing);
   }
 
   void tell_missing(std::vector<Finding>& findings) const {
     if (!not_stored_.empty()) {
-      add(findings, Verdict::cannot_judge,
-          fmt::format("no stored cost for {}, though this driver was accepted; accept them: {}",
-                      examples_of(not_stored_), view_.accept_command()));
+      add(findings, Verdict::cannot_judge, {.cause = Cause::not_stored, .names = not_stored_},
+          view_.accept());
     }
     if (!not_counted_.empty()) {
       add(findings, Verdict::cannot_judge,
-          fmt::format("the instructions of {} were not counted; they were when they were accepted",
-                      examples_of(not_counted_)));
+          {.cause = Cause::no_longer_reported, .names = not_counted_});
     }
   }
 
   void tell_notes(std::vector<Finding>& findings) const {
-    const auto tell = [&](const Note& each, std::string_view what) {
+    const auto tell = [&](const Note& each, Cause cause) {
       if (each.changed == 0) return;
       add(findings, Verdict::advisory,
-          fmt::format("{} changed in {} configurations, most in {}", what, each.changed,
-                      each.text));
+          {.cause = cause,
+           .against = Against::baseline,
+           .numbers = {{"configurations", static_cast<double>(each.changed)}},
+           .changes = {each.largest},
+           .facts = {{"configuration", each.configuration}}});
     };
-    tell(allocations_, "allocations of a frame");
-    tell(preparing_, "the driver's instructions while preparing");
+    tell(allocations_, Cause::frame_allocations);
+    tell(preparing_, Cause::preparing);
   }
 
   const RunView& view_;

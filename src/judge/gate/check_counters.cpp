@@ -1,12 +1,10 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 
 #include "judge/agreement.hpp"
-#include "judge/gate/counters_fault.hpp"
+#include "judge/gate/counter_changes.hpp"
 #include "judge/gate/open_counts.hpp"
 #include "judge/gate/run_view.hpp"
 #include "record/device_id.hpp"
@@ -31,12 +29,8 @@ struct Range {
   [[nodiscard]] std::uint64_t nearest(std::uint64_t value) const {
     return std::clamp(value, least, most);
   }
-  [[nodiscard]] std::string text() const {
-    std::vector<std::string> parts;
-    for (const auto& [family, value] : families) {
-      parts.push_back(fmt::format("{} on {}", value, family));
-    }
-    return fmt::format("{}", fmt::join(parts, ", "));
+  [[nodiscard]] std::map<std::string, double> values() const {
+    return {families.begin(), families.end()};
   }
 };
 
@@ -46,23 +40,21 @@ double relative_difference(std::uint64_t value, std::uint64_t expected) {
 }
 
 struct Differences {
-  std::vector<std::string> wrong;
+  std::vector<Change> wrong;
   std::vector<std::string> unknown;
   double largest = 0;
 };
 
 void compare_own(const std::string& name, std::uint64_t stored, const record::Record& record,
                  Differences& out) {
+  Change change{.name = name, .before = static_cast<double>(stored)};
   const auto found = record.counters.find(name);
-  if (found == record.counters.end()) {
-    out.wrong.push_back(fmt::format("{} is missing, stored {}", name, stored));
-    return;
+  if (found != record.counters.end()) {
+    if (found->second == stored) return;
+    out.largest = std::max(out.largest, std::abs(relative_difference(found->second, stored)));
+    change.now = static_cast<double>(found->second);
   }
-  if (found->second == stored) return;
-  const double relative = relative_difference(found->second, stored);
-  out.largest = std::max(out.largest, std::abs(relative));
-  out.wrong.push_back(
-      fmt::format("{} {} → {} ({:+.4g} %)", name, stored, found->second, 100 * relative));
+  out.wrong.push_back(std::move(change));
 }
 
 // Of another device or driver version. A counter may have no meaning here: it need not be there.
@@ -70,13 +62,16 @@ void compare_with_others(const std::string& name, const Range& range, const reco
                          OpenCounts& open, Differences& out) {
   const auto found = record.counters.find(name);
   if (found == record.counters.end()) return;
-  const double relative = relative_difference(found->second, range.nearest(found->second));
+  const std::uint64_t nearest = range.nearest(found->second);
+  const double relative = relative_difference(found->second, nearest);
   out.largest = std::max(out.largest, std::abs(relative));
-  const double excess = relative * static_cast<double>(range.nearest(found->second));
+  const double excess = relative * static_cast<double>(nearest);
   if (std::abs(relative) <= counters_across_devices || std::abs(excess) <= open.of(name)) return;
-  out.wrong.push_back(fmt::format("{} {} ({:+.4g} % beyond what was accepted: {}; {:.0f} are open)",
-                                  name, found->second, 100 * relative, range.text(),
-                                  open.of(name)));
+  out.wrong.push_back({.name = name,
+                       .before = static_cast<double>(nearest),
+                       .now = static_cast<double>(found->second),
+                       .accepted = range.values(),
+                       .allowed = open.of(name)});
 }
 
 // Exact is what the same driver version counted before, and that a counter is told at all.
@@ -91,13 +86,15 @@ void compare_counter(const std::string& name, const std::map<std::string, std::u
 
 Finding check_record(const RunView& view, const record::Record& record,
                      const StoredCounters& stored) {
-  const auto about = [&](Verdict verdict, std::string message) {
-    return finding_about(record, Check::counters, verdict, std::move(message));
+  const auto about = [&](Verdict verdict, Observation what, Advised advice = {}) {
+    return finding_about(record, Check::counters, verdict, std::move(what), std::move(advice));
   };
   if (record.counters.empty()) {
-    return stored.empty() ? about(Verdict::skipped, "this technique counts nothing")
-                          : about(Verdict::cannot_judge,
-                                  "nothing was counted; run the plan again with counting frames");
+    return stored.empty()
+               ? about(Verdict::skipped, {.cause = Cause::not_reported})
+               : about(Verdict::cannot_judge,
+                       {.cause = Cause::no_longer_reported, .against = Against::baseline},
+                       {Advice::run_again});
   }
   Differences differences;
   const bool known_driver = view.knows_driver(view.device(record));
@@ -108,29 +105,34 @@ Finding check_record(const RunView& view, const record::Record& record,
   for (const auto& [name, value] : record.counters) {
     if (!stored.contains(name)) differences.unknown.push_back(name);
   }
+  const Against against = known_driver ? Against::baseline : Against::other_devices;
   Finding finding =
-      about(Verdict::pass, fmt::format("{} counters as stored", record.counters.size()));
-  if (!differences.wrong.empty()) {
-    finding = about(Verdict::regression, fmt::format("{}", fmt::join(differences.wrong, "; ")));
-  } else if (!differences.unknown.empty()) {
-    finding = about(Verdict::cannot_judge,
-                    fmt::format("counters without a stored value: {}; accept them: {}",
-                                fmt::join(differences.unknown, ", "), view.accept_command()));
-  }
+      !differences.wrong.empty()
+          ? about(Verdict::regression, {.cause = Cause::values_changed,
+                                        .against = against,
+                                        .changes = std::move(differences.wrong)})
+      : !differences.unknown.empty()
+          ? about(Verdict::cannot_judge,
+                  {.cause = Cause::unknown_values, .names = std::move(differences.unknown)},
+                  view.accept())
+          : about(Verdict::pass,
+                  {.cause = Cause::as_stored,
+                   .against = against,
+                   .numbers = {{"values", static_cast<double>(record.counters.size())}}});
   set_number(finding, "relative_difference", differences.largest);
   return finding;
 }
 
 }  // namespace
 
-std::string counters_fault(const record::Record& record, const StoredCounters& of_others,
-                           const FindOpenCounts& open_counts) {
+std::vector<Change> counter_changes(const record::Record& record, const StoredCounters& of_others,
+                                    const FindOpenCounts& open_counts) {
   Differences differences;
   OpenCounts open(record, open_counts);
   for (const auto& [name, values] : of_others) {
     compare_with_others(name, Range(values), record, open, differences);
   }
-  return fmt::format("{}", fmt::join(differences.wrong, "; "));
+  return differences.wrong;
 }
 
 std::vector<Finding> check_counters(const RunView& view) {
@@ -150,8 +152,7 @@ std::vector<Finding> check_counters(const RunView& view) {
     const bool known = !view.baselines.present() || view.knows_driver(info);
     findings.push_back(
         finding_about(view, info, Check::counters, known ? Verdict::cannot_judge : Verdict::skipped,
-                      fmt::format("no stored counters for {}; accept them: {}",
-                                  examples_of(configurations), view.accept_command())));
+                      {.cause = Cause::not_stored, .names = configurations}, view.accept()));
   }
   return findings;
 }

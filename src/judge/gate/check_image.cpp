@@ -1,14 +1,12 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <tuple>
 
-#include "accuracy/image_fault.hpp"
 #include "accuracy/image_metrics.hpp"
 #include "core/image_io.hpp"
 #include "judge/agreement.hpp"
 #include "judge/gate/run_view.hpp"
+#include "judge/image_observation.hpp"
 #include "record/factor_list.hpp"
 #include "record/has_picture.hpp"
 
@@ -24,21 +22,6 @@ struct Picture {
   core::Image image;
   double rmse;  // from the truth
 };
-
-void add_numbers(Finding& finding, const accuracy::ImageComparison& comparison) {
-  set_number(finding, "max_error", comparison.largest.error);
-  set_number(finding, "error", comparison.worst.error);
-  set_number(finding, "bound", comparison.worst.bound);
-  set_number(finding, "ratio", comparison.worst.ratio);
-  set_number(finding, "x", comparison.worst.x);
-  set_number(finding, "y", comparison.worst.y);
-  set_number(finding, "rmse", comparison.rmse);
-  set_number(finding, "error_99", comparison.error_99);
-  set_number(finding, "pixels_over", static_cast<double>(comparison.over_bound));
-  set_number(finding, "pixels_not_finite", static_cast<double>(comparison.non_finite));
-  set_number(finding, "pixels_of_another_particle", static_cast<double>(comparison.wrong_ids));
-  set_number(finding, "pixels_at_another_depth", static_cast<double>(comparison.wrong_depths));
-}
 
 // Nothing but the scene and the technique is set: every device takes the path it prefers.
 bool on_default_path(const record::Record& record) {
@@ -60,27 +43,20 @@ class SceneJudge {
 
   void judge(const record::Record& record) {
     if (record.image.empty()) {
-      out_.findings.push_back(finding_about(record, Check::image, Verdict::cannot_judge,
-                                            "the record holds no picture; run the plan again"));
-      return;
+      return undecided(record, {.cause = Cause::no_image}, {Advice::run_again});
     }
     TruthPair pair;
     try {
       pair = view_.request.truth(record);
     } catch (const core::Error& error) {
-      out_.findings.push_back(finding_about(record, Check::image, Verdict::cannot_judge,
-                                            fmt::format("no truth to judge by: {}", error.what())));
-      return;
+      return undecided(record, {.cause = Cause::no_reference, .detail = error.what()});
     }
     check_truth(pair);
     core::Image image;
     try {
       image = view_.store.picture(record.image);
     } catch (const core::Error& error) {
-      out_.findings.push_back(
-          finding_about(record, Check::image, Verdict::cannot_judge,
-                        fmt::format("the store's picture cannot be read: {}", error.what())));
-      return;
+      return undecided(record, {.cause = Cause::unreadable_image, .detail = error.what()});
     }
     judge_image(record, std::move(image), pair);
   }
@@ -105,20 +81,24 @@ class SceneJudge {
   }
 
  private:
+  void undecided(const record::Record& record, Observation what, Advised advice = {}) {
+    out_.findings.push_back(finding_about(record, Check::image, Verdict::cannot_judge,
+                                          std::move(what), std::move(advice)));
+  }
+
   void judge_image(const record::Record& record, core::Image image, const TruthPair& pair) {
-    const accuracy::ImageComparison comparison = accuracy::compare(image, pair.truth, pair.bound);
-    std::string wrong = accuracy::image_fault(comparison, image, pair.truth, "the truth");
-    if (wrong.empty() && stored_) {
-      const auto against_stored = accuracy::compare(image, *stored_, pair.bound, truth_tolerance);
-      wrong = accuracy::image_fault(against_stored, image, *stored_, "the stored picture");
+    Observation what = image_observation(accuracy::compare(image, pair.truth, pair.bound), image,
+                                         pair.truth, Against::reference);
+    if (what.cause == Cause::within_bound && stored_) {
+      Observation against_stored =
+          image_observation(accuracy::compare(image, *stored_, pair.bound, truth_tolerance), image,
+                            *stored_, Against::stored_image);
+      if (against_stored.cause != Cause::within_bound) what = std::move(against_stored);
     }
-    const bool right = wrong.empty();
-    Finding finding = finding_about(
-        record, Check::image, right ? Verdict::pass : Verdict::regression,
-        right ? "within the bound of the truth; " + accuracy::describe(comparison) : wrong);
-    add_numbers(finding, comparison);
-    out_.findings.push_back(std::move(finding));
-    if (!right) out_.wrong[{record.device, record.configuration}] = wrong;
+    const bool right = what.cause == Cause::within_bound;
+    if (!right) out_.wrong[{record.device, record.configuration}] = what;
+    out_.findings.push_back(finding_about(
+        record, Check::image, right ? Verdict::pass : Verdict::regression, std::move(what)));
     if (right && on_default_path(record)) {
       const double rmse = accuracy::root_mean_square(image, pair.truth, pair.bound);
       pictures_.push_back({&record, std::move(image), rmse});
@@ -126,55 +106,47 @@ class SceneJudge {
     }
   }
 
-  // Once per scene: is the truth the one that was accepted?
+  // Once per scene: is the reference image the one that was accepted?
   void check_truth(const TruthPair& pair) {
     if (truth_checked_ || !view_.baselines.present()) return;
     truth_checked_ = true;
-    Finding finding = finding_about(view_, Check::image, Verdict::pass, {});
-    finding.configuration = scene_;
+    Observation what{.cause = Cause::reference_changed, .against = Against::stored_image};
+    Verdict verdict = Verdict::regression;
+    Advised advice;
     if (stored_) {
-      const accuracy::ImageComparison comparison =
-          accuracy::compare(pair.truth, *stored_, truth_tolerance);
-      add_numbers(finding, comparison);
-      std::string wrong = accuracy::image_fault(comparison, pair.truth, *stored_, "the stored one");
-      if (wrong.empty()) {  // ids and depths, where they are certain
-        wrong = accuracy::image_fault(accuracy::compare(pair.truth, *stored_, pair.bound),
-                                      pair.truth, *stored_, "the stored one");
+      Observation how = image_observation(accuracy::compare(pair.truth, *stored_, truth_tolerance),
+                                          pair.truth, *stored_, Against::stored_image);
+      what.numbers = how.numbers;
+      if (how.cause == Cause::within_bound) {  // ids and depths, where they are certain
+        how = image_observation(accuracy::compare(pair.truth, *stored_, pair.bound), pair.truth,
+                                *stored_, Against::stored_image);
       }
-      finding.verdict = wrong.empty() ? Verdict::pass : Verdict::regression;
-      finding.message = wrong.empty()
-                            ? fmt::format("the truth is the stored one; largest difference {:.3g}",
-                                          comparison.largest.error)
-                            : "the scene or the truth changed: " + wrong;
+      if (how.cause == Cause::within_bound) what.cause = Cause::reference_as_stored;
+      if (how.cause != Cause::within_bound) what.because.push_back(std::move(how));
     } else if (reference_) {
       const bool same = is_same_reference(reference_hash(pair.truth), *reference_);
-      finding.verdict = same ? Verdict::pass : Verdict::regression;
-      finding.message = same ? "the truth has the stored hash"
-                             : "the scene or the truth changed: drawn now, it has another hash "
-                               "than was accepted";
+      if (same) what.cause = Cause::reference_as_stored;
     } else {
-      finding.verdict = Verdict::cannot_judge;
-      finding.message = "nothing is stored of this scene; accept it: " + view_.accept_command();
+      what.cause = Cause::not_stored;
+      verdict = Verdict::cannot_judge;
+      advice = view_.accept();
     }
+    if (what.cause == Cause::reference_as_stored) verdict = Verdict::pass;
+    Finding finding = finding_about(view_, Check::image, verdict, std::move(what), advice);
+    finding.configuration = scene_;
     out_.findings.push_back(std::move(finding));
   }
 
   void report_agreement(const Picture& nearer, const Picture& farther, double rms) {
     const bool agree = rms < device_agreement;
-    std::string message =
-        fmt::format("{} and {} differ most on their default paths: RMS {:.3g}, allowed {:.3g}",
-                    nearer.record->device, farther.record->device, rms, device_agreement);
-    if (!agree) {
-      message += fmt::format(
-          "; {} is farther from the truth (RMSE {:.3g}, {} {:.3g}), both within their bounds",
-          farther.record->device, farther.rmse, nearer.record->device, nearer.rmse);
-    }
-    Finding finding =
-        finding_about(*farther.record, Check::image, agree ? Verdict::pass : Verdict::regression,
-                      std::move(message));
+    Finding finding = finding_about(
+        *farther.record, Check::image, agree ? Verdict::pass : Verdict::regression,
+        {.cause = agree ? Cause::devices_agree : Cause::devices_disagree,
+         .against = Against::other_devices,
+         .numbers = {{"allowed", device_agreement}},
+         .facts = {{"other", nearer.record->device}, {"device", farther.record->device}}});
     finding.configuration = scene_;
     set_number(finding, "rms", rms);
-    set_number(finding, "allowed", device_agreement);
     set_number(finding, "rmse", farther.rmse);
     set_number(finding, "rmse_of_other", nearer.rmse);
     out_.findings.push_back(std::move(finding));
@@ -195,8 +167,8 @@ class SceneJudge {
 ImageFindings check_images(const RunView& view) {
   ImageFindings out;
   if (!view.request.truth) {
-    out.findings.push_back(finding_about(view, Check::image, Verdict::cannot_judge,
-                                         "there is no truth to judge pictures by"));
+    out.findings.push_back(
+        finding_about(view, Check::image, Verdict::cannot_judge, {.cause = Cause::no_reference}));
     return out;
   }
   std::map<std::string, std::vector<const record::Record*>> scenes;

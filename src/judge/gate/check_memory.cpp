@@ -1,7 +1,5 @@
 // Bytes allocated on the device, exact on the device that was accepted.
 
-#include <fmt/format.h>
-
 #include <set>
 
 #include "judge/gate/run_view.hpp"
@@ -16,7 +14,7 @@ std::uint64_t bytes_of(const record::Counts& memory, const std::string& kind) {
 
 Finding judge(const record::Record& record, const record::Counts& stored) {
   bool more = false;
-  std::vector<std::string> changes;
+  std::vector<Change> changes;
   std::set<std::string> kinds;
   for (const auto& [kind, bytes] : stored) kinds.insert(kind);
   for (const auto& [kind, bytes] : record.memory) kinds.insert(kind);
@@ -25,14 +23,20 @@ Finding judge(const record::Record& record, const record::Counts& stored) {
     const std::uint64_t now = bytes_of(record.memory, kind);
     if (now == before) continue;
     more = more || now > before;
-    changes.push_back(fmt::format("{} {} → {} bytes", kind, before, now));
+    changes.push_back({.name = kind,
+                       .unit = Unit::bytes,
+                       .before = static_cast<double>(before),
+                       .now = static_cast<double>(now)});
   }
   if (changes.empty()) {
     return finding_about(record, Check::memory, Verdict::pass,
-                         fmt::format("{} kinds of memory as stored", kinds.size()));
+                         {.cause = Cause::as_stored,
+                          .against = Against::baseline,
+                          .numbers = {{"values", static_cast<double>(kinds.size())}}});
   }
-  return finding_about(record, Check::memory, more ? Verdict::regression : Verdict::improved,
-                       fmt::format("{}", fmt::join(changes, "; ")));
+  return finding_about(
+      record, Check::memory, more ? Verdict::regression : Verdict::improved,
+      {.cause = Cause::values_changed, .against = Against::baseline, .changes = changes});
 }
 
 struct Untold {
@@ -44,22 +48,22 @@ struct Untold {
 
 void tell(const RunView& view, const record::Device& device, const Untold& untold,
           std::vector<Finding>& findings) {
-  const auto add = [&](Verdict verdict, std::string message) {
-    findings.push_back(finding_about(view, device, Check::memory, verdict, std::move(message)));
+  const auto add = [&](Verdict verdict, Observation what, Advised advice = {}) {
+    findings.push_back(
+        finding_about(view, device, Check::memory, verdict, std::move(what), std::move(advice)));
   };
   if (!untold.lost.empty()) {
-    add(Verdict::cannot_judge,
-        fmt::format("the memory of {} was not told; it was when they were accepted",
-                    examples_of(untold.lost)));
+    add(Verdict::cannot_judge, {.cause = Cause::no_longer_reported, .names = untold.lost});
   } else if (untold.told == 0) {
-    add(Verdict::skipped, "it does not tell what memory it takes");
+    add(Verdict::skipped, {.cause = Cause::not_reported});
   }
   if (untold.not_stored.empty()) return;
-  add(untold.accepted ? Verdict::cannot_judge : Verdict::advisory,
-      fmt::format(
-          "no stored memory {}; accept it: {}",
-          untold.accepted ? "for " + examples_of(untold.not_stored) : std::string("of this device"),
-          view.accept_command()));
+  if (untold.accepted) {
+    add(Verdict::cannot_judge, {.cause = Cause::not_stored, .names = untold.not_stored},
+        view.accept());
+  } else {
+    add(Verdict::advisory, {.cause = Cause::no_stored_device}, view.accept());
+  }
 }
 
 }  // namespace
@@ -80,7 +84,7 @@ std::vector<Finding> check_memory(const RunView& view) {
       untold.lost.push_back(record->configuration);
     } else if (record->injected.find("slowdown:") != std::string::npos) {
       findings.push_back(finding_about(*record, Check::memory, Verdict::skipped,
-                                       "what an injected slowdown draws again takes memory"));
+                                       {.cause = Cause::injected_memory}));
     } else {
       findings.push_back(judge(*record, own->second));
     }

@@ -10,97 +10,94 @@
 namespace triptych::judge {
 namespace {
 
-using Calibration = std::map<std::string, std::string>;  // record::Device::statistics_calibration
+using Calibration =
+    std::map<std::string, record::StatisticWorth>;  // record::Device::statistics_calibration
 
 Finding check_exact(const RunView& view, const record::Record& record,
                     const record::Counts& stored) {
-  const auto about = [&](Verdict verdict, std::string message) {
-    return finding_about(record, Check::statistics, verdict, std::move(message));
+  const auto about = [&](Verdict verdict, Observation what, Advised advice = {}) {
+    what.against = Against::baseline;
+    return finding_about(record, Check::statistics, verdict, std::move(what), std::move(advice));
   };
   if (record.statistics.empty()) {
-    return stored.empty()
-               ? about(Verdict::skipped, "the device tells no pipeline statistics")
-               : about(Verdict::cannot_judge,
-                       "no statistics were read, though this driver told them before; run "
-                       "the plan again with statistics frames");
+    return stored.empty() ? about(Verdict::skipped, {.cause = Cause::not_reported})
+                          : about(Verdict::cannot_judge, {.cause = Cause::no_longer_reported},
+                                  {Advice::run_again});
   }
   const Calibration& calibration = view.device(record).statistics_calibration;
-  std::vector<std::string> wrong;
+  std::vector<Change> wrong;
   std::vector<std::string> unsteady;
   for (const auto& [name, value] : stored) {
+    Change change{.name = name, .before = static_cast<double>(value)};
     const auto found = record.statistics.find(name);
     if (found == record.statistics.end()) {
-      wrong.push_back(fmt::format("{} is missing, stored {}", name, value));
-    } else if (is_unsteady(statistic_reservation(calibration, name))) {
+      wrong.push_back(std::move(change));
+    } else if (worth_of(calibration, name).is_unsteady()) {
       unsteady.push_back(name);
     } else if (found->second != value) {
-      wrong.push_back(fmt::format("{} {} → {}", name, value, found->second));
+      change.now = static_cast<double>(found->second);
+      wrong.push_back(std::move(change));
     }
   }
   if (!wrong.empty()) {
     return about(Verdict::regression,
-                 fmt::format("on the same driver version: {}", fmt::join(wrong, "; ")));
+                 {.cause = Cause::values_changed, .changes = std::move(wrong)});
   }
   std::vector<std::string> unknown;
   for (const auto& [name, value] : record.statistics) {
     if (!stored.contains(name)) unknown.push_back(name);
   }
   if (!unknown.empty()) {
-    return about(Verdict::cannot_judge,
-                 fmt::format("statistics without a stored value: {}; accept them: {}",
-                             fmt::join(unknown, ", "), view.accept_command()));
+    return about(Verdict::cannot_judge, {.cause = Cause::unknown_values, .names = unknown},
+                 view.accept());
   }
-  std::string message = fmt::format("{} statistics as stored", stored.size() - unsteady.size());
-  if (!unsteady.empty()) {
-    message += fmt::format("; unsteady, so not compared: {}", fmt::join(unsteady, ", "));
-  }
-  return about(Verdict::pass, std::move(message));
+  const auto values = static_cast<double>(stored.size() - unsteady.size());
+  return about(Verdict::pass,
+               {.cause = Cause::as_stored, .numbers = {{"values", values}}, .names = unsteady});
 }
 
 // Of a device whose driver version is new here, over all that it measured.
 struct Elsewhere {
-  std::vector<std::string> configurations;
-  std::set<std::string> differences;   // which portable values no stored driver has
-  std::set<std::string> differing;     // in which configurations
-  std::set<std::string> not_compared;  // with the reason
-  std::size_t stored = 0;              // configurations that some driver has
-  std::size_t compared = 0;            // values
+  std::size_t configurations = 0;
+  std::map<std::string, Change> differences;  // portable values that no stored driver has
+  std::set<std::string> differing;            // in which configurations
+  // Statistic → drivers that do not count it exactly, with what it is worth there. No driver: this.
+  std::map<std::pair<std::string, std::string>, std::string_view> not_compared;
+  std::size_t stored = 0;    // configurations that some driver has
+  std::size_t compared = 0;  // values
 };
 
-// "input_assembly_vertices 3, but 6 on gl-llvmpipe-egl-…"; "geometry_primitives (here differs: …)".
 void compare_elsewhere(const RunView& view, const record::Record& record, const std::string& name,
                        const std::map<std::string, record::Counts>& stored, Elsewhere& result) {
   const auto own = record.statistics.find(name);
   if (own == record.statistics.end()) return;
-  const std::string here = statistic_reservation(view.device(record).statistics_calibration, name);
-  if (!here.empty()) {
-    result.not_compared.insert(fmt::format("{} (here {})", name, here));
+  const auto here = worth_of(view.device(record).statistics_calibration, name);
+  if (!here.is_exact()) {
+    result.not_compared[{name, ""}] = name_of(here.worth);
     return;
   }
-  std::vector<std::string> others;
+  Change change{.name = name, .now = static_cast<double>(own->second)};
   bool agrees = false;
   for (const auto& [driver, counts] : stored) {
     const auto other = counts.find(name);
     if (other == counts.end()) continue;
-    const std::string there =
-        statistic_reservation(view.baselines.statistics_calibration(driver), name);
-    if (!there.empty()) {
-      result.not_compared.insert(fmt::format("{} (on {} {})", name, driver, there));
+    const auto there = worth_of(view.baselines.statistics_calibration(driver), name);
+    if (!there.is_exact()) {
+      result.not_compared[{name, driver}] = name_of(there.worth);
       continue;
     }
     agrees = agrees || other->second == own->second;
-    others.push_back(fmt::format("{} on {}", other->second, driver));
+    change.accepted.emplace(driver, static_cast<double>(other->second));
   }
-  if (!others.empty()) ++result.compared;
-  if (!agrees && !others.empty()) {
-    result.differences.insert(
-        fmt::format("{} {}, but {}", name, own->second, fmt::join(others, ", ")));
-    result.differing.insert(record.configuration);
-  }
+  if (change.accepted.empty()) return;
+  ++result.compared;
+  if (agrees) return;
+  result.differences.emplace(name, std::move(change));
+  result.differing.insert(record.configuration);
 }
 
 void look_elsewhere(const RunView& view, const record::Record& record, Elsewhere& result) {
-  result.configurations.push_back(record.configuration);
+  ++result.configurations;
   const auto stored = view.baselines.statistics_of_all_drivers(record.configuration);
   if (stored.empty()) return;
   ++result.stored;
@@ -110,32 +107,20 @@ void look_elsewhere(const RunView& view, const record::Record& record, Elsewhere
 }
 
 Finding tell_elsewhere(const RunView& view, const record::Device& device, const Elsewhere& result) {
-  constexpr std::size_t named = 3;
-  std::string message =
-      fmt::format("nothing stored for this driver version ({}), {} configurations; ",
-                  device.driver_version, result.configurations.size());
-  if (result.stored == 0) {
-    message += "nor for any other";
-  } else if (!result.differences.empty()) {
-    const std::size_t n = std::min(named, result.differences.size());
-    const std::vector<std::string> first(
-        result.differences.begin(),
-        std::next(result.differences.begin(), static_cast<std::ptrdiff_t>(n)));
-    message += fmt::format("in {} of them it differs from every stored driver: {}{}",
-                           result.differing.size(), fmt::join(first, "; "),
-                           result.differences.size() > n ? "; …" : "");
-  } else if (result.compared == 0 && !result.not_compared.empty()) {
-    message += "no number of it can be held against the stored ones";
-  } else {
-    message += "what drivers must agree on agrees with the stored ones";
+  Observation what{.cause = Cause::other_driver_statistics,
+                   .against = Against::other_devices,
+                   .numbers = {{"configurations", static_cast<double>(result.configurations)},
+                               {"stored", static_cast<double>(result.stored)},
+                               {"compared", static_cast<double>(result.compared)},
+                               {"differences", static_cast<double>(result.differing.size())}},
+                   .facts = {{"driver_version", device.driver_version}}};
+  for (const auto& [name, change] : result.differences) what.changes.push_back(change);
+  for (const auto& [place, worth] : result.not_compared) {
+    const auto& [name, driver] = place;
+    what.names.push_back(driver.empty() ? fmt::format("{}: {}", name, worth)
+                                        : fmt::format("{} on {}: {}", name, driver, worth));
   }
-  if (!result.not_compared.empty()) {
-    message += fmt::format("; not compared: {}", fmt::join(result.not_compared, "; "));
-  }
-  Finding finding =
-      finding_about(view, device, Check::statistics, Verdict::advisory, std::move(message));
-  set_number(finding, "differences", static_cast<double>(result.differing.size()));
-  return finding;
+  return finding_about(view, device, Check::statistics, Verdict::advisory, std::move(what));
 }
 
 class StatisticsCheck {
@@ -146,15 +131,15 @@ class StatisticsCheck {
     const record::Device& device = view_.device(record);
     const auto stored = view_.baselines.statistics(device, record.configuration);
     if (record.untimed() && record.statistics.empty()) {
-      findings_.push_back(finding_about(record, Check::statistics, Verdict::skipped,
-                                        "pipeline statistics were not read: the run was untimed"));
+      findings_.push_back(
+          finding_about(record, Check::statistics, Verdict::skipped, {.cause = Cause::untimed}));
     } else if (stored) {
       findings_.push_back(check_exact(view_, record, *stored));
     } else if (view_.baselines.has_statistics(device)) {
       not_stored_[record.device].push_back(record.configuration);
     } else if (record.statistics.empty()) {
       findings_.push_back(finding_about(record, Check::statistics, Verdict::skipped,
-                                        "the device tells no pipeline statistics"));
+                                        {.cause = Cause::not_reported}));
     } else {
       look_elsewhere(view_, record, elsewhere_[record.device]);
     }
@@ -167,8 +152,7 @@ class StatisticsCheck {
     for (const auto& [device, configurations] : not_stored_) {
       findings_.push_back(
           finding_about(view_, view_.devices.at(device), Check::statistics, Verdict::cannot_judge,
-                        fmt::format("no stored statistics for {}; accept them: {}",
-                                    examples_of(configurations), view_.accept_command())));
+                        {.cause = Cause::not_stored, .names = configurations}, view_.accept()));
     }
     return std::move(findings_);
   }
@@ -182,11 +166,11 @@ class StatisticsCheck {
 
 }  // namespace
 
-std::string statistic_reservation(const Calibration& calibration, const std::string& statistic) {
+record::StatisticWorth worth_of(const Calibration& calibration, const std::string& statistic) {
   if (calibration.empty()) return {};
-  const auto verdict = calibration.find(statistic);
-  if (verdict == calibration.end()) return "not calibrated";
-  return verdict->second == "exact" ? std::string() : verdict->second;
+  const auto known = calibration.find(statistic);
+  if (known != calibration.end()) return known->second;
+  return {.worth = record::Worth::not_calibrated};
 }
 
 std::vector<Finding> check_statistics(const RunView& view) {

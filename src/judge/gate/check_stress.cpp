@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 
@@ -31,14 +29,15 @@ Finding judge(const RunView& view, const StressScored& scored) {
   const record::Record& record = *scored.record;
   const int points = scored.score.points();
   const auto accepted = allowed_on(view.baselines.scores(record.configuration), record.device);
-  std::string message = fmt::format("scores {} of {}", points, best_stress_score);
-  if (accepted) message += fmt::format(", accepted {}", *accepted);
-  if (!scored.score.lost.empty()) message += ": " + scored.score.lost;
-  if (!accepted) message += "; no stored score, accept it: " + view.accept_command();
-  Finding finding = finding_about(record, Check::stress, verdict_of(points, accepted), message);
-  set_number(finding, "score", points);
-  if (accepted) set_number(finding, "accepted", *accepted);
-  return finding;
+  Observation what{.cause = Cause::score,
+                   .against = Against::baseline,
+                   .numbers = {{"score", points}, {"best", best_stress_score}},
+                   .outcome = record.outcome,
+                   .reason = record.reason,
+                   .because = scored.score.lost};
+  if (accepted) what.numbers["accepted"] = *accepted;
+  return finding_about(record, Check::stress, verdict_of(points, accepted), std::move(what),
+                       accepted ? Advised{} : view.accept());
 }
 
 }  // namespace
@@ -47,8 +46,8 @@ std::vector<Finding> check_stress(const RunView& view) {
   std::vector<Finding> findings;
   if (view.records.empty()) return findings;
   if (!view.request.truth) {
-    findings.push_back(finding_about(view, Check::stress, Verdict::cannot_judge,
-                                     "there is no truth to judge pictures by"));
+    findings.push_back(
+        finding_about(view, Check::stress, Verdict::cannot_judge, {.cause = Cause::no_reference}));
     return findings;
   }
   // Devices that are not asked for say what those that are should show.

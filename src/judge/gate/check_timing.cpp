@@ -1,7 +1,5 @@
 // Times against the accepted run's: shown, and no verdict unless it is asked for.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -38,11 +36,6 @@ Ratio ratio_of(const record::Record& record, std::string_view clock, const Store
           normal * std::hypot(log_spread(times), stored.spread)};
 }
 
-std::string text_of(const Ratio& ratio) {
-  return fmt::format("{:+.1f} % ± {:.1f} %", 100 * std::expm1(ratio.log_ratio),
-                     100 * std::expm1(ratio.half_width));
-}
-
 class DeviceTimes {
  public:
   DeviceTimes(const RunView& view, const record::Device& device, const WrongImages& wrong)
@@ -51,16 +44,13 @@ class DeviceTimes {
   void look_at(const record::Record& record) {
     const auto wrong = wrong_.find({record.device, record.configuration});
     if (record.untimed()) {
-      add(record, Verdict::skipped, "timings were not measured: the run was untimed");
+      add(record, Verdict::skipped, {.cause = Cause::untimed});
     } else if (!record.same_as.empty()) {
-      add(record, Verdict::skipped,
-          fmt::format("its frames are another configuration's, which its scene cannot tell from it "
-                      "({})",
-                      record.reason));
+      add(record, Verdict::skipped, {.cause = Cause::same_frames, .reason = record.reason});
     } else if (wrong != wrong_.end()) {
       add_wrong(record, wrong->second);
     } else if (!is_time(record.time_ns())) {
-      add(record, Verdict::cannot_judge, "no time was measured; run the plan again");
+      add(record, Verdict::cannot_judge, {.cause = Cause::no_time}, {Advice::run_again});
     } else {
       compare(record);
     }
@@ -69,26 +59,25 @@ class DeviceTimes {
   std::vector<Finding> finish() && {
     // Where times decide, what they cannot be held against is no pass.
     const Verdict missing = decides() ? Verdict::cannot_judge : Verdict::advisory;
-    if (!not_stored_.empty()) {
-      add(missing, stored_.empty() ? "no stored times of this device: " + device_.key()
-                                   : fmt::format("no stored times for {}; accept them: {}",
-                                                 examples_of(not_stored_), view_.accept_command()));
+    if (!not_stored_.empty() && stored_.empty()) {
+      add(missing, {.cause = Cause::no_stored_device, .facts = {{"device_key", device_.key()}}});
+    } else if (!not_stored_.empty()) {
+      add(missing, {.cause = Cause::not_stored, .names = not_stored_}, view_.accept());
     }
-    if (!other_clock_.empty()) {
-      add(missing,
-          fmt::format("the stored times of {} are by another clock", examples_of(other_clock_)));
-    }
+    if (!other_clock_.empty()) add(missing, {.cause = Cause::other_clock, .names = other_clock_});
     summarise();
     return std::move(findings_);
   }
 
  private:
   [[nodiscard]] bool decides() const { return view_.request.times_decide; }
-  void add(const record::Record& record, Verdict verdict, std::string message) {
-    findings_.push_back(finding_about(record, Check::timing, verdict, std::move(message)));
+  void add(const record::Record& record, Verdict verdict, Observation what, Advised advice = {}) {
+    findings_.push_back(
+        finding_about(record, Check::timing, verdict, std::move(what), std::move(advice)));
   }
-  void add(Verdict verdict, std::string message) {
-    findings_.push_back(finding_about(view_, device_, Check::timing, verdict, std::move(message)));
+  void add(Verdict verdict, Observation what, Advised advice = {}) {
+    findings_.push_back(
+        finding_about(view_, device_, Check::timing, verdict, std::move(what), std::move(advice)));
   }
   static bool is_time(const std::vector<double>& times) {
     const double middle = estimation::median(times);  // NaN of none
@@ -96,11 +85,11 @@ class DeviceTimes {
   }
 
   // Where the picture is judged as well, or excused, that is the verdict.
-  void add_wrong(const record::Record& record, const std::string& why) {
+  void add_wrong(const record::Record& record, const Observation& why) {
     const bool is_told =
         view_.checks.contains(Check::image) || is_waived(view_, record, Check::image);
     add(record, is_told ? Verdict::skipped : Verdict::cannot_judge,
-        "its picture is wrong, so its time means nothing: " + why);
+        {.cause = Cause::wrong_image, .because = {why}});
   }
 
   void compare(const record::Record& record) {
@@ -123,15 +112,16 @@ class DeviceTimes {
     const record::Record& record = *ratio.record;
     const double now = estimation::median(record.time_ns_by(clock));
     const Verdict verdict = verdict_of(ratio);
-    std::string message = fmt::format("{:.4g} ms, stored {:.4g} ms: {}", 1e-6 * now,
-                                      1e-6 * stored.median_ns, text_of(ratio));
-    if (verdict != Verdict::pass) {
-      message += "; " + why_text(work_change(record.counters, view_.baselines, record.configuration,
-                                             record.device),
-                                 ratio.log_ratio);
+    Observation what{.cause = Cause::time,
+                     .against = Against::baseline,
+                     .facts = {{"clock", std::string(clock)}}};
+    if (const auto work =
+            work_change(record.counters, view_.baselines, record.configuration, record.device)) {
+      what.facts["work"] = work->unit;
+      set_number(what, "work_ratio", std::exp(work->log_ratio));
     }
-    if (stored.kernel_hash != record.kernel_hash) message += "; the device code changed since";
-    add(record, verdict, std::move(message));
+    if (stored.kernel_hash != record.kernel_hash) what.facts["kernel_hash"] = record.kernel_hash;
+    add(record, verdict, std::move(what));
     set_number(findings_.back(), "ratio", std::exp(ratio.log_ratio));
     set_number(findings_.back(), "half_width", ratio.half_width);
     set_number(findings_.back(), "median_ns", now);
@@ -146,11 +136,14 @@ class DeviceTimes {
     const double middle = estimation::median(logarithms);
     const Ratio& worst = *std::ranges::max_element(ratios_, {}, &Ratio::log_ratio);
     add(Verdict::advisory,
-        fmt::format("times: {:+.1f} % (median of {} configurations), at worst {} in {}{}",
-                    100 * std::expm1(middle), ratios_.size(), text_of(worst),
-                    worst.record->configuration, decides() ? "" : "; they decide with --times"));
+        {.cause = Cause::times,
+         .against = Against::baseline,
+         .numbers = {{"configurations", static_cast<double>(ratios_.size())}},
+         .facts = {{"configuration", worst.record->configuration}}},
+        {decides() ? Advice::none : Advice::times});
     set_number(findings_.back(), "ratio", std::exp(middle));
     set_number(findings_.back(), "worst_ratio", std::exp(worst.log_ratio));
+    set_number(findings_.back(), "worst_half_width", worst.half_width);
   }
 
   const RunView& view_;

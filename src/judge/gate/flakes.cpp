@@ -1,12 +1,9 @@
 #include "judge/gate/flakes.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 
 #include "judge/gate/run_view.hpp"
-#include "record/hung.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -23,37 +20,31 @@ bool is_right(Verdict verdict) {
   return verdict == Verdict::pass || verdict == Verdict::improved || verdict == Verdict::advisory;
 }
 
-// As what a finding is expected the next time, and why; nothing: as a pass.
-std::optional<std::pair<Known, std::string>> expected_as(const Finding& finding) {
-  const std::string& message = finding.message;
-  if (finding.verdict == Verdict::skipped) return std::pair(Known::skip, message);
+// As what a finding is expected the next time; nothing: as a pass.
+std::optional<Known> expected_as(const Finding& finding) {
+  if (finding.verdict == Verdict::skipped) return Known::skip;
   if (finding.verdict == Verdict::regression) {
-    if (!message.starts_with(flake_prefix)) return std::pair(Known::fail, message);
-    return std::pair(Known::flake, message.substr(flake_prefix.size()));
+    return finding.drawn_again == Again::flake ? Known::flake : Known::fail;
   }
-  if (finding.verdict != Verdict::waived) return std::nullopt;
-  for (const Known known : {Known::fail, Known::flake}) {
-    const std::string prefix = fmt::format("{}{}: ", known_prefix, name_of(known));
-    if (message.starts_with(prefix)) return std::pair(known, message.substr(prefix.size()));
-  }
-  return std::nullopt;
+  const bool known = finding.verdict == Verdict::waived && finding.excuse.of == Excuse::Of::known;
+  return known ? std::optional(finding.excuse.known) : std::nullopt;
 }
 
-// That `finding` was right the second time: a flake, or a hang that a time cannot tell from a slow
+// That `finding` was right the second time: a flake, or a timeout that cannot be told from a slow
 // driver.
 Finding right_again(const Finding& finding) {
   Finding again = finding;
-  if (record::limit_in(finding.message)) {
+  again.drawn_again = Again::flake;
+  if (finding.reason.limit()) {
     again.verdict = Verdict::cannot_judge;
-    again.message += slow_suffix;
-  } else {
-    again.message.insert(0, flake_prefix);
+    again.drawn_again = Again::slow;
+    again.advice = {Advice::more_time};
   }
   return again;
 }
 
 // What became of a regression. Where its check says nothing of the place any more, it was the crash
-// of what has no finding once it is drawn, such as a picture of speed_of_light.
+// of what has no finding once it is drawn, such as an image of speed_of_light.
 void tell_again(const Finding& finding, Redrawn& redrawn) {
   std::vector<Finding>& findings = redrawn.result.findings;
   const auto again = std::ranges::find_if(findings, [&](const Finding& each) {
@@ -65,7 +56,8 @@ void tell_again(const Finding& finding, Redrawn& redrawn) {
   if (stands) return;
   Finding now = finding;
   if (told && !is_right(again->verdict)) {
-    now.message += fmt::format("; drawn again: {}", again->message);
+    now.drawn_again = Again::other;
+    now.again = {*again};
   } else {
     now = right_again(finding);
     if (now.verdict == Verdict::regression) redrawn.flakes.insert(place_of(finding));
@@ -96,7 +88,8 @@ Redrawn tell_flakes(const GateResult& first, GateResult second, const Places& pl
   return redrawn;
 }
 
-std::vector<Waiver> as_expected(std::span<const GateResult> results) {
+std::vector<Waiver> as_expected(std::span<const GateResult> results,
+                                const std::function<std::string(const Finding&)>& reason_of) {
   std::vector<Waiver> expected;
   for (const GateResult& result : results) {
     for (const Finding& finding : result.findings) {
@@ -104,10 +97,10 @@ std::vector<Waiver> as_expected(std::span<const GateResult> results) {
       if (!known || !is_of_one_configuration(finding)) continue;
       expected.push_back({.device = finding.device,
                           .test = finding.test,
-                          .reason = known->second,
+                          .reason = reason_of(finding),
                           .expiry = {},
                           .configuration = finding.configuration,
-                          .known = known->first});
+                          .known = *known});
     }
   }
   return expected;

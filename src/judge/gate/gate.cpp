@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -12,7 +13,6 @@
 #include "core/glob.hpp"
 #include "core/quoting.hpp"
 #include "judge/gate/run_view.hpp"
-#include "record/bad_input.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -21,24 +21,20 @@ bool asked_for(const GateRequest& request, const std::string& device) {
   return request.devices.empty() || core::any_glob_matches(request.devices, device);
 }
 
-// Why no number of the record can be held against any: it is of other data than was accepted under
-// the same name, or than are here now. Empty: it can.
-std::string other_data(const RunView& view, const record::Record& record) {
-  if (record.data_hash.empty()) return {};
+// The record's data are not those that were accepted under the same name, or not those that are
+// here now: its numbers are compared with none.
+std::optional<Observation> other_data(const RunView& view, const record::Record& record) {
+  if (record.data_hash.empty()) return std::nullopt;
   const std::string accepted =
       view.baselines.present() ? view.baselines.data_hash(record) : std::string();
   if (!accepted.empty() && accepted != record.data_hash) {
-    return fmt::format(
-        "its data is not what was accepted under this name (content hash {}, "
-        "accepted {}): restore the file and run again, or {}",
-        record.data_hash, accepted, view.accept_command());
+    return Observation{.cause = Cause::other_data,
+                       .facts = {{"hash", record.data_hash}, {"accepted", accepted}}};
   }
   const std::string now = view.request.data_hash ? view.request.data_hash(record) : std::string();
-  if (now.empty() || now == record.data_hash) return {};
-  return fmt::format(
-      "its data has changed since it was measured (content hash {}, now {}): "
-      "restore the file or run again",
-      record.data_hash, now);
+  if (now.empty() || now == record.data_hash) return std::nullopt;
+  return Observation{.cause = Cause::data_changed,
+                     .facts = {{"hash", record.data_hash}, {"now", now}}};
 }
 
 record::Run run_of(const record::Store& store, const std::string& id) {
@@ -65,7 +61,7 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   }
   for (const record::Record& record : view.records) {
     if (record.outcome != record::Outcome::measured) continue;
-    (other_data(view, record).empty() ? view.measured : view.of_other_data).push_back(&record);
+    (other_data(view, record) ? view.of_other_data : view.measured).push_back(&record);
   }
   return view;
 }
@@ -88,15 +84,15 @@ void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
   for (const record::Record& record : view.records) {
     if (record.outcome == record::Outcome::measured) continue;
     if (scored && record.outcome != record::Outcome::skipped) continue;
-    Verdict verdict = Verdict::regression;
-    std::string message = fmt::format("{}: {}", name_of(record.outcome), record.reason);
-    if (record.outcome == record::Outcome::skipped) {
-      const bool missed = measured_before(view, record);
-      const bool wanted = missed || record::has_bad_input(record);
-      verdict = wanted ? Verdict::cannot_judge : Verdict::skipped;
-      if (missed) message += "; the same device measured it when its baselines were accepted";
-    }
-    findings.push_back(finding_about(record, check, verdict, std::move(message)));
+    const bool skipped = record.outcome == record::Outcome::skipped;
+    const bool missed = skipped && measured_before(view, record);
+    const Verdict verdict = !skipped                                  ? Verdict::regression
+                            : missed || record::has_bad_input(record) ? Verdict::cannot_judge
+                                                                      : Verdict::skipped;
+    findings.push_back(
+        finding_about(record, check, verdict,
+                      {.cause = Cause::ended, .outcome = record.outcome, .reason = record.reason}));
+    findings.back().measured_before = missed;
   }
 }
 
@@ -104,21 +100,22 @@ void report_nothing_measured(const RunView& view, const std::string& run,
                              std::vector<Finding>& findings) {
   const Check check = *view.checks.begin();
   if (run.empty()) {
-    findings.push_back(finding_about(view, check, Verdict::cannot_judge,
-                                     "nothing was measured: no run was begun"));
+    findings.push_back(finding_about(view, check, Verdict::cannot_judge, {.cause = Cause::no_run}));
   } else if (view.measured.empty() && view.of_other_data.empty()) {
-    findings.push_back(finding_about(
-        view, check, Verdict::cannot_judge,
-        fmt::format("nothing was measured: run {} holds {} records of {} on the devices asked for",
-                    run, view.records.size(), view.request.plan)));
+    findings.push_back(
+        finding_about(view, check, Verdict::cannot_judge,
+                      {.cause = Cause::nothing_measured,
+                       .numbers = {{"records", static_cast<double>(view.records.size())}},
+                       .facts = {{"run", run}, {"plan", view.request.plan}}}));
   }
   for (const std::string& glob : view.request.required_devices) {
     const bool there = std::ranges::any_of(view.measured, [&](const record::Record* record) {
       return core::glob_matches(glob, record->device);
     });
     if (there) continue;
-    findings.push_back(finding_about(view, check, Verdict::cannot_judge,
-                                     fmt::format("the required device {} measured nothing", glob)));
+    findings.push_back(
+        finding_about(view, check, Verdict::cannot_judge,
+                      {.cause = Cause::no_required_device, .facts = {{"glob", glob}}}));
   }
 }
 
@@ -136,13 +133,15 @@ void report_missing(const RunView& view, const record::Device& device,
   std::vector<std::string> missing;
   std::ranges::set_difference(wanted, there, std::back_inserter(missing));
   if (missing.empty()) return;
-  findings.push_back(finding_about(
-      view, device, *view.checks.begin(), Verdict::cannot_judge,
-      fmt::format("missing rows: of {} {} configurations there is no record of {}; finish the run "
-                  "with triptych run {} --resume{}",
-                  wanted.size(), kind, examples_of(missing), core::shell_quoted(view.argument()),
-                  view.request.store_option)));
-  set_number(findings.back(), "missing", static_cast<double>(missing.size()));
+  findings.push_back(finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
+                                   {.cause = Cause::missing,
+                                    .numbers = {{"missing", static_cast<double>(missing.size())},
+                                                {"wanted", static_cast<double>(wanted.size())}},
+                                    .names = missing,
+                                    .facts = {{"kind", std::string(kind)}}},
+                                   {Advice::resume, fmt::format("triptych run {} --resume{}",
+                                                                core::shell_quoted(view.argument()),
+                                                                view.request.store_option)}));
 }
 
 // Every device must have a record, of whatever outcome, of every configuration of the plan, of
@@ -162,9 +161,8 @@ void report_rows(const RunView& view, std::vector<Finding>& findings) {
     std::vector<std::string> extra;
     std::ranges::set_difference(there, expected, std::back_inserter(extra));
     if (expected.empty() || extra.empty()) continue;
-    findings.push_back(
-        finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
-                      fmt::format("the plan does not have {}; run it again", examples_of(extra))));
+    findings.push_back(finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
+                                     {.cause = Cause::extra, .names = extra}, {Advice::run_again}));
   }
 }
 
@@ -174,65 +172,100 @@ void report_other_plan(const RunView& view, const std::string& run,
   if (view.request.plan_hash.empty() || view.records.empty()) return;
   const std::string measured = run_of(view.store, run).plan_hash;
   if (measured == view.request.plan_hash) return;
-  findings.push_back(finding_about(
-      view, *view.checks.begin(), Verdict::cannot_judge,
-      fmt::format(
-          "run {} is of another plan than {} is now ({}); run it again", run, view.request.plan,
-          measured.empty() ? "it kept no hash"
-                           : fmt::format("hash {}, now {}", measured, view.request.plan_hash))));
+  findings.push_back(finding_about(view, *view.checks.begin(), Verdict::cannot_judge,
+                                   {.cause = Cause::other_plan,
+                                    .facts = {{"run", run},
+                                              {"plan", view.request.plan},
+                                              {"hash", measured},
+                                              {"now", view.request.plan_hash}}},
+                                   {Advice::run_again}));
 }
 
 void report_other_data(const RunView& view, std::vector<Finding>& findings) {
   for (const record::Record* record : view.of_other_data) {
+    Observation what = other_data(view, *record).value_or(Observation{});
+    Advised advice = what.cause == Cause::other_data ? view.accept(Advice::restore_data)
+                                                     : Advised{Advice::restore_or_run_again};
     findings.push_back(finding_about(*record, *view.checks.begin(), Verdict::cannot_judge,
-                                     other_data(view, *record)));
+                                     std::move(what), std::move(advice)));
   }
 }
 
 void report_no_baselines(const RunView& view, std::vector<Finding>& findings) {
-  const std::string folder = view.baselines.folder().string();
   const std::string& problem = view.baselines.problem();
-  findings.push_back(finding_about(
-      view, *view.checks.begin(), Verdict::cannot_judge,
-      problem.empty() ? fmt::format("there are no baselines in {}; make them with {}", folder,
-                                    view.accept_command())
-                      : fmt::format("{}: {}: restore it from version control, or start "
-                                    "over with {} --drop",
-                                    folder, problem, view.accept_command())));
+  Advised advice = view.accept();
+  if (!problem.empty()) {
+    advice.advice = Advice::restore_baselines;
+    advice.command += " --drop";
+  }
+  findings.push_back(finding_about(view, *view.checks.begin(), Verdict::cannot_judge,
+                                   {.cause = Cause::no_baselines,
+                                    .facts = {{"folder", view.baselines.folder().string()}},
+                                    .detail = problem},
+                                   std::move(advice)));
 }
 
 void append(std::vector<Finding>& findings, std::vector<Finding> more) {
   std::ranges::move(more, std::back_inserter(findings));
 }
 
-bool judges_times(const RunView& view) {
-  return view.baselines.present() && view.checks.contains(Check::timing);
+// What the checks add to, in their order.
+struct Judging {
+  const RunView& view;
+  GateResult& result;
+  WrongImages wrong = {};
+};
+
+// A wrong image voids its time, so images are compared for a check of times too.
+void judge_images(Judging& all) {
+  const bool wanted = all.view.checks.contains(Check::image);
+  const bool for_times = all.view.baselines.present() && all.view.request.truth &&
+                         all.view.checks.contains(Check::timing);
+  if (!wanted && !for_times) return;
+  ImageFindings images = check_images(all.view);
+  if (wanted) append(all.result.findings, std::move(images.findings));
+  all.wrong = std::move(images.wrong);
 }
 
-// All but times. A wrong picture voids its time, so pictures are judged for those too.
-WrongImages run_exact_checks(const RunView& view, GateResult& result) {
-  std::vector<Finding>& findings = result.findings;
-  ImageFindings images;
-  const bool wants_images = view.checks.contains(Check::image);
-  if (wants_images || (judges_times(view) && view.request.truth)) images = check_images(view);
-  if (wants_images) append(findings, std::move(images.findings));
-  if (view.checks.contains(Check::accuracy)) {
-    AccuracyFindings accuracies = check_accuracies(view);
-    append(findings, std::move(accuracies.findings));
-    result.accuracies = std::move(accuracies.scenes);
+// One row per check, in the order in which they are judged. A test holds it to record::every_check.
+struct CheckRow {
+  Check check;
+  bool against_baselines;  // there is nothing to judge without them
+  void (*judge)(Judging&);
+};
+constexpr std::array check_rows{
+    CheckRow{Check::accuracy, false,
+             [](Judging& all) {
+               AccuracyFindings found = check_accuracies(all.view);
+               append(all.result.findings, std::move(found.findings));
+               all.result.accuracies = std::move(found.scenes);
+             }},
+    CheckRow{Check::stress, false,
+             [](Judging& all) { append(all.result.findings, check_stress(all.view)); }},
+    CheckRow{Check::counters, true,
+             [](Judging& all) { append(all.result.findings, check_counters(all.view)); }},
+    CheckRow{Check::statistics, true,
+             [](Judging& all) { append(all.result.findings, check_statistics(all.view)); }},
+    CheckRow{Check::cost, true,
+             [](Judging& all) { append(all.result.findings, check_cost(all.view)); }},
+    CheckRow{Check::memory, true,
+             [](Judging& all) { append(all.result.findings, check_memory(all.view)); }},
+    CheckRow{Check::correlation, true,
+             [](Judging& all) {
+               CorrelationFindings found = check_correlations(all.view, all.wrong);
+               append(all.result.findings, std::move(found.findings));
+               all.result.correlations = std::move(found.pairs);
+             }},
+    CheckRow{Check::timing, true,
+             [](Judging& all) { append(all.result.findings, check_timings(all.view, all.wrong)); }},
+};
+
+void run_checks(Judging& all) {
+  judge_images(all);
+  for (const CheckRow& row : check_rows) {
+    const bool possible = !row.against_baselines || all.view.baselines.present();
+    if (possible && all.view.checks.contains(row.check)) row.judge(all);
   }
-  if (view.checks.contains(Check::stress)) append(findings, check_stress(view));
-  if (!view.baselines.present()) return std::move(images.wrong);
-  if (view.checks.contains(Check::counters)) append(findings, check_counters(view));
-  if (view.checks.contains(Check::statistics)) append(findings, check_statistics(view));
-  if (view.checks.contains(Check::cost)) append(findings, check_cost(view));
-  if (view.checks.contains(Check::memory)) append(findings, check_memory(view));
-  if (view.checks.contains(Check::correlation)) {
-    CorrelationFindings correlations = check_correlations(view, images.wrong);
-    append(findings, std::move(correlations.findings));
-    result.correlations = std::move(correlations.pairs);
-  }
-  return std::move(images.wrong);
 }
 
 int rank(Verdict verdict) {
@@ -271,11 +304,9 @@ void report_what_is_there(const RunView& view, GateResult& result) {
 void report_nothing_decided(const RunView& view, GateResult& result) {
   if (!view.request.decides_each_device || !view.baselines.present()) return;
   for (const std::string& device : result.nothing_decided()) {
-    result.findings.push_back(finding_about(
-        view, view.devices.at(device), *view.checks.begin(), Verdict::cannot_judge,
-        fmt::format("nothing was decided of {}: all that is said of it is advice or skips, which "
-                    "say why; judge more checks, or accept what is new: {}",
-                    device, view.accept_command())));
+    result.findings.push_back(
+        finding_about(view, view.devices.at(device), *view.checks.begin(), Verdict::cannot_judge,
+                      {.cause = Cause::nothing_decided}, view.accept(Advice::judge_more)));
   }
 }
 
@@ -305,10 +336,16 @@ void sort_findings(std::vector<Finding>& findings) {
   };
   const auto key = [&](const Finding& finding) {
     return std::tuple(rank(finding.verdict), std::string_view(finding.device), change(finding),
-                      std::string_view(finding.configuration), finding.check,
-                      std::string_view(finding.message));
+                      std::string_view(finding.configuration), finding.check, finding.cause,
+                      std::string_view(finding.subject));
   };
   std::ranges::stable_sort(findings, {}, key);
+}
+
+std::set<Check> judged_checks() {
+  std::set<Check> checks{Check::image};
+  for (const CheckRow& row : check_rows) checks.insert(row.check);
+  return checks;
 }
 
 GateResult judge_run(const record::Store& store, const std::string& run, const Baselines& baselines,
@@ -320,8 +357,8 @@ GateResult judge_run(const record::Store& store, const std::string& run, const B
   result.times_decided = request.times_decide;
   result.part = request.part;
   report_what_is_there(view, result);
-  const WrongImages wrong = run_exact_checks(view, result);
-  if (judges_times(view)) append(result.findings, check_timings(view, wrong));
+  Judging all{view, result};
+  run_checks(all);
   apply_waivers(view, result.findings);
   apply_known(view, result.findings);
   report_nothing_decided(view, result);

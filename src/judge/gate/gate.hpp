@@ -16,45 +16,12 @@
 #include "core/image.hpp"
 #include "judge/baselines/baselines.hpp"
 #include "judge/correlation/pair.hpp"
+#include "judge/finding.hpp"
 #include "judge/gate/open_counts.hpp"
 #include "judge/stress/stress.hpp"
 #include "record/store.hpp"
 
 namespace triptych::judge {
-
-using record::Check;
-using record::check;
-using record::name_of;
-
-enum class Verdict : std::uint8_t {
-  pass,
-  improved,      // passes, and is better than the baseline beyond doubt
-  advisory,      // worth knowing, decides nothing: times, another driver version
-  skipped,       // the device cannot do this; the reason is the message
-  waived,        // a regression that is known: waivers.json or a file of expectations has it
-  cannot_judge,  // no baseline, nothing measured, other data: never a pass
-  regression
-};
-[[nodiscard]] std::string_view name_of(Verdict verdict);
-
-// One answer about one configuration on one device (both empty where the finding is about the whole
-// plan).
-struct Finding {
-  Check check = Check::image;
-  Verdict verdict = Verdict::pass;
-  std::string test;  // test id, Record::test_id
-  std::string device;
-  std::string configuration;
-  std::string message;  // one line: what, by how much, against which bound, what to do about it
-  std::map<std::string, double> numbers;  // "max_error", "bound", "rmse", "ratio", …
-  // What of the device and configuration, where that is not all of it: "program", "step=0.5"; of a
-  // correlation also by which device.
-  std::string subject = {};
-  std::vector<std::string> injected = {};  // faults that `run --inject` put into it
-  // Of a regression on a driver version that was never accepted: the devices that were accepted
-  // with its configuration, the same one with another version among them.
-  std::vector<std::string> accepted_on = {};
-};
 
 struct GateResult {
   std::string plan;
@@ -73,8 +40,6 @@ struct GateResult {
   // Of which all findings are advice or reasons for not judging.
   [[nodiscard]] std::vector<std::string> nothing_decided() const;
   [[nodiscard]] core::ExitCode exit_code() const;
-  [[nodiscard]] std::string headline()
-      const;  // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices"
 };
 
 struct GateRequest {
@@ -117,6 +82,9 @@ struct GateRequest {
   // format; empty where that cannot be told. Nothing: it is the record's.
   std::function<std::string(const record::Record&)> data_hash = {};
 };
+
+// Those that judge_run can judge.
+[[nodiscard]] std::set<Check> judged_checks();
 
 // `run`: its id; empty where none was begun, which cannot be judged. Throws InputError for a
 // corrupt baseline (file and line), never because of what was measured.

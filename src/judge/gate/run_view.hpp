@@ -31,26 +31,22 @@ struct RunView {
   [[nodiscard]] std::string plan_test(Check check) const;
   // The plan as commands take it.
   [[nodiscard]] std::string argument() const;
-  // The command that would make or renew the baselines.
-  [[nodiscard]] std::string accept_command() const;
+  // Advice whose command makes or renews the baselines.
+  [[nodiscard]] Advised accept(Advice advice = Advice::accept) const;
 };
 
 [[nodiscard]] Finding finding_about(const record::Record& record, Check check, Verdict verdict,
-                                    std::string message);
+                                    Observation what, Advised advice = {});
 // Of a device as a whole: no configuration.
 [[nodiscard]] Finding finding_about(const RunView& view, const record::Device& device, Check check,
-                                    Verdict verdict, std::string message);
+                                    Verdict verdict, Observation what, Advised advice = {});
 [[nodiscard]] Finding finding_about(const RunView& view, Check check, Verdict verdict,
-                                    std::string message);
+                                    Observation what, Advised advice = {});
 // Worst first, then by device and configuration.
 void sort_findings(std::vector<Finding>& findings);
-// "12 configurations (A; B; C; …)".
-[[nodiscard]] std::string examples_of(const std::vector<std::string>& configurations);
-// Infinities and NaN are left out: JSON has none, and missing is not zero.
-void set_number(Finding& finding, const std::string& name, double value);
 
-// (device, configuration) → why its picture is wrong: its time means nothing.
-using WrongImages = std::map<std::pair<std::string, std::string>, std::string>;
+// (device, configuration) → what is wrong with its image: its time means nothing.
+using WrongImages = std::map<std::pair<std::string, std::string>, Observation>;
 
 struct ImageFindings {
   std::vector<Finding> findings;

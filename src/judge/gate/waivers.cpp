@@ -1,9 +1,6 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "core/glob.hpp"
-#include "judge/gate/flakes.hpp"
 #include "judge/gate/run_view.hpp"
 
 namespace triptych::judge {
@@ -29,27 +26,27 @@ const Waiver* known_of(const RunView& view, const Finding& finding, const std::s
   return found == view.request.known->end() ? nullptr : &*found;
 }
 
-void hold_against_known(const RunView& view, Finding& finding) {
+void compare_with_known(const RunView& view, Finding& finding) {
   switch (finding.verdict) {
     case Verdict::regression:
       if (const Waiver* known = known_of(view, finding, {Known::fail, Known::flake})) {
         finding.verdict = Verdict::waived;
-        finding.message =
-            fmt::format("{}{}: {}", known_prefix, name_of(known->known), finding.message);
+        finding.excuse = {.of = Excuse::Of::known, .known = known->known, .reason = known->reason};
       }
       break;
     case Verdict::skipped:
       if (known_of(view, finding, {Known::skip}) == nullptr) {
         finding.verdict = Verdict::cannot_judge;
-        finding.message = "skipped, which was not expected: " + finding.message;
+        finding.excuse = {.of = Excuse::Of::unexpected, .known = Known::skip};
       }
       break;
     case Verdict::pass:
     case Verdict::improved:
       if (const Waiver* known = known_of(view, finding, {Known::fail, Known::skip})) {
         finding.verdict = Verdict::improved;
-        finding.message = fmt::format("passes, which was not expected: take its entry out ({}: {})",
-                                      name_of(known->known), known->reason);
+        finding.excuse = {
+            .of = Excuse::Of::unexpected, .known = known->known, .reason = known->reason};
+        finding.advice = {Advice::remove_entry};
       }
       break;
     default:
@@ -91,7 +88,7 @@ bool is_waived(const RunView& view, const record::Record& record, Check check) {
 void apply_known(const RunView& view, std::vector<Finding>& findings) {
   if (!view.request.known) return;
   for (Finding& finding : findings) {
-    if (!finding.configuration.empty()) hold_against_known(view, finding);
+    if (!finding.configuration.empty()) compare_with_known(view, finding);
   }
 }
 
@@ -104,29 +101,24 @@ void apply_waivers(const RunView& view, std::vector<Finding>& findings) {
         continue;
       }
       used = true;
-      if (has_expired(waiver, view)) {
-        finding.message +=
-            fmt::format("; a waiver for this expired on {} ({})", waiver.expiry, waiver.reason);
-      } else {
-        finding.verdict = Verdict::waived;
-        finding.message =
-            fmt::format("waived until {} ({}): {}", waiver.expiry, waiver.reason, finding.message);
-      }
+      const bool expired = has_expired(waiver, view);
+      finding.excuse = {.of = expired ? Excuse::Of::expired : Excuse::Of::waived,
+                        .reason = waiver.reason,
+                        .expiry = waiver.expiry};
+      if (!expired) finding.verdict = Verdict::waived;
     }
+    const auto advise = [&](Cause cause, Advice advice) {
+      findings.push_back(finding_about(
+          view, *view.checks.begin(), Verdict::advisory,
+          {.cause = cause,
+           .facts = {{"test", waiver.test}, {"device", waiver.device}, {"expiry", waiver.expiry}},
+           .detail = waiver.reason},
+          {advice}));
+    };
     if (!used && has_expired(waiver, view) && concerns(waiver, view)) {
-      findings.push_back(finding_about(
-          view, *view.checks.begin(), Verdict::advisory,
-          fmt::format("the waiver of {} on {} expired on {} and excuses nothing: take it out ({})",
-                      waiver.test, waiver.device, waiver.expiry, waiver.reason)));
+      advise(Cause::unused_waiver, Advice::remove_waiver);
     }
-    if (matches_no_test(waiver, view)) {
-      findings.push_back(finding_about(
-          view, *view.checks.begin(), Verdict::advisory,
-          fmt::format(
-              "the waiver of {} matches no test; one is called SUITE.PLAN.CHECK.DEVICE, and "
-              "`configuration` limits a waiver to some of its pictures",
-              waiver.test)));
-    }
+    if (matches_no_test(waiver, view)) advise(Cause::waiver_of_no_test, Advice::none);
   }
 }
 

@@ -1,7 +1,6 @@
 #include "judge/stress/expectation.hpp"
 
-#include <fmt/format.h>
-
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -34,13 +33,21 @@ struct Judged {
   core::Image bound = {};
 };
 
+void add_pixel(Observation& what, const std::string& prefix, const std::array<float, 4>& pixel) {
+  constexpr std::array<const char*, 4> channels{"red", "green", "blue", "alpha"};
+  for (std::size_t i = 0; i < 4; ++i) {
+    set_number(what, prefix + channels[i], static_cast<double>(pixel[i]));
+  }
+}
+
 // Compares pixel by pixel; the pictures have the sizes and channels that the rule asks for.
 class SameJudge {
  public:
   SameJudge(const record::SamePicture& rule, const Judged& one, const Judged& other)
       : rule_(rule), one_(one), other_(other) {}
 
-  [[nodiscard]] std::string fault() const {
+  // Nothing where the images are the same.
+  [[nodiscard]] std::optional<Observation> difference() const {
     std::size_t wrong = 0;
     Place first{-1, -1};
     for (int y = 0; y < one_.image.height; ++y) {
@@ -49,16 +56,17 @@ class SameJudge {
         if (wrong++ == 0) first = {x, y};
       }
     }
-    if (wrong == 0) return {};
-    const auto mine = one_.image.pixel(first.x, first.y);
+    if (wrong == 0) return std::nullopt;
+    Observation what{.cause = Cause::pixels_differ,
+                     .numbers = {{"pixels_differing", static_cast<double>(wrong)},
+                                 {"pixels", static_cast<double>(one_.image.pixel_count())},
+                                 {"x", first.x},
+                                 {"y", first.y}},
+                     .facts = {{"by", rule_.to_the_bit ? "bits" : "bounds"}}};
     const Place there = place(first.x, first.y);
-    const auto others = other_.image.pixel(there.x, there.y);
-    return fmt::format(
-        "{} of {} pixels differ {}, first ({}, {}): {:.9g} {:.9g} {:.9g} {:.9g} against {:.9g} "
-        "{:.9g} {:.9g} {:.9g}",
-        wrong, one_.image.pixel_count(),
-        rule_.to_the_bit ? "in their bits" : "by more than both bounds", first.x, first.y, mine[0],
-        mine[1], mine[2], mine[3], others[0], others[1], others[2], others[3]);
+    add_pixel(what, "", one_.image.pixel(first.x, first.y));
+    add_pixel(what, "other_", other_.image.pixel(there.x, there.y));
+    return what;
   }
 
  private:
@@ -106,16 +114,24 @@ bool fits(const record::SamePicture& rule, const core::Image& image, const core:
          rule.at[1] + image.height <= other.height && image.ids.empty() == other.ids.empty();
 }
 
-std::string unmet_rule(const record::SamePicture& rule, const record::Record& record,
-                       StressRun& run, const FindTruth& truth) {
+std::optional<Observation> unmet_rule(const record::SamePicture& rule, const record::Record& record,
+                                      StressRun& run, const FindTruth& truth) {
+  const std::string levels = record::factor_list(rule.changed);
   const record::Record* other = run.other(record, rule.changed);
   const core::Image* theirs = other == nullptr ? nullptr : run.picture(*other);
-  if (theirs == nullptr)
-    return fmt::format("there is no picture with {}", record::factor_list(rule.changed));
+  if (theirs == nullptr) {
+    return Observation{.cause = Cause::no_other_image, .facts = {{"levels", levels}}};
+  }
   const core::Image& mine = *run.picture(record);
   if (!fits(rule, mine, *theirs)) {
-    return fmt::format("{}x{} pixels at ({}, {}) do not lie in the other's {}x{}", mine.width,
-                       mine.height, rule.at[0], rule.at[1], theirs->width, theirs->height);
+    return Observation{.cause = Cause::not_inside,
+                       .numbers = {{"width", mine.width},
+                                   {"height", mine.height},
+                                   {"x", rule.at[0]},
+                                   {"y", rule.at[1]},
+                                   {"other_width", theirs->width},
+                                   {"other_height", theirs->height}},
+                       .facts = {{"levels", levels}}};
   }
   Judged one{mine};
   Judged two{*theirs};
@@ -123,47 +139,61 @@ std::string unmet_rule(const record::SamePicture& rule, const record::Record& re
     one.bound = truth(record).bound;
     two.bound = truth(*other).bound;
   }
-  const std::string fault = SameJudge(rule, one, two).fault();
-  return fault.empty() ? fault : fmt::format("{} of {}", fault, record::factor_list(rule.changed));
+  std::optional<Observation> what = SameJudge(rule, one, two).difference();
+  if (what) what->facts["levels"] = levels;
+  return what;
 }
 
-std::string unmet_rule(const record::OneColour& rule, const record::Record& record, StressRun& run,
-                       const FindTruth& /*truth*/) {
+std::optional<Observation> unmet_rule(const record::OneColour& rule, const record::Record& record,
+                                      StressRun& run, const FindTruth& /*truth*/) {
   const core::Image& image = *run.picture(record);
   for (std::size_t i = 0; i < image.rgba.size(); ++i) {
     if (same_bits(image.rgba[i], rule.rgba[i % 4])) continue;
     const std::size_t pixel = i / 4;
     const auto width = static_cast<std::size_t>(image.width);
-    return fmt::format("pixel ({}, {}) channel {} is {:.9g}, not {:.9g}", pixel % width,
-                       pixel / width, i % 4, image.rgba[i], rule.rgba[i % 4]);
+    Observation what{.cause = Cause::other_colour};
+    set_number(what, "x", static_cast<double>(pixel % width));
+    set_number(what, "y", static_cast<double>(pixel / width));
+    set_number(what, "channel", static_cast<double>(i % 4));
+    set_number(what, "value", static_cast<double>(image.rgba[i]));
+    set_number(what, "expected_value", static_cast<double>(rule.rgba[i % 4]));
+    return what;
   }
-  return {};
+  return std::nullopt;
 }
 
-std::string unmet_rule(const record::CountAtMost& rule, const record::Record& record,
-                       StressRun& run, const FindTruth& /*truth*/) {
+std::optional<Observation> unmet_rule(const record::CountAtMost& rule, const record::Record& record,
+                                      StressRun& run, const FindTruth& /*truth*/) {
   const auto count = record.counters.find(rule.counter);
-  if (count == record.counters.end()) return fmt::format("{} was not counted", rule.counter);
-  double most = rule.factor;
-  std::string limit = fmt::format("{:g}", rule.factor);
+  if (count == record.counters.end()) {
+    return Observation{.cause = Cause::not_counted, .facts = {{"counter", rule.counter}}};
+  }
+  Observation what{.cause = Cause::count_too_large,
+                   .numbers = {{"count", static_cast<double>(count->second)},
+                               {"factor", rule.factor},
+                               {"unit", 1}},
+                   .facts = {{"counter", rule.counter},
+                             {"of", rule.of},
+                             {"levels", record::factor_list(rule.changed)}}};
   if (!rule.of.empty()) {
     const record::Record* other = rule.changed.empty() ? &record : run.other(record, rule.changed);
     const auto unit =
         other == nullptr ? record::Counts::const_iterator{} : other->counters.find(rule.of);
     if (other == nullptr || unit == other->counters.end()) {
-      return fmt::format("{} was not counted with {}", rule.of, record::factor_list(rule.changed));
+      return Observation{
+          .cause = Cause::not_counted,
+          .facts = {{"counter", rule.of}, {"levels", record::factor_list(rule.changed)}}};
     }
-    most *= static_cast<double>(unit->second);
-    limit += fmt::format(" × {} {}", unit->second, rule.of);
-    if (!rule.changed.empty()) limit += " with " + record::factor_list(rule.changed);
+    what.numbers["unit"] = static_cast<double>(unit->second);
   }
-  if (static_cast<double>(count->second) <= most) return {};
-  return fmt::format("{} {}, at most {} allowed", count->second, rule.counter, limit);
+  if (what.number("count") <= rule.factor * what.number("unit")) return std::nullopt;
+  return what;
 }
 
-std::string unmet_rule(const record::MayBeRefused& /*rule*/, const record::Record& /*record*/,
-                       StressRun& /*run*/, const FindTruth& /*truth*/) {
-  return {};
+std::optional<Observation> unmet_rule(const record::MayBeRefused& /*rule*/,
+                                      const record::Record& /*record*/, StressRun& /*run*/,
+                                      const FindTruth& /*truth*/) {
+  return std::nullopt;
 }
 
 }  // namespace
@@ -206,11 +236,16 @@ bool has_other(const record::Expectation& expectation, const record::Record& rec
   return changed == nullptr || changed->empty() || run.other(record, *changed) != nullptr;
 }
 
-std::string unmet(const record::Expectation& expectation, const record::Record& record,
-                  StressRun& run, const FindTruth& truth) {
-  const std::string why = std::visit(
+std::optional<Observation> unmet(const record::Expectation& expectation,
+                                 const record::Record& record, StressRun& run,
+                                 const FindTruth& truth) {
+  std::optional<Observation> what = std::visit(
       [&](const auto& rule) { return unmet_rule(rule, record, run, truth); }, expectation.rule);
-  return why.empty() ? why : fmt::format("expected: {}; {}", expectation.what, why);
+  if (what) {
+    what->against = Against::expectation;
+    what->detail = expectation.what;
+  }
+  return what;
 }
 
 }  // namespace triptych::judge

@@ -2,6 +2,7 @@
 // Whether what a stress case expects of its record holds.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,9 +34,9 @@ class StressRun {
 [[nodiscard]] bool has_other(const record::Expectation& expectation, const record::Record& record,
                              const StressRun& run);
 
-// Empty where it holds, else what does not. The record has a picture; MayBeRefused always holds.
-[[nodiscard]] std::string unmet(const record::Expectation& expectation,
-                                const record::Record& record, StressRun& run,
-                                const FindTruth& truth);
+// Nothing where it holds, else what does not. The record has an image; MayBeRefused always holds.
+[[nodiscard]] std::optional<Observation> unmet(const record::Expectation& expectation,
+                                               const record::Record& record, StressRun& run,
+                                               const FindTruth& truth);
 
 }  // namespace triptych::judge

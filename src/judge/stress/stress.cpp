@@ -1,26 +1,19 @@
 #include "judge/stress/stress.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <variant>
 
-#include "accuracy/image_fault.hpp"
 #include "accuracy/image_metrics.hpp"
 #include "core/error.hpp"
 #include "judge/agreement.hpp"
+#include "judge/image_observation.hpp"
 #include "judge/stress/expectation.hpp"
 
 namespace triptych::judge {
 namespace {
-
-void lose(StressScore& score, const std::string& why) {
-  if (!score.lost.empty()) score.lost += "; ";
-  score.lost += why;
-}
 
 bool is_finite(const core::Image& image) {
   return !image.rgba.empty() &&
@@ -78,11 +71,12 @@ class Scoring {
     }
     const core::Image* picture = nullptr;
     if (record.outcome != record::Outcome::measured) {
-      lose(score, fmt::format("{}: {}", name_of(record.outcome), record.reason));
+      score.lost.push_back(
+          {.cause = Cause::ended, .outcome = record.outcome, .reason = record.reason});
     } else if (picture = run_.picture(record); picture == nullptr) {
-      lose(score, "there is no picture");
+      score.lost.push_back({.cause = Cause::no_image});
     } else if (!is_finite(*picture)) {
-      lose(score, "the picture is not finite");
+      score.lost.push_back({.cause = Cause::not_finite});
     } else {
       score.drawn = true;
       judge_picture(*picture, expected, result);
@@ -97,19 +91,19 @@ class Scoring {
     try {
       pair = truths_.truth(*result.record);
     } catch (const core::Error& error) {
-      lose(score, fmt::format("no truth to judge by: {}", error.what()));
+      score.lost.push_back({.cause = Cause::no_reference, .detail = error.what()});
       return;
     }
     const accuracy::ImageComparison comparison = accuracy::compare(picture, pair.truth, pair.bound);
-    std::string wrong = accuracy::image_fault(comparison, picture, pair.truth, "the truth");
-    score.right = wrong.empty();
-    if (!score.right) lose(score, wrong);
+    Observation found = image_observation(comparison, picture, pair.truth, Against::reference);
+    score.right = found.cause == Cause::within_bound;
+    if (!score.right) score.lost.push_back(std::move(found));
     for (const record::Expectation& each : expected) {
       if (truths_.part && !has_other(each, *result.record, run_)) continue;
-      wrong = unmet(each, *result.record, run_, truths_.truth);
-      if (wrong.empty()) continue;
+      auto wrong = unmet(each, *result.record, run_, truths_.truth);
+      if (!wrong) continue;
       score.right = false;
-      lose(score, wrong);
+      score.lost.push_back(std::move(*wrong));
     }
     if (!comparison.size_mismatch) {
       result.rmse = accuracy::root_mean_square(picture, pair.truth, pair.bound);
@@ -127,10 +121,13 @@ class Scoring {
       const double rms = accuracy::root_mean_square(mine, *run_.picture(*other->record), own.bound);
       if (rms < device_agreement) continue;
       own.score.agreed = false;
-      lose(own.score,
-           fmt::format("differs from {} by RMS {:.3g}, allowed {:.3g}, and is the "
-                       "farther from the truth (RMSE {:.3g}, {:.3g})",
-                       other->record->device, rms, device_agreement, *own.rmse, *other->rmse));
+      own.score.lost.push_back({.cause = Cause::farther_device,
+                                .against = Against::other_devices,
+                                .numbers = {{"rms", rms},
+                                            {"allowed", device_agreement},
+                                            {"rmse", *own.rmse},
+                                            {"rmse_of_other", *other->rmse}},
+                                .facts = {{"other", other->record->device}}});
       return;
     }
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "accuracy/truth_pair.hpp"
+#include "judge/finding.hpp"
 #include "record/expectation.hpp"
 #include "record/store.hpp"
 
@@ -27,7 +28,7 @@ struct StressScore {
   bool drawn = false;   // a finite picture, without a crash, a hang or an error
   bool right = false;   // within its bound of the truth, and all that is expected of it holds
   bool agreed = false;  // no device that is nearer to the truth shows another picture
-  std::string lost;     // why, of every point that is missing
+  std::vector<Observation> lost = {};  // why, of every point that is missing
 
   [[nodiscard]] int points() const {
     return static_cast<int>(drawn) + static_cast<int>(right) + static_cast<int>(agreed);

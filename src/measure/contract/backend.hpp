@@ -142,8 +142,9 @@ class Device {
 
 // What a loader says of one platform or device that cannot be used.
 struct Broken {
-  std::string what;  // "OpenCL platform Clover"
-  std::string reason;
+  std::string what;                          // "OpenCL platform Clover"
+  std::string reason;                        // what the loader or the driver says
+  std::optional<record::Reason> ended = {};  // how the process ended that asked
 };
 
 struct Listing {

@@ -16,7 +16,7 @@
 namespace triptych::measure {
 namespace {
 
-using Calibration = std::map<std::string, std::string>;
+using Calibration = std::map<std::string, record::StatisticWorth>;
 
 // --- the scenes ---
 
@@ -189,13 +189,13 @@ double multiple(const CalibrationReading& reading) {
   return static_cast<double>(reading.first.value_or(0)) / static_cast<double>(reading.expected);
 }
 
-std::string differences(const std::vector<CalibrationReading>& readings) {
+record::StatisticWorth differences(const std::vector<CalibrationReading>& readings) {
   std::vector<std::string> wrong;
   for (const CalibrationReading& each : readings) {
     if (each.first == each.expected) continue;
     wrong.push_back(fmt::format("{} for {} ({})", text_of(each.first), each.expected, each.scene));
   }
-  return fmt::format("differs: {}", fmt::join(wrong, ", "));
+  return {.worth = record::Worth::differs, .detail = fmt::format("{}", fmt::join(wrong, ", "))};
 }
 
 }  // namespace
@@ -205,22 +205,24 @@ std::vector<CalibrationScene> calibration_scenes(technique::Work kind) {
   return {compute_scene(64, 64), compute_scene(192, 64)};
 }
 
-std::string calibration_verdict(const std::vector<CalibrationReading>& readings) {
+record::StatisticWorth calibration_verdict(const std::vector<CalibrationReading>& readings) {
+  using record::Worth;
   const auto told = [](const CalibrationReading& each) { return each.first || each.again; };
-  if (std::ranges::none_of(readings, told)) return "absent: never told";
+  if (std::ranges::none_of(readings, told)) return {.worth = Worth::absent};
   const auto unsteady = std::ranges::find_if(
       readings, [](const CalibrationReading& each) { return each.first != each.again; });
   if (unsteady != readings.end()) {
-    return fmt::format("unsteady: {}, and {} when drawn again ({})", text_of(unsteady->first),
-                       text_of(unsteady->again), unsteady->scene);
+    return {.worth = Worth::unsteady,
+            .detail = fmt::format("{}, then {} ({})", text_of(unsteady->first),
+                                  text_of(unsteady->again), unsteady->scene)};
   }
   if (!std::ranges::all_of(readings, told)) return differences(readings);
   if (std::ranges::all_of(
           readings, [](const CalibrationReading& each) { return each.first == each.expected; })) {
-    return "exact";
+    return {.worth = Worth::exact};
   }
   if (const std::string ours = counted_by_us(readings); !ours.empty()) {
-    return fmt::format("counts {}", ours);
+    return {.worth = Worth::counts, .counter = ours};
   }
   const auto [low, high] = std::ranges::minmax(readings, {}, multiple);
   if (low.first == std::uint64_t{0}) return differences(readings);
@@ -230,18 +232,18 @@ std::string calibration_verdict(const std::vector<CalibrationReading>& readings)
         return *each.first * first.expected == *first.first * each.expected;
       });
   if (same_multiple && readings.size() > 1) {
-    return fmt::format("proportional: {:.4g} times the true number", multiple(low));
+    return {.worth = Worth::proportional, .low = multiple(low), .high = multiple(low)};
   }
-  if (multiple(low) >= 1) {
-    return fmt::format("inflated: {:.4g} ({}) to {:.4g} ({}) times the true number", multiple(low),
-                       low.scene, multiple(high), high.scene);
-  }
-  return differences(readings);
+  if (multiple(low) < 1) return differences(readings);
+  return {.worth = Worth::inflated,
+          .low = multiple(low),
+          .high = multiple(high),
+          .detail = fmt::format("{}; {}", low.scene, high.scene)};
 }
 
 Calibration calibrate_statistics(Device& device, technique::Work kind) {
   Readings readings;
-  std::map<std::string, std::string> unknown;
+  Calibration unknown;
   for (const CalibrationScene& scene : calibration_scenes(kind)) {
     try {
       if (device.unsupported(scene.work)) continue;
@@ -253,7 +255,9 @@ Calibration calibrate_statistics(Device& device, technique::Work kind) {
     } catch (const core::Error& error) {
       // The configurations to come will show what else is wrong.
       for (const auto& [name, value] : scene.expected) {
-        unknown.emplace(name, fmt::format("unknown: {} ({})", error.what(), scene.name));
+        unknown.emplace(name, record::StatisticWorth{
+                                  .worth = record::Worth::unknown,
+                                  .detail = fmt::format("{} ({})", error.what(), scene.name)});
       }
     }
     // A device that told nothing of the first scene tells nothing of the others: OpenCL.

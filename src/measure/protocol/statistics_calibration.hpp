@@ -38,21 +38,15 @@ struct CalibrationReading {
   record::Counts ours = {};  // our own counters of the scene
 };
 
-// The verdict on a statistic, in one line that begins with one of these words:
-//   exact         as expected in every scene
-//   absent        never told
-//   unsteady      the same frame drawn again gives another number
-//   counts        in every scene the number of the counter of ours that follows
-//   proportional  the same multiple of what is expected in every one of at least two scenes
-//   inflated      never too low; the range of multiples follows
-//   differs       anything else; what was seen in which scene follows
-// Precondition: at least one reading, and expected > 0 in each.
-[[nodiscard]] std::string calibration_verdict(const std::vector<CalibrationReading>& readings);
+// What the statistic is worth; `proportional` takes at least two scenes, and `inflated` is never
+// too low. Precondition: at least one reading, and expected > 0 in each.
+[[nodiscard]] record::StatisticWorth calibration_verdict(
+    const std::vector<CalibrationReading>& readings);
 
 // Statistic → verdict, for every statistic of the scenes that the device can draw. Empty for a
 // device that tells no statistics of any of them (OpenCL). An error of the API while a scene is
-// drawn becomes the verdict "unknown: …" on the statistics of that scene. Throws DeviceLost.
-[[nodiscard]] std::map<std::string, std::string> calibrate_statistics(Device& device,
-                                                                      technique::Work kind);
+// drawn makes the statistics of that scene `unknown`. Throws DeviceLost.
+[[nodiscard]] std::map<std::string, record::StatisticWorth> calibrate_statistics(
+    Device& device, technique::Work kind);
 
 }  // namespace triptych::measure

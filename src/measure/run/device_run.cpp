@@ -12,7 +12,7 @@
 namespace triptych::measure {
 namespace {
 
-record::Record ended(record::Outcome outcome, std::string reason) {
+record::Record ended(record::Outcome outcome, record::Reason reason) {
   record::Record record;
   record.outcome = outcome;
   record.reason = std::move(reason);
@@ -44,8 +44,7 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
     done = {ended(slot_.unsupported() ? record::Outcome::skipped : record::Outcome::failed,
                   slot_.why_closed())};
   } else if (job.protocol.counted && known_->cpu_features.empty()) {
-    done = {ended(record::Outcome::skipped,
-                  "its instructions cannot be counted: it does not compute on the processor")};
+    done = {ended(record::Outcome::skipped, {.cause = record::Cause::not_on_processor})};
   } else {
     done = ask(job, on_loading);
   }
@@ -59,15 +58,16 @@ void DeviceRun::only_counted(record::Record& record) const {
   if (record.outcome == record::Outcome::measured) {
     record.counted_by = std::get<Emulator>(find_emulator()).name;
   } else if (record.outcome != record::Outcome::skipped) {
-    record.reason =
-        fmt::format("{} under the emulator: {}", name_of(record.outcome), record.reason);
+    record.reason.stage = record::Stage::counting;
     record.outcome = record::Outcome::skipped;
   }
 }
 
-std::optional<std::string> DeviceRun::no_emulator() const {
+std::optional<record::Reason> DeviceRun::no_emulator() const {
   if (!context_.plan.counted()) return std::nullopt;
-  if (const auto* reason = std::get_if<std::string>(&find_emulator())) return *reason;
+  if (const auto* lacking = std::get_if<std::string>(&find_emulator())) {
+    return record::Reason{.cause = record::Cause::no_emulator, .detail = *lacking};
+  }
   return std::nullopt;
 }
 
@@ -174,9 +174,10 @@ std::variant<Answer, DeviceRun::Ended> DeviceRun::exchange(const Message& messag
   } else {
     try {
       if (auto answer = as_answer(std::move(std::get<Message>(reply)))) return std::move(*answer);
-      ended = {record::Outcome::failed, strange_answer};
+      ended = {record::Outcome::failed, {.cause = record::Cause::bad_answer}};
     } catch (const core::InputError& error) {
-      ended = {record::Outcome::failed, error.what()};
+      ended = {record::Outcome::failed,
+               {.cause = record::Cause::bad_answer, .detail = error.what()}};
     }
   }
   slot_.vacate();

@@ -44,7 +44,7 @@ class DeviceRun {
   // How an exchange ended that brought no answer.
   struct Ended {
     record::Outcome outcome;
-    std::string reason;
+    record::Reason reason;
   };
 
   // All throw Interrupted, and InputError when the device is no longer the one that the run began
@@ -80,7 +80,7 @@ class DeviceRun {
 
   void only_counted(record::Record& record) const;
   // Of a plan that counts, why nothing can be counted here; else nothing.
-  [[nodiscard]] std::optional<std::string> no_emulator() const;
+  [[nodiscard]] std::optional<record::Reason> no_emulator() const;
 
   const RunContext& context_;
   std::string device_;

@@ -34,11 +34,6 @@ std::string_view name_of(Side side) {
   return side == Side::a ? "a" : "b";
 }
 
-SideEnded::SideEnded(Side side, record::Outcome outcome, const std::string& reason)
-    : Error(fmt::format("{} {}: {}", name_of(side), record::name_of(outcome), reason)),
-      side_(side),
-      outcome_(outcome) {}
-
 std::vector<double> differences(std::span<const Block> blocks, SideClock clock) {
   std::vector<double> result;
   result.reserve(blocks.size());
@@ -77,7 +72,7 @@ class Interleaved::Slot {
         slot_(worker_setup(of, false, cache_, options.start_limit), interrupts) {}
 
   [[nodiscard]] const Hello& hello() const { return hello_; }
-  [[nodiscard]] const std::string& why_closed() const { return slot_.why_closed(); }
+  [[nodiscard]] const record::Reason& why_closed() const { return slot_.why_closed(); }
 
   // As WorkerSlot::open. Further workers rest on the first one's verdict on the clocks.
   bool open() {
@@ -108,13 +103,14 @@ class Interleaved::Slot {
     try {
       if (auto wanted = as(std::move(answer))) return std::move(*wanted);
     } catch (const core::InputError& error) {
-      give_up(record::Outcome::failed, error.what());
+      give_up(record::Outcome::failed,
+              {.cause = record::Cause::bad_answer, .detail = error.what()});
     }
-    give_up(record::Outcome::failed, strange_answer);
+    give_up(record::Outcome::failed, {.cause = record::Cause::bad_answer});
   }
 
   // Throws SideEnded for an outcome that is none of a measured configuration.
-  void require_measured(record::Outcome outcome, const std::string& reason) {
+  void require_measured(record::Outcome outcome, const record::Reason& reason) {
     if (outcome == record::Outcome::measured) return;
     if (outcome == record::Outcome::lost) slot_.vacate();
     throw SideEnded(side_, outcome, reason);
@@ -132,7 +128,9 @@ class Interleaved::Slot {
     Batch drawn = batch(to_message(Frames{.count = frames}));
     if (drawn.wall_ns.size() != static_cast<std::size_t>(frames)) {
       give_up(record::Outcome::failed,
-              fmt::format("{} frames were asked for, {} drawn", frames, drawn.wall_ns.size()));
+              {.cause = record::Cause::bad_answer,
+               .numbers = {{"frames_requested", frames},
+                           {"frames_drawn", static_cast<double>(drawn.wall_ns.size())}}});
     }
     return drawn;
   }
@@ -142,7 +140,7 @@ class Interleaved::Slot {
   }
 
  private:
-  [[noreturn]] void give_up(record::Outcome outcome, const std::string& reason) {
+  [[noreturn]] void give_up(record::Outcome outcome, const record::Reason& reason) {
     slot_.vacate();
     throw SideEnded(side_, outcome, reason);
   }
@@ -164,7 +162,7 @@ Interleaved::Interleaved(InterleavedOptions options, const SideOptions& a, const
   slots_[1] = std::make_unique<Slot>(Side::b, b, options_, interrupts_);
   // Clocks are calibrated one after the other: neither disturbs the other's.
   for (const auto& each : slots_) {
-    if (!each->open()) throw core::NotSupported(each->why_closed());
+    if (!each->open()) throw record::NotMeasured(record::Outcome::skipped, each->why_closed());
   }
 }
 

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -29,15 +30,14 @@ enum class Side : std::uint8_t { a, b };
 // One side failed to do its part of one configuration: not supported, an error, its worker dead,
 // late or lost. What was asked of both sides is over; the next configuration gets a new worker
 // where one is needed.
-class SideEnded : public core::Error {
+class SideEnded : public record::NotMeasured {
  public:
-  SideEnded(Side side, record::Outcome outcome, const std::string& reason);
+  SideEnded(Side side, record::Outcome outcome, record::Reason reason)
+      : NotMeasured(outcome, std::move(reason)), side_(side) {}
   [[nodiscard]] Side side() const noexcept { return side_; }
-  [[nodiscard]] record::Outcome outcome() const noexcept { return outcome_; }
 
  private:
   Side side_;
-  record::Outcome outcome_;
 };
 
 // Mean time of a frame in each of a side's two batches, the least of those that a block took so.
@@ -76,8 +76,8 @@ struct InterleavedOptions {
 
 class Interleaved {
  public:
-  // Opens both. Throws InputError for an environment that forbids measuring, NotSupported with the
-  // reason when a side cannot be opened.
+  // Opens both. Throws InputError for an environment that forbids measuring, record::NotMeasured
+  // with the reason when a side cannot be opened.
   Interleaved(InterleavedOptions options, const SideOptions& a, const SideOptions& b);
   ~Interleaved();
   Interleaved(const Interleaved&) = delete;

@@ -185,9 +185,7 @@ Done PlanRun::attempt(const std::string& device, const Configuration& configurat
     return on(device).pass_by(
         configuration, key,
         {record::Outcome::crashed,
-         fmt::format("{} times all ended while this was under way, triptych or the machine; a "
-                     "run without --resume tries again",
-                     most_attempts)});
+         {.cause = record::Cause::under_way, .numbers = {{"times", most_attempts}}}});
   }
   try {
     return on(device).perform(

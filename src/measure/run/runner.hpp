@@ -18,7 +18,6 @@
 #include "measure/protocol/injected_fault.hpp"
 #include "measure/protocol/protocol.hpp"
 #include "measure/system/interrupt.hpp"
-#include "record/hung.hpp"
 #include "record/store.hpp"
 
 namespace triptych::measure {

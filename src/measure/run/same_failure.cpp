@@ -4,9 +4,7 @@
 
 #include <algorithm>
 
-#include "core/text.hpp"
 #include "record/factor_list.hpp"
-#include "record/not_tried.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -30,15 +28,15 @@ std::set<std::string> differing(const Configuration& a, const Configuration& b) 
 
 void SameFailure::saw(const Configuration& configuration, const record::Record& record) {
   if (record.outcome == record::Outcome::measured) measured_.push_back(configuration);
-  if (!ended_the_worker(record.outcome) || record::was_not_tried(record)) return;
+  if (!ended_the_worker(record.outcome) || record.reason.not_tried) return;
   const Failure failure{
       configuration, record.outcome, record.reason,
-      fmt::format("{}: {}", record::name_of(record.outcome), core::without_numbers(record.reason))};
+      fmt::format("{} {}", record::name_of(record.outcome), record::kind_of(record.reason))};
   for (const Failure& before : failures_) {
-    if (before.words != failure.words) continue;
+    if (before.kind != failure.kind) continue;
     const Factors factors = differing(before.configuration, configuration);
     if (!is_refuted(configuration, factors))
-      no_matter_[failure.words].insert(factors.begin(), factors.end());
+      no_matter_[failure.kind].insert(factors.begin(), factors.end());
   }
   failures_.push_back(failure);
 }
@@ -46,7 +44,7 @@ void SameFailure::saw(const Configuration& configuration, const record::Record& 
 std::optional<SameFailure::Foretold> SameFailure::foretold(
     const Configuration& configuration) const {
   for (const Failure& failure : failures_) {
-    const auto found = no_matter_.find(failure.words);
+    const auto found = no_matter_.find(failure.kind);
     if (found == no_matter_.end()) continue;
     const Factors& no_matter = found->second;
     if (!std::ranges::includes(no_matter, differing(failure.configuration, configuration)) ||
@@ -58,9 +56,10 @@ std::optional<SameFailure::Foretold> SameFailure::foretold(
       return no_matter.contains(level.first) ||
              std::ranges::find(varied_, level.first) == varied_.end();
     });
-    return Foretold{failure.outcome,
-                    fmt::format("{}{}{}{}", failure.reason, record::not_tried,
-                                shared.empty() ? "" : " with ", record::factor_list(shared))};
+    Foretold foretold{failure.outcome, failure.reason};
+    foretold.reason.not_tried = true;
+    foretold.reason.shared_levels = record::factor_list(shared);
+    return foretold;
   }
   return std::nullopt;
 }

@@ -24,10 +24,11 @@ class SameFailure {
 
   struct Foretold {
     record::Outcome outcome;
-    std::string reason;  // as of those that were tried, then record::not_tried and what they share
+    record::Reason
+        reason;  // as of those that were tried, marked as not tried, with what they share
   };
   // How the configuration would end: as one that crashed, hung or lost the device, if it differs
-  // from that one only in factors that were seen not to matter – two that ended with the same words
+  // from that one only in factors that were seen not to matter – two that ended in the same way
   // differ in them alone – and nothing that differs so was measured. Nothing: try it.
   [[nodiscard]] std::optional<Foretold> foretold(const Configuration& configuration) const;
 
@@ -36,15 +37,15 @@ class SameFailure {
   struct Failure {
     Configuration configuration;
     record::Outcome outcome;
-    std::string reason;
-    std::string words;  // outcome and reason, but for numbers
+    record::Reason reason;
+    std::string kind;  // of outcome and reason
   };
   [[nodiscard]] bool is_refuted(const Configuration& configuration, const Factors& but_for) const;
 
   std::vector<std::string> varied_;
   std::vector<Configuration> measured_;
   std::vector<Failure> failures_;
-  std::map<std::string, Factors> no_matter_;  // by words
+  std::map<std::string, Factors> no_matter_;  // by kind
 };
 
 }  // namespace triptych::measure

@@ -48,10 +48,10 @@ WorkerLink::Reply ask_once(const std::vector<std::string>& command, const std::s
   return reply;
 }
 
-std::string reason_of(const WorkerLink::Reply& reply) {
+record::Reason reason_of(const WorkerLink::Reply& reply) {
   if (const auto* died = std::get_if<WorkerLink::Died>(&reply)) return died->reason;
   if (const auto* late = std::get_if<WorkerLink::Late>(&reply)) return late->reason;
-  return "an answer that makes no sense";
+  return {.cause = record::Cause::bad_answer};
 }
 
 Listing list_one(const std::string& api) {
@@ -59,7 +59,7 @@ Listing list_one(const std::string& api) {
       ask_once({own_program(), "list-api", api}, api + ":listing",
                {.json = core::Json::object(), .binary = {}}, listing_limit);
   if (const auto* answer = std::get_if<Message>(&reply)) return from_json(answer->json);
-  return {.devices = {}, .broken = {{.what = api, .reason = reason_of(reply)}}};
+  return {.devices = {}, .broken = {{.what = api, .reason = {}, .ended = reason_of(reply)}}};
 }
 
 // Says why no device of the listing is one that `glob` asks for.
@@ -72,7 +72,8 @@ Listing list_one(const std::string& api) {
   std::string known;
   for (const record::Device& device : listing.devices) known += " " + device.id;
   for (const Broken& each : listing.broken) {
-    known += fmt::format("; {}: {}", each.what, each.reason);
+    known += fmt::format("; {}{}{}", each.what, each.reason.empty() ? " cannot be used" : ": ",
+                         each.reason);
   }
   throw core::NotSupported(fmt::format("no device matches {}; there are:{}", glob, known));
 }

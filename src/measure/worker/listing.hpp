@@ -2,6 +2,7 @@
 // Which devices are here. Every API is asked in a process of its own (own_program.hpp), so that a
 // driver that crashes or hangs while it is being listed costs only itself.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +27,7 @@ namespace triptych::measure {
 struct Greeting {
   record::Device device;
   std::vector<record::ClockTrust> clocks;
-  std::string refused;  // why it cannot be used; empty when it can
+  std::optional<record::Reason> refused;  // why it cannot be used
 };
 [[nodiscard]] Greeting greet(const record::Device& device, const std::string& suite);
 

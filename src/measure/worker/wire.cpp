@@ -95,7 +95,7 @@ auto reading(std::string_view type, Read read) {
   try {
     return read();
   } catch (const Json::exception& error) {
-    throw core::InputError(fmt::format("{} (its '{}': {})", strange_answer, type, error.what()));
+    throw core::InputError(fmt::format("in its '{}': {}", type, error.what()));
   }
 }
 
@@ -184,8 +184,7 @@ Message to_message(const Hello& hello) {
 }
 
 Message to_message(const Refused& refused) {
-  return {{{"type", "refused"}, {"reason", refused.reason}, {"unsupported", refused.unsupported}},
-          {}};
+  return {{{"type", "refused"}, {"reason", refused.reason}}, {}};
 }
 
 Message to_message(const Job& job) {
@@ -246,9 +245,8 @@ std::optional<Hello> as_hello(const Message& message) {
 
 std::optional<Refused> as_refused(const Message& message) {
   if (!is(message, "refused")) return std::nullopt;
-  return reading("refused", [&] {
-    return Refused{message.json.at("reason"), message.json.value("unsupported", false)};
-  });
+  return reading("refused",
+                 [&] { return Refused{message.json.at("reason").get<record::Reason>()}; });
 }
 
 std::optional<Job> as_job(const Message& message) {
@@ -298,7 +296,7 @@ std::optional<Batch> as_batch(const Message& message) {
   if (!is(message, "turn")) return std::nullopt;
   return reading("turn", [&] {
     return Batch{.outcome = record::outcome(message.json.at("outcome").get<std::string>()),
-                 .reason = message.json.at("reason"),
+                 .reason = message.json.at("reason").get<record::Reason>(),
                  .wall_ns = message.json.at("wall_ns"),
                  .device_ns = message.json.at("device_ns")};
   });

@@ -64,8 +64,11 @@ struct Hello {
 };
 
 struct Refused {
-  std::string reason;
-  bool unsupported = false;  // for something that the device lacks
+  record::Reason reason;
+  // For something that the device lacks.
+  [[nodiscard]] bool unsupported() const { return reason.cause == record::Cause::not_supported; }
+  // Else the worker has greeted.
+  [[nodiscard]] bool is_one() const { return reason.cause != record::Cause::none; }
 };
 
 struct Job {
@@ -97,14 +100,10 @@ struct Release {};
 // is held any longer.
 struct Batch {
   record::Outcome outcome = record::Outcome::measured;
-  std::string reason;             // for every outcome but measured
+  record::Reason reason;          // for every outcome but measured
   std::vector<double> wall_ns;    // one per frame drawn
   std::vector<double> device_ns;  // empty where the device did not tell it of each
 };
-
-// What is said of a message that is none of those expected. Builds that are compared may differ.
-inline constexpr const char* strange_answer =
-    "the worker's answer makes no sense; its program may be of another version";
 
 [[nodiscard]] Message to_message(const Start& start);
 [[nodiscard]] Message to_message(const Hello& hello);

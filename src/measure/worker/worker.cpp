@@ -22,7 +22,6 @@
 #include "measure/protocol/statistics_calibration.hpp"
 #include "measure/system/stopwatch.hpp"
 #include "measure/worker/wire.hpp"
-#include "record/bad_input.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -64,27 +63,45 @@ void describe_work(const Work& work, const Device& device, record::Record& recor
   }
 }
 
-// "", or what a worker is held to by --memory or its user's limits.
-std::string memory_limit() {
+// The input is broken, which is not the device's fault: the configuration is skipped.
+struct BadInput : core::NotSupported {
+  using NotSupported::NotSupported;
+};
+
+// Out of host memory, with the limit that --memory or the user's limits set for a worker.
+record::Reason out_of_memory(const std::string& data) {
+  record::Reason reason{.cause = record::Cause::out_of_memory, .subject = data};
   rlimit limit{};
-  if (::getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return {};
-  return fmt::format("; this worker may allocate {} MiB", limit.rlim_cur >> 20);
+  if (::getrlimit(RLIMIT_DATA, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+    reason.numbers["limit_bytes"] = static_cast<double>(limit.rlim_cur);
+  }
+  return reason;
+}
+
+record::Reason api_reason(record::Cause cause, const core::ApiError& error) {
+  return {.cause = cause, .subject = error.call(), .code = error.code(), .detail = error.what()};
 }
 
 // Every typed error ends here, as the outcome of one configuration. `data`: what may have taken
 // too much memory.
 template <typename Act, typename OnFailure>
 void outcome_of(const Act& act, const std::string& data, const OnFailure& on_failure) {
+  using record::Cause;
+  using record::Outcome;
   try {
     act();
+  } catch (const BadInput& error) {
+    on_failure(Outcome::skipped, {.cause = Cause::bad_input, .detail = error.what()});
   } catch (const core::NotSupported& error) {
-    on_failure(record::Outcome::skipped, error.what());
+    on_failure(Outcome::skipped, {.cause = Cause::not_supported, .detail = error.what()});
   } catch (const core::DeviceLost& error) {
-    on_failure(record::Outcome::lost, error.what());
+    on_failure(Outcome::lost, api_reason(Cause::device_lost, error));
+  } catch (const core::ApiError& error) {
+    on_failure(Outcome::failed, api_reason(Cause::api_error, error));
   } catch (const std::bad_alloc&) {
-    on_failure(record::Outcome::failed, "out of host memory with data " + data + memory_limit());
+    on_failure(Outcome::failed, out_of_memory(data));
   } catch (const std::exception& error) {
-    on_failure(record::Outcome::failed, error.what());
+    on_failure(Outcome::failed, {.cause = Cause::error, .detail = error.what()});
   }
 }
 
@@ -114,8 +131,8 @@ class Worker {
     Answer answer;
     answer.record.factors = job.configuration;
     outcome_of([&] { perform(job, answer); }, data_,
-               [&](record::Outcome outcome, const std::string& reason) {
-                 conclude(answer, outcome, reason);
+               [&](record::Outcome outcome, record::Reason reason) {
+                 conclude(answer, outcome, std::move(reason));
                });
     answer.record.peak_memory_bytes = peak_memory_bytes();
     answer.worker_ns = whole.ns();
@@ -152,21 +169,22 @@ class Worker {
   template <typename Act>
   Batch batch(const Act& act) {
     Batch batch;
-    outcome_of([&] { act(batch); }, data_,
-               [&](record::Outcome outcome, const std::string& reason) {
-                 batch = {.outcome = outcome, .reason = reason, .wall_ns = {}, .device_ns = {}};
-                 // Freeing objects of a lost device is what drivers are worst at.
-                 if (outcome == record::Outcome::lost) {
-                   static_cast<void>(held_.release());
-                 } else {
-                   held_.reset();
-                 }
-               });
+    outcome_of(
+        [&] { act(batch); }, data_,
+        [&](record::Outcome outcome, record::Reason reason) {
+          batch = {.outcome = outcome, .reason = std::move(reason), .wall_ns = {}, .device_ns = {}};
+          // Freeing objects of a lost device is what drivers are worst at.
+          if (outcome == record::Outcome::lost) {
+            static_cast<void>(held_.release());
+          } else {
+            held_.reset();
+          }
+        });
     return batch;
   }
 
   // Of a configuration that was not measured nothing may look as if it had been.
-  static void conclude(Answer& answer, record::Outcome outcome, std::string reason) {
+  static void conclude(Answer& answer, record::Outcome outcome, record::Reason reason) {
     record::Record record;
     record.factors = std::move(answer.record.factors);
     record.prepare_ns = answer.record.prepare_ns;
@@ -194,7 +212,7 @@ class Worker {
     try {
       return supported_work(configuration, faults);
     } catch (const core::InputError& error) {
-      throw core::NotSupported(fmt::format("{}{}", record::bad_input, error.what()));
+      throw BadInput(error.what());
     }
   }
 
@@ -209,7 +227,7 @@ class Worker {
     if (const auto equivalent = plain ? equivalents_.find(*plain) : std::nullopt) {
       answer.record.outcome = record::Outcome::measured;
       answer.record.same_as = equivalent->key;
-      answer.record.reason = equivalent->reason;
+      answer.record.reason = {.cause = record::Cause::same_frames, .detail = equivalent->reason};
       answer.record.prepare_ns = whole.ns();
       answer.record.factors = std::move(configuration);
       return;
@@ -339,9 +357,11 @@ int serve_worker(const Backend& backend, std::string_view device_id, const FindS
   try {
     return serve(backend, device_id, find_suite, request_fd, answer_fd);
   } catch (const core::NotSupported& error) {
-    refused = {error.what(), true};
+    refused.reason = {.cause = record::Cause::not_supported, .detail = error.what()};
+  } catch (const core::ApiError& error) {
+    refused.reason = api_reason(record::Cause::api_error, error);
   } catch (const std::exception& error) {
-    refused = {error.what()};
+    refused.reason = {.cause = record::Cause::error, .detail = error.what()};
   }
   try {
     send(answer_fd, to_message(refused));

@@ -9,9 +9,9 @@
 #include <cerrno>
 #include <csignal>
 #include <span>
+#include <utility>
 
 #include "core/error.hpp"
-#include "record/hung.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -83,12 +83,12 @@ WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseco
     try {
       if (auto message = next_answer(on_loading)) return std::move(*message);
     } catch (const core::InputError& error) {
-      return bury(error.what());
+      return Died{bury_for({.cause = record::Cause::bad_answer, .detail = error.what()})};
     }
     if (over || !answers_open_) return bury();
     if (!in_time) {
-      static_cast<void>(bury("late"));
-      return Late{with_last_words(record::no_answer_within(limit))};
+      const double limit_s = std::chrono::duration<double>(limit).count();
+      return Late{bury_for({.cause = record::Cause::timeout, .numbers = {{"limit_s", limit_s}}})};
     }
   }
 }
@@ -96,14 +96,12 @@ WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseco
 std::variant<Hello, Refused> WorkerLink::greet(const Start& start,
                                                std::chrono::milliseconds limit) {
   const Reply reply = ask(to_message(start), limit);
-  if (const auto* died = std::get_if<Died>(&reply)) {
-    return Refused{"its worker died: " + died->reason};
-  }
+  if (const auto* died = std::get_if<Died>(&reply)) return Refused{died->reason};
   if (const auto* late = std::get_if<Late>(&reply)) return Refused{late->reason};
   const Message& message = std::get<Message>(reply);
   if (const auto refused = as_refused(message)) return *refused;
   const auto hello = as_hello(message);
-  if (!hello) return Refused{"its worker did not greet"};
+  if (!hello) return Refused{{.cause = record::Cause::no_greeting}};
   return *hello;
 }
 
@@ -152,20 +150,38 @@ bool WorkerLink::wait_for_event(Deadline deadline) {
   return ready != 0;
 }
 
-WorkerLink::Died WorkerLink::bury(std::string_view before) {
+std::optional<Exit> WorkerLink::reap() {
   // A worker that closed its answers is as good as dead, and gets a moment to say how it ended.
   constexpr std::chrono::seconds patience{2};
-  if (!before.empty()) process_.kill();
   auto exit = process_.wait(patience);
   if (!exit) {
     process_.kill();
     exit = process_.wait(patience);
   }
   read_log();
-  if (before.empty() && exit && is_ordered(*exit)) await_own_end();
-  std::string reason = exit ? describe(*exit) : std::string("could not be killed");
-  if (!before.empty()) reason = fmt::format("{}; {}", before, reason);
-  return {with_last_words(std::move(reason))};
+  return exit;
+}
+
+WorkerLink::Died WorkerLink::bury() {
+  const std::optional<Exit> exit = reap();
+  if (exit && is_ordered(*exit)) await_own_end();
+  record::Reason reason{.cause = record::Cause::unknown_end};
+  if (exit && exit->signal != 0) {
+    reason.cause = record::Cause::signal;
+    reason.numbers["signal"] = exit->signal;
+  } else if (exit) {
+    reason.cause = record::Cause::exit_code;
+    reason.numbers["exit_code"] = exit->code;
+  }
+  reason.last_words = last_words();
+  return {std::move(reason)};
+}
+
+record::Reason WorkerLink::bury_for(record::Reason reason) {
+  process_.kill();
+  static_cast<void>(reap());
+  reason.last_words = last_words();
+  return reason;
 }
 
 // Who ends a whole job, as a batch system does, ends the worker and us at once: that it went first
@@ -183,10 +199,9 @@ void WorkerLink::await_own_end() {
   }
 }
 
-std::string WorkerLink::with_last_words(std::string reason) {
+std::string WorkerLink::last_words() const {
   constexpr std::size_t lines = 5;
-  const std::string words = log_.last_lines(lines);
-  return words.empty() ? reason : fmt::format("{}; it last said: {}", reason, words);
+  return log_.last_lines(lines);
 }
 
 }  // namespace triptych::measure

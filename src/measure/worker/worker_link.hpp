@@ -30,11 +30,13 @@ class LogTail {
 
 class WorkerLink {
  public:
+  // How it ended: a signal, an exit code, an answer without sense.
   struct Died {
-    std::string reason;  // "killed by SIGSEGV (Segmentation fault); it last said: …"
+    record::Reason reason;
   };
+  // That it gave no answer within the limit.
   struct Late {
-    std::string reason;  // "no answer within 60 s; it last said: …"
+    record::Reason reason;
   };
   using Reply = std::variant<Message, Died, Late>;
 
@@ -65,9 +67,13 @@ class WorkerLink {
   void read_log();
   // Waits until something happened at one of the descriptors; false at the deadline.
   [[nodiscard]] bool wait_for_event(Deadline deadline);
-  [[nodiscard]] Died bury(std::string_view before = {});
+  [[nodiscard]] Died bury();
+  // Kills it first, for `reason`.
+  [[nodiscard]] record::Reason bury_for(record::Reason reason);
+  // Waits until it is gone; how it ended.
+  [[nodiscard]] std::optional<Exit> reap();
   void await_own_end();
-  [[nodiscard]] std::string with_last_words(std::string reason);
+  [[nodiscard]] std::string last_words() const;
 
   Process process_;
   InterruptGuard& interrupts_;

@@ -27,11 +27,11 @@ class WorkerSlot {
   // True where a worker is there or could be started; it is told `start` and what it greets with is
   // handed on before it is kept, so that `greeted` may refuse it by an exception. One that cannot
   // be started twice in a row, or whose device lacks something, is not tried again: false then, now
-  // and later, and why_closed() says why.
+  // and later, and why_closed() has the reason.
   bool open(const std::function<Start()>& start, const std::function<void(const Hello&)>& greeted);
-  [[nodiscard]] const std::string& why_closed() const noexcept { return why_closed_.reason; }
+  [[nodiscard]] const record::Reason& why_closed() const noexcept { return why_closed_.reason; }
   // Whether it is something that the device lacks.
-  [[nodiscard]] bool unsupported() const noexcept { return why_closed_.unsupported; }
+  [[nodiscard]] bool unsupported() const noexcept { return why_closed_.unsupported(); }
 
   // The worker, of a slot that is open.
   [[nodiscard]] WorkerLink& worker() const { return *worker_; }

@@ -16,9 +16,8 @@ class Differences : public testing::Test {
     for (record::Device* device : {&device_a, &device_b}) {
       device->id = "vulkan:lavapipe";
       device->driver_version = "1";
-      device->statistics_calibration = {{"fragment_invocations", "exact"},
-                                        {"vertex_invocations", "exact"},
-                                        {"compute_invocations", "exact"}};
+      device->statistics_calibration = {
+          {"fragment_invocations", {}}, {"vertex_invocations", {}}, {"compute_invocations", {}}};
     }
     for (record::Record* record : {&record_a, &record_b}) {
       record->outcome = record::Outcome::measured;
@@ -106,9 +105,10 @@ TEST_F(Differences, AStatisticIsHeldToWhatItsDriversCanCount) {
   EXPECT_EQ(only().kind, DifferenceKind::regression);  // one driver, two numbers
   use_another_driver();
   EXPECT_EQ(only().kind, DifferenceKind::changed);  // both exact, but the API leaves it open
-  device_a.statistics_calibration["fragment_invocations"] = "inflated: 1.02 to 3.9";
+  device_a.statistics_calibration["fragment_invocations"] = {
+      .worth = record::Worth::inflated, .low = 1.02, .high = 3.9};
   EXPECT_EQ(only().kind, DifferenceKind::calibration);
-  EXPECT_THAT(only().text, HasSubstr("a: inflated: 1.02 to 3.9; b: exact"));
+  EXPECT_THAT(only().text, HasSubstr("a: 1.02 to 3.9 times the true number; b: exact"));
 }
 
 TEST_F(Differences, WhatDriversMustAgreeOnIsARegression) {
@@ -125,7 +125,7 @@ TEST_F(Differences, AStatisticThatOnlyOneDriverTellsIsExpected) {
 }
 
 TEST_F(Differences, AnUnsteadyStatisticIsReportedEvenOnOneDriver) {
-  device_a.statistics_calibration["fragment_invocations"] = "unsteady";
+  device_a.statistics_calibration["fragment_invocations"] = {.worth = record::Worth::unsteady};
   record_b.statistics["fragment_invocations"] = 101;
   EXPECT_EQ(only().kind, DifferenceKind::calibration);
 }
@@ -143,11 +143,11 @@ TEST_F(Differences, AWrongPictureIsARegressionAndVoidsTheTime) {
   record_b.image = "other";
   image_b.rgba[4 * 5] += 0.1F;
   EXPECT_EQ(only(false).kind, DifferenceKind::regression);
-  EXPECT_THAT(find().void_time, HasSubstr("the picture of b is wrong"));
+  EXPECT_THAT(find().void_time, HasSubstr("the image of b is wrong"));
   std::swap(image_a, image_b);
   std::swap(record_a.image, record_b.image);
   EXPECT_EQ(only(false).kind, DifferenceKind::fixed);
-  EXPECT_THAT(find().void_time, HasSubstr("the picture of a is wrong"));
+  EXPECT_THAT(find().void_time, HasSubstr("the image of a is wrong"));
   image_b = image_a;
   EXPECT_EQ(only(false).kind, DifferenceKind::unjudged);
   EXPECT_THAT(only(false).text, HasSubstr("both are wrong"));
@@ -202,7 +202,7 @@ TEST_F(Differences, WhatOnlyOneSideCouldDoIsOneDifference) {
   const auto ended = [](record::Outcome outcome) {
     record::Record record;
     record.outcome = outcome;
-    record.reason = "why";
+    record.reason = {.cause = record::Cause::error, .detail = "why"};
     return record;
   };
   record_b = ended(record::Outcome::crashed);
@@ -222,9 +222,9 @@ TEST(DeviceDifferences, LimitsAreGainedLostAndChanged) {
   record::Device b = a;
   a.limits = {{"x", "1"}, {"y", "1"}};
   b.limits = {{"x", "2"}, {"z", "1"}};
-  a.statistics_calibration = {{"fragment_invocations", "inflated"}};
-  b.statistics_calibration = {{"fragment_invocations", "exact"},
-                              {"compute_invocations", "exact"}};  // of which a's run drew nothing
+  a.statistics_calibration = {{"fragment_invocations", {.worth = record::Worth::inflated}}};
+  b.statistics_calibration = {{"fragment_invocations", {}},
+                              {"compute_invocations", {}}};  // of which a's run drew nothing
   const auto found = find_differences(a, b);
   ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(found[0].text, "1 → 2");

@@ -3,25 +3,26 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "fixture.hpp"
 #include "judge/baselines/baselines.hpp"
 
 namespace triptych::judge {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
-using Calibration = std::map<std::string, std::string>;
+using record::Worth;
+using Calibration = std::map<std::string, record::StatisticWorth>;
 
-const Calibration exact{{"compute_invocations", "exact"}};
-const Calibration doubled{{"compute_invocations", "proportional: 2 times the true number"}};
+const Calibration exact{{"compute_invocations", {}}};
+const Calibration doubled{
+    {"compute_invocations", {.worth = Worth::proportional, .low = 2, .high = 2}}};
 
 class CalibrationGateTest : public JudgeTest {
  protected:
   // What is said of a new version of lavapipe, whose calibration is `own` and which counts 49
   // instead of 48, where only GL's numbers are stored.
-  std::string advice(const Calibration& stored, const Calibration& own) {
+  Finding advice(const Calibration& stored, const Calibration& own) {
     calibrations_["gl:llvmpipe-egl"] = stored;
     accept_first([](record::Record& record, core::Image&) {
       if (record.device == "vulkan:lavapipe") record.statistics.clear();
@@ -34,55 +35,61 @@ class CalibrationGateTest : public JudgeTest {
     EXPECT_EQ(result.exit_code(), core::ExitCode::pass) << text(result);
     const auto advice = with(result, Verdict::advisory, Check::statistics);
     EXPECT_EQ(advice.size(), 1U);
-    return advice.empty() ? std::string() : advice[0].message;
+    return advice.empty() ? Finding{} : advice[0];
   }
 };
 
 // It tells another number of the same picture each time: nothing that a driver could be held to.
 TEST_F(CalibrationGateTest, WhatIsUnsteadyIsNotHeldToWhatIsStored) {
-  const auto verdict_of = [&](const std::string& run, const std::string& worth) {
-    calibrations_["vulkan:lavapipe"] = {{"fragment_invocations", worth}};
+  const auto verdict_of = [&](const std::string& run, Worth worth) {
+    calibrations_["vulkan:lavapipe"] = {{"fragment_invocations", {.worth = worth}}};
     add_run(run, [](record::Record& record, core::Image&) {
       if (record.device == "vulkan:lavapipe") ++record.statistics["fragment_invocations"];
     });
     return gate(run).exit_code();
   };
   accept_first();
-  EXPECT_EQ(verdict_of("b", "unsteady: 4, and 8 when drawn again"), core::ExitCode::pass);
-  EXPECT_THAT(text(gate("b")),
-              HasSubstr("1 statistics as stored; unsteady, so not compared: fragment_invocations"));
-  EXPECT_EQ(verdict_of("c", "exact"), core::ExitCode::regression);
+  EXPECT_EQ(verdict_of("b", Worth::unsteady), core::ExitCode::pass);
+  const auto compared = with(gate("b"), Cause::as_stored);
+  EXPECT_TRUE(std::ranges::any_of(compared, [](const Finding& each) {
+    return each.names == std::vector<std::string>{"fragment_invocations"};
+  }));
+  EXPECT_EQ(verdict_of("c", Worth::exact), core::ExitCode::regression);
 }
 
 TEST_F(CalibrationGateTest, WhatBothCountExactlyIsCompared) {
-  EXPECT_THAT(advice(exact, exact), AllOf(HasSubstr("compute_invocations 49, but 48 on gl-"),
-                                          Not(HasSubstr("not compared"))));
+  const Finding finding = advice(exact, exact);
+  const Change change = change_of(finding, "compute_invocations");
+  EXPECT_EQ(change.now, 49);
+  EXPECT_THAT(change.accepted, testing::ElementsAre(testing::Pair(testing::_, 48)));
+  EXPECT_THAT(finding.names, testing::IsEmpty());
 }
 
 TEST_F(CalibrationGateTest, WhatThisDriverCountsOtherwiseIsNotCompared) {
-  EXPECT_THAT(advice(exact, doubled),
-              AllOf(HasSubstr("no number of it can be held against the stored ones"),
-                    HasSubstr("not compared: compute_invocations (here proportional: 2 times"),
-                    Not(HasSubstr("differs from"))));
+  const Finding finding = advice(exact, doubled);
+  EXPECT_THAT(finding.changes, testing::IsEmpty());
+  EXPECT_EQ(finding.number("compared"), 0);
+  EXPECT_THAT(finding.names, testing::ElementsAre("compute_invocations: proportional"));
 }
 
 TEST_F(CalibrationGateTest, WhatTheStoredDriverCountsOtherwiseIsNotCompared) {
-  EXPECT_THAT(advice(doubled, exact),
-              AllOf(HasSubstr("not compared: compute_invocations (on gl-llvmpipe-egl"),
-                    HasSubstr("proportional: 2 times"), Not(HasSubstr("differs from"))));
+  const Finding finding = advice(doubled, exact);
+  EXPECT_THAT(finding.changes, testing::IsEmpty());
+  EXPECT_THAT(finding.names,
+              testing::ElementsAre(testing::StartsWith("compute_invocations on gl-llvmpipe-egl")));
 }
 
 TEST_F(CalibrationGateTest, WhatNoSceneShowedIsNotCompared) {
-  EXPECT_THAT(advice(exact, {{"vertex_invocations", "exact"}}),
-              HasSubstr("compute_invocations (here not calibrated)"));
+  EXPECT_THAT(advice(exact, {{"vertex_invocations", {}}}).names,
+              testing::ElementsAre("compute_invocations: not_calibrated"));
 }
 
 TEST_F(CalibrationGateTest, ADriverWithoutACalibrationIsComparedAsItIs) {
-  EXPECT_THAT(advice({}, exact), HasSubstr("compute_invocations 49, but 48 on gl-"));
+  EXPECT_EQ(change_of(advice({}, exact), "compute_invocations").now, 49);
 }
 
 TEST_F(CalibrationGateTest, ARunWithoutACalibrationStillHeedsTheStoredOne) {
-  EXPECT_THAT(advice(doubled, {}), HasSubstr("not compared: compute_invocations (on gl-"));
+  EXPECT_THAT(advice(doubled, {}).names, testing::SizeIs(1));
 }
 
 TEST_F(CalibrationGateTest, ARunThatDidNotLookKeepsTheStoredCalibration) {
@@ -100,17 +107,18 @@ TEST_F(CalibrationGateTest, ARunThatDidNotLookKeepsTheStoredCalibration) {
 
 // A part of a plan asks for fewer statistics.
 TEST_F(CalibrationGateTest, ARunThatLookedAtSomeKeepsWhatIsStoredOfTheOthers) {
-  calibrations_["gl:llvmpipe-egl"] = {{"compute_invocations", "exact"},
-                                      {"fragment_invocations", "exact"}};
+  calibrations_["gl:llvmpipe-egl"] = {{"compute_invocations", {}}, {"fragment_invocations", {}}};
   add_run("a");
   (void)accept_run("a");
-  calibrations_["gl:llvmpipe-egl"] = {{"compute_invocations", "unsteady"}};
+  calibrations_["gl:llvmpipe-egl"] = {{"compute_invocations", {.worth = Worth::unsteady}}};
   add_run("b");
   (void)accept_run("b");
-  EXPECT_THAT(Baselines(folder_.path() / "baselines", plan)
-                  .statistics_calibration(device_file("statistics", "gl").stem().string()),
-              testing::UnorderedElementsAre(testing::Pair("compute_invocations", "unsteady"),
-                                            testing::Pair("fragment_invocations", "exact")));
+  EXPECT_THAT(
+      Baselines(folder_.path() / "baselines", plan)
+          .statistics_calibration(device_file("statistics", "gl").stem().string()),
+      testing::UnorderedElementsAre(
+          testing::Pair("compute_invocations", record::StatisticWorth{.worth = Worth::unsteady}),
+          testing::Pair("fragment_invocations", record::StatisticWorth{})));
 }
 
 }  // namespace

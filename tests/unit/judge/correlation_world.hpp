@@ -102,7 +102,7 @@ inline std::string text(const CorrelationFindings& result) {
   std::string all;
   for (const Finding& finding : result.findings) {
     all += fmt::format("{} {} {} {}: {}\n", name_of(finding.verdict), finding.device,
-                       finding.configuration, finding.subject, finding.message);
+                       finding.configuration, finding.subject, name_of(finding.cause));
   }
   return all;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -157,6 +158,23 @@ std::vector<Finding> JudgeTest::with(const GateResult& result, Verdict verdict, 
   std::vector<Finding> found = with(result, verdict);
   std::erase_if(found, [&](const Finding& finding) { return finding.check != check; });
   return found;
+}
+
+std::vector<Finding> JudgeTest::with(const GateResult& result, Cause cause) {
+  std::vector<Finding> found = result.findings;
+  std::erase_if(found, [&](const Finding& finding) { return finding.cause != cause; });
+  return found;
+}
+
+Change change_of(const Observation& what, const std::string& name) {
+  const auto found = std::ranges::find(what.changes, name, &Change::name);
+  if (found != what.changes.end()) return *found;
+  ADD_FAILURE() << name << " did not change";
+  return {};
+}
+
+bool has(const std::vector<Observation>& because, Cause cause) {
+  return std::ranges::find(because, cause, &Observation::cause) != because.end();
 }
 
 std::string JudgeTest::text(const GateResult& result) {

@@ -52,6 +52,7 @@ class JudgeTest : public testing::Test {
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Verdict verdict);
   [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Verdict verdict,
                                                  Check check);
+  [[nodiscard]] static std::vector<Finding> with(const GateResult& result, Cause cause);
   // All of a result's findings as text, for failed expectations.
   [[nodiscard]] static std::string text(const GateResult& result);
 
@@ -67,7 +68,7 @@ class JudgeTest : public testing::Test {
   // Of the devices of runs to come, by id.
   std::map<std::string, std::string> driver_versions_;
   std::map<std::string, std::string> settings_;  // of all of them
-  std::map<std::string, std::map<std::string, std::string>> calibrations_;
+  std::map<std::string, std::map<std::string, record::StatisticWorth>> calibrations_;
 
  private:
   [[nodiscard]] record::Record make_record(const std::string& run, const record::Device& device,
@@ -75,5 +76,10 @@ class JudgeTest : public testing::Test {
   [[nodiscard]] std::vector<double> noisy(double level);
   core::Random random_{7};
 };
+
+// The change of one value; fails the test where the value did not change.
+[[nodiscard]] Change change_of(const Observation& what, const std::string& name);
+// Whether this cause is among those that lost points.
+[[nodiscard]] bool has(const std::vector<Observation>& because, Cause cause);
 
 }  // namespace triptych::judge

@@ -14,8 +14,6 @@
 namespace triptych::judge {
 namespace {
 
-using testing::HasSubstr;
-
 constexpr const char* lavapipe = "vulkan:lavapipe";
 
 class StressGateTest : public JudgeTest {
@@ -75,8 +73,8 @@ TEST_F(StressGateTest, APictureOverItsBoundLosesTwoPoints) {
       found(on_lavapipe([](record::Record&, core::Image& image) { image.rgba[17] += 2 * bound; }));
   EXPECT_EQ(finding.verdict, Verdict::regression);
   EXPECT_EQ(finding.numbers.at("score"), 1);
-  EXPECT_THAT(finding.message, HasSubstr("over the bound"));
-  EXPECT_THAT(finding.message, HasSubstr("differs from"));
+  EXPECT_TRUE(has(finding.because, Cause::pixels_over_bound));
+  EXPECT_TRUE(has(finding.because, Cause::farther_device));
 }
 
 TEST_F(StressGateTest, WithinTheBoundOnlyAgreementIsLost) {
@@ -85,7 +83,7 @@ TEST_F(StressGateTest, WithinTheBoundOnlyAgreementIsLost) {
   }));
   EXPECT_EQ(finding.verdict, Verdict::regression);
   EXPECT_EQ(finding.numbers.at("score"), 2);
-  EXPECT_THAT(finding.message, HasSubstr("is the farther from the truth"));
+  EXPECT_TRUE(has(finding.because, Cause::farther_device));
 }
 
 // The other devices are nearer to the truth, so the one that strays must not cost them a point.
@@ -106,10 +104,11 @@ TEST_F(StressGateTest, WhatIsNotFiniteHasNoPoint) {
 TEST_F(StressGateTest, ACrashHasNoPointAndIsToldOnce) {
   const Finding finding = found(on_lavapipe([](record::Record& record, core::Image&) {
     record.outcome = record::Outcome::crashed;
-    record.reason = "killed by SIGSEGV";
+    record.reason = {.cause = record::Cause::signal, .numbers = {{"signal", 11}}};
   }));
   EXPECT_EQ(finding.numbers.at("score"), 0);
-  EXPECT_THAT(finding.message, HasSubstr("killed by SIGSEGV"));
+  EXPECT_TRUE(has(finding.because, Cause::ended));
+  EXPECT_EQ(finding.reason.number("signal"), 11);
   EXPECT_EQ(with(gate("judged"), Verdict::regression).size(), 1U);
 }
 
@@ -155,7 +154,7 @@ TEST_F(StressGateTest, OneDeviceAskedForIsHeldAgainstTheOthersOfTheRun) {
 TEST_F(StressGateTest, ARefusalIsRightOnlyWhereItIsAllowed) {
   const Tweak refuse = on_lavapipe([](record::Record& record, core::Image&) {
     record.outcome = record::Outcome::skipped;
-    record.reason = "too large";
+    record.reason = {.cause = record::Cause::not_supported, .detail = "too large"};
   });
   const Finding finding = found(refuse);
   EXPECT_EQ(finding.verdict, Verdict::cannot_judge);  // it drew it when it was accepted
@@ -181,7 +180,11 @@ TEST_F(StressGateTest, OtherBitsThanAnotherConfigurationLoseAPoint) {
   }));
   EXPECT_EQ(finding.verdict, Verdict::regression);
   EXPECT_EQ(finding.numbers.at("score"), 2);
-  EXPECT_THAT(finding.message, HasSubstr("1 of 48 pixels differ in their bits, first (1, 0)"));
+  ASSERT_EQ(finding.because.size(), 1U);
+  EXPECT_EQ(finding.because[0].cause, Cause::pixels_differ);
+  EXPECT_EQ(finding.because[0].against, Against::expectation);
+  EXPECT_EQ(finding.because[0].number("pixels_differing"), 1);
+  EXPECT_EQ(finding.because[0].number("x"), 1);
 }
 
 // A shard may hold one of the two.
@@ -205,7 +208,10 @@ TEST_F(StressGateTest, MoreSamplesThanAllowedLoseAPoint) {
   const Finding finding = found(on_lavapipe(
       [](record::Record& record, core::Image&) { record.counters["samples"] = 1000033; }));
   EXPECT_EQ(finding.verdict, Verdict::regression);
-  EXPECT_THAT(finding.message, HasSubstr("1000033 samples, at most 20834 × 48 rays allowed"));
+  ASSERT_EQ(finding.because.size(), 1U);
+  EXPECT_EQ(finding.because[0].cause, Cause::count_too_large);
+  EXPECT_EQ(finding.because[0].number("count"), 1000033);
+  EXPECT_EQ(finding.because[0].number("unit"), 48);
   EXPECT_EQ(with(gate("judged"), Verdict::regression).size(), 1U);
 }
 
@@ -253,13 +259,19 @@ class ExpectationTest : public JudgeTest {
     return image;
   }
 
-  std::string judge(const record::SamePicture& rule) {
+  // The observation; Cause::none where the expectation is met.
+  Observation judge(const record::SamePicture& rule) {
     StressRun run(store_, records_);
-    return unmet({"a test", rule}, records_.front(), run, [](const record::Record&) {
+    const auto what = unmet({"a test", rule}, records_.front(), run, [](const record::Record&) {
       TruthPair pair{core::Image(width, height), core::Image(width, height)};
       for (float& value : pair.bound.rgba) value = 0.25F;
       return pair;
     });
+    return what.value_or(Observation{});
+  }
+  // The number of pixels that differ.
+  double differing(const record::SamePicture& rule) {
+    return judge(rule).number("pixels_differing");
   }
 
   std::vector<record::Record> records_;
@@ -274,28 +286,27 @@ TEST_F(ExpectationTest, AMirrorImageIsOneOnlyAlongItsAxis) {
   add("data=b", places(width, height, [](int x, int y) { return place(width - 1 - x, y); }));
   add("data=c",
       places(width, height, [](int x, int y) { return place(width - 1 - x, height - 1 - y); }));
-  EXPECT_EQ(judge({.changed = {{"data", "b"}}, .mirrored_x = true}), "");
-  EXPECT_EQ(judge({.changed = {{"data", "c"}}, .mirrored_x = true, .mirrored_y = true}), "");
-  EXPECT_THAT(judge({.changed = {{"data", "b"}}}), HasSubstr("4 of 6 pixels differ"));
-  EXPECT_THAT(judge({.changed = {{"data", "c"}}, .mirrored_x = true}), HasSubstr("6 of 6"));
+  EXPECT_EQ(differing({.changed = {{"data", "b"}}, .mirrored_x = true}), 0);
+  EXPECT_EQ(differing({.changed = {{"data", "c"}}, .mirrored_x = true, .mirrored_y = true}), 0);
+  EXPECT_EQ(differing({.changed = {{"data", "b"}}}), 4);
+  EXPECT_EQ(differing({.changed = {{"data", "c"}}, .mirrored_x = true}), 6);
 }
 
 TEST_F(ExpectationTest, APartIsHeldAgainstItsPlace) {
   add("data=a", places(width, height, [](int x, int y) { return place(x + 2, y + 1); }));
   add("data=b", places(6, 5, place));
-  EXPECT_EQ(judge({.changed = {{"data", "b"}}, .at = {2, 1}}), "");
-  EXPECT_THAT(judge({.changed = {{"data", "b"}}, .at = {1, 1}}), HasSubstr("6 of 6"));
-  EXPECT_THAT(judge({.changed = {{"data", "b"}}, .at = {4, 1}}), HasSubstr("do not lie in"));
-  EXPECT_THAT(judge({.changed = {{"data", "z"}}}), HasSubstr("there is no picture with data=z"));
+  EXPECT_EQ(judge({.changed = {{"data", "b"}}, .at = {2, 1}}).cause, Cause::none);
+  EXPECT_EQ(differing({.changed = {{"data", "b"}}, .at = {1, 1}}), 6);
+  EXPECT_EQ(judge({.changed = {{"data", "b"}}, .at = {4, 1}}).cause, Cause::not_inside);
+  EXPECT_EQ(judge({.changed = {{"data", "z"}}}).cause, Cause::no_other_image);
 }
 
 TEST_F(ExpectationTest, BoundsOfBothAddUp) {
   add("data=a", places(width, height, place));
   add("data=b", places(width, height, [](int x, int y) { return place(x, y) + 0.5F; }));
   add("data=c", places(width, height, [](int x, int y) { return place(x, y) + 0.75F; }));
-  EXPECT_EQ(judge({.changed = {{"data", "b"}}, .to_the_bit = false}), "");
-  EXPECT_THAT(judge({.changed = {{"data", "c"}}, .to_the_bit = false}),
-              HasSubstr("by more than both bounds"));
+  EXPECT_EQ(differing({.changed = {{"data", "b"}}, .to_the_bit = false}), 0);
+  EXPECT_EQ(judge({.changed = {{"data", "c"}}, .to_the_bit = false}).fact("by"), "bounds");
 }
 
 TEST_F(ExpectationTest, ParticlesMayBeNumberedOtherwise) {
@@ -306,8 +317,8 @@ TEST_F(ExpectationTest, ParticlesMayBeNumberedOtherwise) {
   other.ids = {5, 4, 3, 2, 1, 0};
   add("data=a", one);
   add("data=b", other);
-  EXPECT_EQ(judge({.changed = {{"data", "b"}}, .same_ids = false}), "");
-  EXPECT_THAT(judge({.changed = {{"data", "b"}}}), HasSubstr("6 of 6"));
+  EXPECT_EQ(differing({.changed = {{"data", "b"}}, .same_ids = false}), 0);
+  EXPECT_EQ(differing({.changed = {{"data", "b"}}}), 6);
 }
 
 TEST_F(ExpectationTest, OneColourIsMeantToTheBit) {
@@ -318,8 +329,12 @@ TEST_F(ExpectationTest, OneColourIsMeantToTheBit) {
   add("data=b", image);
   StressRun run(store_, records_);
   const record::Expectation expected{"a test", record::OneColour{{0.25F, 0.25F, 0.25F, 1.0F}}};
-  EXPECT_EQ(unmet(expected, records_[0], run, {}), "");
-  EXPECT_THAT(unmet(expected, records_[1], run, {}), HasSubstr("pixel (2, 1) channel 1"));
+  EXPECT_FALSE(unmet(expected, records_[0], run, {}));
+  const auto wrong = unmet(expected, records_[1], run, {});
+  ASSERT_TRUE(wrong);
+  EXPECT_EQ(wrong->number("x"), 2);
+  EXPECT_EQ(wrong->number("y"), 1);
+  EXPECT_EQ(wrong->number("channel"), 1);
 }
 
 }  // namespace

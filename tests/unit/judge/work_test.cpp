@@ -26,11 +26,5 @@ TEST(Work, OfWhatIsMissingOrNothingIsUnknown) {
   EXPECT_FALSE(change({{"samples", 1}}, {{"samples", 0}}));
 }
 
-TEST(Work, TheReasonSplitsTheTime) {
-  EXPECT_EQ(why_text(WorkChange{.log_ratio = std::log(1.2), .unit = "samples"}, std::log(1.32)),
-            "work (samples) +20.0 %, time per unit of work +10.0 %");
-  EXPECT_EQ(why_text(std::nullopt, 0.1), "no counter tells whether it is more work");
-}
-
 }  // namespace
 }  // namespace triptych::judge

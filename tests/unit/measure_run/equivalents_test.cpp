@@ -105,7 +105,8 @@ TEST_F(RunTwins, TakeOverWhatTheFirstTold) {
   const record::Record& other = all[bricks];
   EXPECT_EQ(first.same_as, "");
   EXPECT_EQ(other.same_as, none);
-  EXPECT_EQ(other.reason, "skip: nothing is empty");
+  EXPECT_EQ(other.reason.cause, record::Cause::same_frames);
+  EXPECT_EQ(other.reason.detail, "skip: nothing is empty");
   EXPECT_EQ(other.wall_ns, first.wall_ns);
   EXPECT_EQ(other.counters, first.counters);
   EXPECT_EQ(other.image, first.image);

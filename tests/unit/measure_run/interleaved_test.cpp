@@ -193,7 +193,7 @@ TEST_F(TurnsTest, FreshLaunchesAreNewProcesses) {
 
 TEST_F(TurnsTest, ADeviceThatIsNotThereIsRefusedAtOnce) {
   b.device = "null:nothing";
-  EXPECT_THROW(static_cast<void>(open()), core::NotSupported);
+  EXPECT_THROW(static_cast<void>(open()), record::NotMeasured);
 }
 
 TEST_F(TurnsTest, AnEnvironmentThatChangesTheWorkIsRefused) {

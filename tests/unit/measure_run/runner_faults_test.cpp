@@ -6,13 +6,13 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "record/hung.hpp"
 #include "tests/unit/measure_run/run_fixture.hpp"
 #include "tests/unit/measure_run/spawning.hpp"
 
 namespace triptych::measure {
 namespace {
 
+using record::Cause;
 using record::Outcome;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -31,7 +31,7 @@ class RunFaults : public RunTest {
     EXPECT_EQ(all.size(), 4U);
     for (const record::Record& record : all) {
       if (!record.injected.empty()) return record;
-      EXPECT_EQ(record.outcome, Outcome::measured) << record.reason;
+      EXPECT_EQ(record.outcome, Outcome::measured) << record.reason.detail;
     }
     return {};
   }
@@ -45,7 +45,7 @@ class RunFaults : public RunTest {
 TEST_F(RunFaults, ACrashCostsOneConfigurationAndNamesItsSignal) {
   const record::Record record = outcome_of("crash");
   EXPECT_EQ(record.outcome, Outcome::crashed);
-  EXPECT_THAT(record.reason, HasSubstr("SIGSEGV"));
+  EXPECT_EQ(record.reason.number("signal"), SIGSEGV);
   EXPECT_EQ(record.injected, "crash");
   EXPECT_EQ(started_workers().size(), 2U);
 }
@@ -54,7 +54,7 @@ TEST_F(RunFaults, AHangCostsOneConfigurationAndItsLimit) {
   options.limit = hang_limit;
   const record::Record record = outcome_of("hang");
   EXPECT_EQ(record.outcome, Outcome::hung);
-  EXPECT_THAT(record.reason, HasSubstr(record::no_answer_within(hang_limit)));
+  EXPECT_EQ(record.reason.limit(), std::chrono::ceil<std::chrono::seconds>(hang_limit));
   EXPECT_EQ(started_workers().size(), 2U);
 }
 
@@ -75,7 +75,9 @@ TEST_F(RunFaults, AnApiErrorCostsOneConfigurationAndNoWorker) {
   for (const record::Record& record : records(result.run)) {
     if (record.outcome == Outcome::measured) continue;
     EXPECT_EQ(record.outcome, Outcome::failed);
-    EXPECT_THAT(record.reason, AllOf(HasSubstr("null_frame"), HasSubstr("NULL_ERROR")));
+    EXPECT_EQ(record.reason.cause, Cause::api_error);
+    EXPECT_EQ(record.reason.subject, "null_frame");
+    EXPECT_EQ(record.reason.code, "NULL_ERROR");
     EXPECT_TRUE(record.wall_ns.empty());
   }
 }
@@ -92,7 +94,8 @@ TEST_F(RunFaults, ABrokenFileIsNoFaultOfTheDevice) {
   for (const record::Record& record : records(result.run)) {
     if (record.outcome == Outcome::measured) continue;
     EXPECT_EQ(record.outcome, Outcome::skipped);
-    EXPECT_EQ(record.reason, "bad input: torn:3: the file ends here");
+    EXPECT_EQ(record.reason.cause, Cause::bad_input);
+    EXPECT_EQ(record.reason.detail, "torn:3: the file ends here");
   }
 }
 
@@ -100,7 +103,9 @@ TEST_F(RunFaults, DataThatTakeTooMuchMemoryAreNamed) {
   const RunResult result = run(plan(
       {{"technique", {"raycast"}}, {"data", {"huge"}}, {"step", {"1"}}, {"camera", {"random:7"}}}));
   EXPECT_EQ(result.failed, 1);
-  EXPECT_EQ(records(result.run).front().reason, "out of host memory with data huge");
+  const record::Reason reason = records(result.run).front().reason;
+  EXPECT_EQ(reason.cause, Cause::out_of_memory);
+  EXPECT_EQ(reason.subject, "huge");
 }
 
 TEST_F(RunFaults, AWorkerThatEndsByItselfIsACrashToo) {
@@ -112,7 +117,8 @@ TEST_F(RunFaults, AWorkerThatEndsByItselfIsACrashToo) {
   for (const record::Record& record : records(result.run)) {
     if (record.outcome == Outcome::measured) continue;
     EXPECT_EQ(record.outcome, Outcome::crashed);
-    EXPECT_THAT(record.reason, HasSubstr("exited with code 0"));
+    EXPECT_EQ(record.reason.cause, Cause::exit_code);
+    EXPECT_EQ(record.reason.number("exit_code"), 0);
   }
 }
 
@@ -124,7 +130,8 @@ TEST_F(RunFaults, ADeviceThatCannotBeOpenedIsGivenUpAfterTwoStarts) {
   EXPECT_EQ(started_workers().size(), 2U);
   for (const record::Record& record : records(result.run)) {
     EXPECT_EQ(record.outcome, Outcome::failed);
-    EXPECT_THAT(record.reason, AllOf(HasSubstr("cannot be opened"), HasSubstr("NULL_ERROR")));
+    EXPECT_EQ(record.reason.stage, record::Stage::opening);
+    EXPECT_EQ(record.reason.code, "NULL_ERROR");
   }
 }
 
@@ -134,7 +141,9 @@ TEST_F(RunFaults, WhatADeviceLacksSkipsAllAfterOneStart) {
   const RunResult result = run(small_plan());
   EXPECT_EQ(result.skipped, 4);
   EXPECT_EQ(started_workers().size(), 1U);
-  EXPECT_THAT(records(result.run).front().reason, HasSubstr("cannot be opened"));
+  const record::Reason reason = records(result.run).front().reason;
+  EXPECT_EQ(reason.stage, record::Stage::opening);
+  EXPECT_EQ(reason.cause, Cause::not_supported);
 }
 
 TEST_F(RunFaults, AStartThatFailsOnceCostsNothing) {
@@ -149,8 +158,9 @@ TEST_F(RunFaults, ACommandThatDiesIsReportedWithItsSignalAndLastWords) {
                             "echo first; echo cannot map device >&2; kill -BUS $$"};
   const RunResult result = run(small_plan());
   EXPECT_EQ(result.failed, 4);
-  EXPECT_THAT(records(result.run).front().reason,
-              AllOf(HasSubstr("SIGBUS"), HasSubstr("it last said: first | cannot map device")));
+  const record::Reason reason = records(result.run).front().reason;
+  EXPECT_EQ(reason.number("signal"), SIGBUS);
+  EXPECT_EQ(reason.last_words, "first | cannot map device");
 }
 
 TEST_F(RunFaults, ACommandThatIsNotThereFailsEverythingWithTheReason) {
@@ -158,7 +168,9 @@ TEST_F(RunFaults, ACommandThatIsNotThereFailsEverythingWithTheReason) {
   options.worker_command = {"/nowhere/triptych"};
   const RunResult result = run(small_plan());
   EXPECT_EQ(result.failed, 4);
-  EXPECT_THAT(records(result.run).front().reason, HasSubstr("/nowhere/triptych"));
+  const record::Reason reason = records(result.run).front().reason;
+  EXPECT_EQ(reason.cause, Cause::cannot_start);
+  EXPECT_THAT(reason.detail, HasSubstr("/nowhere/triptych"));
 }
 
 TEST_F(RunFaults, AWorkerThatHangsWhileStartingIsGivenUp) {
@@ -167,7 +179,9 @@ TEST_F(RunFaults, AWorkerThatHangsWhileStartingIsGivenUp) {
   options.start_limit = hang_limit;
   const RunResult result = run(small_plan());
   EXPECT_EQ(result.failed, 4);
-  EXPECT_THAT(records(result.run).front().reason, HasSubstr(record::no_answer_within(hang_limit)));
+  const record::Reason reason = records(result.run).front().reason;
+  EXPECT_EQ(reason.stage, record::Stage::opening);
+  EXPECT_EQ(reason.limit(), std::chrono::ceil<std::chrono::seconds>(hang_limit));
 }
 
 TEST_F(RunFaults, AReplacedWorkerGoesOnWithTheClocksOfTheFirst) {

@@ -42,7 +42,7 @@ TEST_F(RunTest, ARecordTellsEverythingAboutItsConfiguration) {
   const auto all = records(result.run);
   ASSERT_EQ(all.size(), 1U);
   const record::Record& record = all.front();
-  EXPECT_EQ(record.outcome, Outcome::measured) << record.reason;
+  EXPECT_EQ(record.outcome, Outcome::measured) << record.reason.detail;
   EXPECT_EQ(record.suite, "fake");
   EXPECT_EQ(record.plan, "fake/quick");
   EXPECT_EQ(record.configuration, configuration_key(suite, one.configurations.front()));
@@ -114,7 +114,7 @@ TEST_F(RunTest, WhatADeviceCannotDoIsSkippedWithTheReason) {
   EXPECT_EQ(result.skipped, 2);
   for (const record::Record& record : records(result.run)) {
     if (record.outcome != Outcome::skipped) continue;
-    EXPECT_THAT(record.reason, HasSubstr("not supported"));
+    EXPECT_EQ(record.reason.cause, record::Cause::not_supported);
     EXPECT_THAT(record.wall_ns, IsEmpty());
     EXPECT_EQ(record.image, "");
   }
@@ -126,7 +126,9 @@ TEST_F(RunTest, MissingDataIsSkippedWithTheReason) {
   EXPECT_EQ(result.measured, 2);
   EXPECT_EQ(result.skipped, 2);
   const auto all = records(result.run);
-  EXPECT_EQ(std::ranges::count(all, "absent: no such file", &record::Record::reason), 2);
+  EXPECT_EQ(std::ranges::count(all, "absent: no such file",
+                               [](const auto& each) { return each.reason.detail; }),
+            2);
 }
 
 TEST_F(RunTest, InjectedFaultsAreInTheRecordAndInThePicture) {

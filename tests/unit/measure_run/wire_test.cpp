@@ -76,7 +76,7 @@ TEST(Wire, BatchesAreAskedForAndAnswered) {
   EXPECT_TRUE(as_release(to_message(Release{})));
   EXPECT_FALSE(as_release(to_message(Frames{})));
   const Batch sent{.outcome = record::Outcome::lost,
-                   .reason = "gone",
+                   .reason = {.cause = record::Cause::device_lost, .detail = "gone"},
                    .wall_ns = {1.0 / 3, 2e9},
                    .device_ns = {0.25}};
   const auto batch = as_batch(to_message(sent));
@@ -109,14 +109,14 @@ TEST(Wire, TheEndOfAPipeIsNoMessageAndHalfAMessageAnError) {
 
 TEST(Wire, ABufferPutsPiecesTogetherAndKeepsTheNextMessage) {
   TestPipe pipe;
-  send(pipe.write.get(), to_message(Refused{"first"}));
-  send(pipe.write.get(), to_message(Refused{"second"}));
+  send(pipe.write.get(), to_message(Refused{{.detail = "first"}}));
+  send(pipe.write.get(), to_message(Refused{{.detail = "second"}}));
   pipe.write.reset();
   MessageBuffer buffer;
   std::vector<std::string> reasons;
   for (std::byte byte{}; ::read(pipe.read.get(), &byte, 1) == 1;) {
     buffer.append({&byte, 1});
-    if (const auto message = buffer.next()) reasons.push_back(as_refused(*message)->reason);
+    if (const auto message = buffer.next()) reasons.push_back(as_refused(*message)->reason.detail);
   }
   EXPECT_THAT(reasons, testing::ElementsAre("first", "second"));
   EXPECT_TRUE(buffer.empty());
@@ -136,10 +136,10 @@ TEST(Wire, AnIncompleteMessageIsATypedError) {
 
 TEST(Wire, BrokenUtf8FromADriverDoesNotStopAnAnswer) {
   TestPipe pipe;
-  send(pipe.write.get(), to_message(Refused{"caf\xe9"}));
+  send(pipe.write.get(), to_message(Refused{{.detail = "caf\xe9"}}));
   const auto message = receive(pipe.read.get());
   ASSERT_TRUE(message);
-  EXPECT_THAT(as_refused(*message)->reason, testing::StartsWith("caf"));
+  EXPECT_THAT(as_refused(*message)->reason.detail, testing::StartsWith("caf"));
 }
 
 }  // namespace

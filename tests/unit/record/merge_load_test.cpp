@@ -40,7 +40,8 @@ INSERT INTO record SELECT seq, 'RUN', 'volume', 'volume/paper',
   format('camera=%s,data=%s,ert=0,shading=gradient,step=%s,technique=raycast,viewport=512', camera, data, step),
   format('camera=%s,data=%s,quadrature=midpoint,shading=gradient,step=%s,transfer_function=haze,viewport=512',
     camera, data, step),
-  'raycast', 'null:scripted', 'measured', '', '', 'device', 1, 1e6 + i, 1e6 + i, 1e6 + i, 1, 4, 9, 2e7, 1, 3e7, 2e6,
+  'raycast', 'null:scripted', 'measured', 'none', 'working', '{}', '', '', 0, '', '',
+  '', '', 'device', 1, 1e6 + i, 1e6 + i, 1e6 + i, 1, 4, 9, 2e7, 1, 3e7, 2e6,
   30572544, '', format('%032x', i / 50000), 'a44fa78c0d6a9275b10a1ed111e68b21', '', '{"merge_patches":[]}', format('%032x', i) FROM n;
 INSERT INTO factor SELECT seq, name, coalesce(value, CASE name
     WHEN 'camera' THEN camera WHEN 'data' THEN data ELSE step END)

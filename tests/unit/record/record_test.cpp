@@ -216,7 +216,7 @@ TEST(RecordJson, WrongTypesAreRefusedByName) {
   };
   EXPECT_THAT(refusal("wall_ns", "fast"), HasSubstr("'wall_ns': expected a list"));
   EXPECT_THAT(refusal("wall_ns", {1, "fast"}), HasSubstr("expected a number"));
-  EXPECT_THAT(refusal("reason", 1), HasSubstr("'reason': expected text"));
+  EXPECT_THAT(refusal("reason", 1), HasSubstr("'reason': expected an object"));
   EXPECT_THAT(refusal("loop_frames", -1), HasSubstr("whole number"));
   EXPECT_THAT(refusal("loop_frames", 1e10), HasSubstr("whole number"));
   EXPECT_THAT(refusal("loop_frames", 5'000'000'000), HasSubstr("whole number"));

@@ -26,8 +26,13 @@ inline Device sample_device(const std::string& id = "null:scripted") {
           .cpu_features = "avx2,fma",
           .environment = {{"LP_NUM_THREADS", "2"}},
           .limits = {{"max_image_3d", "2048"}},
-          .statistics_calibration = {{"compute_invocations", "exact"},
-                                     {"fragment_invocations", "inflated: 1.07 to 3.9 times"}}};
+          .statistics_calibration = {{"compute_invocations", {}},
+                                     {"fragment_invocations",
+                                      {.worth = Worth::inflated, .low = 1.07, .high = 3.9}}},
+          .faults = {{.kind = DeviceFaultKind::clock_reads_zero,
+                      .subject = "draw",
+                      .detail = "0 ns",
+                      .last_words = "a warning"}}};
 }
 
 inline ClockTrust sample_clock() {
@@ -52,7 +57,15 @@ inline Record sample_record(const std::string& configuration = "camera=a,data=b,
           .device = device,
           .factors = {{"camera", "a"}, {"data", "b"}, {"step", "0.5"}},
           .outcome = Outcome::measured,
-          .reason = "a reason",
+          .reason = {.cause = Cause::same_frames,
+                     .stage = Stage::counting,
+                     .numbers = {{"limit_s", 60}},
+                     .subject = "a call",
+                     .code = "A_CODE",
+                     .not_tried = true,
+                     .shared_levels = "data=b",
+                     .detail = "a reason",
+                     .last_words = "a warning"},
           .same_as = "camera=random:7,technique=raycast",
           .injected = "a fault",
           .wall_ns = {12.5, 3.25, 1e9, 0.1},

@@ -76,7 +76,7 @@ TEST_F(StoreTest, OtherSchemaVersion) {
     for (const Mode mode : {Mode::read, Mode::append}) {
       EXPECT_THAT(refusal<core::InputError>(file_, mode),
                   AllOf(HasSubstr(std::string("schema version ") + version),
-                        HasSubstr("reads version 6"), HasSubstr(hint), HasSubstr("--store")));
+                        HasSubstr("reads version 7"), HasSubstr(hint), HasSubstr("--store")));
     }
   }
 }
@@ -178,7 +178,7 @@ TEST_F(StoreTest, ReadOnlyFolder) {
               AllOf(StartsWith(file_.string()), HasSubstr("folder is read-only")));
   EXPECT_EQ(as_nobody([&] {
               const Store store(file_, Mode::read);
-              return store.records("run-1").at(0).reason;
+              return store.records("run-1").at(0).reason.detail;
             }),
             "a reason");
 }

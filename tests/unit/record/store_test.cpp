@@ -126,7 +126,7 @@ TEST_F(StoreTest, TextOfAnyBytes) {
   Store store(file_, Mode::append);
   store.add_run(sample_run());
   Record record = sample_record();
-  record.reason = std::string("a'b\"c\n\0d\xff", 9);
+  record.reason.detail = std::string("a'b\"c\n\0d\xff", 9);
   store.add_record(record);
   EXPECT_EQ(store.records("run-1").at(0).reason, record.reason);
   Device device = sample_device();

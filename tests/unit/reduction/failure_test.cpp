@@ -9,8 +9,6 @@
 namespace triptych::reduction {
 namespace {
 
-using ::testing::HasSubstr;
-
 core::Image grey(int side, float value) {
   core::Image image(side, side);
   for (float& each : image.rgba) each = value;
@@ -46,21 +44,22 @@ TEST_F(FailureOf, APictureBeyondItsBoundIsOfOneKindWhateverItsNumbers) {
   value = 0.6F;
   const auto some = failure_of(record, evidence);
   ASSERT_TRUE(some);
-  EXPECT_THAT(some->message, HasSubstr("4 of 4 pixels are over the bound against the truth"));
+  EXPECT_EQ(some->cause, judge::Cause::pixels_over_bound);
+  EXPECT_EQ(some->number("pixels_over"), 4);
   value = 0.9F;
-  EXPECT_EQ(failure_of(record, evidence)->kind, some->kind);
+  EXPECT_TRUE(is_same_kind(*failure_of(record, evidence), *some));
   value = NAN;
-  EXPECT_NE(failure_of(record, evidence)->kind, some->kind);
+  EXPECT_FALSE(is_same_kind(*failure_of(record, evidence), *some));
 }
 
 TEST_F(FailureOf, ACrashAndAHangAreOfTheirOwnKinds) {
   record.outcome = record::Outcome::crashed;
-  record.reason = "killed by SIGSEGV";
+  record.reason = {.cause = record::Cause::signal, .numbers = {{"signal", 11}}};
   const auto crash = failure_of(record, evidence);
   ASSERT_TRUE(crash);
-  EXPECT_EQ(crash->message, "crashed: killed by SIGSEGV");
+  EXPECT_EQ(crash->reason, record.reason);
   record.outcome = record::Outcome::hung;
-  EXPECT_NE(failure_of(record, evidence)->kind, crash->kind);
+  EXPECT_FALSE(is_same_kind(*failure_of(record, evidence), *crash));
 }
 
 TEST_F(FailureOf, ASkipIsNone) {
@@ -74,8 +73,10 @@ TEST_F(FailureOf, CountersAreHeldAgainstAnotherDeviceOnly) {
   evidence.other = [this](const record::Record&) { return other; };
   const auto changed = failure_of(record, evidence);
   ASSERT_TRUE(changed);
-  EXPECT_EQ(changed->kind, other_counters);
-  EXPECT_THAT(changed->message, HasSubstr("samples 100"));
+  EXPECT_EQ(changed->cause, judge::Cause::values_changed);
+  ASSERT_EQ(changed->changes.size(), 1U);
+  EXPECT_EQ(changed->changes[0].name, "samples");
+  EXPECT_EQ(changed->changes[0].now, 100);
   other.counters = record.counters;
   EXPECT_FALSE(failure_of(record, evidence));
 }

@@ -16,6 +16,8 @@ using ::testing::ElementsAre;
 using ::testing::Field;
 using ::testing::IsEmpty;
 
+const Failure wrong{.cause = judge::Cause::pixels_over_bound};
+
 class Reduce : public testing::Test {
  protected:
   [[nodiscard]] Configuration configuration(const measure::Overrides& overrides) const {
@@ -27,9 +29,9 @@ class Reduce : public testing::Test {
                                       int most_frames = 1000) const {
     const Try attempt = [&](const Configuration& each) -> std::optional<Failure> {
       if (!fails(each)) return std::nullopt;
-      return Failure{"wrong", "wrong"};
+      return wrong;
     };
-    return reduce(*suite, start, {"wrong", "wrong"}, most_frames, attempt, [](const Step&) {});
+    return reduce(*suite, start, wrong, most_frames, attempt, [](const Step&) {});
   }
 
   std::unique_ptr<measure::SuiteWithTruth> suite = volume_suite::make_suite({});
@@ -74,9 +76,10 @@ TEST_F(Reduce, FactorsAreTriedAgainWhenOthersBecamePlainer) {
 
 TEST_F(Reduce, AnotherKindOfFailureIsNone) {
   const Configuration start = configuration({});
-  const Try attempt = [](const Configuration&) { return Failure{"crashed", "crashed"}; };
-  const Reduction result =
-      reduce(*suite, start, {"wrong", "wrong"}, 1000, attempt, [](const Step&) {});
+  const Try attempt = [](const Configuration&) {
+    return Failure{.cause = judge::Cause::ended, .outcome = record::Outcome::crashed};
+  };
+  const Reduction result = reduce(*suite, start, wrong, 1000, attempt, [](const Step&) {});
   EXPECT_EQ(result.smallest, start);
   EXPECT_THAT(result.steps, IsEmpty());
 }

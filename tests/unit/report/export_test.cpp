@@ -127,10 +127,11 @@ TEST_F(ExportTest, ARowForEachRecordAndAColumnForEachFactor) {
 TEST_F(ExportTest, MissingIsEmpty) {
   add("step=1", [](Record& each) {
     each.outcome = record::Outcome::skipped;
-    each.reason = "no compute, nor 3D images";
+    each.reason = {.cause = record::Cause::not_supported, .detail = "no compute, nor 3D images"};
   });
   write();
   const auto record = rows("records").at(0);
+  EXPECT_EQ(record.at("cause"), "not_supported");
   EXPECT_EQ(record.at("reason"), "no compute, nor 3D images");
   for (const auto& [column, field] : record) EXPECT_NE(field, "0") << column;
   EXPECT_EQ(record.at("median_wall_ns"), "");

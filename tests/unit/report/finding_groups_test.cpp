@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "support/well_formed.hpp"
+#include "findings.hpp"
 
 namespace triptych::report {
 namespace {
@@ -16,62 +16,63 @@ using testing::Not;
 using enum judge::Verdict;
 
 Finding finding(judge::Verdict verdict, const std::string& device, const std::string& configuration,
-                const std::string& message = "3 of 64 pixels are over the bound",
-                Check check = Check::image) {
-  return {.check = check,
-          .verdict = verdict,
-          .test = fmt::format("volume.quick.{}.{}", judge::name_of(check), device),
-          .device = device,
-          .configuration = configuration,
-          .message = message};
+                const judge::Observation& what = over_bound(3), Check check = Check::image) {
+  return finding_of(check, verdict, device, configuration, what);
 }
+
+const judge::Observation dearer = changed("device_code");
+const judge::Observation off{.cause = judge::Cause::residual_moved};
 
 TEST(FindingGroups, OneCauseIsSaidOnceWithTheSmallestCase) {
   const std::vector<Finding> findings{
       finding(regression, "gl:x", "data=generate:ball:64,technique=raycast,viewport=128",
-              "9 of 16384 pixels are over the bound"),
+              over_bound(9)),
       finding(regression, "gl:x", "data=generate:ball:64,technique=raycast,viewport=64",
-              "3 of 4096 pixels are over the bound"),
-      finding(pass, "gl:x", "data=generate:ball:64,technique=slices,viewport=64", "within"),
-      finding(pass, "gl:y", "data=generate:ball:64,technique=raycast,viewport=64", "within")};
+              over_bound(3)),
+      finding(pass, "gl:x", "data=generate:ball:64,technique=slices,viewport=64", within_bound()),
+      finding(pass, "gl:y", "data=generate:ball:64,technique=raycast,viewport=64", within_bound())};
   const std::vector<FindingGroup> groups = grouped(findings);
   ASSERT_EQ(groups.size(), 3U);
   EXPECT_EQ(groups[0].configurations, 2U);
   EXPECT_EQ(groups[0].first, &findings[1]);
   EXPECT_EQ(groups[0].signature, "technique=raycast");
   EXPECT_THAT(groups[0].right_on, ElementsAre("gl:y"));
-  EXPECT_EQ(groups[0].subject(), "2 configurations");
 }
 
 TEST(FindingGroups, WhoseItIsByWhatOtherDevicesDo) {
-  const auto whose = [](std::vector<Finding> findings) { return grouped(findings)[0].whose(); };
+  const auto blame = [](std::vector<Finding> findings) { return grouped(findings)[0].blame(); };
   Finding wrong = finding(regression, "vulkan:new", "technique=a");
-  EXPECT_EQ(whose({wrong}), "");
-  const Finding right = finding(pass, "vulkan:old", "technique=a", "within");
-  EXPECT_EQ(whose({wrong, right}), "the driver's: vulkan:old is right by the same API");
-  EXPECT_EQ(whose({wrong, finding(pass, "gl:old", "technique=a", "within")}), "")
-      << "our code for the API may be wrong";
+  EXPECT_EQ(blame({wrong}).of, Blame::Of::unknown);
+  const Finding right = finding(pass, "vulkan:old", "technique=a", within_bound());
+  EXPECT_EQ(blame({wrong, right}).of, Blame::Of::driver);
+  EXPECT_THAT(blame({wrong, right}).devices, ElementsAre("vulkan:old"));
+  EXPECT_EQ(blame({wrong, finding(pass, "gl:old", "technique=a", within_bound())}).of,
+            Blame::Of::unknown)
+      << "Triptych's code for the API may be wrong";
   wrong.accepted_on = {"gl:old", "vulkan:new", "vulkan:old"};
-  EXPECT_EQ(whose({wrong}),
-            "the driver's: vulkan:new of another version, vulkan:old were right by the same API");
-  EXPECT_EQ(whose({wrong, finding(regression, "opencl:x", "technique=a")}),
-            "not the driver's: vulkan:new is wrong, too");
+  EXPECT_EQ(blame({wrong}).of, Blame::Of::driver_since_accepted);
+  EXPECT_THAT(blame({wrong}).devices, ElementsAre("vulkan:new", "vulkan:old"));
+  EXPECT_EQ(blame({wrong, finding(regression, "opencl:x", "technique=a")}).of,
+            Blame::Of::not_the_driver);
   wrong.injected = {"half_voxel"};
-  EXPECT_EQ(whose({wrong, right}), "");
-  EXPECT_EQ(whose({finding(regression, "vulkan:lavapipe", "technique=a"),
-                   finding(regression, "gl:llvmpipe-egl", "technique=a")}),
-            "")
+  EXPECT_EQ(blame({wrong, right}).of, Blame::Of::unknown);
+  EXPECT_EQ(blame({finding(regression, "vulkan:lavapipe", "technique=a"),
+                   finding(regression, "gl:llvmpipe-egl", "technique=a")})
+                .of,
+            Blame::Of::unknown)
       << "one driver behind two interfaces";
-  const Finding dearer = finding(regression, "vulkan:new", "technique=a", "more", Check::cost);
-  EXPECT_EQ(whose({dearer, finding(pass, "vulkan:old", "technique=a", "", Check::cost)}), "");
+  const Finding more = finding(regression, "vulkan:new", "technique=a", dearer, Check::cost);
+  EXPECT_EQ(blame({more, finding(pass, "vulkan:old", "technique=a", {}, Check::cost)}).of,
+            Blame::Of::unknown);
 }
 
-// What two shown failures foretell is counted with them, and one that was tried is told.
+// Configurations that two failures predict are counted with them; one that was tried is shown.
 TEST(FindingGroups, WhatWasNotTriedIsOfTheCauseThatWas) {
+  judge::Observation not_tried = crashed(11);
+  not_tried.reason.not_tried = true;
   const std::vector<Finding> findings{
-      finding(regression, "gl:x", "step=1,viewport=16",
-              "crashed: SIGSEGV; not tried, as others ended so with technique=raycast"),
-      finding(regression, "gl:x", "step=1,viewport=64", "crashed: SIGSEGV")};
+      finding(regression, "gl:x", "step=1,viewport=16", not_tried),
+      finding(regression, "gl:x", "step=1,viewport=64", crashed(11))};
   const std::vector<FindingGroup> groups = grouped(findings);
   ASSERT_EQ(groups.size(), 1U);
   EXPECT_EQ(groups[0].configurations, 2U);
@@ -79,10 +80,11 @@ TEST(FindingGroups, WhatWasNotTriedIsOfTheCauseThatWas) {
 }
 
 TEST(FindingGroups, MoreCodeAndMoreMissesAreOneCause) {
+  judge::Observation with_misses = dearer;
+  with_misses.changes.push_back({"misses", judge::Unit::misses, 1, 2, {}, 0});
   const std::vector<Finding> findings{
-      finding(regression, "gl:x", "step=1", "instructions 3 → 4 in all; code 1 → 2", Check::cost),
-      finding(regression, "gl:x", "step=2",
-              "instructions 5 → 6 in all; code 3 → 4; cache misses of code 1 → 2", Check::cost)};
+      finding(regression, "gl:x", "step=1", dearer, Check::cost),
+      finding(regression, "gl:x", "step=2", with_misses, Check::cost)};
   EXPECT_EQ(grouped(findings).size(), 1U);
 }
 
@@ -97,35 +99,36 @@ TEST(FindingGroups, TechniquesAreCausesOfTheirOwnUnlessAllSayIt) {
 }
 
 TEST(FindingGroups, ThreeTechniquesThatSayTheSameHaveOneCause) {
-  const std::vector<Finding> findings{
-      finding(regression, "gl:x", "technique=a"), finding(regression, "gl:x", "technique=b"),
-      finding(regression, "gl:x", "technique=c"), finding(pass, "gl:x", "technique=d", "within")};
+  const std::vector<Finding> findings{finding(regression, "gl:x", "technique=a"),
+                                      finding(regression, "gl:x", "technique=b"),
+                                      finding(regression, "gl:x", "technique=c"),
+                                      finding(pass, "gl:x", "technique=d", within_bound())};
   const std::vector<FindingGroup> groups = grouped(findings);
   ASSERT_EQ(groups.size(), 2U);
   EXPECT_EQ(groups[0].configurations, 3U);
   EXPECT_EQ(groups[0].signature, "technique≠d");
   const std::vector<Finding> elsewhere{finding(regression, "gl:x", "technique=c,step=1"),
-                                       finding(pass, "gl:x", "technique=a,step=1", "within")};
+                                       finding(pass, "gl:x", "technique=a,step=1", within_bound())};
   EXPECT_TRUE(have_one_cause(groups[0], grouped(elsewhere)[0]));
   const std::vector<Finding> other{finding(regression, "gl:x", "technique=e"),
-                                   finding(pass, "gl:x", "technique=a", "within")};
+                                   finding(pass, "gl:x", "technique=a", within_bound())};
   EXPECT_FALSE(have_one_cause(groups[0], grouped(other)[0]));
 }
 
-TEST(FindingGroups, DevicesChecksVerdictsAndMessagesAreCausesOfTheirOwn) {
+TEST(FindingGroups, DevicesChecksVerdictsAndCausesAreApart) {
   const std::vector<Finding> findings{
       finding(regression, "gl:x", "step=1"), finding(regression, "gl:y", "step=1"),
       finding(cannot_judge, "gl:x", "step=2"),
-      finding(regression, "gl:x", "step=2", "samples 3 → 4", Check::counters),
-      finding(regression, "gl:x", "step=3", "4 of 64 pixels are not finite")};
+      finding(regression, "gl:x", "step=2", changed("samples"), Check::counters),
+      finding(regression, "gl:x", "step=3", judge::Observation{.cause = judge::Cause::not_finite})};
   EXPECT_EQ(grouped(findings).size(), 5U);
 }
 
 TEST(FindingGroups, AWrongPicturesCountersAreToldWithIt) {
   const std::vector<Finding> findings{
       finding(regression, "gl:x", "step=1"), finding(regression, "gl:x", "step=2"),
-      finding(regression, "gl:x", "step=2", "samples 3 → 4", Check::counters),
-      finding(regression, "gl:y", "step=2", "samples 3 → 4", Check::counters)};
+      finding(regression, "gl:x", "step=2", changed("samples"), Check::counters),
+      finding(regression, "gl:y", "step=2", changed("samples"), Check::counters)};
   const std::vector<FindingGroup> groups = grouped(findings);
   ASSERT_EQ(groups.size(), 2U);
   EXPECT_EQ(groups[0].changed_with_it, 1U);
@@ -136,31 +139,28 @@ TEST(FindingGroups, WorstFirstAndCausesBeforeConsequences) {
   const std::vector<Finding> findings{
       finding(advisory, "gl:x", "step=1"),
       finding(cannot_judge, "gl:x", "step=1"),
-      finding(regression, "gl:x", "step=1", "samples 3 → 4", Check::counters),
-      finding(regression, "gl:x", "step=2", "crashed: signal 11", Check::counters),
+      finding(regression, "gl:x", "step=1", changed("samples"), Check::counters),
+      finding(regression, "gl:x", "step=2", crashed(11), Check::counters),
       finding(regression, "gl:y", "step=1"),
       finding(regression, "gl:x", "step=4"),
       finding(regression, "gl:x", "step=5")};
   std::vector<std::string> order;
   for (const FindingGroup& group : grouped(findings)) {
-    order.push_back(
-        fmt::format("{} {}", group.first->device,
-                    group.first->message.substr(0, group.first->message.find(" pixels"))));
+    order.push_back(fmt::format("{} {}", group.first->device, judge::name_of(group.first->cause)));
   }
-  EXPECT_THAT(order, ElementsAre("gl:x crashed: signal 11", "gl:x 3 of 64", "gl:y 3 of 64",
-                                 "gl:x samples 3 → 4", "gl:x 3 of 64", "gl:x 3 of 64"));
+  EXPECT_THAT(order, ElementsAre("gl:x ended", "gl:x pixels_over_bound", "gl:y pixels_over_bound",
+                                 "gl:x values_changed", "gl:x pixels_over_bound",
+                                 "gl:x pixels_over_bound"));
 }
 
 TEST(FindingGroups, ADeviceOffTheLineIsNotToldWhereItsCostTellsWhy) {
-  std::vector<Finding> findings{
-      finding(regression, "gl:x", "step=1", "instructions 1 → 2", Check::cost),
-      finding(regression, "gl:x", "step=1", "off the residuals", Check::correlation),
-      finding(regression, "gl:x", "", "everything is off", Check::correlation)};
+  std::vector<Finding> findings{finding(regression, "gl:x", "step=1", dearer, Check::cost),
+                                finding(regression, "gl:x", "step=1", off, Check::correlation),
+                                finding(regression, "gl:x", "", off, Check::correlation)};
   ASSERT_EQ(grouped(findings).size(), 1U);
   EXPECT_EQ(grouped(findings)[0].first, findings.data());
-  findings.push_back(
-      finding(regression, "gl:x", "step=2", "off the residuals", Check::correlation));
-  findings.push_back(finding(regression, "gl:y", "", "everything is off", Check::correlation));
+  findings.push_back(finding(regression, "gl:x", "step=2", off, Check::correlation));
+  findings.push_back(finding(regression, "gl:y", "", off, Check::correlation));
   EXPECT_EQ(grouped(findings).size(), 3U);
 }
 
@@ -174,17 +174,18 @@ TEST(CommandOf, DrawsTheConfigurationAgain) {
   Finding injected = wrong;
   injected.injected = {"coarse_filter"};
   EXPECT_THAT(command_of(injected, quick), HasSubstr(" --inject coarse_filter --truth --out"));
-  Finding hung =
-      finding(regression, "gl:x", "step=1", "hung: no answer within 2 s; it last said: x");
+  Finding hung = finding(
+      regression, "gl:x", "step=1",
+      ended(record::Outcome::hung, {.cause = record::Cause::timeout, .numbers = {{"limit_s", 2}}}));
   EXPECT_THAT(command_of(hung, quick), HasSubstr(" --limit 2 --truth --out"));
-  hung.message = "hung: no answer within 60 s";  // as long as `render` waits anyway
+  hung.reason.numbers["limit_s"] = 60;  // as long as `render` waits anyway
   EXPECT_THAT(command_of(hung, quick), Not(HasSubstr("--limit")));
 }
 
 // Of what is stored, a command has to judge by it: of one configuration of the plan as it was
 // typed.
 TEST(CommandOf, JudgesAgainWhatIsHeldAgainstBaselines) {
-  const Finding cost = finding(regression, "gl:x", "step=1", "more", Check::cost);
+  const Finding cost = finding(regression, "gl:x", "step=1", dearer, Check::cost);
   judge::GateResult mine{.plan = "mine", .run = "r", .findings = {}};
   EXPECT_EQ(command_of(cost, mine), "") << "a store does not hold where the file is";
   mine.argument = "a b/mine.yaml";
@@ -200,7 +201,8 @@ TEST(CommandOf, MeasuresTimesAgainWhereTheyDecided) {
   const std::string command =
       "triptych gate volume/quick --device gl:x --set step=1 --measure --check timing --store "
       "repro.sqlite";
-  const Finding slower = finding(regression, "gl:x", "step=1", "slower", Check::timing);
+  const Finding slower = finding(regression, "gl:x", "step=1",
+                                 judge::Observation{.cause = judge::Cause::time}, Check::timing);
   EXPECT_EQ(command_of(slower, quick), command);
   quick.times_decided = true;
   EXPECT_EQ(command_of(slower, quick), command + " --times");
@@ -210,7 +212,9 @@ TEST(CommandOf, MeasuresTimesAgainWhereTheyDecided) {
 TEST(CommandOf, JudgesAnErrorAgain) {
   const judge::GateResult plan{.plan = "volume/accuracy", .run = "r", .findings = {}};
   EXPECT_EQ(
-      command_of(finding(regression, "gl:x", "data=ball,step=1", "RMSE", Check::accuracy), plan),
+      command_of(finding(regression, "gl:x", "data=ball,step=1",
+                         judge::Observation{.cause = judge::Cause::error}, Check::accuracy),
+                 plan),
       "triptych gate volume/accuracy --device gl:x --set data=ball --measure --check accuracy "
       "--store repro.sqlite");
 }
@@ -218,16 +222,18 @@ TEST(CommandOf, JudgesAnErrorAgain) {
 TEST(CommandOf, DrawsTheLineThroughAllDevicesAgain) {
   const judge::GateResult cost{.plan = "volume/cost", .run = "r", .findings = {}};
   for (const char* configuration : {"", "step=1"}) {
-    EXPECT_EQ(
-        command_of(finding(regression, "gl:x", configuration, "off", Check::correlation), cost),
-        "triptych gate volume/cost --measure --check correlation --store repro.sqlite");
+    EXPECT_EQ(command_of(finding(regression, "gl:x", configuration, off, Check::correlation), cost),
+              "triptych gate volume/cost --measure --check correlation --store repro.sqlite");
   }
 }
 
 TEST(CommandOf, IsNothingWhereNoneShowsIt) {
   const judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
   EXPECT_EQ(command_of(finding(regression, "", ""), quick), "");
-  EXPECT_EQ(command_of(finding(advisory, "gl:x", "step=1", "slower", Check::timing), quick), "");
+  EXPECT_EQ(command_of(finding(advisory, "gl:x", "step=1",
+                               judge::Observation{.cause = judge::Cause::time}, Check::timing),
+                       quick),
+            "");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "findings.hpp"
 #include "report/overview.hpp"
 #include "support/well_formed.hpp"
 
@@ -18,13 +19,8 @@ using testing::Not;
 using enum judge::Verdict;
 
 void add(GateResult& result, Check check, judge::Verdict verdict, const std::string& device,
-         const std::string& configuration, const std::string& message) {
-  result.findings.push_back({.check = check,
-                             .verdict = verdict,
-                             .test = "volume.quick.x",
-                             .device = device,
-                             .configuration = configuration,
-                             .message = message});
+         const std::string& configuration, const judge::Observation& what = {}) {
+  result.findings.push_back(finding_of(check, verdict, device, configuration, what));
   result.devices.insert(device);
 }
 
@@ -35,10 +31,10 @@ GateResult failing() {
       const bool wrong = std::string_view(technique) == "raycast";
       const std::string configuration = fmt::format("step={},technique={}", step, technique);
       add(result, Check::image, wrong ? regression : pass, "vulkan:lavapipe", configuration,
-          wrong ? fmt::format("{} of 36864 pixels are over the bound", 11138 + step) : "within");
-      add(result, Check::image, pass, "opencl:pocl", configuration, "within");
-      add(result, Check::counters, pass, "opencl:pocl", configuration, "as stored");
-      add(result, Check::timing, advisory, "opencl:pocl", configuration, "no stored time");
+          wrong ? over_bound(11138 + step) : within_bound());
+      add(result, Check::image, pass, "opencl:pocl", configuration, within_bound());
+      add(result, Check::counters, pass, "opencl:pocl", configuration);
+      add(result, Check::timing, advisory, "opencl:pocl", configuration);
     }
   }
   return result;
@@ -46,33 +42,8 @@ GateResult failing() {
 
 GateResult passing() {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
-  add(result, Check::image, pass, "gl:x", "step=1", "within");
+  add(result, Check::image, pass, "gl:x", "step=1", within_bound());
   return result;
-}
-
-TEST(LastScreen, TellsWhatWhereAndWhatToType) {
-  const std::vector<GateResult> results{failing()};
-  const std::vector<std::string> files{"out/report.html", "out/gate.log"};
-  EXPECT_EQ(last_screen(results, 88, files, {.width = 80}),
-            R"(Triptych   2 devices · 88 s                                             FAIL (1)
-  ✗ image on vulkan:lavapipe: 11139 of 36864 pixels are over the bound
-
-  Pictures    FAIL       vulkan:lavapipe: 6 of 12 checks wrong
-  Counters    pass       12 as stored
-  Statistics  –          not checked
-  Cost        –          not checked
-  Memory      –          not checked
-  Times       –          not checked; 12 with advice
-
-  ✗ image: vulkan:lavapipe, technique=raycast (6 configurations)
-    11139 of 36864 pixels are over the bound; opencl:pocl is right
-    triptych render volume --device vulkan:lavapipe --set step=1 \
-      --set technique=raycast --truth --out repro
-
-  out/report.html   out/gate.log
-
-  exit 1: something is wrong or has changed
-)");
 }
 
 TEST(LastScreen, OfAPassIsShort) {
@@ -87,14 +58,15 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (const auto& [device, ratio] :
        {std::pair("gl:x", 0.61), {"gl:x", 0.2}, {"opencl:y", 0.003}}) {
-    add(result, Check::image, pass, device, fmt::format("step={}", ratio), "within");
+    add(result, Check::image, pass, device, fmt::format("step={}", ratio), within_bound());
     result.findings.back().numbers["ratio"] = ratio;
   }
-  add(result, Check::image, pass, "", "", "the truth has the stored hash");
+  add(result, Check::image, pass, "", "", {.cause = judge::Cause::reference_as_stored});
   result.findings.back().numbers["ratio"] = 7;  // no device's
-  EXPECT_THAT(last_screen(std::vector{result}, 3, {}, {.width = 120}),
-              HasSubstr("3 within their bounds; nearest 0.61 of it, farthest 0.003 on opencl:y in "
-                        "volume/quick\n"));
+  EXPECT_THAT(
+      last_screen(std::vector{result}, 3, {}, {.width = 120}),
+      HasSubstr("3 within their error bounds; nearest 0.61 of it, farthest 0.003 on opencl:y in "
+                "volume/quick\n"));
   const auto all = overview(std::vector{result});
   ASSERT_EQ(all.bounds.size(), 2U);
   EXPECT_EQ(all.bounds[0].device, "gl:x");
@@ -107,17 +79,19 @@ TEST(LastScreen, TellsHowNearPicturesComeToTheirBounds) {
 TEST(LastScreen, NamesWhatIsWaived) {
   GateResult result = passing();
   result.findings.back().numbers["ratio"] = 0.5;
-  add(result, Check::image, waived, "gl:x", "step=2", "waived until 2027-01-01 (known): wrong");
+  add(result, Check::image, waived, "gl:x", "step=2", over_bound(3));
+  result.findings.back().excuse = {
+      .of = judge::Excuse::Of::waived, .reason = "known", .expiry = "2027-01-01"};
   result.findings.back().numbers["ratio"] = 4e5;
   const std::string text = last_screen(std::vector{result}, 3, {});
-  EXPECT_THAT(text, HasSubstr("1 within their bounds; 1 waived; nearest 0.5 of it\n"));
-  EXPECT_THAT(text, HasSubstr("\n  – gl:x, step=2: waived until 2027-01-01 (known): wrong\n"));
+  EXPECT_THAT(text, HasSubstr("1 within their error bounds; 1 waived; nearest 0.5 of it\n"));
+  EXPECT_THAT(text, HasSubstr("\n  – gl:x, step=2: waived until 2027-01-01 (known): 3 of"));
 }
 
 TEST(LastScreen, SaysThatTimesAreShownOrDecided) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
-  add(result, Check::timing, pass, "gl:x", "step=1", "2 ms, stored 1 ms: +100 %");
-  add(result, Check::timing, advisory, "gl:x", "", "times: +100 %");
+  add(result, Check::timing, pass, "gl:x", "step=1", {.cause = judge::Cause::time});
+  add(result, Check::timing, advisory, "gl:x", "", {.cause = judge::Cause::times});
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
               HasSubstr("  Times       –          1 shown, not judged; 1 with advice\n"));
   result.times_decided = true;
@@ -135,9 +109,9 @@ TEST(LastScreen, SaysWhenOnlyAPartWasJudged) {
 
 TEST(LastScreen, WithoutAVerdictStillSaysWhatIsRight) {
   GateResult result = passing();
-  add(result, Check::image, cannot_judge, "", "", "the required device gl:y measured nothing");
+  add(result, Check::image, cannot_judge, "", "", {.cause = judge::Cause::no_required_device});
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
-              HasSubstr("the plan: 1 of 1 checks not judged; 1 within their bounds"));
+              HasSubstr("the plan: 1 of 1 checks not judged; 1 within their error bounds"));
 }
 
 TEST(LastScreen, OfNothingIsNoPass) {
@@ -146,7 +120,7 @@ TEST(LastScreen, OfNothingIsNoPass) {
 
 TEST(LastScreen, OfAllPlansTheWorstCounts) {
   GateResult good{.plan = "particles/quick", .run = "r", .findings = {}};
-  add(good, Check::image, pass, "gl:x", "step=1", "within");
+  add(good, Check::image, pass, "gl:x", "step=1", within_bound());
   const std::string text = last_screen(std::vector{good, failing(), good}, 3, {});
   EXPECT_THAT(text, HasSubstr("FAIL (1)"));
   EXPECT_THAT(text, HasSubstr("3 devices"));
@@ -155,7 +129,7 @@ TEST(LastScreen, OfAllPlansTheWorstCounts) {
 TEST(LastScreen, HasAtMostFortyLinesAndSaysWhatIsLeftOut) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (int i = 0; i < 60; ++i) {
-    add(result, Check::image, regression, fmt::format("gl:x#{}", i), "step=1", "wrong");
+    add(result, Check::image, regression, fmt::format("gl:x#{}", i), "step=1", over_bound(1));
   }
   const std::string text =
       last_screen(std::vector{result}, 3, std::vector<std::string>{"page"}, {.width = 120});
@@ -168,11 +142,12 @@ TEST(LastScreen, SaysWhereTheOtherCausesAreToldAndHowToMendThem) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (int i = 0; i < 60; ++i) {
     add(result, Check::image, cannot_judge, fmt::format("gl:x#{}", i), "step=1",
-        "nothing is stored of " + std::string(400, 'x') + "; accept it: triptych accept PLAN");
+        quoting(std::string(400, 'x')));
+    result.findings.back().advice = {judge::Advice::accept, "triptych accept PLAN"};
   }
   const std::string text = last_screen(std::vector{result}, 3, {}, {.width = 120});
   EXPECT_THAT(text, HasSubstr("more causes: --out FOLDER writes them"));
-  EXPECT_THAT(text, HasSubstr("accept it: triptych accept PLAN"));
+  EXPECT_THAT(text, HasSubstr("accept it with triptych accept PLAN"));
 }
 
 TEST(LastScreen, ColoursOnlyWhenAsked) {
@@ -184,8 +159,8 @@ TEST(LastScreen, ColoursOnlyWhenAsked) {
 TEST(LastScreen, ObeysNoName) {
   for (const std::string& name : test::hostile_strings()) {
     GateResult result{.plan = name, .run = "r", .findings = {}};
-    add(result, Check::image, regression, name, "step=" + name, name);
-    add(result, Check::image, regression, "", "", name);
+    add(result, Check::image, regression, name, "step=" + name, quoting(name));
+    add(result, Check::image, regression, "", "", quoting(name));
     const std::string text = last_screen(std::vector{result}, 3, std::vector{name});
     EXPECT_EQ(text.find('\x1b'), std::string::npos);
     EXPECT_THAT(text, Not(HasSubstr("line\nend")));
@@ -204,11 +179,10 @@ TEST(LastScreen, RepeatsTheEnvironment) {
 // A driver's one fault shows in every plan.
 TEST(LastScreen, OneCauseInSeveralPlansIsToldOnce) {
   GateResult stress{.plan = "volume/stress", .run = "r", .findings = {}};
-  add(stress, Check::image, regression, "vulkan:lavapipe", "technique=raycast",
-      "3 of 256 pixels are over the bound");
+  add(stress, Check::image, regression, "vulkan:lavapipe", "technique=raycast", over_bound(3));
   const std::string text = last_screen(std::vector{failing(), stress}, 3, {});
   EXPECT_THAT(text, HasSubstr("vulkan:lavapipe (7 configurations)"));
-  EXPECT_THAT(text, HasSubstr("3 of 256 pixels"));
+  EXPECT_THAT(text, HasSubstr("3 of 36864 pixels"));
   EXPECT_THAT(text, Not(HasSubstr("--set step")));
   EXPECT_EQ(text.find("✗", text.find("\n\n")), text.rfind("✗"));
 
@@ -222,7 +196,8 @@ TEST(LastScreen, WhatEndsAProgramIsOneCauseInAllPlans) {
   for (const char* plan : {"volume/quick", "volume/stress", "particles/quick"}) {
     results.push_back({.plan = plan, .run = "r", .findings = {}});
     add(results.back(), Check::image, regression, "gl:x", fmt::format("technique={}", plan),
-        "failed: no OpenGL 3.3 core context");
+        ended(record::Outcome::failed,
+              {.cause = record::Cause::error, .detail = "no OpenGL 3.3 core context"}));
   }
   const std::string text = last_screen(results, 3, {});
   EXPECT_THAT(text, HasSubstr("✗ image: gl:x (3 configurations)"));
@@ -233,7 +208,7 @@ TEST(LastScreen, PlansThatWereNotBegunAreOneCause) {
   std::vector<GateResult> results;
   for (const char* plan : {"volume/quick", "volume/stress", "particles/quick"}) {
     results.push_back({.plan = plan, .run = "", .findings = {}});
-    add(results.back(), Check::image, cannot_judge, "", "", "nothing was measured");
+    add(results.back(), Check::image, cannot_judge, "", "", {.cause = judge::Cause::no_run});
   }
   EXPECT_THAT(last_screen(results, 3, {}), HasSubstr("? image: volume/quick and 2 more"));
 }

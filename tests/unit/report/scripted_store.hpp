@@ -7,6 +7,7 @@
 
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
+#include "findings.hpp"
 #include "record/factor_list.hpp"
 #include "report/page.hpp"
 
@@ -88,7 +89,11 @@ class ScriptedStore {
     const bool bad = wrong_ && device == "vulkan:lavapipe" && technique == "raycast";
     const bool crashed = bad && data == "blob" && level == "1";
     record.outcome = crashed ? record::Outcome::crashed : record::Outcome::measured;
-    record.reason = crashed ? "signal 11 in the driver <x>" : "";
+    if (crashed) {
+      record.reason = {.cause = record::Cause::signal,
+                       .numbers = {{"signal", 11}},
+                       .last_words = "in the driver <x>"};
+    }
     if (!crashed) {
       core::Image image = truth_of(record).truth;
       for (float& each : image.rgba) each += each > 0 ? 3e-4F * (technique[0] == 'r' ? 1 : 2) : 0;
@@ -103,28 +108,25 @@ class ScriptedStore {
     }
     store_.add_record(record);
     find(record, judge::Check::image,
-         crashed ? "crashed: " + record.reason
-         : bad   ? "811 of 2304 pixels are over the bound against the truth"
-                 : "within the bound",
+         crashed ? ended(record.outcome, record.reason)
+         : bad   ? over_bound(811)
+                 : within_bound(),
          bad);
-    find(record, judge::Check::counters, "1 counters as stored", false);
+    find(record, judge::Check::counters, {.cause = judge::Cause::as_stored}, false);
     if (crashed) return;
     const bool dearer = wrong_ && device == "vulkan:lavapipe" && technique == "slices";
-    find(record, judge::Check::cost, "instructions", dearer);
+    find(record, judge::Check::cost, changed("device_code"), dearer);
     verdict_.findings.back().numbers = {{"ratio", dearer ? 1.02 : 1},
                                         {"device_code", 987654},
                                         {"stored_device_code", dearer ? 968288 : 987654}};
-    find(record, judge::Check::timing, "times", false);
+    find(record, judge::Check::timing, {.cause = judge::Cause::time}, false);
     verdict_.findings.back().numbers = {{"ratio", 0.9}};
   }
-  void find(const record::Record& record, judge::Check check, const std::string& message,
+  void find(const record::Record& record, judge::Check check, const judge::Observation& what,
             bool bad) {
-    verdict_.findings.push_back({.check = check,
-                                 .verdict = bad ? judge::Verdict::regression : judge::Verdict::pass,
-                                 .test = record.test_id(judge::name_of(check)),
-                                 .device = record.device,
-                                 .configuration = record.configuration,
-                                 .message = message});
+    verdict_.findings.push_back(finding_of(check,
+                                           bad ? judge::Verdict::regression : judge::Verdict::pass,
+                                           record.device, record.configuration, what));
   }
 
   record::Store store_;

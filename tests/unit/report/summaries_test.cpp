@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "findings.hpp"
 #include "report/junit.hpp"
 #include "report/markdown.hpp"
 #include "support/well_formed.hpp"
@@ -13,20 +14,13 @@ using testing::Not;
 
 judge::GateResult some_result() {
   judge::GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
-  result.findings.push_back({.check = judge::Check::image,
-                             .verdict = judge::Verdict::regression,
-                             .test = "volume.quick.image.gl:x",
-                             .device = "gl:x",
-                             .configuration = "step=1",
-                             .message = "3 < 4 | pixels",
-                             .numbers = {{"max_error", 0.5}}});
+  result.findings.push_back(finding_of(judge::Check::image, judge::Verdict::regression, "gl:x",
+                                       "step=1", quoting("3 < 4 | pixels")));
+  result.findings.back().numbers = {{"max_error", 0.5}};
   for (int i = 0; i < 12; ++i) {
-    result.findings.push_back({.check = judge::Check::timing,
-                               .verdict = judge::Verdict::advisory,
-                               .test = "volume.quick.timing.gl:x",
-                               .device = "gl:x",
-                               .configuration = fmt::format("step={}", i),
-                               .message = fmt::format("now {} × their mean", i)});
+    result.findings.push_back(finding_of(judge::Check::timing, judge::Verdict::advisory, "gl:x",
+                                         fmt::format("step={}", i),
+                                         {.cause = judge::Cause::times}));
   }
   return result;
 }
@@ -49,6 +43,7 @@ TEST(Junit, CountsFailuresAndEscapes) {
       << xml;
   EXPECT_NE(xml.find("skipped=\"12\""), std::string::npos);
   EXPECT_NE(xml.find("<property name=\"max_error\" value=\"0.5\"/>"), std::string::npos);
+  EXPECT_NE(xml.find("<property name=\"cause\" value=\"no_reference\"/>"), std::string::npos);
 }
 
 TEST(Junit, HoldsEveryPlan) {
@@ -62,14 +57,14 @@ TEST(Junit, HoldsEveryPlan) {
 
 TEST(Junit, IsUtf8WhateverADriverSays) {
   judge::GateResult result = some_result();
-  result.findings.front().message = "GL_RENDERER \xff";
+  result.findings.front().detail = "GL_RENDERER \xff";
   EXPECT_EQ(junit(result).find('\xff'), std::string::npos);
 }
 
 TEST(Junit, SaysHowToSeeItAgain) {
   const std::string xml = junit(some_result());
   EXPECT_NE(
-      xml.find("<failure type=\"image\" message=\"3 &lt; 4 | pixels\">3 &lt; 4 | pixels\n"
+      xml.find("3 &lt; 4 | pixels\n"
                "triptych render volume --device gl:x --set step=1 --truth --out repro</failure>"),
       std::string::npos)
       << xml;
@@ -79,7 +74,7 @@ judge::GateResult hostile(const std::string& name) {
   judge::GateResult result = some_result();
   result.plan = name;
   judge::Finding& finding = result.findings.front();
-  finding.message = finding.device = finding.test = name;
+  finding.detail = finding.device = finding.test = name;
   finding.configuration = "step=" + name;
   finding.numbers = {{name, 1}};
   return result;
@@ -94,7 +89,7 @@ TEST(Junit, IsWellFormedWhateverItIsTold) {
 TEST(Markdown, HasTheRowsAndCausesOfTheLastScreen) {
   const std::string text = markdown(some_result());
   EXPECT_TRUE(text.starts_with("## FAIL (1): volume/quick\n")) << text;
-  EXPECT_THAT(text, HasSubstr("| Pictures | **FAIL** | gl:x: 1 of 1 checks wrong |"));
+  EXPECT_THAT(text, HasSubstr("| Images | **FAIL** | gl:x: 1 of 1 checks wrong |"));
   EXPECT_THAT(text, HasSubstr("3 &lt; 4 \\| pixels"));
   EXPECT_THAT(text, HasSubstr("```sh\n  triptych render volume --device gl:x"));
   EXPECT_THAT(text, HasSubstr("<summary>1 more</summary>"));
@@ -117,7 +112,7 @@ TEST(Markdown, StaysShortWhateverFails) {
   for (int i = 0; i < 3000; ++i) {
     judge::Finding finding = some_result().findings.front();
     finding.device = fmt::format("gl:{}", i);
-    finding.message = std::string(2000, '<');
+    finding.detail = std::string(2000, '<');
     result.findings.push_back(finding);
   }
   EXPECT_LT(markdown(result).size(), 65'000U);

@@ -1,0 +1,208 @@
+#include "judge/finding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "record/names.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using record::Names;
+
+constexpr Names<Verdict, 7> verdict_names{{
+    {Verdict::pass, "pass"},
+    {Verdict::improved, "improved"},
+    {Verdict::advisory, "advisory"},
+    {Verdict::skipped, "skipped"},
+    {Verdict::waived, "waived"},
+    {Verdict::cannot_judge, "cannot_judge"},
+    {Verdict::regression, "regression"},
+}};
+
+constexpr Names<Cause, 68> cause_names{{
+    {Cause::none, "none"},
+    {Cause::as_stored, "as_stored"},
+    {Cause::values_changed, "values_changed"},
+    {Cause::unknown_values, "unknown_values"},
+    {Cause::not_stored, "not_stored"},
+    {Cause::no_stored_device, "no_stored_device"},
+    {Cause::not_reported, "not_reported"},
+    {Cause::no_longer_reported, "no_longer_reported"},
+    {Cause::untimed, "untimed"},
+    {Cause::ended, "ended"},
+    {Cause::no_run, "no_run"},
+    {Cause::nothing_measured, "nothing_measured"},
+    {Cause::no_required_device, "no_required_device"},
+    {Cause::missing, "missing"},
+    {Cause::extra, "extra"},
+    {Cause::other_plan, "other_plan"},
+    {Cause::other_data, "other_data"},
+    {Cause::data_changed, "data_changed"},
+    {Cause::no_baselines, "no_baselines"},
+    {Cause::nothing_decided, "nothing_decided"},
+    {Cause::unused_waiver, "unused_waiver"},
+    {Cause::waiver_of_no_test, "waiver_of_no_test"},
+    {Cause::within_bound, "within_bound"},
+    {Cause::pixels_over_bound, "pixels_over_bound"},
+    {Cause::not_finite, "not_finite"},
+    {Cause::other_surface, "other_surface"},
+    {Cause::size_differs, "size_differs"},
+    {Cause::empty_image, "empty_image"},
+    {Cause::no_image, "no_image"},
+    {Cause::unreadable_image, "unreadable_image"},
+    {Cause::no_reference, "no_reference"},
+    {Cause::reference_changed, "reference_changed"},
+    {Cause::reference_as_stored, "reference_as_stored"},
+    {Cause::devices_agree, "devices_agree"},
+    {Cause::devices_disagree, "devices_disagree"},
+    {Cause::other_driver_statistics, "other_driver_statistics"},
+    {Cause::two_counters, "two_counters"},
+    {Cause::other_counter, "other_counter"},
+    {Cause::frame_allocations, "frame_allocations"},
+    {Cause::preparing, "preparing"},
+    {Cause::injected_memory, "injected_memory"},
+    {Cause::time, "time"},
+    {Cause::times, "times"},
+    {Cause::other_clock, "other_clock"},
+    {Cause::no_time, "no_time"},
+    {Cause::same_frames, "same_frames"},
+    {Cause::wrong_image, "wrong_image"},
+    {Cause::residuals_as_stored, "residuals_as_stored"},
+    {Cause::residual_moved, "residual_moved"},
+    {Cause::off_the_line, "off_the_line"},
+    {Cause::on_the_line, "on_the_line"},
+    {Cause::no_line, "no_line"},
+    {Cause::no_partner, "no_partner"},
+    {Cause::error, "error"},
+    {Cause::unknown_error, "unknown_error"},
+    {Cause::not_comparable, "not_comparable"},
+    {Cause::no_limit, "no_limit"},
+    {Cause::no_limit_any_more, "no_limit_any_more"},
+    {Cause::order, "order"},
+    {Cause::no_order, "no_order"},
+    {Cause::score, "score"},
+    {Cause::farther_device, "farther_device"},
+    {Cause::pixels_differ, "pixels_differ"},
+    {Cause::no_other_image, "no_other_image"},
+    {Cause::not_inside, "not_inside"},
+    {Cause::other_colour, "other_colour"},
+    {Cause::not_counted, "not_counted"},
+    {Cause::count_too_large, "count_too_large"},
+}};
+
+constexpr Names<Against, 6> against_names{{
+    {Against::nothing, "nothing"},
+    {Against::reference, "reference"},
+    {Against::stored_image, "stored_image"},
+    {Against::baseline, "baseline"},
+    {Against::other_devices, "other_devices"},
+    {Against::expectation, "expectation"},
+}};
+
+constexpr Names<Advice, 13> advice_names{{
+    {Advice::none, "none"},
+    {Advice::accept, "accept"},
+    {Advice::run_again, "run_again"},
+    {Advice::resume, "resume"},
+    {Advice::restore_data, "restore_data"},
+    {Advice::restore_or_run_again, "restore_or_run_again"},
+    {Advice::restore_baselines, "restore_baselines"},
+    {Advice::count, "count"},
+    {Advice::judge_more, "judge_more"},
+    {Advice::more_time, "more_time"},
+    {Advice::times, "times"},
+    {Advice::remove_entry, "remove_entry"},
+    {Advice::remove_waiver, "remove_waiver"},
+}};
+
+constexpr Names<Unit, 5> unit_names{{
+    {Unit::count, "count"},
+    {Unit::instructions, "instructions"},
+    {Unit::bytes, "bytes"},
+    {Unit::misses, "misses"},
+    {Unit::allocations, "allocations"},
+}};
+
+constexpr Names<Again, 4> again_names{{
+    {Again::not_drawn, "not_drawn"},
+    {Again::flake, "flake"},
+    {Again::slow, "slow"},
+    {Again::other, "other"},
+}};
+
+constexpr Names<Excuse::Of, 5> excuse_names{{
+    {Excuse::Of::nothing, "nothing"},
+    {Excuse::Of::waived, "waived"},
+    {Excuse::Of::expired, "expired"},
+    {Excuse::Of::known, "known"},
+    {Excuse::Of::unexpected, "unexpected"},
+}};
+
+}  // namespace
+
+std::string_view name_of(Excuse::Of of) {
+  return record::name_in(excuse_names, of);
+}
+std::string_view name_of(Verdict verdict) {
+  return record::name_in(verdict_names, verdict);
+}
+std::string_view name_of(Cause cause) {
+  return record::name_in(cause_names, cause);
+}
+std::string_view name_of(Against against) {
+  return record::name_in(against_names, against);
+}
+std::string_view name_of(Advice advice) {
+  return record::name_in(advice_names, advice);
+}
+std::string_view name_of(Unit unit) {
+  return record::name_in(unit_names, unit);
+}
+std::string_view name_of(Again again) {
+  return record::name_in(again_names, again);
+}
+
+double Observation::number(const std::string& name) const {
+  const auto found = numbers.find(name);
+  return found == numbers.end() ? 0 : found->second;
+}
+
+const std::string& Observation::fact(const std::string& name) const {
+  static const std::string none;
+  const auto found = facts.find(name);
+  return found == facts.end() ? none : found->second;
+}
+
+void set_number(Observation& what, const std::string& name, double value) {
+  if (std::isfinite(value)) what.numbers[name] = value;
+}
+
+std::string kind_of(const Observation& what) {
+  std::string kind = fmt::format("{} {}", name_of(what.cause), name_of(what.against));
+  if (what.outcome != record::Outcome::measured) {
+    kind += fmt::format(" {} {}", record::name_of(what.outcome), record::kind_of(what.reason));
+  }
+  const bool alone = what.changes.size() == 1;
+  for (const Change& each : what.changes) {
+    if (each.unit == Unit::misses && !alone) continue;  // more code misses more
+    kind += " " + each.name;
+  }
+  if (what.cause == Cause::unknown_values) kind += fmt::format(" {}", fmt::join(what.names, " "));
+  for (const Observation& each : what.because) kind += "; " + kind_of(each);
+  return kind;
+}
+
+std::string kind_of(const Finding& finding) {
+  return fmt::format("{}, {} {} {} {}", kind_of(static_cast<const Observation&>(finding)),
+                     finding.subject, name_of(finding.excuse.of), name_of(finding.drawn_again),
+                     fmt::join(finding.injected, "+"));
+}
+
+bool ended_a_program(const Finding& finding) {
+  return finding.cause == Cause::ended && finding.outcome != record::Outcome::skipped;
+}
+
+}  // namespace triptych::judge

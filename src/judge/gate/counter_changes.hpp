@@ -1,0 +1,16 @@
+#pragma once
+#include <vector>
+
+#include "judge/baselines/baselines.hpp"
+#include "judge/finding.hpp"
+#include "judge/gate/open_counts.hpp"
+
+namespace triptych::judge {
+
+// The counters of a record that differ from those of other devices by more than they may. A counter
+// that one of the two lacks is not compared.
+[[nodiscard]] std::vector<Change> counter_changes(const record::Record& record,
+                                                  const StoredCounters& of_others,
+                                                  const FindOpenCounts& open_counts);
+
+}  // namespace triptych::judge

@@ -1,0 +1,14 @@
+#pragma once
+// What is wrong with an image, as data.
+
+#include "accuracy/image_metrics.hpp"
+#include "judge/finding.hpp"
+
+namespace triptych::judge {
+
+// The comparison of `image` with `expected`: Cause::within_bound where nothing is wrong.
+[[nodiscard]] Observation image_observation(const accuracy::ImageComparison& comparison,
+                                            const core::Image& image, const core::Image& expected,
+                                            Against against);
+
+}  // namespace triptych::judge

@@ -1,0 +1,37 @@
+#pragma once
+// Faults of a device that show while it is opened, calibrated or closed, apart from any
+// configuration.
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+namespace triptych::record {
+
+enum class DeviceFaultKind : std::uint8_t {
+  clock_reads_zero,      // the device's timer gives 0 for work that takes time
+  clock_rate_wrong,      // its ticks are not of the length that the device reports
+  clock_not_written,     // a time stamp was never written
+  statistics_all_zero,   // pipeline statistics of a frame that drew something are all 0
+  statistics_crash,      // the driver crashes when it reads pipeline statistics
+  statistics_not_ready,  // pipeline statistics never become available
+  teardown_crash,        // the worker crashes while it closes the device
+  teardown_hang,         // the worker does not end while it closes the device
+  memory_grows           // memory grows with every frame
+};
+[[nodiscard]] std::string_view name_of(DeviceFaultKind kind);
+[[nodiscard]] DeviceFaultKind device_fault_kind(std::string_view name);  // throws InputError
+
+struct DeviceFault {
+  DeviceFaultKind kind = DeviceFaultKind::clock_reads_zero;
+  std::string subject = {};     // an identifier: a kind of work, a statistic
+  std::string detail = {};      // what the driver, the library or the exception says
+  std::string last_words = {};  // what the worker printed last
+  bool operator==(const DeviceFault&) const = default;
+};
+
+void to_json(nlohmann::json& json, const DeviceFault& fault);
+void from_json(const nlohmann::json& json, DeviceFault& fault);
+
+}  // namespace triptych::record

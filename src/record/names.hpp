@@ -1,0 +1,39 @@
+#pragma once
+// Enums and their names, one table for both directions.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace triptych::record {
+
+template <typename Enum, std::size_t N>
+using Names = std::array<std::pair<Enum, std::string_view>, N>;
+
+template <typename Enum, std::size_t N>
+[[nodiscard]] constexpr std::string_view name_in(const Names<Enum, N>& names, Enum value) {
+  for (const auto& [each, name] : names) {
+    if (each == value) return name;
+  }
+  return "unknown";
+}
+
+// Throws InputError that lists the names there are; `what`: "outcome", "cause".
+template <typename Enum, std::size_t N>
+[[nodiscard]] Enum named_in(const Names<Enum, N>& names, std::string_view what,
+                            std::string_view name) {
+  std::string known;
+  for (const auto& [each, text] : names) {
+    if (text == name) return each;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", text);
+  }
+  throw core::InputError(fmt::format("unknown {} '{}'; there are: {}", what, name, known));
+}
+
+}  // namespace triptych::record

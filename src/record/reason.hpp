@@ -1,0 +1,104 @@
+#pragma once
+// The reason why a record was not measured, as data. report/words/ makes sentences of it. Nothing
+// compares `detail` or `last_words`, which quote drivers and libraries.
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+
+namespace triptych::record {
+
+enum class Outcome : std::uint8_t {
+  measured,
+  skipped,  // the device or technique cannot do this
+  failed,   // an error of Triptych or of the API
+  crashed,  // the worker died
+  hung,     // the worker was stopped at its time limit
+  lost      // the device was lost
+};
+[[nodiscard]] std::string_view name_of(Outcome outcome);
+[[nodiscard]] Outcome outcome(std::string_view name);  // throws InputError
+
+enum class Cause : std::uint8_t {
+  none,           // it was measured
+  same_frames,    // measured as another configuration, whose frames would be the same
+  not_supported,  // the device, driver or technique cannot do this; `detail` says what is lacking
+  bad_input,      // a broken file, or factor levels that contradict each other
+  no_emulator,    // instructions cannot be counted on this machine
+  not_on_processor,  // instructions can be counted only on a processor
+  api_error,         // `subject` is the call, `code` the code that it returned
+  device_lost,       // likewise
+  not_drawn,         // the driver reported success, but drew nothing
+  out_of_memory,     // host memory, with the data `subject`; "limit_bytes" where there is a limit
+  error,             // any other exception
+  signal,            // the worker was killed: "signal"
+  exit_code,         // the worker left early: "exit_code"
+  unknown_end,       // the worker could not be killed
+  timeout,           // no answer within "limit_s"
+  bad_answer,        // the worker's answer makes no sense
+  no_greeting,       // the worker did not greet
+  cannot_start,      // the worker's program cannot be started
+  under_way          // "times" abnormal exits, of Triptych or the machine, while it was measured
+};
+[[nodiscard]] std::string_view name_of(Cause cause);
+[[nodiscard]] Cause cause(std::string_view name);  // throws InputError
+
+// The worker's task at that moment.
+enum class Stage : std::uint8_t {
+  working,   // on the configuration
+  opening,   // the device
+  counting,  // the configuration's instructions, under an emulator
+};
+[[nodiscard]] std::string_view name_of(Stage stage);
+[[nodiscard]] Stage stage(std::string_view name);  // throws InputError
+
+struct Reason {
+  Cause cause = Cause::none;
+  Stage stage = Stage::working;
+  std::map<std::string, double> numbers = {};  // the unit is in the name
+  std::string subject = {};                    // an identifier: a call, a device, data
+  std::string code = {};                       // that an API call returned
+  // Not tried, because configurations that share these levels ended so. Empty levels: all did.
+  bool not_tried = false;
+  std::string shared_levels = {};  // "factor=value,…"
+  std::string detail = {};         // what a driver, a library or an exception says
+  std::string last_words = {};     // what the worker printed last
+  bool operator==(const Reason&) const = default;
+
+  [[nodiscard]] std::optional<double> number(const std::string& name) const;
+  // The time limit of a timeout.
+  [[nodiscard]] std::optional<std::chrono::seconds> limit() const;
+};
+
+// Whether two endings are of one kind, whatever their texts and limits are.
+[[nodiscard]] bool is_same_kind(const Reason& a, const Reason& b);
+// Equal for reasons of one kind, and only for those.
+[[nodiscard]] std::string kind_of(const Reason& reason);
+
+// A configuration or a device that was not measured, where that ends a command.
+class NotMeasured : public core::Error {
+ public:
+  NotMeasured(Outcome outcome, Reason reason);
+  [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
+  [[nodiscard]] const Reason& reason() const noexcept { return reason_; }
+  // A skip of the device ends with cannot_judge, everything else with usage.
+  [[nodiscard]] core::ExitCode exit_code() const noexcept;
+
+ private:
+  Outcome outcome_;
+  Reason reason_;
+};
+
+// How long a configuration may take unless a command's --limit says otherwise.
+inline constexpr std::chrono::seconds standard_limit{60};
+
+void to_json(nlohmann::json& json, const Reason& reason);
+void from_json(const nlohmann::json& json, Reason& reason);
+
+}  // namespace triptych::record

@@ -1,0 +1,51 @@
+#pragma once
+// Sentences by cause, for words/observation.cpp alone: those of images, of values that are compared
+// with stored ones, of correlations, and of stress cases.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "judge/finding.hpp"
+
+namespace triptych::report::words {
+
+// "1 pixel", "16 pixels".
+[[nodiscard]] std::string counted(double n, std::string_view one, std::string_view many);
+// "12 configurations (A; B; C; …)".
+[[nodiscard]] std::string examples(const std::vector<std::string>& configurations);
+// "+1.4 %" of a ratio.
+[[nodiscard]] std::string percent(double ratio);
+// The other side of a comparison: "the reference image".
+[[nodiscard]] std::string_view text_of(judge::Against against);
+
+[[nodiscard]] std::string within_bound(const judge::Observation& what);
+[[nodiscard]] std::string pixels_over_bound(const judge::Observation& what);
+[[nodiscard]] std::string not_finite(const judge::Observation& what);
+[[nodiscard]] std::string other_surface(const judge::Observation& what);
+[[nodiscard]] std::string size_differs(const judge::Observation& what);
+[[nodiscard]] std::string reference_changed(const judge::Observation& what);
+[[nodiscard]] std::string devices_compared(const judge::Observation& what);
+
+[[nodiscard]] std::string as_stored(const judge::Observation& what);
+[[nodiscard]] std::string values_changed(const judge::Observation& what);
+[[nodiscard]] std::string other_driver_statistics(const judge::Observation& what);
+[[nodiscard]] std::string other_counter(const judge::Observation& what);
+[[nodiscard]] std::string time(const judge::Observation& what);
+[[nodiscard]] std::string times(const judge::Observation& what);
+[[nodiscard]] std::string error(const judge::Observation& what);
+[[nodiscard]] std::string order(const judge::Observation& what);
+
+[[nodiscard]] std::string residual_moved(const judge::Observation& what);
+[[nodiscard]] std::string off_the_line(const judge::Observation& what);
+[[nodiscard]] std::string on_the_line(const judge::Observation& what);
+[[nodiscard]] std::string no_line(const judge::Observation& what);
+
+[[nodiscard]] std::string score(const judge::Observation& what);
+[[nodiscard]] std::string farther_device(const judge::Observation& what);
+[[nodiscard]] std::string pixels_differ(const judge::Observation& what);
+[[nodiscard]] std::string not_inside(const judge::Observation& what);
+[[nodiscard]] std::string other_colour(const judge::Observation& what);
+[[nodiscard]] std::string count_too_large(const judge::Observation& what);
+
+}  // namespace triptych::report::words

@@ -1,0 +1,36 @@
+#pragma once
+// One row per check: how screens and pages call it. A test holds it to record::every_check.
+
+#include <array>
+#include <string_view>
+
+#include "record/check.hpp"
+
+namespace triptych::report::words {
+
+struct CheckWords {
+  record::Check check;
+  std::string_view label;
+  std::string_view wrong;   // "18 of 66 wrong"
+  std::string_view passed;  // "264 within their error bounds"
+  std::string_view none;    // where no check reached a verdict
+  bool always;              // it has its row though it was not checked
+};
+
+inline constexpr std::array check_words{
+    CheckWords{record::Check::image, "Images", "wrong", "within their error bounds", "not checked",
+               true},
+    CheckWords{record::Check::counters, "Counters", "changed", "as stored", "not checked", true},
+    CheckWords{record::Check::statistics, "Statistics", "changed", "as stored", "not checked",
+               true},
+    CheckWords{record::Check::cost, "Cost", "changed", "as stored", "not checked", true},
+    CheckWords{record::Check::memory, "Memory", "changed", "as stored", "not checked", true},
+    CheckWords{record::Check::timing, "Times", "slower", "not slower", "not checked", true},
+    CheckWords{record::Check::correlation, "Devices", "off the line", "along the line",
+               "shown, not judged", false},
+    CheckWords{record::Check::accuracy, "Accuracy", "changed", "as stored", "not checked", false},
+    CheckWords{record::Check::stress, "Stress", "below their score", "at their score",
+               "not checked", false},
+};
+
+}  // namespace triptych::report::words

@@ -1,0 +1,187 @@
+// A finding as a whole, its advice, and the headline over all.
+
+#include "report/words/finding.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "report/words/causes.hpp"
+
+namespace triptych::report::words {
+namespace {
+
+using judge::Advice;
+using judge::Again;
+using judge::Excuse;
+using judge::Finding;
+using judge::GateResult;
+using judge::Known;
+using judge::Verdict;
+
+// The words in front of the finding itself.
+std::string excuse(const Finding& finding) {
+  const Excuse& excuse = finding.excuse;
+  switch (excuse.of) {
+    case Excuse::Of::waived:
+      return fmt::format("waived until {} ({}): ", excuse.expiry, excuse.reason);
+    case Excuse::Of::known:
+      return fmt::format("known {}: ", judge::name_of(excuse.known));
+    case Excuse::Of::unexpected:
+      return finding.verdict == Verdict::improved
+                 ? fmt::format("passes, but it is expected as a {} ({}): ",
+                               judge::name_of(excuse.known), excuse.reason)
+                 : "skipped, which is not expected: ";
+    case Excuse::Of::expired:
+    case Excuse::Of::nothing:
+      break;
+  }
+  return {};
+}
+
+std::string drawn_again(const Finding& finding) {
+  switch (finding.drawn_again) {
+    case Again::not_drawn:
+      break;
+    case Again::flake:
+      return "flake, right when it was drawn again: ";
+    case Again::slow:
+      return "right when it was drawn again, so it is slow or hangs at times: ";
+    case Again::other:
+      break;
+  }
+  return {};
+}
+
+std::size_t count(const GateResult& result, Verdict verdict) {
+  return static_cast<std::size_t>(std::ranges::count(result.findings, verdict, &Finding::verdict));
+}
+
+std::string number_of(std::size_t n, std::string_view one, std::string_view many) {
+  return counted(static_cast<double>(n), one, many);
+}
+
+// " in image, timing on vulkan:lavapipe": where the findings of one verdict lie.
+std::string places(const GateResult& result, Verdict verdict) {
+  std::set<std::string_view> checks;
+  std::set<std::string_view> devices;
+  for (const Finding& finding : result.findings) {
+    if (finding.verdict != verdict) continue;
+    checks.insert(judge::name_of(finding.check));
+    if (!finding.device.empty()) devices.insert(finding.device);
+  }
+  const std::string where = fmt::format(" in {}", fmt::join(checks, ", "));
+  return devices.empty() ? where : where + fmt::format(" on {}", fmt::join(devices, ", "));
+}
+
+// "96 checks, 4 devices; 2 improved, 3 waived, 12 advisory"
+std::string tally(const GateResult& result) {
+  std::set<std::string_view> devices;
+  for (const Finding& finding : result.findings) {
+    if (!finding.device.empty()) devices.insert(finding.device);
+  }
+  std::string text = fmt::format("{}, {}", number_of(result.findings.size(), "check", "checks"),
+                                 number_of(devices.size(), "device", "devices"));
+  std::string rest;
+  for (const Verdict verdict :
+       {Verdict::improved, Verdict::waived, Verdict::advisory, Verdict::skipped}) {
+    const std::size_t n = count(result, verdict);
+    if (n > 0)
+      rest += fmt::format("{}{} {}", rest.empty() ? "; " : ", ", n, judge::name_of(verdict));
+  }
+  return text + rest;
+}
+
+}  // namespace
+
+std::string found(const Finding& finding) {
+  std::string text = drawn_again(finding) + excuse(finding);
+  if (!finding.subject.empty()) text += finding.subject + ": ";
+  text += text_of(static_cast<const judge::Observation&>(finding));
+  if (finding.measured_before) {
+    text += "; the same device measured it when its baselines were accepted";
+  }
+  if (finding.excuse.of == Excuse::Of::expired) {
+    text += fmt::format("; a waiver for it expired on {} ({})", finding.excuse.expiry,
+                        finding.excuse.reason);
+  }
+  for (const judge::Observation& each : finding.again) {
+    text += "; when it was drawn again: " + text_of(each);
+  }
+  if (!finding.injected.empty()) {
+    text += fmt::format(" [injected: {}]", fmt::join(finding.injected, "+"));
+  }
+  return text;
+}
+
+std::string advice(const Finding& finding) {
+  const std::string& command = finding.advice.command;
+  switch (finding.advice.advice) {
+    case Advice::none:
+      break;
+    case Advice::accept:
+      return "accept it with " + command;
+    case Advice::run_again:
+      return "run the plan again";
+    case Advice::resume:
+      return "finish the run with " + command;
+    case Advice::restore_data:
+      return fmt::format("restore the file and run again, or accept it with {}", command);
+    case Advice::restore_or_run_again:
+      return "restore the file, or run again";
+    case Advice::restore_baselines:
+      return fmt::format("restore the baselines from version control, or start over with {}",
+                         command);
+    case Advice::count:
+      return "count instructions, or leave cost out of --check";
+    case Advice::judge_more:
+      return fmt::format("judge more checks, or accept what is new with {}", command);
+    case Advice::more_time:
+      return "give it more time with --limit";
+    case Advice::times:
+      return "times decide only with --times";
+    case Advice::remove_entry:
+      return "remove its entry from the file of expectations";
+    case Advice::remove_waiver:
+      return "remove the waiver";
+  }
+  return {};
+}
+
+std::string text_of(const Finding& finding) {
+  std::string text = found(finding);
+  if (const std::string what = advice(finding); !what.empty()) text += "; " + what;
+  return text;
+}
+
+std::string headline(const GateResult& result) {
+  const std::size_t regressions = count(result, Verdict::regression);
+  const std::size_t undecided = count(result, Verdict::cannot_judge);
+  std::vector<std::string> parts;
+  if (regressions > 0) {
+    parts.push_back(number_of(regressions, "regression", "regressions") +
+                    places(result, Verdict::regression));
+  }
+  if (undecided > 0) {
+    parts.push_back(number_of(undecided, "check", "checks") + " without a verdict" +
+                    places(result, Verdict::cannot_judge));
+  }
+  switch (result.exit_code()) {
+    case core::ExitCode::pass:
+      return "PASS: " + tally(result);
+    case core::ExitCode::regression:
+      return fmt::format("FAIL: {}; {}", fmt::join(parts, "; "), tally(result));
+    default:
+      if (parts.empty()) {
+        parts.push_back(result.nothing_decided().empty()
+                            ? "no check reached a verdict"
+                            : fmt::format("no check reached a verdict on {}",
+                                          fmt::join(result.nothing_decided(), ", ")));
+      }
+      return fmt::format("CANNOT JUDGE: {}; {}", fmt::join(parts, "; "), tally(result));
+  }
+}
+
+}  // namespace triptych::report::words

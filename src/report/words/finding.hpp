@@ -1,0 +1,34 @@
+#pragma once
+// Every sentence about a finding, a verdict or advice. Texts are of unknown origin where they quote
+// drivers or name data: escape them for the format they go into.
+//
+// To add a cause: a value in judge::Cause and in its table of names (judge/finding.cpp), and a case
+// in the switch of words/observation.cpp. The compiler names a switch that lacks the value.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "judge/gate/gate.hpp"
+
+namespace triptych::report::words {
+
+// One sentence: "16 of 36864 pixels exceed the error bound of the reference image; …".
+[[nodiscard]] std::string text_of(const judge::Observation& what);
+
+// The sentence with its excuse and with the result of drawing it again.
+[[nodiscard]] std::string found(const judge::Finding& finding);
+// The next step for the reader; empty where there is none.
+[[nodiscard]] std::string advice(const judge::Finding& finding);
+// found() and advice() in one line.
+[[nodiscard]] std::string text_of(const judge::Finding& finding);
+
+// "instructions of generated code 1000 → 1001 (+0.1 %)".
+[[nodiscard]] std::string text_of(const judge::Change& change);
+// Why a line is not used; empty where it is.
+[[nodiscard]] std::string refusal(const judge::CorrelationLine& line);
+
+// "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices".
+[[nodiscard]] std::string headline(const judge::GateResult& result);
+
+}  // namespace triptych::report::words

@@ -1,0 +1,152 @@
+// Sentences about images and about stress cases, which are images too.
+
+#include <fmt/format.h>
+
+#include "report/words/causes.hpp"
+#include "report/words/finding.hpp"
+
+namespace triptych::report::words {
+namespace {
+
+using judge::Observation;
+
+std::string largest_errors(const Observation& what) {
+  const bool within = what.cause == judge::Cause::within_bound;
+  return fmt::format(
+      "largest error {:.3g}, RMSE {:.3g}; the {} is ({:.0f}, {:.0f}): error {:.3g}, bound {:.3g}",
+      what.number("max_error"), what.number("rmse"),
+      within ? "pixel closest to its bound" : "worst pixel", what.number("x"), what.number("y"),
+      what.number("error"), what.number("bound"));
+}
+
+std::string particle(const Observation& what, const std::string& name) {
+  if (!what.numbers.contains(name)) return "no particle";
+  return fmt::format("particle {:.0f}", what.number(name));
+}
+
+std::string colour(const Observation& what, const std::string& prefix) {
+  return fmt::format("({:.9g}, {:.9g}, {:.9g}, {:.9g})", what.number(prefix + "red"),
+                     what.number(prefix + "green"), what.number(prefix + "blue"),
+                     what.number(prefix + "alpha"));
+}
+
+}  // namespace
+
+std::string within_bound(const Observation& what) {
+  return fmt::format("every pixel is within the error bound of {}; {}", text_of(what.against),
+                     largest_errors(what));
+}
+
+std::string pixels_over_bound(const Observation& what) {
+  std::string text =
+      fmt::format("{:.0f} of {:.0f} pixels exceed the error bound of {}; ",
+                  what.number("pixels_over"), what.number("pixels"), text_of(what.against));
+  if (what.number("pixels_of_another_particle") > 0) {
+    text +=
+        fmt::format("{:.0f} show another particle; ", what.number("pixels_of_another_particle"));
+  }
+  return text + largest_errors(what);
+}
+
+std::string not_finite(const Observation& what) {
+  if (!what.numbers.contains("pixels")) return "some pixels have values that are not finite";
+  return fmt::format("{:.0f} of {:.0f} pixels have values that are not finite, here or in {}",
+                     what.number("pixels_not_finite"), what.number("pixels"),
+                     text_of(what.against));
+}
+
+std::string other_surface(const Observation& what) {
+  return fmt::format(
+      "{:.0f} of {:.0f} pixels show another particle than {}, and {:.0f} more show the right one "
+      "at another depth; the first is pixel ({:.0f}, {:.0f}): {} at depth {:.6g}, expected {} at "
+      "{:.6g} ± {:.3g}",
+      what.number("pixels_of_another_particle"), what.number("pixels"), text_of(what.against),
+      what.number("pixels_at_another_depth"), what.number("x"), what.number("y"),
+      particle(what, "particle"), what.number("depth"), particle(what, "expected_particle"),
+      what.number("expected_depth"), what.number("depth_bound"));
+}
+
+std::string size_differs(const Observation& what) {
+  return fmt::format("the image has {:.0f}x{:.0f} pixels, {} has {:.0f}x{:.0f}",
+                     what.number("width"), what.number("height"), text_of(what.against),
+                     what.number("expected_width"), what.number("expected_height"));
+}
+
+std::string reference_changed(const Observation& what) {
+  std::string text = "the scene or its reference image changed since it was accepted";
+  if (what.because.empty()) return text + ": its hash differs";
+  return fmt::format("{}: {}", text, text_of(what.because.front()));
+}
+
+std::string devices_compared(const Observation& what) {
+  const bool agree = what.cause == judge::Cause::devices_agree;
+  std::string text = fmt::format("the images of {} and {} differ most: RMS {:.3g}, allowed {:.3g}",
+                                 what.fact("device"), what.fact("other"), what.number("rms"),
+                                 what.number("allowed"));
+  if (agree) return text;
+  return text + fmt::format(
+                    "; both are within their error bounds, but {} is farther from the "
+                    "reference image (RMSE {:.3g}, {} has {:.3g})",
+                    what.fact("device"), what.number("rmse"), what.fact("other"),
+                    what.number("rmse_of_other"));
+}
+
+std::string score(const Observation& what) {
+  std::string text =
+      fmt::format("it scores {:.0f} of {:.0f} points", what.number("score"), what.number("best"));
+  if (what.numbers.contains("accepted")) {
+    text += fmt::format(", {:.0f} were accepted", what.number("accepted"));
+  } else {
+    text += ", and no score is stored";
+  }
+  std::string_view separator = ": ";
+  for (const Observation& each : what.because) {
+    text += fmt::format("{}{}", separator, text_of(each));
+    separator = "; ";
+  }
+  return text;
+}
+
+std::string farther_device(const Observation& what) {
+  return fmt::format(
+      "the image differs from that of {} by RMS {:.3g}, allowed {:.3g}, and is farther from the "
+      "reference image (RMSE {:.3g}, {:.3g})",
+      what.fact("other"), what.number("rms"), what.number("allowed"), what.number("rmse"),
+      what.number("rmse_of_other"));
+}
+
+std::string pixels_differ(const Observation& what) {
+  return fmt::format(
+      "{:.0f} of {:.0f} pixels differ {} from the image with {}; the first is pixel ({:.0f}, "
+      "{:.0f}): {} instead of {}",
+      what.number("pixels_differing"), what.number("pixels"),
+      what.fact("by") == "bits" ? "in their bits" : "by more than both error bounds",
+      what.fact("levels"), what.number("x"), what.number("y"), colour(what, ""),
+      colour(what, "other_"));
+}
+
+std::string not_inside(const Observation& what) {
+  return fmt::format(
+      "this image of {:.0f}x{:.0f} pixels, placed at ({:.0f}, {:.0f}), does not lie inside the "
+      "image with {}, which has {:.0f}x{:.0f}",
+      what.number("width"), what.number("height"), what.number("x"), what.number("y"),
+      what.fact("levels"), what.number("other_width"), what.number("other_height"));
+}
+
+std::string other_colour(const Observation& what) {
+  return fmt::format("channel {:.0f} of pixel ({:.0f}, {:.0f}) is {:.9g} instead of {:.9g}",
+                     what.number("channel"), what.number("x"), what.number("y"),
+                     what.number("value"), what.number("expected_value"));
+}
+
+std::string count_too_large(const Observation& what) {
+  std::string allowed = fmt::format("{:g}", what.number("factor"));
+  if (!what.fact("of").empty()) {
+    allowed += fmt::format(" × {:.0f} {}", what.number("unit"), what.fact("of"));
+    if (!what.fact("levels").empty()) allowed += " with " + what.fact("levels");
+  }
+  return fmt::format("{} is {:.0f}, at most {} is allowed", what.fact("counter"),
+                     what.number("count"), allowed);
+}
+
+}  // namespace triptych::report::words

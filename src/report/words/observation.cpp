@@ -1,0 +1,279 @@
+// The sentence of each cause.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/words/causes.hpp"
+#include "report/words/detail.hpp"
+#include "report/words/finding.hpp"
+#include "report/words/outcome.hpp"
+
+namespace triptych::report::words {
+namespace {
+
+using judge::Against;
+using judge::Cause;
+using judge::Observation;
+
+std::string nothing_measured(const Observation& what) {
+  return fmt::format(
+      "nothing was measured: run {} has {} of {}, none of them measured on the requested devices",
+      what.fact("run"), counted(what.number("records"), "record", "records"), what.fact("plan"));
+}
+
+std::string missing(const Observation& what) {
+  return fmt::format("{:.0f} {} configurations were expected, but {} have no record",
+                     what.number("wanted"), what.fact("kind"), examples(what.names));
+}
+
+std::string other_plan(const Observation& what) {
+  const std::string measured = what.fact("hash");
+  return fmt::format("run {} measured another version of the plan {} ({})", what.fact("run"),
+                     what.fact("plan"),
+                     measured.empty() ? "it has no hash"
+                                      : fmt::format("hash {}, now {}", measured, what.fact("now")));
+}
+
+std::string no_longer_reported(const Observation& what) {
+  if (what.names.empty())
+    return "these values are missing, but they were there when it was accepted";
+  return fmt::format("these values are missing for {}, but they were there when it was accepted",
+                     examples(what.names));
+}
+
+std::string not_stored(const Observation& what) {
+  if (what.names.empty()) return "there is no stored value to compare with";
+  return fmt::format("there are no stored values for {}", examples(what.names));
+}
+
+std::string changed_in(const Observation& what, std::string_view which) {
+  std::string text =
+      fmt::format("{} changed in {}", which,
+                  counted(what.number("configurations"), "configuration", "configurations"));
+  if (!what.changes.empty()) {
+    text +=
+        fmt::format(", most in {}: {}", what.fact("configuration"), text_of(what.changes.front()));
+  }
+  return text;
+}
+
+std::string no_stored_device(const Observation& what) {
+  if (what.fact("device_key").empty()) return "nothing is stored for this device";
+  return fmt::format("nothing is stored for this device: {}", what.fact("device_key"));
+}
+
+std::string not_counted(const Observation& what) {
+  std::string text = fmt::format("{} was not counted", what.fact("counter"));
+  if (!what.fact("levels").empty()) text += " with " + what.fact("levels");
+  return text;
+}
+
+std::string sentence_of(const Observation& what) {
+  switch (what.cause) {
+    case Cause::none:
+      return {};
+    case Cause::as_stored:
+      return as_stored(what);
+    case Cause::values_changed:
+      return values_changed(what);
+    case Cause::unknown_values:
+      return fmt::format("there is no stored value for {}", fmt::join(what.names, ", "));
+    case Cause::not_stored:
+      return not_stored(what);
+    case Cause::no_stored_device:
+      return no_stored_device(what);
+    case Cause::not_reported:
+      return "the device or technique does not report these values";
+    case Cause::no_longer_reported:
+      return no_longer_reported(what);
+    case Cause::untimed:
+      return "not measured, because the run was untimed";
+    case Cause::ended:
+      return text_of(what.outcome, what.reason);
+    case Cause::no_run:
+      return "nothing was measured: no run was started";
+    case Cause::nothing_measured:
+      return nothing_measured(what);
+    case Cause::no_required_device:
+      return fmt::format("no device that matches {} measured anything, but one is required",
+                         what.fact("glob"));
+    case Cause::missing:
+      return missing(what);
+    case Cause::extra:
+      return fmt::format("the run has {}, which the plan does not have", examples(what.names));
+    case Cause::other_plan:
+      return other_plan(what);
+    case Cause::other_data:
+      return fmt::format(
+          "the data are not those that were accepted under this name (content hash {}, accepted "
+          "{})",
+          what.fact("hash"), what.fact("accepted"));
+    case Cause::data_changed:
+      return fmt::format("the data changed since they were measured (content hash {}, now {})",
+                         what.fact("hash"), what.fact("now"));
+    case Cause::no_baselines:
+      return what.detail.empty() ? fmt::format("there are no baselines in {}", what.fact("folder"))
+                                 : fmt::format("{}: {}", what.fact("folder"), what.detail);
+    case Cause::nothing_decided:
+      return "no check reached a verdict for this device: there were only advisories and skips";
+    case Cause::unused_waiver:
+      return fmt::format("the waiver of {} on {} expired on {} and excuses nothing ({})",
+                         what.fact("test"), what.fact("device"), what.fact("expiry"), what.detail);
+    case Cause::waiver_of_no_test:
+      return fmt::format(
+          "the waiver of {} matches no test: test ids have the form SUITE.PLAN.CHECK.DEVICE, and "
+          "`configuration` limits a waiver to some images",
+          what.fact("test"));
+    case Cause::within_bound:
+      return within_bound(what);
+    case Cause::pixels_over_bound:
+      return pixels_over_bound(what);
+    case Cause::not_finite:
+      return not_finite(what);
+    case Cause::other_surface:
+      return other_surface(what);
+    case Cause::size_differs:
+      return size_differs(what);
+    case Cause::empty_image:
+      return "the image has no pixels";
+    case Cause::no_image:
+      return "the record has no image";
+    case Cause::unreadable_image:
+      return with_detail("the stored image cannot be read", what.detail);
+    case Cause::no_reference:
+      return with_detail("there is no reference image to compare with", what.detail);
+    case Cause::reference_changed:
+      return reference_changed(what);
+    case Cause::reference_as_stored:
+      return "the reference image is the one that was accepted";
+    case Cause::devices_agree:
+    case Cause::devices_disagree:
+      return devices_compared(what);
+    case Cause::other_driver_statistics:
+      return other_driver_statistics(what);
+    case Cause::two_counters:
+      return fmt::format("some instructions were counted by {}, others by {}",
+                         what.fact("counted_by"), what.fact("other"));
+    case Cause::other_counter:
+      return other_counter(what);
+    case Cause::frame_allocations:
+      return changed_in(what, "the allocations of a frame");
+    case Cause::preparing:
+      return changed_in(what, "the driver's instructions for preparing");
+    case Cause::injected_memory:
+      return "not compared, because an injected slowdown allocates memory itself";
+    case Cause::time:
+      return time(what);
+    case Cause::times:
+      return times(what);
+    case Cause::other_clock:
+      return fmt::format("the stored times of {} were measured by another clock",
+                         examples(what.names));
+    case Cause::no_time:
+      return "no time was measured";
+    case Cause::same_frames:
+      return with_detail("not timed itself, because another configuration draws the same frames",
+                         text_of(what.reason));
+    case Cause::wrong_image:
+      return what.because.empty() ? "the time means nothing, because the image is wrong"
+                                  : fmt::format(
+                                        "the time means nothing, because the image is "
+                                        "wrong: {}",
+                                        text_of(what.because.front()));
+    case Cause::residuals_as_stored:
+      return fmt::format("the cost ratios of {} to {} are as stored",
+                         counted(what.number("configurations"), "configuration", "configurations"),
+                         fmt::join(what.names, ", "));
+    case Cause::residual_moved:
+      return residual_moved(what);
+    case Cause::off_the_line:
+      return off_the_line(what);
+    case Cause::on_the_line:
+      return on_the_line(what);
+    case Cause::no_line:
+      return no_line(what);
+    case Cause::no_partner:
+      return fmt::format("its cost cannot be correlated: no other device's cost by {} is stored",
+                         what.fact("counted_by"));
+    case Cause::error:
+      return error(what);
+    case Cause::unknown_error:
+      return with_detail("its error cannot be measured", what.detail);
+    case Cause::not_comparable:
+      return "the image cannot be compared: it has another size, or values that are not finite";
+    case Cause::no_limit:
+      return "no scene of this plan has a limit image to measure errors against";
+    case Cause::no_limit_any_more:
+      return "an error is stored, but the scene no longer has a limit image";
+    case Cause::order:
+    case Cause::no_order:
+      return order(what);
+    case Cause::score:
+      return score(what);
+    case Cause::farther_device:
+      return farther_device(what);
+    case Cause::pixels_differ:
+      return pixels_differ(what);
+    case Cause::no_other_image:
+      return fmt::format("there is no image with {} to compare with", what.fact("levels"));
+    case Cause::not_inside:
+      return not_inside(what);
+    case Cause::other_colour:
+      return other_colour(what);
+    case Cause::not_counted:
+      return not_counted(what);
+    case Cause::count_too_large:
+      return count_too_large(what);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string counted(double n, std::string_view one, std::string_view many) {
+  return fmt::format("{:.0f} {}", n, n == 1 ? one : many);
+}
+
+std::string examples(const std::vector<std::string>& configurations) {
+  const auto named = std::min<std::ptrdiff_t>(std::ssize(configurations), 3);
+  const std::vector<std::string> first(configurations.begin(), configurations.begin() + named);
+  return fmt::format(
+      "{} ({}{})",
+      counted(static_cast<double>(configurations.size()), "configuration", "configurations"),
+      fmt::join(first, "; "), std::ssize(configurations) > named ? "; …" : "");
+}
+
+std::string percent(double ratio) {
+  return fmt::format("{:+.3g} %", 100 * (ratio - 1));
+}
+
+std::string_view text_of(Against against) {
+  switch (against) {
+    case Against::nothing:
+      return "nothing";
+    case Against::reference:
+      return "the reference image";
+    case Against::stored_image:
+      return "the accepted image";
+    case Against::baseline:
+      return "the stored values";
+    case Against::other_devices:
+      return "other devices";
+    case Against::expectation:
+      return "what is expected";
+  }
+  return {};
+}
+
+std::string text_of(const Observation& what) {
+  std::string text = sentence_of(what);
+  if (what.against == Against::expectation) {
+    text = fmt::format("expected: {}; {}", what.detail, text);
+  }
+  return text;
+}
+
+}  // namespace triptych::report::words

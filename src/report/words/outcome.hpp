@@ -1,0 +1,20 @@
+#pragma once
+// How a configuration or a device ended, and what a driver's statistics are worth, in English. All
+// texts are of unknown origin: they quote drivers.
+
+#include <string>
+
+#include "record/reason.hpp"
+#include "record/statistic_worth.hpp"
+
+namespace triptych::report::words {
+
+// "no answer within 60 s", "the worker was killed by SIGSEGV (Segmentation fault)".
+[[nodiscard]] std::string text_of(const record::Reason& reason);
+// "hung: no answer within 60 s".
+[[nodiscard]] std::string text_of(record::Outcome outcome, const record::Reason& reason);
+
+// "exact", "1.18 to 3.88 times the true number (…)".
+[[nodiscard]] std::string text_of(const record::StatisticWorth& worth);
+
+}  // namespace triptych::report::words

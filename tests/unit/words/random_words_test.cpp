@@ -1,0 +1,179 @@
+// Nothing decides by a text that is meant for people: the same runs, judged once with plain texts
+// and once with random words in every place where a driver, a library or a person may put one, get
+// the same verdicts, groups, retries, reductions and exit codes.
+
+#include <gmock/gmock.h>
+
+#include "comparison/differences.hpp"
+#include "core/random.hpp"
+#include "gate_fixture.hpp"
+#include "judge/gate/flakes.hpp"
+#include "reduction/failure.hpp"
+#include "report/overview.hpp"
+
+namespace triptych::judge {
+namespace {
+
+// Words that once meant something to this program, and letters that did not.
+class Words {
+ public:
+  explicit Words(std::uint64_t seed) : random_(seed) {}
+  std::string operator()() {
+    static const std::vector<std::string> known{
+        "bad input: ",  "no answer within 7 s", "; not tried, as others ended so",
+        "known fail: ", "flake, right when",    "unsteady",
+        "exact",        "; accept it",          "crashed:",
+        "hung: ",       "16 of 64 pixels",      "differs:"};
+    std::string text;
+    for (int i = 0; i < 4; ++i) {
+      text += known[below(known.size())];
+      for (int letter = 0; letter < 6; ++letter) {
+        text += static_cast<char>('a' + below(26));
+      }
+    }
+    return text;
+  }
+
+ private:
+  std::size_t below(std::size_t n) {
+    return std::min(n - 1, static_cast<std::size_t>(random_.uniform() * static_cast<double>(n)));
+  }
+  core::Random random_;
+};
+
+class RandomWords : public GateTest {
+ protected:
+  // Without noise, which would order findings by their times.
+  static void steady(record::Record& record, core::Image&) { record.wall_ns.assign(5, 1e6); }
+
+  // Failures of every kind, by configuration and device.
+  void add_failing_run(const std::string& run, Words* words) {
+    const auto say = [words](const std::string& plain) { return words ? (*words)() : plain; };
+    add_run(run, [&](record::Record& record, core::Image& image) {
+      steady(record, image);
+      const bool plain = record.configuration == plain_;
+      const auto end = [&](record::Outcome outcome, record::Reason reason) {
+        record.outcome = outcome;
+        reason.detail = say("a detail");
+        reason.last_words = say("last words");
+        record.reason = std::move(reason);
+      };
+      using record::Cause;
+      if (record.device == "vulkan:lavapipe" && plain) {
+        end(record::Outcome::crashed, {.cause = Cause::signal, .numbers = {{"signal", 11}}});
+      } else if (record.device == "vulkan:lavapipe" && record.configuration == bricks_) {
+        end(record::Outcome::hung, {.cause = Cause::timeout, .numbers = {{"limit_s", 20}}});
+      } else if (record.device == "gl:llvmpipe-egl" && plain) {
+        end(record::Outcome::skipped, {.cause = Cause::bad_input});
+      } else if (record.device == "gl:llvmpipe-egl" && record.configuration == bricks_) {
+        end(record::Outcome::skipped, {.cause = Cause::not_supported});
+      } else if (record.device == "opencl:pocl" && plain) {
+        end(record::Outcome::failed,
+            {.cause = Cause::api_error, .subject = "clFinish", .code = "CL_OUT_OF_RESOURCES"});
+      } else if (record.device == "opencl:pocl" && record.configuration == bricks_) {
+        image.rgba[4 * 11] += 0.01F;
+        ++record.counters["samples"];
+      }
+    });
+  }
+
+  // All that the judge and its report decide, without a word.
+  static std::string decided(const GateResult& result) {
+    std::string text = fmt::format("exit {}\n", static_cast<int>(result.exit_code()));
+    for (const Finding& each : result.findings) {
+      text +=
+          fmt::format("{} {} {} {}: {} {}\n", name_of(each.check), name_of(each.verdict),
+                      each.device, each.configuration, kind_of(each), name_of(each.advice.advice));
+    }
+    const std::vector<GateResult> results{result};  // the overview points into it
+    const report::Overview all = report::overview(results);
+    for (const auto* causes : {&all.open, &all.aside}) {
+      for (const report::Cause& cause : *causes) {
+        text += fmt::format("group of {}: {} {} {}\n", cause.group.configurations,
+                            cause.group.first->configuration, cause.group.signature,
+                            static_cast<int>(cause.group.blame().of));
+      }
+    }
+    return text;
+  }
+
+  // A run of failures, judged, drawn again without them, and expected the next time.
+  std::string everything(const std::string& name, Words* words) {
+    add_failing_run(name, words);
+    add_run(name + "-again", steady);
+    const auto say = [words](const Finding&) { return words ? (*words)() : "words"; };
+    const GateResult first = gate(name);
+    std::string text = decided(first);
+    const Redrawn again = tell_flakes(first, gate(name + "-again"), failing(first));
+    text += decided(again.result);
+    for (const auto& [device, configuration] : again.flakes) {
+      text += fmt::format("flake {} {}\n", device, configuration);
+    }
+    GateRequest request = request_;
+    request.known = as_expected(std::vector{first}, say);
+    for (const Waiver& each : *request.known) {
+      text += fmt::format("expected {} {}\n", each.device, name_of(each.known));
+    }
+    text += decided(gate(name, request));
+    text += failures(name);
+    text += differences(name);
+    return text;
+  }
+
+  // How frames fail, for making them small.
+  std::string failures(const std::string& run) {
+    const reduction::Evidence evidence{
+        .truth = request_.truth,
+        .picture = [&](const record::Record& record) { return store_.picture(record.image); }};
+    std::vector<reduction::Failure> all;
+    for (const record::Record& record : store_.records(run)) {
+      if (auto failure = reduction::failure_of(record, evidence)) all.push_back(*failure);
+    }
+    std::string text;
+    for (const auto& a : all) {
+      for (const auto& b : all) text += reduction::is_same_kind(a, b) ? '=' : '-';
+    }
+    return text + "\n";
+  }
+
+  // The differences that compare and diff find between this run and a right one.
+  std::string differences(const std::string& run) {
+    std::string text;
+    const std::vector<record::Record> right = store_.records(run + "-again");
+    const std::vector<record::Record> wrong = store_.records(run);
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      const record::Device device{.id = right[i].device};
+      const core::Image empty;
+      const comparison::ComparedSide a{.record = right[i], .device = device, .image = empty};
+      const comparison::ComparedSide b{.record = wrong[i], .device = device, .image = empty};
+      for (const auto& each : comparison::find_differences(a, b, true).differences) {
+        text += fmt::format("{} {}\n", comparison::name_of(each.kind), each.about);
+      }
+    }
+    return text;
+  }
+};
+
+TEST_F(RandomWords, DecideNothing) {
+  accept_first(steady);
+  const std::string plain = everything("plain", nullptr);
+  EXPECT_THAT(plain, testing::HasSubstr("exit 1"));
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Words words(seed);
+    EXPECT_EQ(everything(fmt::format("random{}", seed), &words), plain);
+  }
+}
+
+// A reference image that cannot be computed leads to the same findings for any exception text.
+TEST_F(RandomWords, OfAnExceptionDecideNothing) {
+  accept_first();
+  add_run("b");
+  Words words(1);
+  request_.truth = [](const record::Record&) -> TruthPair { throw core::IoError("plain"); };
+  const std::string plain = decided(gate("b"));
+  request_.truth = [&](const record::Record&) -> TruthPair { throw core::IoError(words()); };
+  EXPECT_EQ(decided(gate("b")), plain);
+}
+
+}  // namespace
+}  // namespace triptych::judge
