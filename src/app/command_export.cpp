@@ -48,7 +48,7 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
   }
   for (const auto& [table, count] : rows)
     fmt::print("{}/{}.csv: {} rows\n", arguments.out, table, count);
-  fmt::print("{}/dictionary.json: what each column is, with its unit\n", arguments.out);
+  fmt::print("{}/dictionary.json: the meaning and unit of each column\n", arguments.out);
   return core::ExitCode::pass;
 }
 

@@ -137,7 +137,7 @@ core::ExitCode list(const ListArguments& arguments) {
   if (suite == registry.suites.end()) return list_plan(arguments, registry);
   if (!arguments.choice.set.empty() || !arguments.choice.shard.empty()) {
     throw core::InputError(fmt::format(
-        "{0} is a suite: --set and --shard are for a plan, such as {0}/quick", arguments.plan));
+        "{0} is a suite: --set and --shard need a plan, such as {0}/quick", arguments.plan));
   }
   return list_suite(**suite, registry, arguments.json);
 }

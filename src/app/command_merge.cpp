@@ -24,19 +24,21 @@ struct MergeArguments {
 };
 
 void tell_left_out(const record::RecordCounts& counts) {
-  if (counts.repeated > 0) fmt::print("  {} records were in several stores\n", counts.repeated);
+  if (counts.repeated > 0) {
+    fmt::print("  {} records exist in several stores; each is kept once\n", counts.repeated);
+  }
   if (counts.injected > 0) {
-    fmt::print("  {} had an injected fault and none in another store: that is kept\n",
+    fmt::print("  {} records with an injected fault were replaced by records without one\n",
                counts.injected);
   }
   if (counts.measured_anew > 0) {
-    fmt::print("  {} that had failed or were skipped are measured in another store: that is kept\n",
+    fmt::print("  {} failed or skipped records were replaced by measured ones of another store\n",
                counts.measured_anew);
   }
   if (counts.not_chosen > 0) {
     fmt::print(
-        "  {} had another record elsewhere: of each configuration and device one is kept, by "
-        "its seal\n",
+        "  {} records were dropped, because another store has a different record of the same "
+        "configuration and device; the one with the lower seal is kept\n",
         counts.not_chosen);
   }
 }
@@ -90,10 +92,11 @@ core::ExitCode merge(const MergeArguments& arguments) {
   if (arguments.check) {
     return tell_gaps(arguments) ? core::ExitCode::pass : core::ExitCode::cannot_judge;
   }
-  if (arguments.out.empty()) throw core::InputError("--out is required: the store to be written");
+  if (arguments.out.empty())
+    throw core::InputError("--out is required: it names the store to write");
   if (std::ranges::none_of(arguments.stores, holds_a_run)) {
     throw core::NotSupported(
-        fmt::format("nothing to merge: no run is in {}", fmt::join(arguments.stores, ", ")));
+        fmt::format("nothing to merge: there is no run in {}", fmt::join(arguments.stores, ", ")));
   }
   core::require_writable(std::filesystem::path(arguments.out).parent_path());
   // On a terminal, now and then.
@@ -109,12 +112,12 @@ core::ExitCode merge(const MergeArguments& arguments) {
   clear_line();
   for (const record::MergeResult::Plan& each : result.plans) tell(each, arguments.out);
   if (result.older_runs > 0) {
-    fmt::print("{} older runs were left out: of each plan a store gives its latest\n",
+    fmt::print("{} older runs were left out: each store contributes the latest run of a plan\n",
                result.older_runs);
   }
   // What no device of a shard has is no gap in the whole.
   if (!tell_gaps(arguments)) {
-    fmt::print("What these lack is in {} only where another store has it\n", arguments.out);
+    fmt::print("These records are missing in {} unless another store has them\n", arguments.out);
   }
   return core::ExitCode::pass;
 }

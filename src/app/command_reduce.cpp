@@ -118,7 +118,7 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   reduction::Trial trial(frame.suite, frame.device, other, options, truths, store);
   const std::optional<reduction::Failure> first = trial.first(start);
   if (!first) {
-    fmt::print("{} does not fail: there is nothing to make smaller\n", frame.device);
+    fmt::print("the frame does not fail on {}: there is nothing to make smaller\n", frame.device);
     return core::ExitCode::pass;
   }
   say("{}: {}\n", frame.device, report::words::text_of(*first));

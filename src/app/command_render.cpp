@@ -75,7 +75,9 @@ Drawn draw_one(const Drawing& drawing, const measure::Plan& plan) {
 // The fastest by short trials; where none can be drawn, what the first one says.
 Drawn draw_the_fastest(const Drawing& drawing, const measure::Plan& plan) {
   if (drawing.arguments.error) {
-    throw core::InputError("--error and auto choose by two rules: name the technique");
+    throw core::InputError(
+        "--error and technique=auto cannot be combined, because each chooses by its own rule: name "
+        "the technique");
   }
   const auto [records, answers] =
       measure::try_for_fastest(plan, drawing.suite, [&](const measure::Plan& tried) {
@@ -120,7 +122,7 @@ core::ExitCode render(const RenderArguments& arguments) {
                              : arguments.error       ? draw_within_error(drawing, plan, truths)
                                                      : draw_one(drawing, plan);
   record::require_measured(record);
-  if (record.image.empty()) throw core::InputError(record.technique + " draws no picture");
+  if (record.image.empty()) throw core::InputError(record.technique + " does not draw an image");
   const core::Image image = store.picture(record.image);
   report::write_picture(out, "image", image);
   const core::Json frame =

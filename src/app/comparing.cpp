@@ -122,7 +122,7 @@ core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool 
       try {
         all.push_back(comparer.compare(each, typed));
       } catch (const measure::Interrupted&) {
-        throw core::Error("interrupted; a comparison keeps nothing, begin it again");
+        throw core::Error("interrupted; a comparison cannot be continued: start it again");
       }
       code = core::worse_of(code, all.back().result.exit_code());
     }
@@ -133,14 +133,14 @@ core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool 
 
 std::vector<std::string> worker_of(const std::string& option, const std::string& program) {
   if (!is_program(program)) {
-    throw core::InputError(fmt::format("{} {}: no program to run", option, program));
+    throw core::InputError(fmt::format("{} {}: is not an executable program", option, program));
   }
   const std::string file = fs::absolute(program).string();
   // A driver may have printed something before.
   const std::string told = measure::output_of({file, "--version"}).value_or("");
   if (("\n" + told).find("\ntriptych ") == std::string::npos) {
-    throw core::InputError(
-        fmt::format("{} {}: no triptych: it does not say so on --version", option, program));
+    throw core::InputError(fmt::format(
+        "{} {}: is not a build of triptych, according to its --version", option, program));
   }
   return measure::worker_command(file);
 }
@@ -154,7 +154,8 @@ std::vector<Comparing> against_base(const std::string& base,
   if (program) {
     command = worker_of("--base", base);
   } else if (base.find('=') == std::string::npos) {
-    throw core::InputError(fmt::format("--base {}: no program to run, nor NAME=VALUE", base));
+    throw core::InputError(
+        fmt::format("--base {}: is neither an executable program nor NAME=VALUE", base));
   } else {
     environment = measure::parse_environment(base, "--base " + base);
   }

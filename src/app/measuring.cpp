@@ -49,9 +49,10 @@ void print_progress(const measure::Progress& progress) {
 void refuse_for_several(const Measuring& measuring) {
   if (measuring.plans.size() < 2) return;
   if (!measuring.choice.set.empty()) {
-    throw core::InputError("--set changes one plan: give it alone, or a YAML file for each");
+    throw core::InputError(
+        "--set changes the factors of one plan: name a single plan, or write a YAML file for each");
   }
-  if (measuring.error) throw core::InputError("--error asks of one plan: give it alone");
+  if (measuring.error) throw core::InputError("--error works with one plan: name a single plan");
 }
 
 std::vector<measure::Plan> load_plans(const Measuring& measuring, const Registry& registry) {
@@ -60,13 +61,14 @@ std::vector<measure::Plan> load_plans(const Measuring& measuring, const Registry
   for (const std::string& name : measuring.plans) {
     measure::Plan plan = measuring.choice.load(name, registry.find_suite());
     if (std::ranges::find(plans, plan.name, &measure::Plan::name) != plans.end()) {
-      throw core::InputError(
-          fmt::format("two plans are called {}: a plan's runs are known by its name", plan.name));
+      throw core::InputError(fmt::format(
+          "two plans are called {}: rename one, because runs are found by the plan's name",
+          plan.name));
     }
     const bool chooses = measuring.chooses && !plan.automatic.empty();
     if (chooses && measuring.untimed && !plan.counted()) {
       throw core::InputError(
-          fmt::format("{}: auto is chosen by time, of which --untimed tells none", plan.name));
+          fmt::format("{}: technique=auto needs frame times: remove --untimed", plan.name));
     }
     if ((measuring.timed || chooses) && !plan.counted()) {
       plan.checks.insert(record::Check::timing);
@@ -112,8 +114,8 @@ std::vector<measure::RunResult> measure_on(const Bench& bench,
   std::vector<measure::RunResult> results =
       measure::run_plans(runs, bench.devices, bench.store, print_progress);
   for (const auto& [fault, only] : measure::faults_that_hit_nothing(runs, bench.devices)) {
-    say("triptych: --inject {}@{} hits nothing: no configuration or device is called so; `triptych "
-        "list PLAN` tells their names, which leave defaults out\n",
+    say("triptych: --inject {}@{} hits nothing: no configuration or device matches; `triptych list "
+        "PLAN` prints the names of configurations, in which defaults are left out\n",
         fault, only);
   }
   for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -177,8 +179,9 @@ Measured measure_resumably(const Measuring& measuring) {
   try {
     return measure_and_tell(measuring);
   } catch (const measure::Interrupted& interrupted) {
-    throw measure::Interrupted(interrupted.signal(),
-                               "interrupted; what was measured is in the store, --resume goes on");
+    throw measure::Interrupted(
+        interrupted.signal(),
+        "interrupted; the records so far are in the store; --resume continues");
   }
 }
 

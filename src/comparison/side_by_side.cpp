@@ -178,7 +178,7 @@ std::string SideBySide::sentence() const {
   const auto its =
       std::ranges::count_if(rows, [&](const Row& row) { return row.cells.contains(most->first); });
   std::string text =
-      fmt::format("{} takes the least in {} of its {} techniques", most->first, most->second, its);
+      fmt::format("{} is best in {} of its {} techniques", most->first, most->second, its);
   for (const std::string& device : devices) {
     std::vector<double> ratios;
     for (const Row& row : rows) {
@@ -187,15 +187,15 @@ std::string SideBySide::sentence() const {
       ratios.push_back(row.cells.at(device).value / row.cells.at(most->first).value);
     }
     if (ratios.empty()) continue;
-    text += fmt::format("; {} {:.2f} to {:.2f} times as much", device, std::ranges::min(ratios),
-                        std::ranges::max(ratios));
+    text += fmt::format("; {} takes {:.2f} to {:.2f} times as much in the techniques of both",
+                        device, std::ranges::min(ratios), std::ranges::max(ratios));
   }
-  return text + ", in what both have";
+  return text;
 }
 
 std::string to_text(const SideBySide& table) {
   std::vector<std::string> head{""};
-  std::vector<std::string> least{"the least"};
+  std::vector<std::string> least{"best"};
   for (const std::string& device : table.devices) {
     head.push_back(device);
     least.push_back(least_text(table, device));
@@ -213,7 +213,7 @@ std::string to_text(const SideBySide& table) {
   }
   lines.push_back(std::move(least));
   return aligned(lines) +
-         fmt::format("\n{} of a frame over the best device's. {}.\n",
+         fmt::format("\n{} of a frame, relative to the best device. {}.\n",
                      table.clock.empty() ? "Instructions" : "Time by the " + table.clock + " clock",
                      table.sentence());
 }

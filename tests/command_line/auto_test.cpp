@@ -66,11 +66,11 @@ TEST(Auto, NeedsATimeAndOneRule) {
   const Result untimed =
       program.run("run particles/quick --set technique=auto --device null:scripted --untimed");
   EXPECT_EQ(untimed.code, 3) << untimed.output;
-  expect_found(untimed, "auto is chosen by time, of which --untimed tells none");
+  expect_found(untimed, "technique=auto needs frame times, of which --untimed tells none");
   const Result two =
       program.run("render volume --device null:scripted --set technique=auto --error 0.1 --out o");
   EXPECT_EQ(two.code, 3) << two.output;
-  expect_found(two, "--error and auto choose by two rules: name the technique");
+  expect_found(two, "--error and technique=auto cannot be combined");
   const Result unknown =
       program.run("render particles --device null:scripted --set culling=auto --out o");
   EXPECT_EQ(unknown.code, 3) << unknown.output;

@@ -110,7 +110,8 @@ TEST_F(Compare, TheGateJudgesByABase) {
   expect_verdict(gate("--base TRIPTYCH_NULL_SCRIPT='" + script(1, 2) + "'"), 0, "PASS");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM), 0, "PASS");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --inject crash"), 1, "b crashed");
-  expect_verdict(gate("--base nothing"), 3, "--base nothing: no program to run, nor NAME=VALUE");
+  expect_verdict(gate("--base nothing"), 3,
+                 "--base nothing: is neither an executable program nor NAME=VALUE");
   expect_verdict(gate("--base /bin/true"), 3, "--base /bin/true: no triptych");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --measure"), 3, "excludes");
   expect_verdict(gate("--bisect --base " TRIPTYCH_PROGRAM " --measure"), 125, "excludes");
@@ -139,7 +140,7 @@ TEST_F(Compare, WrongUsageIsOneLine) {
   expect_verdict(compare("null"), 3, "expected a device such as");
   expect_verdict(compare("null:scripted,FAST"), 3, "after the device: expected NAME=VALUE");
   expect_verdict(compare(b_as(1), "--inject wings"), 3, "unknown fault 'wings'");
-  expect_verdict(compare(b_as(1), "--b-program nothing"), 3, "no program to run");
+  expect_verdict(compare(b_as(1), "--b-program nothing"), 3, "is not an executable program");
   expect_verdict(compare("null:scripted,LP_PERF=no_tex"), 3, "LP_PERF=no_tex is set");
   expect_verdict(compare("null:nothing"), 2, "null:nothing cannot be opened");
 }

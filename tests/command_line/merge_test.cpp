@@ -72,12 +72,13 @@ TEST_F(MergeCommand, NamesWhatItsPartsLack) {
       .exec("DELETE FROM record WHERE configuration = (SELECT min(configuration) FROM record)");
   const Result merged = run("merge 1.sqlite 2.sqlite 3.sqlite --out m.sqlite");
   EXPECT_EQ(merged.code, 0) << merged.output;
-  EXPECT_THAT(merged.output,
-              AllOf(HasSubstr(" in m.sqlite: 7 configurations\n"),
-                    testing::ContainsRegex("\n2.sqlite: .* on null:scripted: 2 of 3 configurations"
-                                           "\n2.sqlite: .* on null:scripted#2: 2 of 3 config"),
-                    HasSubstr("\nWhat these lack is in m.sqlite only where another store has it"),
-                    Not(HasSubstr("\n1.sqlite")), Not(HasSubstr("\n3.sqlite"))));
+  EXPECT_THAT(
+      merged.output,
+      AllOf(HasSubstr(" in m.sqlite: 7 configurations\n"),
+            testing::ContainsRegex("\n2.sqlite: .* on null:scripted: 2 of 3 configurations"
+                                   "\n2.sqlite: .* on null:scripted#2: 2 of 3 config"),
+            HasSubstr("\nThese records are missing is in m.sqlite only where another store has it"),
+            Not(HasSubstr("\n1.sqlite")), Not(HasSubstr("\n3.sqlite"))));
   fs::remove(program.folder() / "m.sqlite");
   EXPECT_THAT(run("merge 1.sqlite 3.sqlite --out m.sqlite").output, Not(HasSubstr("lack")));
 }
@@ -88,8 +89,9 @@ TEST_F(MergeCommand, SaysThatAnInjectedFaultIsNotKept) {
       0);
   const Result merged = run("merge 4.sqlite 1.sqlite 2.sqlite 3.sqlite --out m.sqlite");
   EXPECT_EQ(merged.code, 0) << merged.output;
-  EXPECT_THAT(merged.output,
-              HasSubstr("  6 had an injected fault and none in another store: that is kept\n"));
+  EXPECT_THAT(
+      merged.output,
+      HasSubstr("  6 records with an injected fault were replaced by records without one\n"));
   SQLite::Database out((program.folder() / "m.sqlite").string(), SQLite::OPEN_READONLY);
   EXPECT_EQ(out.execAndGet("SELECT count(*) FROM record WHERE injected != ''").getInt(), 0);
 }

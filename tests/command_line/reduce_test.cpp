@@ -95,7 +95,8 @@ TEST(Reduce, WhatDoesNotFailPasses) {
   const Result result =
       program.run(std::string("reduce volume --out r --set step=0.5 ") + tiny, script);
   EXPECT_EQ(result.code, 0) << result.output;
-  EXPECT_EQ(result.output, "null:scripted does not fail: there is nothing to make smaller\n");
+  EXPECT_EQ(result.output,
+            "the frame does not fail on null:scripted: there is nothing to make smaller\n");
 }
 
 TEST(Reduce, TheLimitOfFramesIsTold) {

@@ -60,7 +60,7 @@ kill -INT $!; wait $!; code=$?; cat out; exit $code
 TEST_F(Resume, AValidationGoesOn) {
   const auto first_told = [&](const std::string& options) {
     const Result ended = validate_one(program, options);
-    EXPECT_THAT(ended.output, HasSubstr("what was measured is in the store, --resume goes on"));
+    EXPECT_THAT(ended.output, HasSubstr("what was measured is in the store, --resume continues"));
     const std::string from = ended.output.substr(ended.output.find("camera="));
     return from.substr(0, from.find(": "));
   };

@@ -123,7 +123,7 @@ TEST(Usage, AnInterruptOffersAResumeWhereThereIsOne) {
   expect_refused(program.run("render volume " + hang + " --out picture", script, interrupted), 124,
                  "triptych: interrupted\n");
   const Result run = program.run("run volume/quick " + hang, script, interrupted);
-  EXPECT_NE(run.output.find("interrupted; what was measured is in the store, --resume goes on"),
+  EXPECT_NE(run.output.find("interrupted; what was measured is in the store, --resume continues"),
             std::string::npos)
       << run.output;
 }

@@ -52,7 +52,7 @@ std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::siz
     return fmt::format("not trusted: reads 0 for {} frames of {:.3g} ms", frames, wall_ns * 1e-6);
   }
   const std::string limits =
-      fmt::format("{} to {} would be believed", percent(ClockLimits::least_ratio),
+      fmt::format("{} to {} would be trusted", percent(ClockLimits::least_ratio),
                   percent(ClockLimits::most_ratio));
   const bool is_short = wall_ns < ClockLimits::least_frame_ns / 4 && trust.ratio < 1;
   return fmt::format("not trusted: {}; {}{}", seen, limits,

@@ -72,7 +72,7 @@ class Search {
     const std::string name = scene_of(suite_, scene);
     const accuracy::LimitPicture* limit = truths_.limit_of(record_of(scene));
     if (limit == nullptr) {
-      result.out_of_reach.push_back(name + ": has no limit that an error could be told from");
+      result.out_of_reach.push_back(name + ": has no limit image, so no error can be computed");
       return;
     }
     const auto nothing = accuracy::errors_of_nothing(limit->image);
