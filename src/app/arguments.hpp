@@ -1,5 +1,5 @@
 #pragma once
-// What several commands take, spelled once.
+// Command-line options that several commands share.
 
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -16,7 +16,7 @@
 
 namespace triptych::app {
 
-// A command adds itself to the program; what it does runs after parsing and returns the exit code.
+// A command adds itself to the program. Its action runs after parsing and returns the exit code.
 struct Commands {
   CLI::App& program;
   std::function<core::ExitCode()> chosen;
@@ -24,7 +24,7 @@ struct Commands {
   CLI::App& add(const std::string& name, const std::string& summary,
                 std::function<core::ExitCode()> run);
 
-  // A command whose options write into the arguments that `run` is called with.
+  // A command whose options are written to the arguments that `run` is called with.
   template <typename Arguments>
   struct Added {
     CLI::App& command;
@@ -38,14 +38,15 @@ struct Commands {
   }
 };
 
-// Shows a complete command line in --help and in the manual page, above what all commands have.
+// Shows a complete command line in --help and in the manual page, above the text that all commands
+// share.
 void add_example(CLI::App& command, const std::string& example);
 
-// --set and --shard.
+// Adds --set and --shard.
 using measure::PlanChoice;
 void add_choice_options(CLI::App& command, PlanChoice& choice);
 
-// PLAN, of which one is required.
+// Adds the positional argument PLAN. At least one plan is required.
 template <typename Plans>
 void add_plan_option(CLI::App& command, Plans& plans) {
   command.add_option("PLAN", plans, "A plan: a YAML file, or SUITE/PLAN such as volume/quick")
@@ -54,39 +55,39 @@ void add_plan_option(CLI::App& command, Plans& plans) {
 
 inline constexpr const char* standard_store = "triptych.sqlite";
 
-// What `git bisect run` takes for a commit that tells nothing.
+// The exit code by which `git bisect run` skips a commit.
 inline constexpr auto bisect_skips = static_cast<core::ExitCode>(125);
 
-// The folder of the baselines; one without a name would be the folder the program is started in.
+// Adds --baselines. An empty name is refused, because it would mean the current folder.
 void add_baselines_option(CLI::App& command, std::string& folder);
 
-// --device, of what is already measured.
+// Adds --device, for devices that have been measured already.
 void add_devices_option(CLI::App& command, std::vector<std::string>& globs);
 
-// --inject FAULT[@GLOB], repeatable, and its former name --plant, which help does not list.
+// Adds --inject FAULT[@GLOB], repeatable, and its former name --plant, which help does not list.
 void add_inject_option(CLI::App& command, std::vector<std::string>& faults,
                        const std::string& help);
 
-// Seconds until `what` counts as hung.
+// Adds --limit, the seconds after which `what` is regarded as hung.
 inline constexpr int standard_limit_s = record::standard_limit.count();
 void add_limit_option(CLI::App& command, int& seconds, const std::string& what);
 
-// On standard output.
+// Prints to standard output.
 void print(const core::Json& json, int indent = 2);
 
 void add_devices_command(Commands& commands);
 void add_list_command(Commands& commands);
-void add_run_commands(Commands& commands);  // run, worker
+void add_run_commands(Commands& commands);  // run and worker
 void add_render_command(Commands& commands);
 void add_reduce_command(Commands& commands);
-void add_gate_commands(Commands& commands);     // gate, accept
-void add_compare_commands(Commands& commands);  // compare, diff
+void add_gate_commands(Commands& commands);     // gate and accept
+void add_compare_commands(Commands& commands);  // compare and diff
 void add_report_command(Commands& commands);
 void add_merge_command(Commands& commands);
 void add_history_command(Commands& commands);
 void add_validate_command(Commands& commands);
 void add_export_command(Commands& commands);
-void add_test_commands(Commands& commands);      // what CTest calls
-void add_document_commands(Commands& commands);  // what the build calls
+void add_test_commands(Commands& commands);      // called by CTest
+void add_document_commands(Commands& commands);  // called by the build
 
 }  // namespace triptych::app

@@ -1,5 +1,5 @@
-// The manual page and the shell's completion, made of the commands themselves: neither can lack an
-// option. The build writes both beside the program; `cmake --install` takes them along.
+// The manual page and the shell completion. Both are generated from the commands, so they cannot
+// lack an option. The build writes them beside the program, and `cmake --install` installs them.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +15,7 @@
 namespace triptych::app {
 namespace {
 
-// In a manual page a backslash and a hyphen mean something, and so does a line's first mark.
+// In a manual page backslashes, hyphens and the first character of a line are special.
 std::string roff(std::string_view text) {
   std::string escaped = "\\&";
   for (const char each : text) {
@@ -32,7 +32,7 @@ std::string roff(std::string_view text) {
   return escaped;
 }
 
-// Those that --help shows.
+// The commands that --help lists.
 std::vector<const CLI::App*> shown_commands(const CLI::App& program) {
   return program.get_subcommands(
       [](const CLI::App* each) { return !each->get_group().empty() && !each->get_name().empty(); });
@@ -91,7 +91,7 @@ std::string manual(const CLI::App& program) {
   return text.append(environment);
 }
 
-// What may stand after a command: its options, and the plans that come with the suites.
+// The words that may follow a command: its options, and the plans that come with the suites.
 std::string words_after(const CLI::App& command, const std::vector<std::string>& plans) {
   std::string words;
   bool takes_plans = false;
@@ -131,7 +131,7 @@ void add(Commands& commands, const std::string& name, const std::string& summary
     fmt::print("{}", text(program));
     return core::ExitCode::pass;
   });
-  command.group("");  // not shown: the build calls it
+  command.group("");  // not listed, because only the build calls it
 }
 
 }  // namespace

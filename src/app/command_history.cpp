@@ -1,4 +1,4 @@
-// history: stores of many days or commits, one after the other.
+// history: compares the stores of many days or commits in their order.
 
 #include <fmt/format.h>
 

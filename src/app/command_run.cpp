@@ -1,4 +1,4 @@
-// run, and the processes that it starts.
+// The command run, and the processes that it starts.
 
 #include <sys/resource.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using measure::RunResult;
 
-// Where nothing of a plan is measured there is nothing that anybody could judge.
+// If nothing of a plan was measured, there is nothing to judge.
 core::ExitCode run(const Measuring& measuring) {
   const auto [scored, results, error_kept] = measure_resumably(measuring);
   const bool measured =
@@ -24,8 +24,8 @@ core::ExitCode run(const Measuring& measuring) {
   return measured && error_kept ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
-// As a CTest fixture: a configuration that failed fails the test – but for a stress case, whose
-// score tells of it – and nothing but skips skips it.
+// As a CTest fixture: a failed configuration fails the test (except for a stress case, whose score
+// reports it), and a run with nothing but skips is skipped.
 core::ExitCode run_as_test(const Measuring& measuring) {
   const auto [scored, results, error_kept] = measure_and_tell(measuring);
   const bool failed =
@@ -36,7 +36,7 @@ core::ExitCode run_as_test(const Measuring& measuring) {
   return told ? core::ExitCode::pass : core::ExitCode::skip;
 }
 
-// From here on. Valgrind holds nobody to it.
+// Limits the memory of this process from now on. Has no effect under Valgrind.
 void limit_own_memory(std::uint64_t bytes) {
   const rlimit limit{bytes, bytes};
   if (::setrlimit(RLIMIT_DATA, &limit) != 0) {
@@ -63,7 +63,8 @@ core::ExitCode list_api(const std::string& api) {
   return core::ExitCode::pass;
 }
 
-// Not shown: only this program starts them (measure/worker/own_program.hpp).
+// These commands are not listed, because only this program calls them
+// (measure/worker/own_program.hpp).
 void add_worker_commands(Commands& commands) {
   auto [worker, arguments] = commands.add("worker", "Serve one device (started by run)", serve);
   worker.add_option("--device", arguments.device)->required();

@@ -19,8 +19,8 @@
 namespace triptych::app {
 namespace {
 
-// What a driver must get right, whatever its speed: ordinary scenes by every technique, hostile
-// ones, closed forms.
+// Everything that a driver must get right, whatever its speed: ordinary scenes with every
+// technique, hostile scenes, and closed forms.
 constexpr std::array<const char*, 6> plans{"volume/quick",     "volume/stress",
                                            "volume/accuracy",  "particles/quick",
                                            "particles/stress", "particles/accuracy"};
@@ -31,16 +31,16 @@ struct ValidateArguments {
   std::string baselines = default_baselines().string();
   std::string junit;
   std::string json;
-  PlanChoice choice;  // its shard
-  int jobs = 0;       // as of measure::RunOptions
+  PlanChoice choice;  // only its shard
+  int jobs = 0;       // see measure::RunOptions
   int limit_s = standard_limit_s;
   std::string expect;
   std::string write_expect;
   bool resume = false;
 };
 
-// Times, bits and statistics are a device's own; what is asked of any device is the right picture
-// from the right amount of work. A stress case's score holds what its picture is worth.
+// Times, image bits and statistics differ between devices. Any device must draw the right image
+// from the right amount of work. The score of a stress case includes its image.
 record::Checks checks_of(const record::Checks& of_plan) {
   const bool scored = of_plan.contains(judge::Check::stress);
   return {scored ? judge::Check::stress : judge::Check::image, judge::Check::counters};
@@ -59,7 +59,7 @@ Measuring measuring_of(const ValidateArguments& arguments, const std::string& fi
           .told_to = stderr};
 }
 
-// What a run that was interrupted has measured is judged like all else: false.
+// Returns false if the run was interrupted. The part that was measured is judged anyway.
 bool measured_to_its_end(const Measuring& measuring) {
   try {
     measure_resumably(measuring);
@@ -70,7 +70,7 @@ bool measured_to_its_end(const Measuring& measuring) {
   }
 }
 
-// Runs of an earlier validation, which this one does not go on with.
+// Runs of an earlier validation, which this one does not continue.
 std::set<std::string> runs_before(const ValidateArguments& arguments, const std::string& file) {
   std::set<std::string> ids;
   if (arguments.resume || !std::filesystem::exists(file)) return ids;
@@ -80,10 +80,10 @@ std::set<std::string> runs_before(const ValidateArguments& arguments, const std:
   return ids;
 }
 
-// The plans of a validation and what is judged of each.
+// The plans of a validation, and the results of each.
 class Validation {
  public:
-  // `before`: runs that are not this validation's.
+  // `before` contains runs that do not belong to this validation.
   Validation(const ValidateArguments& arguments, const std::string& file,
              const std::set<std::string>& before, std::optional<std::vector<judge::Waiver>> known)
       : arguments_(arguments),
@@ -100,7 +100,7 @@ class Validation {
     }
   }
 
-  // A fault that does not show again is no less one, but another.
+  // A fault that does not recur is still a fault, but of another kind.
   void draw_failures_again() {
     for (judge::GateResult& result : results_) {
       const judge::Places places = judge::failing(result);
@@ -110,7 +110,7 @@ class Validation {
       const measure::Plan plan = arguments_.choice.load(result.plan, registry_.find_suite());
       auto [second, flakes] = judge::tell_flakes(result, judge_plan(plan), places);
       result = std::move(second);
-      for (const record::Record& each : first) {  // the store keeps what failed
+      for (const record::Record& each : first) {  // the store keeps the failed records
         if (flakes.contains({each.device, each.configuration})) store_.add_record(each);
       }
     }
@@ -143,7 +143,7 @@ class Validation {
     return judge_named(store_, id, arguments_.baselines, request);
   }
 
-  // False where it was interrupted.
+  // Returns false if it was interrupted.
   bool draw_again(const std::string& plan, const judge::Places& places) {
     say("{}: {} that failed are drawn again\n", plan, places.size());
     Measuring measuring = measuring_of(arguments_, store_.file().string());

@@ -50,7 +50,7 @@ std::string page_about(const record::Store& store, measure::Truths& truths,
 }  // namespace
 
 void require_store(const std::filesystem::path& file) {
-  // Without a name it is refused when it is opened.
+  // An empty name is refused when the store is opened.
   if (file.empty() || std::filesystem::exists(file)) return;
   throw core::NotSupported(
       fmt::format("there is no store {}: measure first with `triptych run PLAN --store {}`",

@@ -1,5 +1,5 @@
 #pragma once
-// What commands that judge share.
+// Shared by the commands that judge.
 
 #include <string>
 #include <vector>
@@ -11,35 +11,36 @@
 
 namespace triptych::app {
 
-// Throws core::NotSupported saying how to measure when there is no such store.
+// Throws core::NotSupported with the command that measures if the store does not exist.
 void require_store(const std::filesystem::path& file);
 
-// The store to judge from: to append to, so that truths are kept for the next time, else, where it
-// is read-only, to read. Throws NotSupported when there is none, and as record::Store does.
+// Opens the store to judge from: for appending, so that reference images are kept for the next
+// time, or for reading if it is read-only. Throws NotSupported if it does not exist, and what
+// record::Store throws.
 [[nodiscard]] record::Store open_to_judge(const std::string& file);
 
-// Id of the plan's latest run; throws NotSupported (nothing to judge) when there is none. `plan`: a
-// name or a YAML file, as it was typed. `file`: what the message calls the store.
+// The id of the plan's latest run. Throws NotSupported (nothing to judge) if there is none. `plan`
+// is a name or a YAML file as it was typed. `file` is the name of the store in the message.
 [[nodiscard]] std::string latest_run_of(const record::Store& store, const std::string& plan,
                                         const std::string& file);
 
-// " --store FILE", what commands have to be told where the store is not the usual one.
+// " --store FILE" for commands that are printed, if the store is not the default one.
 [[nodiscard]] std::string store_option(const std::string& file);
 
-// judge::judge_run, whatever the store's content makes a library throw being an error that names
-// it.
+// Like judge::judge_run. If a library throws because of the store's content, the error names the
+// store.
 [[nodiscard]] judge::GateResult judge_named(const record::Store& store, const std::string& run,
                                             const std::string& baselines,
                                             const judge::GateRequest& request);
 
-// A request to judge a plan on all devices by every check that is made for it, with these truths,
-// today.
+// A request to judge a plan on all devices with every check of the plan, with these reference
+// images, as of today.
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const std::string& plan);
-// The same of a plan as it is now: which configurations it has.
+// The same for a plan as it is now, with its configurations.
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const measure::Plan& plan,
                                             const measure::Suite& suite);
 
-// Where a verdict is written; empty: not there.
+// The files to which a verdict is written; empty: not written.
 struct VerdictFiles {
   std::string folder;  // for a CI: report.html, gate.log, summary.md, benchmark.json and JUnit XML
   std::string junit;
@@ -47,14 +48,14 @@ struct VerdictFiles {
   std::string json;  // "-": printed instead of the last screen
 };
 
-// Writes the files and prints the last screen, which names those of the folder; `seconds`: that all
-// took. The exit code that counts over all.
+// Writes the files and prints the last screen, which lists those in the folder. `seconds` is the
+// total time. Returns the exit code over all results.
 core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
                             const std::vector<judge::GateResult>& results, double seconds,
                             const VerdictFiles& files);
 
-// The report on the latest run of each plan in a store, which holds one, judged by all that the
-// plan is for.
+// The HTML page about the latest run of each plan in a store, judged by all checks of the plan. The
+// store must contain a run.
 [[nodiscard]] std::string page_of(const record::Store& store, measure::Truths& truths,
                                   const std::string& baselines);
 

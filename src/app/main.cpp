@@ -1,5 +1,5 @@
-// triptych: one program for everything. Errors are caught here and nowhere above the worker: one
-// line on stderr and an exit code people expect.
+// triptych: a single program with all commands. All errors are caught here, except in the worker,
+// and become one line on stderr and an exit code.
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ constexpr const char* footer =
     "A PLAN is a YAML file or a short name such as volume/quick. `triptych list PLAN` prints its "
     "configurations.";
 
-// CLI11 says that a command is required, whatever stands in its place.
+// CLI11 would report that a command is required, whatever word is in its place.
 void refuse_unknown_command(const CLI::App& program, std::string_view name) {
   if (name.starts_with('-')) return;
   std::vector<std::string> known;
@@ -41,8 +41,8 @@ void refuse_unknown_command(const CLI::App& program, std::string_view name) {
       fmt::format("unknown command '{}'{}", name, measure::suggestion(name, known)));
 }
 
-// What follows an option's value is the next argument, however often the option may be given:
-// otherwise `run --device GLOB PLAN` would have two devices and no plan.
+// An option takes one value each time, even if it may be repeated. Otherwise `run --device GLOB
+// PLAN` would have two devices and no plan.
 void give_options_one_value(CLI::App& program) {
   for (CLI::App* command : program.get_subcommands({})) {
     for (CLI::Option* option : command->get_options()) {
@@ -78,7 +78,7 @@ ExitCode run(int argc, char** argv) {
       return ExitCode::pass;
     }
     app::say("triptych: {}\nRun with --help for more information.\n", error.what());
-    // Another commit may lack an option: no verdict on it.
+    // Another commit may lack an option, which is not a verdict on that commit.
     const auto arguments = std::span(argv, static_cast<std::size_t>(argc));
     const bool bisects =
         std::ranges::find(arguments, std::string_view("--bisect")) != arguments.end();
@@ -102,7 +102,8 @@ ExitCode run_and_catch(int argc, char** argv) {
   }
 }
 
-// The end of what was printed still waits in a buffer: an answer that nobody can read is none.
+// The end of the output may still be in a buffer. Output that cannot be written must not look like
+// success.
 bool output_is_written() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
   std::perror("triptych: standard output cannot be written");

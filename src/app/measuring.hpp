@@ -1,5 +1,5 @@
 #pragma once
-// Measuring plans, for every command that does.
+// Measuring plans, for all commands that do so.
 
 #include <cstdint>
 #include <cstdio>
@@ -16,35 +16,35 @@ namespace triptych::app {
 
 struct Measuring {
   std::vector<std::string> plans = {};    // as they were typed
-  PlanChoice choice = {};                 // its --set of the only one, its shard of each
+  PlanChoice choice = {};                 // --set for a single plan, --shard for each plan
   std::vector<std::string> devices = {};  // globs
   std::string store = standard_store;
-  bool resume = false;  // into the plans' latest runs, else into new ones
-  std::set<std::pair<std::string, std::string>> again = {};  // as of measure::RunOptions
-  int jobs = 0;                                              // likewise
+  bool resume = false;  // continue the plans' latest runs instead of beginning new ones
+  std::set<std::pair<std::string, std::string>> again = {};  // see measure::RunOptions
+  int jobs = 0;                                              // see measure::RunOptions
   int limit_s = standard_limit_s;
   std::optional<std::uint64_t> memory = {};  // bytes that a worker may allocate
   std::vector<std::string> faults = {};
   bool measure_every = false;
-  bool brief = false;                     // times are shown, and decide nothing
-  bool untimed = false;                   // a frame each for the picture and the counters
+  bool brief = false;                     // times are shown and do not affect a verdict
+  bool untimed = false;                   // one frame each for the image and the counters
   bool statistics = false;                // and one for the statistics
-  bool timed = false;                     // of plans that are not judged by their times, too
-  std::optional<std::string> error = {};  // that is requested, as it was typed
-  bool chooses = false;                   // tells the fastest of what a plan says "auto" of
+  bool timed = false;                     // also measure times for plans without the check timing
+  std::optional<std::string> error = {};  // requested error, as it was typed
+  bool chooses = false;                   // report the fastest of the levels that "auto" stands for
   std::FILE* told_to = stdout;
 };
 
 struct Measured {
-  bool scored = false;                           // some plan's failures are told by its scores
+  bool scored = false;                           // failures of some plan are reported by its scores
   std::vector<measure::RunResult> results = {};  // in the order of the plans
-  bool error_kept = true;  // a requested error, by every device in every scene
+  bool error_kept = true;  // whether every device keeps the requested error in every scene
 };
 
-// Says in a few lines how it went. Throws as measure::run_plans does.
+// Measures and prints a few lines about the result. Throws what measure::run_plans throws.
 Measured measure_and_tell(const Measuring& measuring);
 
-// The same for commands that have a --resume: what Interrupted says offers it.
+// The same for commands with --resume, which an interruption mentions.
 Measured measure_resumably(const Measuring& measuring);
 
 }  // namespace triptych::app

@@ -1,5 +1,5 @@
 #pragma once
-// What commands share that draw one configuration on one device.
+// Shared by the commands that draw one configuration on one device.
 
 #include <string>
 #include <vector>
@@ -18,17 +18,17 @@ struct FrameArguments {
 
   bool chooses = false;  // "auto" may stand for several techniques
 
-  void add_to(CLI::App& command);  // all but --out
+  void add_to(CLI::App& command);  // all options except --out
 };
 
 struct OneFrame {
   measure::SuiteWithTruth& suite;
-  measure::Plan plan;  // of that configuration, or of those that "auto" stands for
-  std::string device;  // its id
+  measure::Plan plan;  // with that configuration, or with those that "auto" stands for
+  std::string device;  // device id
 };
 
-// Throws core::InputError where it is not one configuration with its data on one device, IoError
-// where its folder cannot be written.
+// Throws core::InputError unless the arguments name one configuration, its data and one device, and
+// IoError if the folder cannot be written.
 [[nodiscard]] OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments);
 
 }  // namespace triptych::app

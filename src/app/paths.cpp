@@ -16,7 +16,7 @@ std::vector<fs::path> data_folders() {
 }
 
 fs::path default_baselines() {
-  std::error_code ignored;  // a folder that may not be searched has none
+  std::error_code ignored;  // a folder without search permission counts as missing
   if (fs::is_directory("baselines", ignored)) return "baselines";
   const fs::path installed =
       fs::path(measure::own_program()).parent_path() / TRIPTYCH_TO_DATA / "baselines";

@@ -1,16 +1,17 @@
 #pragma once
-// Where things are unless somebody says otherwise.
+// Default locations.
 
 #include <filesystem>
 #include <vector>
 
 namespace triptych::app {
 
-// Folders in which data files are looked for: $TRIPTYCH_DATA and its volumes/ and particles/.
+// The folders in which data files are searched: $TRIPTYCH_DATA and its subfolders volumes/ and
+// particles/.
 [[nodiscard]] std::vector<std::filesystem::path> data_folders();
 
-// Of baselines: ./baselines if it is there, else those installed with the program, else those of
-// the source tree.
+// The folder of the baselines: ./baselines if it exists, else those installed with the program,
+// else those of the source tree.
 [[nodiscard]] std::filesystem::path default_baselines();
 
 }  // namespace triptych::app

@@ -1,5 +1,5 @@
 #pragma once
-// Every backend and every suite of this build.
+// All backends and suites of this build.
 
 #include <memory>
 #include <string>
@@ -16,7 +16,7 @@ struct Registry {
   std::vector<std::unique_ptr<measure::Backend>> backends;
   std::vector<std::unique_ptr<measure::SuiteWithTruth>> suites;
 
-  // Both throw core::InputError naming those there are.
+  // Both throw core::InputError with the known names.
   [[nodiscard]] measure::SuiteWithTruth& suite(std::string_view name) const;
   [[nodiscard]] const measure::Backend& backend(std::string_view api) const;
   [[nodiscard]] measure::FindSuiteWithTruth find_suite() const;

@@ -3,8 +3,8 @@
 
 namespace triptych::app {
 
-// "0.1.0, commit 0123456789ab"; with "+" where the sources were not as committed, without the
-// commit where they were no checkout.
+// "0.1.0, commit 0123456789ab"; with "+" if the sources differed from the commit, and without the
+// commit if they were not a git checkout.
 [[nodiscard]] std::string version();
 
 }  // namespace triptych::app
