@@ -22,7 +22,7 @@ measure::RunOptions options_for(const measure::SideOptions& side,
           .worker_environment = side.environment};
 }
 
-// With its first configuration a side that cannot be opened ends all.
+// If a side cannot be opened for its first configuration, the comparison ends.
 void require_opened(const record::Store& store, const record::Record* record) {
   if (record == nullptr || record->outcome == record::Outcome::measured) return;
   if (store.devices(record->run).empty()) {

@@ -1,6 +1,6 @@
 #pragma once
-// Two sides over a plan: first what repeats – pictures, counters, statistics, cost, memory – then
-// times, interleaved.
+// Compares two sides over a plan: first what repeats exactly (images, counters, statistics, cost,
+// memory), then times, interleaved.
 
 #include <chrono>
 #include <functional>
@@ -20,38 +20,38 @@ struct ComparisonOptions {
   measure::Plan plan;
   measure::SideOptions a;
   measure::SideOptions b;
-  std::vector<measure::InjectedFault> faults;  // into side b
-  // From the start on; past it no configuration is continued. First looks and the confirmation of
-  // suspects are always made: without them there is nothing to say.
+  std::vector<measure::InjectedFault> faults;  // injected into side b
+  // The time budget from the start on. After it no configuration is continued. The first looks and
+  // the confirmation of suspects are always made, because without them there is no result.
   std::optional<std::chrono::seconds> budget;
   std::chrono::seconds limit{60};
   std::uint64_t seed = 1;
-  bool times = true;  // of a plan that is timed
+  bool times = true;  // whether to measure times, if the plan has them
   SequentialDesign design = SequentialDesign::standard();
   ConfirmationDesign confirmation;
 };
 
-// What is known of one configuration.
+// The results of one configuration.
 struct Compared {
   std::string key;
   measure::Configuration configuration;
-  // How the side ended that did not do its part, with the reason; skipped: it cannot.
+  // The outcome of the side that did not finish, with the reason; skipped: it cannot draw this.
   std::optional<record::Outcome> ended;
   PairVerdict verdict = PairVerdict::undecided;
-  std::string reason;    // of no verdict, or of one that the confirmation took back
-  Shift shift;           // of ln t, b against a; meaningless when ended
+  std::string reason;    // why there is no verdict, or why the confirmation withdrew it
+  Shift shift;           // of ln t, b relative to a; meaningless if a side did not finish
   int blocks = 0;        // of the first process run
-  int process_runs = 0;  // fresh ones that confirmed, or did not
+  int process_runs = 0;  // new process runs that confirmed the result or did not
   int frames_per_batch = 1;
   measure::SideClock clock = measure::SideClock::wall;
-  std::string why_wall;  // why not the device's clocks
-  double seconds = 0;    // spent on it
+  std::string why_wall;  // why the wall clock was used instead of the device clocks
+  double seconds = 0;    // time spent on it
   std::optional<judge::WorkChange> work;
   std::vector<Difference> differences;
 
   [[nodiscard]] bool is_regression() const;
   [[nodiscard]] bool is_doubtful(bool timed) const;
-  // Of its time: "slower", …, "skipped", "cannot tell"
+  // The verdict on its time: "slower", …, "skipped", "cannot tell".
   [[nodiscard]] std::string_view verdict_name() const;
 };
 
@@ -59,7 +59,7 @@ struct ComparisonResult {
   record::Device a;
   record::Device b;
   bool timed = false;
-  std::vector<Difference> device;        // of the two as such
+  std::vector<Difference> device;        // between the two devices themselves
   std::vector<Compared> configurations;  // in the plan's order
   double seconds = 0;
 
@@ -77,7 +77,8 @@ struct ComparisonProgress {
 
 using Tell = std::function<void(const ComparisonProgress&)>;
 
-// Both sides' runs go into the store. Throws as measure::run_sides and measure::Interleaved do.
+// Both sides' runs are written to the store. Throws what measure::run_sides and
+// measure::Interleaved throw.
 [[nodiscard]] ComparisonResult compare(const ComparisonOptions& options,
                                        const measure::Suite& suite, record::Store& store,
                                        measure::Truths& truths, const Tell& tell);

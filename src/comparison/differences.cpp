@@ -20,10 +20,11 @@ namespace {
 
 using Kind = DifferenceKind;
 
-// A frame of another driver, or of the same with other settings, may take so many instructions
-// more: as much as a time has to grow to be called slower.
+// The additional share of instructions that is allowed for a frame of another driver, or of the
+// same driver with other settings. It is the same share by which a time must grow to be called
+// slower.
 constexpr double frame_across_setups = 0.01;
-// What is shown of compiling alone: it is not the same from run to run.
+// The change from which preparation alone is reported, because it varies from run to run.
 constexpr double of_preparing = 0.05;
 
 template <typename Map>
@@ -39,7 +40,7 @@ std::optional<std::uint64_t> value_in(const record::Counts& counts, const std::s
   return found == counts.end() ? std::nullopt : std::optional(found->second);
 }
 
-// "1000 → 1001 (+0.1 %)"
+// Formats a change as "1000 → 1001 (+0.1 %)".
 std::string change(std::uint64_t a, std::uint64_t b) {
   const double before = static_cast<double>(a);
   std::string text = fmt::format("{} → {}", a, b);
@@ -52,7 +53,8 @@ std::optional<double> ratio_of(std::uint64_t a, std::uint64_t b) {
   return static_cast<double>(b) / static_cast<double>(a);
 }
 
-// Pixels with any channel, depth or id that differs, and where the colours differ most.
+// The number of pixels with any channel, depth or id that differs, and the place where the colours
+// differ most.
 std::string describe_change(const core::Image& a, const core::Image& b) {
   core::Image no_bound(a.width, a.height);
   core::Image colours_a = a;
@@ -103,7 +105,7 @@ class Finder {
     result_.differences.push_back({kind, std::move(about), std::move(text), ratio});
   }
 
-  // How a side ended that did not measure it.
+  // The text for a side that did not measure the configuration.
   static std::string end_of(std::string_view name, const record::Record& record) {
     return fmt::format("{} {}", name, report::words::text_of(record.outcome, record.reason));
   }
@@ -114,7 +116,8 @@ class Finder {
     const Outcome b = b_.record.outcome;
     if (a == Outcome::measured && b == Outcome::measured) return true;
     result_.void_time = b == Outcome::measured ? end_of("a", a_.record) : end_of("b", b_.record);
-    if (a == b && a == Outcome::skipped) return false;  // neither can, which is no difference
+    if (a == b && a == Outcome::skipped)
+      return false;  // neither can draw it, which is not a difference
     if (b == Outcome::measured) {
       add(a == Outcome::skipped && !same_id_ ? Kind::changed : Kind::fixed, "outcome",
           end_of("a", a_.record));
@@ -128,7 +131,7 @@ class Finder {
     return false;
   }
 
-  // Nothing where the image is right, or there is no reference image to compare it with.
+  // nullopt if the image is right, or if there is no reference image to compare it with.
   static std::optional<judge::Observation> fault_of(const ComparedSide& side) {
     if (side.truth == nullptr) return std::nullopt;
     judge::Observation what = judge::image_observation(
@@ -175,7 +178,7 @@ class Finder {
     }
   }
 
-  // Of one device with one program or another, every instruction counts; else the frame as a whole.
+  // On one device, with either program, every instruction counts; otherwise the frame as a whole.
   void cost() {
     const record::Counts& before = a_.record.cost;
     const record::Counts& now = b_.record.cost;
@@ -328,7 +331,8 @@ std::vector<Difference> find_differences(const record::Device& a, const record::
       const auto now = of_b.find(name);
       const std::string about = fmt::format("{} {}", what, name);
       const bool both = before != of_a.end() && now != of_b.end();
-      // A run calibrates what its techniques need: what one lacks was not looked at.
+      // A run calibrates only what its techniques need, so a calibration that one run lacks was not
+      // examined.
       if (kind == Kind::calibration && !both) continue;
       if (before == of_a.end()) {
         differences.push_back({kind, about, "new: " + text_of(now->second)});

@@ -1,5 +1,5 @@
 #pragma once
-// What differs between two records of one configuration, besides time, and what to think of it.
+// The differences between two records of one configuration, except in time, and their kinds.
 
 #include <cstdint>
 #include <optional>
@@ -14,47 +14,47 @@
 namespace triptych::comparison {
 
 enum class DifferenceKind : std::uint8_t {
-  regression,   // b is wrong or does more, or changed what must not change
-  unjudged,     // nothing to judge by: no truth, or b cannot do any more what a can
-  fixed,        // a is wrong, or cannot do it; b is right
+  regression,   // b is wrong, does more, or changed something that must not change
+  unjudged,     // no reference image, or b can no longer draw what a can
+  fixed,        // a is wrong or cannot draw it, and b is right
   calibration,  // a statistic that at least one of the drivers counts in its own way
-  changed       // two devices may differ so, or b does less
+  changed       // an allowed difference between two devices, or b does less
 };
 [[nodiscard]] std::string_view name_of(DifferenceKind kind);
 
 struct Difference {
   DifferenceKind kind = DifferenceKind::changed;
   std::string about;  // "image", "counter samples", "cost", "memory", "statistic …", "limit …"
-  std::string text;   // one line: both values, and why it is of its kind
-  // b over a, of a number that both tell and that is no nothing.
+  std::string text;   // one line with both values and the reason for its kind
+  // b divided by a, if both report the number and it is not zero.
   std::optional<double> ratio = {};
   std::string injected = {};  // faults that `run --inject` put into a side; the text names them
 };
 
-// One side of a comparison: what it measured and on what.
+// One side of a comparison: what was measured, and on which device.
 struct ComparedSide {
   const record::Record& record;
   const record::Device& device;
-  const core::Image& image;  // empty for a technique without a picture
+  const core::Image& image;  // empty for a technique without an image
   const judge::TruthPair* truth = nullptr;
-  std::string no_truth = {};  // why there is none
+  std::string no_truth = {};  // why there is no reference image
   judge::FindOpenCounts open_counts = {};
 };
 
 struct Comparison {
   std::vector<Difference> differences;  // worst first
-  // Why no time of this configuration means anything: one side did not measure it, or a picture is
-  // wrong. Empty: none is.
+  // The reason why times of this configuration are meaningless: one side did not measure it, or an
+  // image is wrong. Empty if times are valid.
   std::string void_time;
 };
 
 // `same_setup`: both sides run the same program in the same environment, so that the same device
-// code on the same device must make the same bits.
+// code on the same device must give the same bits.
 [[nodiscard]] Comparison find_differences(const ComparedSide& a, const ComparedSide& b,
                                           bool same_setup);
 
-// Limits and capabilities gained, lost and changed, and how statistics are counted, of two versions
-// of one device; of two devices nothing.
+// Limits and capabilities that were gained, lost or changed, and changes of the statistics
+// calibration, for two versions of one device. For two different devices nothing is compared.
 [[nodiscard]] std::vector<Difference> find_differences(const record::Device& a,
                                                        const record::Device& b);
 

@@ -24,7 +24,8 @@ std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& st
       Measured& here = devices[record.device][run.plan + " " + record.configuration];
       here.injected = record.injected;
       if (record.outcome != record::Outcome::measured) return;
-      const auto time = record::summarise(record.wall_ns);  // from store to store one clock
+      const auto time = record::summarise(
+          record.wall_ns);  // the wall clock, so that all stores use the same clock
       here.cost = record.instructions();
       if (time) here.time = time->median;
     });
@@ -36,14 +37,14 @@ std::string text_of(const std::optional<double>& value) {
   return value ? fmt::format("{:.4f}", *value) : "–";
 }
 
-// Nobody shall take it for a driver's.
+// The mark of a point with injected faults, so that nobody blames a driver.
 std::string injected_text(const HistoryPoint& point) {
   if (point.injected.empty()) return {};
   return fmt::format(" [injected: {}]", fmt::join(point.injected, ", "));
 }
 
-// The end of its path by which it is told from the others: the file's name, with folders before it
-// where others have the same.
+// The end of its path that distinguishes it from the others: the file name, with folders if others
+// have the same file name.
 std::string name_among(const std::string& store, const std::set<std::string>& stores) {
   std::filesystem::path name;
   const std::filesystem::path path(store);
@@ -59,7 +60,7 @@ std::string name_among(const std::string& store, const std::set<std::string>& st
   return name.string();
 }
 
-// Of all stores, by their files.
+// The names of all stores, by file.
 std::map<std::string, std::string> names_of(const std::vector<DeviceHistory>& history) {
   std::set<std::string> stores;
   for (const DeviceHistory& device : history) {
@@ -154,8 +155,8 @@ void HistoryBuilder::add_changes(const record::Store& store,
   }
 }
 
-// nullopt where nothing here tells the value, or nothing that was told before: of what has no
-// relation to the first point none is made up.
+// nullopt if this store or all previous ones lack the value. A point without any relation to the
+// first point has no value.
 std::optional<double> HistoryBuilder::extend(Chain& chain, const MeasuredByConfiguration& here,
                                              std::optional<double> Measured::*value) {
   double sum = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Stores of many days or commits, in their order: what each changed besides time, and how cost and
-// time have moved since the first.
+// Stores of many days or commits in their order: what changed in each except times, and how cost
+// and time developed since the first one.
 
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -15,63 +15,67 @@ namespace triptych::comparison {
 
 // A device in one store.
 struct HistoryPoint {
-  std::string store;       // its file
-  std::string started_at;  // its first run
+  std::string store;       // the file name
+  std::string started_at;  // start of its first run
   std::string driver_version;
-  std::string triptych;            // the program's version
+  std::string triptych;            // version of the program
   std::set<std::string> injected;  // faults that `run --inject` put into it
-  // Of the first point, by the geometric mean over the configurations that were there before, each
-  // since the last store that told it, multiplied from point to point; empty where none was.
+  // Relative to the first point: the geometric mean over the configurations that existed before,
+  // each relative to the last store that has it, multiplied from point to point. Empty if there
+  // were none.
   std::optional<double> cost;  // instructions of generated code and driver
-  std::optional<double> time;  // median of the frames by the wall clock, which all have
-  // Of each configuration against the last store that has it, as `diff` tells; empty: nothing.
+  std::optional<double> time;  // median of the frames by the wall clock, which all stores have
+  // The changes of each configuration relative to the last store that has it, as `diff` prints
+  // them; empty if there are none.
   std::string changes;
-  bool worse = false;  // a regression is among them
+  bool worse = false;  // whether a regression is among them
 };
 
 struct DeviceHistory {
   std::string device;
   std::vector<HistoryPoint> points;
 
-  // The first point that is worse than the one before; nullptr: none is.
+  // The first point that is worse than the previous one; nullptr if there is none.
   [[nodiscard]] const HistoryPoint* first_worse() const;
 };
 
-// Of a configuration on a device; cost and time where it was measured.
+// A configuration on a device, with cost and time if it was measured.
 struct Measured {
   std::optional<double> cost;
   std::optional<double> time;
-  std::string injected;  // as of the record
+  std::string injected;  // see the record
 };
 using MeasuredByConfiguration = std::map<std::string, Measured>;  // by plan and configuration
 
-// Stores by the time at which their first run began; of equals as given.
+// The stores sorted by the start of their first run; among equal ones in the given order.
 [[nodiscard]] std::vector<record::Store*> in_order(const std::vector<record::Store*>& stores);
 
-// `devices`: globs; all without any. Throws as record::Store does.
+// `devices` are globs; if empty, all devices. Throws what record::Store throws.
 class HistoryBuilder {
  public:
   explicit HistoryBuilder(std::vector<std::string> devices) : devices_(std::move(devices)) {}
 
-  // The next store, which must live as long; `truths`: of its records and of those before.
+  // Adds the next store, which must outlive this object. `truths` are those of its records and of
+  // the previous ones.
   void add(const record::Store& store, measure::Truths& truths);
   [[nodiscard]] const std::vector<DeviceHistory>& devices() const { return history_; }
 
  private:
   using Points = std::map<std::string, HistoryPoint>;  // by device
-  // Of a configuration what it last took, and what of the first point that was.
+  // The last values of a configuration, and their ratios to the first point.
   struct Link {
     double amount;
     double value;
   };
   using Chain = std::map<std::string, Link>;
-  struct Known {  // of a device
+  struct Known {  // about a device
     Chain cost;
     Chain time;
-    const record::Store* last = nullptr;                 // that held the device
-    std::map<std::string, const record::Store*> holder;  // the last of each configuration
+    const record::Store* last = nullptr;                 // the last store with the device
+    std::map<std::string, const record::Store*> holder;  // the last store with each configuration
 
-    // The store that a configuration is held against: the last one where none has it.
+    // The store with which a configuration is compared: the last one with the device if none has
+    // the configuration.
     [[nodiscard]] const record::Store* before(const std::string& configuration) const;
   };
   [[nodiscard]] Points points_of(const record::Store& store) const;
@@ -88,10 +92,10 @@ class HistoryBuilder {
   std::map<std::string, Known> known_;  // by device
 };
 
-// Each device with a line per store, then the first store that was worse.
+// Each device with one line per store, then the first store that was worse.
 [[nodiscard]] std::string to_text(const std::vector<DeviceHistory>& history);
 // [{"device", "first_worse", "points": [{"store", "name", "started_at", "driver_version",
-// "triptych", "injected", "cost", "time", "changes", "worse"}]}]; what is not known is absent.
+// "triptych", "injected", "cost", "time", "changes", "worse"}]}]. Unknown values are absent.
 [[nodiscard]] nlohmann::json to_json(const std::vector<DeviceHistory>& history);
 
 }  // namespace triptych::comparison

@@ -43,7 +43,7 @@ Ranks rank(std::vector<double> values) {
   return ranks;
 }
 
-// P(sum = s) for s = 0, 1, …: each rank is in the sum or not with equal chance.
+// P(sum = s) for s = 0, 1, …, where each rank is in the sum with probability ½.
 std::vector<double> null_distribution(std::span<const std::size_t> ranks) {
   std::vector<double> share{1};
   for (const std::size_t rank : ranks) {
@@ -64,8 +64,8 @@ double statistic_variance(double n, double ties) {
   return n * (n + 1) * (2 * n + 1) / 24 - ties / 48;
 }
 
-// How many of the sorted Walsh averages lie outside the interval at each end: the largest k with
-// P(V ≤ k − 1) ≤ tail for distinct differences; 0 where there is none.
+// The number of sorted Walsh averages outside of the interval at each end: the largest k with
+// P(V ≤ k − 1) ≤ tail for distinct differences; 0 if there is none.
 std::size_t averages_outside(std::size_t n, double tail) {
   if (n > most_for_exact) {
     const auto count = static_cast<double>(n);
@@ -86,8 +86,8 @@ std::size_t averages_outside(std::size_t n, double tail) {
   return k;
 }
 
-// Process runs closer than this would be the timers' doing: no clock resolves a millionth of a
-// batch.
+// A smaller variance between process runs would be an effect of the timers, because no clock
+// resolves a millionth of a batch.
 constexpr double least_variance = 1e-12;
 
 PairVerdict unconfirmed(const Interval& interval, const SequentialDesign& design) {

@@ -1,5 +1,5 @@
 #pragma once
-// Two runs of one plan, configuration by configuration: what differs besides time.
+// The differences between two runs of one plan, configuration by configuration, except in time.
 
 #include <array>
 #include <map>
@@ -26,47 +26,48 @@ struct RunSide {
 struct ConfigurationDiff {
   std::string key;
   std::vector<Difference> differences;  // worst first
-  // Why no time of it means anything, and how the side ended that is to blame, if it did.
+  // The reason why its times are meaningless, and the outcome of the side that is to blame, if
+  // there is one.
   std::string void_time;
   std::optional<record::Outcome> ended;
-  std::optional<judge::WorkChange> work;       // b against a
+  std::optional<judge::WorkChange> work;       // b relative to a
   std::array<bool, 2> device_clock_trusted{};  // of a and of b
 };
 
 struct RunDiff {
-  std::vector<Difference> device;                 // of the two as such
-  std::vector<ConfigurationDiff> configurations;  // in a's order, then what only b has
+  std::vector<Difference> device;                 // between the two devices themselves
+  std::vector<ConfigurationDiff> configurations;  // in a's order, followed by those that only b has
 };
 
-// `same_setup`: as find_differences.
+// `same_setup`: see find_differences.
 [[nodiscard]] RunDiff diff_runs(const RunSide& a, const RunSide& b, measure::Truths& truths,
                                 bool same_setup);
 
-// A line for where nothing differs because nothing was measured; `reason`: of the first
-// configuration.
+// The line for a comparison without differences because nothing was measured. `reason` is that of
+// the first configuration.
 [[nodiscard]] std::string nothing_compared(const std::string& reason);
 
-// Differences of one kind about one thing, told once.
+// Differences of one kind about one thing, which are reported once.
 struct DifferenceGroup {
-  std::string text;   // of the one that changed most, else of the first
+  std::string text;   // of the one that changed most, otherwise of the first
   std::string where;  // its configuration; empty: the device
   int count = 0;
-  std::optional<std::pair<double, double>> ratios;  // least and largest
+  std::optional<std::pair<double, double>> ratios;  // smallest and largest
 };
 
 class DifferenceGroups {
  public:
-  // `where`: the configuration; empty: the device.
+  // `where` is the configuration; empty: the device.
   void add(const std::vector<Difference>& differences, const std::string& where);
   [[nodiscard]] bool empty() const noexcept { return groups_.empty(); }
-  // "regression  cost: +1.2 % to +40 % in 27 configurations, most in …: …", a line each, by kind,
-  // worst first, then by what they are about.
+  // "regression  cost: +1.2 % to +40 % in 27 configurations, most in …: …": one line each, sorted
+  // by kind with the worst first, then by subject.
   [[nodiscard]] std::string text() const;
 
  private:
   void add(const Difference& difference, const std::string& where);
 
-  // By kind, what they are about and what was injected.
+  // By kind, subject and injected faults.
   std::map<std::tuple<DifferenceKind, std::string, std::string>, DifferenceGroup> groups_;
 };
 

@@ -17,7 +17,7 @@ namespace {
 using Value = double (*)(const record::Record&);  // 0: there is none
 using ByDevice = std::map<std::string, const record::Record*>;
 
-// What a frame did, as every API counts it.
+// The work of a frame, which every API counts in the same way.
 constexpr std::array<const char*, 3> telling_work{"samples", "fragments", "primitives"};
 
 double instructions_of(const record::Record& record) {
@@ -35,7 +35,7 @@ double wall_time_of(const record::Record& record) {
   return time_by(record, "wall");
 }
 
-// Technique → configuration → those that several devices measured.
+// Technique → configuration → the devices that measured it, if there are several.
 std::map<std::string, std::vector<ByDevice>> measured_by(std::span<const record::Record> records,
                                                          Value value) {
   std::map<std::string, ByDevice> by_configuration;
@@ -59,7 +59,7 @@ double geometric_mean(const std::vector<ByDevice>& configurations, const std::st
   return std::exp(logs / static_cast<double>(configurations.size()));
 }
 
-// `shared`: configurations that all `devices` measured, one at least.
+// `shared` are the configurations that all `devices` measured; at least one.
 SideBySide::Row row_of(const std::string& technique, const std::vector<ByDevice>& shared,
                        const std::set<std::string>& devices, Value value) {
   SideBySide::Row row{technique, shared.size(), {}, {}};
@@ -108,7 +108,7 @@ SideBySide table_of(std::span<const record::Record> records, std::string unit, V
   return table;
 }
 
-// "1.32"; "1.32 (samples ×1.10)" where the work differs by a per cent or more.
+// "1.32", or "1.32 (samples ×1.10)" if the work differs by one per cent or more.
 std::string text_of(const SideBySide::Cell& cell) {
   std::string text = fmt::format("{:.2f}", cell.ratio);
   for (const auto& [name, work] : cell.work) {
@@ -117,15 +117,15 @@ std::string text_of(const SideBySide::Cell& cell) {
   return text;
 }
 
-// A bound on speed is nobody's choice.
+// A bound on speed is not a technique that a user can choose.
 bool is_a_choice(const std::string& technique) {
   return std::ranges::none_of(technique::catalogue(), [&](const technique::Technique& each) {
     return each.id == technique && !each.picture;
   });
 }
 
-// "tiles 2.5 ms": a device's best technique, of the rows with as many configurations as any; empty
-// where it has none of these.
+// "tiles 2.5 ms": a device's best technique among the rows with the largest number of
+// configurations; empty if it has none of these.
 std::string least_text(const SideBySide& table, const std::string& device) {
   std::size_t most = 0;
   for (const SideBySide::Row& row : table.rows) most = std::max(most, row.configurations);

@@ -1,5 +1,5 @@
 #pragma once
-// Devices side by side: what each technique costs on each, against the one that does it best.
+// A table of devices: the cost of each technique on each device, relative to the best device.
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -16,29 +16,31 @@ namespace triptych::comparison {
 // large scene outweighs the others.
 struct SideBySide {
   struct Cell {
-    double value = 0;                         // instructions, or nanoseconds, a frame
-    double ratio = 1;                         // to the best device of the row
-    std::map<std::string, double> work = {};  // counters that tell why, ratios to the best device
+    double value = 0;  // instructions or nanoseconds per frame
+    double ratio = 1;  // to the best device of the row
+    // Counters that explain the difference, as ratios to the best device.
+    std::map<std::string, double> work = {};
   };
   struct Row {
     std::string technique;
     std::size_t configurations = 0;
-    std::string best;                   // device
-    std::map<std::string, Cell> cells;  // by device; not there where it has no such technique
+    std::string best;  // device
+    // By device; absent if the device does not have the technique.
+    std::map<std::string, Cell> cells;
   };
   std::string unit;   // "instructions" or "ns"
-  std::string clock;  // of times "device" or "wall"
+  std::string clock;  // for times "device" or "wall"
   std::vector<std::string> devices;
   std::vector<Row> rows;
 
-  // "gl:x is the best in 5 of 8 techniques; vulkan:y takes 0.98 to 1.3 times as much"; of two
-  // devices or more.
+  // "gl:x is best in 5 of its 8 techniques; vulkan:y takes 0.98 to 1.3 times as much in the
+  // techniques of both"; for two or more devices.
   [[nodiscard]] std::string sentence() const;
 };
 
-// Of one run. Instructions where they were counted on two devices at least, else times: by the
-// device clock where that counts for all of them, else by the wall clock; nothing where fewer than
-// two devices measured one configuration.
+// The table of one run. It contains instructions if at least two devices counted them, otherwise
+// times: by the device clock if all of them trust it, otherwise by the wall clock. nullopt if no
+// configuration was measured by two devices.
 [[nodiscard]] std::optional<SideBySide> side_by_side(std::span<const record::Record> records);
 
 [[nodiscard]] std::string to_text(const SideBySide& table);

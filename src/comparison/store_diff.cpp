@@ -14,7 +14,7 @@ namespace triptych::comparison {
 namespace {
 
 std::map<std::string, std::string> latest_by_plan(const record::Store& store) {
-  std::map<std::string, std::string> runs;  // id by plan
+  std::map<std::string, std::string> runs;  // run id by plan
   for (const record::Run& run : latest_runs(store)) runs[run.plan] = run.id;
   return runs;
 }
@@ -29,7 +29,7 @@ std::map<std::string, record::Device> devices_of(const record::Store& store, con
   return devices;
 }
 
-// What is in one of two maps alone, each name with `what` before it and its side behind.
+// The keys that exist in only one of two maps, each with `what` before it and its side after it.
 template <typename Map>
 void add_only_one(const Map& a, const Map& b, std::string_view what, std::set<std::string>& out) {
   for (const auto& [name, value] : a) {
@@ -40,7 +40,7 @@ void add_only_one(const Map& a, const Map& b, std::string_view what, std::set<st
   }
 }
 
-// A device is described by each of its runs.
+// Each of its runs describes the device.
 void add_new(const std::vector<Difference>& more, std::vector<Difference>& differences) {
   for (const Difference& each : more) {
     const bool known = std::ranges::any_of(differences, [&](const Difference& other) {
@@ -114,7 +114,7 @@ bool was_measured(const DeviceChange& change) {
                              [](const ConfigurationDiff& each) { return !each.ended; });
 }
 
-// Where no difference was found: because there is none, or because neither side measured anything.
+// The text for a device without differences: there are none, or neither side measured anything.
 std::string no_difference(const DeviceChange& change) {
   if (was_measured(change)) return "nothing differs\n";
   return nothing_compared(change.configurations.empty() ? std::string()

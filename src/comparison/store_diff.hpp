@@ -1,6 +1,6 @@
 #pragma once
-// Two stores, of a driver before and after an upgrade: what differs besides time, without either
-// driver.
+// The differences between two stores, for example before and after a driver upgrade, except in
+// time. Neither driver needs to be installed.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -11,35 +11,37 @@
 
 namespace triptych::comparison {
 
-// A device over all plans that both stores hold a run of.
+// A device, over all plans of which both stores have a run.
 struct DeviceChange {
   record::Device a;
   record::Device b;
-  std::vector<Difference> device;                 // of the two as such
-  std::vector<ConfigurationDiff> configurations;  // "PLAN CONFIGURATION" each
+  std::vector<Difference> device;                 // between the two devices themselves
+  std::vector<ConfigurationDiff> configurations;  // each "PLAN CONFIGURATION"
 
   [[nodiscard]] bool has(DifferenceKind kind) const;
 };
 
-// What is alike in several of its configurations, once.
+// Differences that several of its configurations share, once each.
 [[nodiscard]] DifferenceGroups groups_of(const DeviceChange& change);
 
 struct StoreDiff {
   std::vector<DeviceChange> devices;
-  std::vector<std::string> only_one;  // plans and devices of which one store has nothing
+  std::vector<std::string> only_one;  // plans and devices that only one store has
 
-  // Of no device that both have, of what only one has, and where neither measured anything, nothing
-  // can be told.
+  // cannot_judge if no device is in both stores, if one store lacks something, or if neither side
+  // measured anything.
   [[nodiscard]] core::ExitCode exit_code() const;
 };
 
-// The latest run of each plan in either, of the devices that match one of the globs, of all without
-// any. `truths`: of records of both. Throws as record::Store does.
+// Compares the latest run of each plan in both stores, for the devices that match one of the globs,
+// or for all without globs. `truths` are those of the records of both. Throws what record::Store
+// throws.
 [[nodiscard]] StoreDiff diff_stores(const record::Store& a, const record::Store& b,
                                     const std::vector<std::string>& devices,
                                     measure::Truths& truths);
 
-// Each device with both versions, then its differences by kind, worst first, then the verdict.
+// Each device with both versions, then its differences by kind with the worst first, then the
+// verdict.
 [[nodiscard]] std::string to_text(const StoreDiff& diff);
 
 // {"exit_code", "only_one", "devices": [{"a", "b" (devices), "differences" (of the device),

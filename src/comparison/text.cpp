@@ -16,7 +16,7 @@
 namespace triptych::comparison {
 namespace {
 
-// The command that measures this configuration alone, as long as it takes.
+// The command that measures this configuration alone, as long as necessary.
 std::string settle(const Compared& compared, const ComparisonCommand& command) {
   std::string text =
       fmt::format("triptych compare {} {}", core::shell_quoted(command.plan), command.sides);
@@ -31,19 +31,19 @@ std::string_view name_of(measure::SideClock clock) {
   return clock == measure::SideClock::device ? "device" : "wall";
 }
 
-// "1.052 [1.047, 1.058]"
+// Formats a shift as "1.052 [1.047, 1.058]".
 std::string ratio_of(const Shift& shift) {
   return fmt::format("{:.4f} [{:.4f}, {:.4f}]", std::exp(shift.estimate),
                      std::exp(shift.interval.low), std::exp(shift.interval.high));
 }
 
-// Else its shift is no number of anything.
+// Whether its shift is the result of a measurement.
 bool has_time(const Compared& compared) {
   return compared.blocks > 0 && !compared.ended;
 }
 
-// "+1.20 % samples, +0.31 % time for each", the second where it has a time; empty where the work is
-// the same.
+// "+1.20 % samples, +0.31 % time for each", with the second part if it has a time; empty if the
+// work is the same.
 std::string work_of(const Compared& compared) {
   const auto& work = compared.work;
   if (!work || work->log_ratio == 0) return {};
@@ -88,7 +88,8 @@ bool has(const std::vector<std::string_view>& parts, std::string_view part) {
   return std::ranges::find(parts, part) != parts.end();
 }
 
-// What `b` has and `a` has not; of a variable of `a` alone that it is not set.
+// The parts that `b` has and `a` does not. For a variable that only `a` sets, the text says that it
+// is not set.
 std::vector<std::string> differing(const std::vector<std::string_view>& a,
                                    const std::vector<std::string_view>& b) {
   std::vector<std::string> parts;
@@ -96,14 +97,14 @@ std::vector<std::string> differing(const std::vector<std::string_view>& a,
     if (!has(a, part)) parts.emplace_back(part);
   }
   for (const std::string_view part : a) {
-    const std::string name(part.substr(0, part.find('=') + 1));  // empty: no variable
+    const std::string name(part.substr(0, part.find('=') + 1));  // empty: not a variable
     const bool set = std::ranges::any_of(b, [&](auto each) { return each.starts_with(name); });
     if (!set) parts.push_back("without " + std::string(part));
   }
   return parts;
 }
 
-// What both have stands once; the features of one processor are of no interest here.
+// Common parts are printed once. The features of one processor are left out.
 std::string sides_text(const record::Device& a, const record::Device& b) {
   const std::string key_a = a.key();
   const std::string key_b = b.key();

@@ -1,5 +1,5 @@
 #pragma once
-// What a comparison found, for people and for programs.
+// The result of a comparison, for people and for programs.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -8,15 +8,16 @@
 
 namespace triptych::comparison {
 
-// The command that was given, as far as it says what was compared: for naming one to go on with.
+// The parts of the command that determine what was compared, from which commands for a continuation
+// are made.
 struct ComparisonCommand {
   std::string plan;
   std::string sides;                // "--a … --b …"
-  std::vector<std::string> varied;  // factors that name a configuration of this plan
+  std::vector<std::string> varied;  // factors that identify a configuration of this plan
 };
 
-// What differs besides time, the worst kind first, then a line per configuration that was timed,
-// then the verdict.
+// The differences except times with the worst kind first, then one line for each configuration that
+// was timed, then the verdict.
 [[nodiscard]] std::string to_text(const ComparisonResult& result, const ComparisonCommand& command);
 
 // "FAIL: 18 slower, 2 regressions in what repeats, 0 fixed, 1 changed; 64 s"
@@ -27,9 +28,9 @@ struct ComparisonCommand {
 
 // {"plan", "sides", "a", "b" (devices), "seconds", "exit_code", "headline", "differences" (of the
 // devices), "configurations": [{"configuration", "reason", "differences": [{"kind", "about",
-// "text", "ratio"}], "work"; of times "verdict", "ratio", "ratio_low", "ratio_high", "blocks",
-// "process_runs", "frames_per_batch", "clock", "why_wall", "seconds", "settle"}]}; what is not
-// known is left out.
+// "text", "ratio"}], "work"; for times "verdict", "ratio", "ratio_low", "ratio_high", "blocks",
+// "process_runs", "frames_per_batch", "clock", "why_wall", "seconds", "settle"}]}. Unknown values
+// are left out.
 [[nodiscard]] nlohmann::json to_json(const ComparisonResult& result,
                                      const ComparisonCommand& command);
 

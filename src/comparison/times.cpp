@@ -1,4 +1,4 @@
-// Frame times of two sides, interleaved.
+// Interleaved frame times of two sides.
 
 #include "comparison/times.hpp"
 
@@ -23,7 +23,7 @@ std::string text_of(const measure::SideEnded& ended) {
                      report::words::text_of(ended.outcome(), ended.reason()));
 }
 
-// A configuration with what it takes to go on measuring it.
+// A configuration with the state that is needed to continue measuring it.
 struct Entry {
   Compared& compared;
   std::array<std::vector<std::string>, 2> faults;
@@ -41,7 +41,7 @@ class Timer {
                       .seed = options.seed},
                      options.a, options.b) {
     for (Compared& each : compared) {
-      if (!each.reason.empty()) continue;  // no time of it means anything
+      if (!each.reason.empty()) continue;  // its times would be meaningless
       entries_.push_back({each,
                           {std::vector<std::string>{},
                            measure::faults_for(options_.faults, each.key, options_.b.device)},
@@ -57,7 +57,8 @@ class Timer {
   }
 
  private:
-  // Does `act` for a configuration: its time is counted, a side's end is its own.
+  // Runs `act` for a configuration and counts its time. If a side dies, only this configuration
+  // ends.
   template <typename Act>
   void about(Entry& entry, const Act& act) {
     const measure::Stopwatch stopwatch;
@@ -138,7 +139,7 @@ class Timer {
            options_.design.next_look(compared.blocks) > 0;
   }
 
-  // At most: every block that could still be asked for, or the budget.
+  // An upper limit: every block that could still be requested, or the budget.
   [[nodiscard]] double most_left_s() const {
     double left = 0;
     for (const Entry& entry : entries_) {
@@ -167,7 +168,7 @@ class Timer {
       const int total = static_cast<int>(entries_.size());
       say("more blocks", *widest, total - open, total, most_left_s());
       about(*widest, [&] {
-        // The look at the budget's end is one of those that were planned.
+        // When the budget is over, the look is one of the planned ones.
         draw_until(*widest, options_.design.next_look(widest->compared.blocks));
         judge_blocks(*widest);
       });
@@ -217,7 +218,7 @@ class Timer {
     }
   }
 
-  // What is not confirmed for lack of process runs says so.
+  // A suspect that cannot be confirmed for lack of process runs says so.
   bool restarted() {
     held_ = nullptr;
     try {
@@ -286,7 +287,7 @@ class Timer {
   measure::Stopwatch since_start_;
   measure::Interleaved interleaved_;
   std::vector<Entry> entries_;
-  const Entry* held_ = nullptr;  // by both workers
+  const Entry* held_ = nullptr;  // the configuration that both workers keep ready
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// The second half of a comparison: frame times of both sides, interleaved.
+// The second half of a comparison: interleaved frame times of both sides.
 
 #include <vector>
 
@@ -7,8 +7,8 @@
 
 namespace triptych::comparison {
 
-// Sets the verdict on the time of each configuration that has no reason against it. Throws as
-// measure::Interleaved does.
+// Sets the verdict on the time of each configuration that has no reason against it. Throws what
+// measure::Interleaved throws.
 void measure_times(const ComparisonOptions& options, const Tell& tell,
                    std::vector<Compared>& compared);
 

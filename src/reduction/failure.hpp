@@ -15,22 +15,23 @@ namespace triptych::reduction {
 // How a frame fails: it ended without an image, its image is wrong, or its counters changed.
 using Failure = judge::Observation;
 
-// Whether two frames fail in the same way, whatever the numbers are; other counters are one way.
+// Whether two frames fail in the same way, independent of the numbers. Changed counters count as
+// one way.
 [[nodiscard]] bool is_same_kind(const Failure& a, const Failure& b);
 
-// Where what a record is held against comes from.
+// The data with which a record is compared.
 struct Evidence {
   judge::FindTruth truth;
-  std::function<core::Image(const record::Record&)> picture;  // that it names
-  // The same configuration's record on another device, whose counters are right; nothing: counters
-  // are held against nobody's.
+  std::function<core::Image(const record::Record&)> picture;  // the image that the record refers to
+  // Returns the record of the same configuration on another device, whose counters are right. If it
+  // is not set, counters are not compared.
   std::function<record::Record(const record::Record&)> other = {};
   judge::FindOpenCounts open_counts = {};
 };
 
-// It ended without a picture, else its picture is beyond the bound of the truth, else its counters
-// are not those of the other device. Nothing: none of that, or it was skipped. Throws what the
-// evidence throws.
+// The first of these that applies: it ended without an image; its image is out of its bound; its
+// counters differ from those of the other device. nullopt if none applies, or if it was skipped.
+// Throws what the functions of the evidence throw.
 [[nodiscard]] std::optional<Failure> failure_of(const record::Record& record,
                                                 const Evidence& evidence);
 

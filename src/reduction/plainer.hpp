@@ -1,5 +1,5 @@
 #pragma once
-// What is plainer than a level of a factor.
+// Simpler levels of a factor.
 
 #include <string>
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace triptych::reduction {
 
-// Levels that are plainer, the plainest first; none where there are none. Whoever takes one of them
-// again and again comes to an end.
-//   a choice           those before it: suites list their levels from the plainest on
-//   a number           0 where that means off, then the default
-//   viewport and data  smaller sizes: all sides, then one; of data without a size, the default
+// Levels that are simpler than the given one, the simplest first; empty if there are none. Taking
+// one of them repeatedly always ends.
+//   a choice           the levels before it, because suites list the simplest first
+//   a number           0 if that means off, then the default
+//   viewport and data  smaller sizes: all sides, then one; for data without a size, the default
 //   another text       the default
-// They may not all be levels that the factor takes: Suite::check says.
+// The factor may not accept all of them; Suite::check decides.
 [[nodiscard]] std::vector<std::string> plainer(const measure::Factor& factor,
                                                const std::string& level);
 

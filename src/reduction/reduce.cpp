@@ -20,7 +20,7 @@ bool is_taken(const measure::Suite& suite, const measure::Factor& factor,
   }
 }
 
-// What makes a frame small comes first: all that follow are drawn sooner.
+// Factors that make a frame smaller come first, because then all further frames are drawn sooner.
 std::vector<const measure::Factor*> in_order(const measure::Suite& suite) {
   std::vector<const measure::Factor*> factors;
   for (const measure::Factor& each : suite.factors()) factors.push_back(&each);
@@ -49,14 +49,14 @@ class Search {
   }
 
  private:
-  // Whether any level could be replaced.
+  // Returns whether any level could be replaced.
   bool make_plainer(const measure::Factor& factor) {
     bool any = false;
     while (take_first(factor)) any = true;
     return any;
   }
 
-  // The plainest level that still fails.
+  // Takes the simplest level that still fails.
   bool take_first(const measure::Factor& factor) {
     const std::string from = result_.smallest.at(factor.name);
     for (const std::string& level : plainer(factor, from)) {

@@ -1,5 +1,5 @@
 #pragma once
-// A configuration that fails, made smaller while it still fails: greedy delta debugging over the
+// Makes a failing configuration smaller while it still fails: greedy delta debugging over the
 // levels of its factors.
 
 #include <functional>
@@ -12,32 +12,33 @@
 
 namespace triptych::reduction {
 
-// Draws a configuration and says how it fails; nothing: it does not, or cannot be drawn.
+// Draws a configuration and returns how it fails; nullopt if it does not fail or cannot be drawn.
 using Try = std::function<std::optional<Failure>(const measure::Configuration&)>;
 
-// A level that a plainer one took the place of.
+// The replacement of a level by a simpler one.
 struct Step {
   std::string factor;
   std::string from;
   std::string to;
-  int frame = 0;  // that showed it, from 1
+  int frame = 0;  // number of the frame that showed it, from 1
 };
 
 struct Reduction {
   measure::Configuration smallest;
-  Failure failure;  // of the smallest
+  Failure failure;  // of the smallest configuration
   std::vector<Step> steps;
-  int frames = 0;        // drawn
-  bool complete = true;  // no plainer level of any factor fails so; else it ended at its limit
+  int frames = 0;        // number of frames drawn
+  bool complete = true;  // no simpler level of any factor fails in this way; otherwise the search
+                         // reached its limit
 };
 
-// `first`: how `start` fails. A smaller one has to fail by the same kind. The same answers of
-// `attempt` give the same result; none is asked for twice.
+// `first` is how `start` fails. A smaller configuration must fail in the same way. The same answers
+// of `attempt` give the same result, and no configuration is tried twice.
 [[nodiscard]] Reduction reduce(const measure::Suite& suite, const measure::Configuration& start,
                                const Failure& first, int most_frames, const Try& attempt,
                                const std::function<void(const Step&)>& on_step);
 
-// Of each factor that changed, in the suite's order: its first level and its last.
+// For each factor that changed, in the suite's order: its first and its last level.
 [[nodiscard]] std::vector<Step> changes(const measure::Suite& suite,
                                         const measure::Configuration& start,
                                         const measure::Configuration& smallest);

@@ -1,5 +1,5 @@
 #pragma once
-// Frames of one device, drawn one at a time, and how each fails.
+// Draws frames on one device, one at a time, and determines how each fails.
 
 #include <chrono>
 #include <optional>
@@ -13,18 +13,18 @@
 
 namespace triptych::reduction {
 
-// What is passed must live as long.
+// All arguments must outlive this object.
 class Trial {
  public:
-  // `other`: the device whose counters are right; empty: nobody's are.
+  // `other` is the device whose counters are right; empty if counters are not compared.
   Trial(const measure::Suite& suite, const std::string& device, const std::string& other,
         const measure::RunOptions& options, measure::Truths& truths, record::Store& store);
 
-  // Throws as measure::SingleFrames::draw does.
+  // Throws what measure::SingleFrames::draw throws.
   std::optional<Failure> operator()(const measure::Configuration& configuration);
 
-  // Of the first frame, drawn twice: what fails once of two times cannot be made smaller, and is
-  // NotSupported. Throws record::NotMeasured where it was skipped.
+  // Draws the first frame twice. A failure that occurs only once cannot be made smaller, and
+  // NotSupported is thrown. Throws record::NotMeasured if the frame was skipped.
   [[nodiscard]] std::optional<Failure> first(const measure::Configuration& start);
 
   [[nodiscard]] const record::Record& last() const noexcept { return last_; }
@@ -40,9 +40,10 @@ class Trial {
   record::Record last_;
 };
 
-// After which a frame of the search counts as hung. A hang costs its limit with every frame, so it
-// is short. But a driver may take longer to end, and what crashed would be called a hang: one frame
-// is drawn with as much time as in a run, and tells.
+// The time after which a frame of the search is regarded as hung. It is short, because a hang costs
+// this time for every frame. However, a driver may take longer to end, and a crash would then be
+// called a hang. Therefore the first frame is drawn with as much time as in a run, and its time
+// decides.
 [[nodiscard]] std::chrono::seconds limit_by_first_frame(const measure::Suite& suite,
                                                         const std::string& device,
                                                         const measure::Configuration& start,
