@@ -9,12 +9,13 @@ namespace {
 using core::Json;
 constexpr const char* patches_key = "merge_patches";
 
-// What makes `to` of `from`: the values that are new or other, null for those that are gone.
+// The patch that turns `from` into `to`: it has the values that are new or different, and null for
+// those that are gone.
 Json patch(const Json& from, const Json& to) {
   Json changes = Json::object();
   for (const auto& [key, value] : to.items()) {
     const auto before = from.find(key);
-    // 1 and 1.0 are equal numbers but not the same text.
+    // 1 and 1.0 are equal as numbers, but their texts differ.
     if (before == from.end() || before->type() != value.type() || *before != value) {
       changes[key] = value;
     }

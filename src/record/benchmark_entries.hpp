@@ -1,6 +1,6 @@
 #pragma once
-// Google Benchmark's own entries as a record keeps them. There are a dozen and a half for every
-// configuration – each frame, the aggregates, the loop – which repeat its name and counters.
+// Google Benchmark's own entries, as a record keeps them. Every configuration has about eighteen of
+// them (each frame, the aggregates, the loop), and they all repeat its name and its counters.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -9,12 +9,13 @@
 namespace triptych::record {
 
 // {"merge_patches": […]}: the first entry, then for each further one the merge patch (RFC 7396)
-// that makes it of the one before. `entries`: an array of flat objects, without nulls. Without any:
-// empty.
+// that turns the entry before into it. `entries` is an array of flat objects without nulls. The
+// result is empty if there are no entries.
 [[nodiscard]] std::string pack_benchmark_entries(const nlohmann::json& entries);
 
-// The array again. Text of older stores, an entry or an array of them, is taken as it is; empty
-// text has none. Throws nlohmann's exceptions for what is no JSON.
+// The inverse: returns the array of entries. It also reads the text of older stores, which is one
+// entry or an array of entries; an empty text gives no entries. Throws nlohmann's exceptions if the
+// text is not JSON.
 [[nodiscard]] nlohmann::json unpack_benchmark_entries(std::string_view text);
 
 }  // namespace triptych::record

@@ -5,7 +5,7 @@
 
 namespace triptych::record {
 
-// What a record's data_hash depends on, of the factors as a device resolved them.
+// The factors, as a device resolved them, on which a record's data_hash depends.
 inline constexpr std::array<std::string_view, 5> data_factors{"data", "voxel", "colour", "window",
                                                               "mapping"};
 

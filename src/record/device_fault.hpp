@@ -1,6 +1,6 @@
 #pragma once
-// Faults of a device that show while it is opened, calibrated or closed, apart from any
-// configuration.
+// Faults of a device that appear while it is opened, calibrated or closed, so that they belong to
+// no configuration.
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>

@@ -4,11 +4,12 @@
 
 namespace triptych::record {
 
-// The id (Device::id) of a driver's devices in the order it lists them: the first is `id`, the
-// second "<id>#2".
+// A driver lists its devices in some order. The first one has the id `id` (Device::id), the second
+// one "<id>#2", and so on.
 [[nodiscard]] std::string numbered_id(std::string_view id, int number);
 
-// Of a device's id. Drivers that are one program behind several interfaces are one family.
+// The family of a device, from its id. Drivers that are the same program behind several interfaces
+// are one family.
 [[nodiscard]] std::string family_of(std::string_view device);
 
 }  // namespace triptych::record

@@ -1,5 +1,5 @@
 #pragma once
-// Enums and their names, one table for both directions.
+// Enumerations and the names of their values, in one table for both directions.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ template <typename Enum, std::size_t N>
   return "unknown";
 }
 
-// Throws InputError that lists the names there are; `what`: "outcome", "cause".
+// Throws an InputError that lists the valid names. `what` says what is named: "outcome", "cause".
 template <typename Enum, std::size_t N>
 [[nodiscard]] Enum named_in(const Names<Enum, N>& names, std::string_view what,
                             std::string_view name) {

@@ -1,5 +1,5 @@
 #pragma once
-// The reason why a record was not measured, as data. report/words/ makes sentences of it. Nothing
+// The reason why a record was not measured, as data; report/words/ turns it into sentences. Nothing
 // compares `detail` or `last_words`, which quote drivers and libraries.
 
 #include <chrono>
@@ -33,7 +33,7 @@ enum class Cause : std::uint8_t {
   no_emulator,    // instructions cannot be counted on this machine
   not_on_processor,  // instructions can be counted only on a processor
   api_error,         // `subject` is the call, `code` the code that it returned
-  device_lost,       // likewise
+  device_lost,       // `subject` and `code` as for api_error
   not_drawn,         // the driver reported success, but drew nothing
   out_of_memory,     // host memory, with the data `subject`; "limit_bytes" where there is a limit
   error,             // any other exception
@@ -49,7 +49,7 @@ enum class Cause : std::uint8_t {
 [[nodiscard]] std::string_view name_of(Cause cause);
 [[nodiscard]] Cause cause(std::string_view name);  // throws InputError
 
-// The worker's task at that moment.
+// What the worker was doing at that moment.
 enum class Stage : std::uint8_t {
   working,   // on the configuration
   opening,   // the device
@@ -61,33 +61,35 @@ enum class Stage : std::uint8_t {
 struct Reason {
   Cause cause = Cause::none;
   Stage stage = Stage::working;
-  std::map<std::string, double> numbers = {};  // the unit is in the name
-  std::string subject = {};                    // an identifier: a call, a device, data
-  std::string code = {};                       // that an API call returned
-  // Not tried, because configurations that share these levels ended so. Empty levels: all did.
+  std::map<std::string, double> numbers = {};  // the unit is part of the name
+  std::string subject = {};                    // an identifier: a call, a device, a data set
+  std::string code = {};                       // what an API call returned
+  // Not attempted, because configurations that share these levels ended like this. If the levels
+  // are empty, all did.
   bool not_tried = false;
   std::string shared_levels = {};  // "factor=value,…"
-  std::string detail = {};         // what a driver, a library or an exception says
+  std::string detail = {};         // what a driver, a library or an exception said
   std::string last_words = {};     // what the worker printed last
   bool operator==(const Reason&) const = default;
 
   [[nodiscard]] std::optional<double> number(const std::string& name) const;
-  // The time limit of a timeout.
+  // The time limit that a timeout exceeded.
   [[nodiscard]] std::optional<std::chrono::seconds> limit() const;
 };
 
-// Whether two endings are of one kind, whatever their texts and limits are.
+// Whether two reasons are of one kind, whatever their texts and time limits are.
 [[nodiscard]] bool is_same_kind(const Reason& a, const Reason& b);
-// Equal for reasons of one kind, and only for those.
+// This text is equal for two reasons exactly if they are of one kind.
 [[nodiscard]] std::string kind_of(const Reason& reason);
 
-// A configuration or a device that was not measured, where that ends a command.
+// Thrown where a configuration or a device that was not measured ends a command.
 class NotMeasured : public core::Error {
  public:
   NotMeasured(Outcome outcome, Reason reason);
   [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
   [[nodiscard]] const Reason& reason() const noexcept { return reason_; }
-  // A skip of the device ends with cannot_judge, everything else with usage.
+  // Where the device cannot do what is asked (skipped), the command ends with cannot_judge; in
+  // every other case with usage.
   [[nodiscard]] core::ExitCode exit_code() const noexcept;
 
  private:
@@ -95,7 +97,7 @@ class NotMeasured : public core::Error {
   Reason reason_;
 };
 
-// How long a configuration may take unless a command's --limit says otherwise.
+// The time that a configuration may take, unless the option --limit says otherwise.
 inline constexpr std::chrono::seconds standard_limit{60};
 
 void to_json(nlohmann::json& json, const Reason& reason);

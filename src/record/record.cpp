@@ -14,7 +14,7 @@
 namespace triptych::record {
 namespace {
 
-// Keeps a key one line and its parts apart: "; " stands only between parts.
+// Keeps a key on one line and its parts separate: "; " appears only between parts.
 std::string one_line(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -30,7 +30,8 @@ std::string one_line(std::string_view text) {
   return result;
 }
 
-// Letters and digits in lower case; every run of other characters as one '-', none at the ends.
+// Letters and digits in lower case. Every sequence of other characters becomes one '-', with none
+// at the ends.
 std::string slug(std::string_view text, std::size_t longest) {
   std::string result;
   for (const char c : text) {
@@ -47,7 +48,8 @@ std::string slug(std::string_view text, std::size_t longest) {
   return result;
 }
 
-// The alphabet of test ids is [a-z0-9_.:-]: CTest and JUnit readers split and quote on the rest.
+// Test ids consist of [a-z0-9_.:-], because readers of CTest and JUnit output split and quote other
+// characters.
 std::string test_id_part(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -62,13 +64,13 @@ std::string test_id_part(std::string_view text) {
   return result;
 }
 
-// Linear interpolation between the order statistics around share·(n−1).
+// Linear interpolation between the order statistics next to share·(n−1).
 double quantile_of_sorted(const std::vector<double>& sorted, double share) {
   const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   const double weight = place - static_cast<double>(below);
-  // Not a + w·(b−a): with an infinite b that would be NaN at w = 0.
+  // Not a + w·(b−a), which would be NaN for an infinite b and w = 0.
   return weight == 0 ? sorted[below] : (1 - weight) * sorted[below] + weight * sorted[above];
 }
 
@@ -83,7 +85,8 @@ std::vector<double> sorted_numbers(std::vector<double> samples) {
 std::string Device::key() const {
   std::string key = fmt::format("{}; driver {}; API {}", one_line(id), one_line(driver_version),
                                 one_line(api_version));
-  // Of a CPU device the features say what code is made; hardware of one driver differs by its name.
+  // For a CPU device the features decide which code is generated; GPUs with the same driver are
+  // told apart by their names.
   if (!cpu_features.empty()) {
     key += "; CPU " + one_line(cpu_features);
   } else if (!name.empty()) {

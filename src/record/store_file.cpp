@@ -15,17 +15,19 @@
 namespace triptych::record {
 namespace {
 
-// A connection is used by one thread at a time: it needs no lock around every value.
+// A connection is used by one thread at a time, so SQLite need not lock around every value.
 constexpr int one_thread = SQLITE_OPEN_NOMUTEX;
 
-// The log of a writer that did not close: without it the newest records would be missing unnoticed.
+// Whether there is the log of a writer that did not close the store. Without the log, the newest
+// records would be missing and nobody would notice.
 bool has_log(const std::filesystem::path& file) {
   std::error_code ignored;
   const auto size = std::filesystem::file_size(file.string() + "-wal", ignored);
   return !ignored && size > 0;
 }
 
-// SQLite takes ":memory:" and "file:…" for no files; what begins with a slash always is one.
+// SQLite does not take ":memory:" and "file:…" as names of files; a name that begins with a slash
+// always is one.
 std::string file_name(const std::filesystem::path& file) {
   return std::filesystem::absolute(file).string();
 }
@@ -64,8 +66,9 @@ SQLite::Database open_to_read(const std::filesystem::path& file,
           file.string()));
     }
   }
-  // A WAL file needs two files beside it even to be read; without them only a promise that nobody
-  // writes lets SQLite open it. Where the folder cannot be written, that holds.
+  // Reading a file in WAL mode needs two more files beside it. Where the folder cannot be written,
+  // SQLite opens the file only if it is promised that nobody else writes to it, and in such a
+  // folder that is true.
   SQLite::Database database(immutable_uri(file),
                             SQLite::OPEN_READONLY | SQLite::OPEN_URI | one_thread,
                             milliseconds_of(busy_limit));
@@ -73,8 +76,8 @@ SQLite::Database open_to_read(const std::filesystem::path& file,
   return database;
 }
 
-// Of processes that switch to the log at once SQLite refuses all but one immediately, busy limit or
-// not, for each holds a read lock that another waits for.
+// If several processes switch to the log at once, SQLite refuses all but one of them immediately,
+// whatever the busy limit is, because each holds a read lock that another one waits for.
 void write_ahead(SQLite::Database& database, std::chrono::milliseconds busy_limit) {
   const auto end = std::chrono::steady_clock::now() + busy_limit;
   for (;;) {
@@ -94,16 +97,16 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
   SQLite::Database database(file_name(file),
                             SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE | one_thread,
                             milliseconds_of(busy_limit));
-  // SQLite opens a file that it may not write for reading, without a word.
+  // SQLite opens a file that it may not write for reading, and says nothing.
   if (sqlite3_db_readonly(database.getHandle(), "main") == 1) {
     throw core::IoError(fmt::format("{}: is read-only; nothing can be added", file.string()));
   }
   if (is_blank(database)) create_schema(database);
   require_our_schema(database, file);
   write_ahead(database, busy_limit);
-  // In WAL mode NORMAL survives the death of any process; only a loss of power may cost the last
-  // transactions, and even then the file stays whole. What has to outlive that waits for the disk
-  // (Store::begin_record).
+  // In WAL mode, NORMAL survives the death of any process. Only a loss of power can cost the last
+  // transactions, and even then the file stays whole. What has to survive that is flushed to the
+  // disk (Store::begin_record).
   database.exec("PRAGMA synchronous = NORMAL");
   database.exec("PRAGMA foreign_keys = ON");
   return database;

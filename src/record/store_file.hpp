@@ -1,5 +1,6 @@
 #pragma once
-// The file under a Store: opening it, its schema, and what SQLite's errors mean to our callers.
+// The file of a Store: opening it, creating its tables, and translating SQLite's errors for
+// callers.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -15,27 +16,29 @@
 
 namespace triptych::record {
 
-// A connection to a file that is a store of our schema version; errors as Store's constructor has
-// them.
+// Connects to a file that is a store of our schema version. The errors are those of the constructor
+// of Store.
 [[nodiscard]] SQLite::Database open_store_file(const std::filesystem::path& file, Store::Mode mode,
                                                std::chrono::milliseconds busy_limit);
 
-// A connection to a store under way that nobody else sees, its tables made where there are none. It
-// has no log and waits for no disk: where anything fails, the file is to be removed. Throws
-// SQLite::Exception, as the file goes by a name that nobody asked for.
+// Connects to a store that is being written and that nobody else sees yet; creates its tables if
+// there are none. It has no log and waits for no disk, so after any failure the file has to be
+// removed. Throws SQLite::Exception and no InputError, because the user did not choose the name of
+// this file.
 [[nodiscard]] SQLite::Database open_new_store_file(const std::filesystem::path& file);
 
-// Throws IoError when the name no longer leads to the file that was opened under it, or the log
-// that holds what was added last is gone.
+// Throws IoError if the file that was opened no longer has its name, or if the log with the latest
+// changes is gone.
 void require_file(const std::filesystem::path& file, SQLite::Database& database);
 
-// Throws IoError or InputError for an error of SQLite on `file`.
+// Throws IoError or InputError for an error of SQLite with `file`.
 [[noreturn]] void throw_store_error(const std::filesystem::path& file,
                                     const SQLite::Exception& error);
 
 [[noreturn]] void throw_damaged(const std::filesystem::path& file, std::string_view what);
 
-// Runs `action`, its SQLite errors turned into ours, and those of whatever reads the columns.
+// Runs `action` and translates SQLite's errors, and those of the code that reads the columns, into
+// ours.
 template <typename Action>
 decltype(auto) on_store(const std::filesystem::path& file, Action&& action) {
   try {
@@ -44,9 +47,9 @@ decltype(auto) on_store(const std::filesystem::path& file, Action&& action) {
     throw_store_error(file, error);
   } catch (const core::Json::exception& error) {
     throw_damaged(file, error.what());
-  } catch (const std::out_of_range& error) {  // rows of a record that an index does not lead to
+  } catch (const std::out_of_range& error) {  // an index leads to no row of the record
     throw_damaged(file, error.what());
-  } catch (const core::InputError& error) {  // what a row says, which knows no file
+  } catch (const core::InputError& error) {  // a malformed row; the error names no file
     if (!error.place().file.empty()) throw;
     throw_damaged(file, error.what());
   }

@@ -1,5 +1,6 @@
 #pragma once
-// Records in and out of the store's tables; transactions are the caller's. Used by store.cpp alone.
+// Writes records to the store's tables and reads them. Callers handle the transactions. Used by
+// store.cpp only.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -11,14 +12,14 @@
 
 namespace triptych::record {
 
-// The run must be there, a record of the same run, configuration and device must not.
+// The run must exist. A record of the same run, configuration and device must not.
 void insert_record(const SQLite::Database& database, const Record& record);
 
-// Store::records.
+// See Store::records.
 [[nodiscard]] std::vector<Record> read_records(const SQLite::Database& database,
                                                std::string_view run);
 
-// Store::visit_records.
+// See Store::visit_records.
 void visit_records(const SQLite::Database& database, std::string_view run,
                    const std::function<void(const Record&)>& visit);
 

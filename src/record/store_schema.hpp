@@ -1,5 +1,5 @@
 #pragma once
-// The tables of a store. Used by store_file.cpp alone; all throw SQLite::Exception.
+// The tables of a store. Used by store_file.cpp only; all functions throw SQLite::Exception.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -10,10 +10,10 @@ namespace triptych::record {
 // Whether nobody has written anything into the file.
 [[nodiscard]] bool is_blank(const SQLite::Database& database);
 
-// Makes the tables, unless another process has made them meanwhile.
+// Creates the tables, unless another process has created them in the meantime.
 void create_schema(SQLite::Database& database);
 
-// Throws InputError where the file is no store, or of another schema version.
+// Throws InputError if the file is not a store, or has another schema version.
 void require_our_schema(const SQLite::Database& database, const std::filesystem::path& file);
 
 }  // namespace triptych::record

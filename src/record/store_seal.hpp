@@ -1,6 +1,6 @@
 #pragma once
-// Hashes that are stored beside what they are of. SQLite finds broken pages, not a changed value in
-// a whole one.
+// Hashes that are stored beside the data that they are computed from. SQLite detects broken pages,
+// but not a changed value in a whole page.
 
 #include <string>
 #include <string_view>
@@ -13,11 +13,12 @@ namespace triptych::record {
 
 [[nodiscard]] std::string seal_of(const Run& run);
 [[nodiscard]] std::string seal_of(const Device& device, const std::vector<ClockTrust>& clocks);
-// Of what was measured, whichever run holds it: the same record in two stores has one seal.
+// The hash of what was measured, which does not depend on the run: the same record has the same
+// seal in two stores.
 [[nodiscard]] std::string seal_of(const Record& record);
 [[nodiscard]] std::string seal_of(const TruthImage& truth);
 
-// Throws InputError, "WHAT is not as it was written", where the two differ.
+// Throws the InputError "WHAT is not as it was written" if the two differ.
 void require_seal(std::string_view stored, std::string_view found, const std::string& what);
 
 }  // namespace triptych::record

@@ -1,6 +1,6 @@
 #pragma once
-// Values in and out of SQL statements. Used by store.cpp, store_records.cpp and
-// store_runs.cpp alone.
+// Moves values into SQL statements and out of them. Used by store.cpp, store_records.cpp and
+// store_runs.cpp only.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -38,7 +38,8 @@ class Binder {
     }
     return *this;
   }
-  // Unsigned 64-bit numbers keep their bits: those of 2⁶³ and more read as negative in SQL.
+  // Unsigned 64-bit numbers keep their bits, so SQL shows those of 2⁶³ and more as negative
+  // numbers.
   template <typename T>
   requires std::integral<T> Binder& operator<<(T number) {
     statement_.bind(++index_, static_cast<std::int64_t>(number));
@@ -47,7 +48,7 @@ class Binder {
   Binder& operator<<(std::span<const std::byte> bytes) {
     constexpr std::size_t largest = std::numeric_limits<int>::max();
     if (bytes.size() > largest) throw core::InputError("an image of 2 GiB or more cannot be kept");
-    // SQLite takes a null pointer for NULL, an empty blob needs another one.
+    // SQLite takes a null pointer for NULL, so that an empty blob needs another pointer.
     const void* data = bytes.empty() ? static_cast<const void*>("") : bytes.data();
     statement_.bind(++index_, data, static_cast<int>(bytes.size()));
     return *this;
@@ -112,7 +113,7 @@ void execute(const SQLite::Database& database, const std::string& sql, const Val
   }
 }
 
-// Rows (owner, name, value).
+// Reads rows of (owner, name, value).
 template <typename Value>
 void insert_map(const SQLite::Database& database, std::string_view table, std::int64_t owner,
                 const std::map<std::string, Value>& map) {

@@ -1,5 +1,5 @@
 #pragma once
-// Rows of one table from many stores as one sorted sequence.
+// The rows of one table in many stores, as one sorted sequence.
 
 #include <cstddef>
 #include <filesystem>
@@ -21,20 +21,22 @@ struct Source {
 
 class MergedRows {
  public:
-  // Whether `a` is taken before `b`, two rows of one key. Total but for rows that are the same.
+  // Whether `a` is taken before `b`, where both rows have the same key. The order is total except
+  // for identical rows.
   using Before = std::function<bool(const Query& a, const Query& b)>;
 
-  // `select` sorts by its first `keys` columns, all texts. Of its parameter, where it has one, each
-  // source has its own value. All must live as long.
+  // `select` sorts by its first `keys` columns, which are all texts. If it has a parameter, each
+  // source gives it its own value. All arguments must live as long as this object.
   MergedRows(const std::vector<Source>& sources, std::string_view select, int keys, Before before,
              const std::vector<std::string>& parameters = {});
 
   // One row of the next key.
   struct Row {
-    std::size_t source;             // whose query it is
-    std::vector<std::size_t> rest;  // whose rows of the same key were not taken
+    std::size_t source;             // the source whose query it is
+    std::vector<std::size_t> rest;  // the sources whose rows of the same key were not taken
   };
-  // nullptr behind the last. Valid until the next call. Throws as reading a Store does.
+  // nullptr after the last key. The row is valid until the next call. Throws as reading a Store
+  // does.
   [[nodiscard]] const Row* next();
   [[nodiscard]] const Query& query(std::size_t source) const { return queries_[source]; }
 

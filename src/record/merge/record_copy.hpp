@@ -1,5 +1,5 @@
 #pragma once
-// Records of one plan from many stores into one, sorted by configuration and device.
+// Copies the records of one plan from many stores into one, sorted by configuration and device.
 
 #include <array>
 #include <cstdint>
@@ -15,10 +15,11 @@
 
 namespace triptych::record {
 
-// Which content each data set had, and where that was seen first. Stays with one merge.
+// The content that each data set had, and the store in which it was seen first. There is one object
+// per merge.
 class DataSeen {
  public:
-  // Throws InputError where the same name had other content.
+  // Throws InputError if the name was seen with other content.
   void saw(const std::string& name, std::string_view hash, const std::filesystem::path& file);
 
  private:
@@ -29,37 +30,40 @@ class DataSeen {
   std::map<std::string, Content> contents_;
 };
 
-// What became of records.
+// How many records were taken, and why others were not.
 struct RecordCounts {
   std::uint64_t configurations = 0;
   std::map<std::string, std::uint64_t> records;  // by device
-  // Not taken, as there was another of the same configuration and device:
-  std::uint64_t repeated = 0;       // the same record
-  std::uint64_t injected = 0;       // one with an injected fault, where the one taken has none
-  std::uint64_t not_chosen = 0;     // another, which did not fail where the one taken was measured
-  std::uint64_t measured_anew = 0;  // one that failed or was skipped, where the one taken did not
+  // Not taken, because another record of the same configuration and device was taken:
+  std::uint64_t repeated = 0;  // the same record
+  std::uint64_t injected = 0;  // had an injected fault, and the other one has none
+  // A different record, which did not fail where the other one was measured.
+  std::uint64_t not_chosen = 0;
+  std::uint64_t measured_anew = 0;  // failed or was skipped, and the other one did not
 };
 
 class RecordCopy {
  public:
-  using Tell = std::function<void(std::uint64_t records)>;  // so far
+  using Tell = std::function<void(std::uint64_t records)>;  // how many so far
 
-  // All must live as long. `out` holds no records yet.
+  // All arguments must live as long as this object. `out` holds no records yet.
   RecordCopy(const std::vector<Source>& sources, const SQLite::Database& out, DataSeen& data,
              const Tell& tell);
 
-  // `runs`: of each source the run to read, empty for none. `run`: what they become. Throws
-  // InputError for data of another content under one name, and as reading and writing a Store does.
+  // `runs`: the run to read from each source, empty for none. `run`: the run that the records
+  // become part of. Throws InputError if data have other content under the same name, and as
+  // reading and writing a Store does.
   [[nodiscard]] RecordCounts copy(const std::vector<std::string>& runs, const std::string& run);
 
  private:
-  // A table of what belongs to a record, by its columns behind the first, which names the record.
+  // A table of things that belong to a record. Its first column names the record; these are the
+  // others.
   struct Part {
     std::string table;
     std::vector<std::string> columns;
     std::string select;
   };
-  // Records beside each other, each with all its parts.
+  // Records side by side, each with all its parts.
   struct Batch {
     std::size_t count = 0;
     RowBatch records;
@@ -78,12 +82,12 @@ class RecordCopy {
   const std::vector<Source>& sources_;
   DataSeen& data_;
   const Tell& tell_;
-  std::vector<std::string> others_;  // columns of a record that need no name here
+  std::vector<std::string> others_;  // columns of a record that this code need not know by name
   std::vector<Part> parts_;
-  std::vector<std::vector<std::optional<Query>>> queries_;  // by source and part; none: no rows
+  std::vector<std::vector<std::optional<Query>>> queries_;  // by source and part; empty: no rows
   RowWriter record_writer_;
   std::vector<RowWriter> part_writers_;
-  std::int64_t seq_ = 0;  // of the record added last
+  std::int64_t seq_ = 0;  // of the record that was added last
   std::string last_configuration_;
 };
 

@@ -36,7 +36,7 @@ RowBatch::Cell RowBatch::cell_of(const Query& row, int column) {
       return std::int64_t{sqlite3_value_int64(value)};
     case SQLITE_FLOAT:
       return sqlite3_value_double(value);
-    default: {  // no column of records is a blob
+    default: {  // no column of a record is a blob
       const auto* text = reinterpret_cast<const char*>(sqlite3_value_text(value));
       return kept({text, static_cast<std::size_t>(sqlite3_value_bytes(value))});
     }

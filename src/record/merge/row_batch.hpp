@@ -1,5 +1,5 @@
 #pragma once
-// Rows on their way from a store into another.
+// Rows on their way from one store into another.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -14,7 +14,7 @@
 
 namespace triptych::record {
 
-// Of one table, value after value.
+// Rows of one table, stored value after value.
 class RowBatch {
  public:
   void add(std::int64_t number) { cells_.emplace_back(number); }
@@ -24,7 +24,8 @@ class RowBatch {
 
   [[nodiscard]] std::size_t cells() const { return cells_.size(); }
   [[nodiscard]] std::size_t bytes() const { return texts_.size(); }
-  // As a parameter of a statement, to be stepped before the batch changes.
+  // Binds a value to a parameter of a statement. The statement must be stepped before the batch
+  // changes.
   void bind(Query& statement, int index, std::size_t cell) const;
 
  private:
@@ -47,12 +48,13 @@ class RowWriter {
   RowWriter(const SQLite::Database& database, std::string_view table,
             const std::vector<std::string>& columns);
 
-  // A batch has whole rows of as many columns.
+  // The batch must consist of whole rows with as many columns as the table was given.
   void write(const RowBatch& rows);
 
  private:
   std::size_t columns_;
-  Query several_;  // a statement costs more than a row
+  Query several_;  // inserts several rows at once, because executing a statement costs more than a
+                   // row
   Query one_;
 };
 
