@@ -1,5 +1,5 @@
 #pragma once
-// What a device can no longer draw goes from its baselines.
+// Removes from the baselines of a device what it can no longer draw.
 
 #include <map>
 #include <span>
@@ -10,12 +10,12 @@
 
 namespace triptych::judge {
 
-// What a table of {configuration: {device: …}} or {configuration: {name: {device: …}}} has of one
-// on one, and what is empty then.
+// Erases one device of one configuration from a table of the form {configuration: {device: …}} or
+// {configuration: {name: {device: …}}}, and the objects that become empty by it.
 void erase_from(core::Json& table, const std::string& configuration, const std::string& device);
 
-// All that is stored of the records' configurations on their devices; of what is stored by driver
-// or machine, that of `devices` (by id).
+// Removes everything that is stored about the records' configurations on their devices. What is
+// stored by driver or by machine is removed for `devices` (by id).
 void drop_skipped(std::span<const record::Record> skipped,
                   const std::map<std::string, record::Device>& devices, NextFolder& next);
 

@@ -17,7 +17,7 @@ namespace triptych::judge {
 namespace fs = std::filesystem;
 namespace {
 
-// Foreign errors of the file system end here as ours.
+// Turns the file system's errors into ours.
 template <typename Act>
 void act_on(const fs::path& path, const Act& act) {
   try {
@@ -27,7 +27,7 @@ void act_on(const fs::path& path, const Act& act) {
   }
 }
 
-// A file or folder is on the disk when this returns.
+// Returns once a file or folder is on the disk.
 void flush(const fs::path& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const int failed = fd < 0 || ::fsync(fd) != 0 ? errno : 0;
@@ -77,7 +77,7 @@ void replace_one_by_one(const fs::path& folder, const Files& files) {
 WriterLock::WriterLock(const fs::path& root) : fd_(-1) {
   act_on(root, [&] { fs::create_directories(root); });
   fd_ = ::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // Where a folder cannot be locked, nobody else could lock it either.
+  // Where a folder cannot be locked, nobody else can have locked it either.
   if (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(fd_);
     throw core::IoError(fmt::format("{}: another accept is writing there", root.string()));
@@ -92,7 +92,7 @@ void replace_folder(const fs::path& folder, const Files& files,
                     const std::function<void(const std::string&)>& on_written) {
   const fs::path aside = Layout::aside(folder);
   act_on(aside, [&] {
-    fs::remove_all(aside);  // of one that was killed
+    fs::remove_all(aside);  // left by a process that was killed
     fs::create_directories(aside);
     write_files(aside, files, on_written);
     if (on_written) on_written({});

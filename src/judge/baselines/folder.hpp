@@ -1,5 +1,5 @@
 #pragma once
-// A folder of baselines, replaced as a whole.
+// Replaces a folder of baselines as a whole.
 
 #include <cstddef>
 #include <filesystem>
@@ -10,10 +10,11 @@
 
 namespace triptych::judge {
 
-using Files = std::map<std::string, std::vector<std::byte>>;  // content by name within the folder
+// Contents by the names within the folder.
+using Files = std::map<std::string, std::vector<std::byte>>;
 
-// Held by whoever writes below `root`, which is made if it is missing. The constructor throws
-// IoError where somebody else holds it.
+// Held by the process that writes below `root`, which is created if it is missing. The constructor
+// throws IoError if another process holds it.
 class WriterLock {
  public:
   explicit WriterLock(const std::filesystem::path& root);
@@ -25,11 +26,11 @@ class WriterLock {
   int fd_;
 };
 
-// Afterwards the folder holds these files and no others. They are written beside it
-// (Layout::aside), brought to the disk, and the two folders change places, so that whoever is
-// killed has changed nothing. Where a file system cannot exchange folders they are renamed one by
-// one, the manifest last: a kill in between is told by it. `on_written` as in AcceptRequest. Throws
-// IoError.
+// Afterwards the folder holds exactly these files. They are written beside it (Layout::aside) and
+// flushed to the disk, and then the two folders change places, so that a process that is killed has
+// changed nothing. If the file system cannot exchange folders, the files are renamed one by one,
+// the manifest last: it shows whether a process was killed in between. `on_written` is that of
+// AcceptRequest. Throws IoError.
 void replace_folder(const std::filesystem::path& folder, const Files& files,
                     const std::function<void(const std::string&)>& on_written);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What two counts of one frame differ by, and whether they may.
+// How two counts of one frame differ, and whether they may.
 
 #include <array>
 #include <optional>
@@ -12,20 +12,20 @@
 
 namespace triptych::judge {
 
-// The parts of Record::cost that decide.
+// The parts of Record::cost that decide the verdict.
 inline constexpr std::array<std::string_view, 2> cost_parts{"device_code", "driver"};
 
 [[nodiscard]] std::optional<double> count_of(const record::Counts& counts, std::string_view name);
-// Instructions of the parts that decide.
+// The instructions of the parts that decide, together.
 [[nodiscard]] double frame_of(const record::Counts& cost);
 
 struct FrameChange {
-  bool more = false;            // some part is more than it may be
-  bool less = false;            // likewise
-  std::vector<Change> changes;  // of each part that is, and of allocations beside them
+  bool more = false;            // some part is larger than its tolerance allows
+  bool less = false;            // some part is smaller than its tolerance allows
+  std::vector<Change> changes;  // of each such part, and of allocations besides
 };
 
-// By cost_tolerance.hpp, which holds for one driver, one program and one counter.
+// Uses cost_tolerance.hpp, which holds for counts by one counter of one program and one driver.
 [[nodiscard]] FrameChange frame_change(const record::Record& now, const record::Counts& before);
 
 }  // namespace triptych::judge

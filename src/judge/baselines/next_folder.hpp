@@ -1,5 +1,5 @@
 #pragma once
-// A folder of baselines as it will be, and what changes in it.
+// The future content of a folder of baselines, and what changes in it.
 
 #include <cstddef>
 #include <filesystem>
@@ -15,19 +15,19 @@ namespace triptych::judge {
 [[nodiscard]] std::vector<std::byte> bytes_of(std::string_view text);
 
 struct NextFolder {
-  std::filesystem::path folder;    // as it is now
-  Files files;                     // as they will be
-  std::vector<std::string> lines;  // what changes
+  std::filesystem::path folder;    // the folder as it is now
+  Files files;                     // the files as they will be
+  std::vector<std::string> lines;  // the changes, one a line
 
   void drop_folder(std::string_view start) {
     std::erase_if(files, [&](const auto& file) { return file.first.starts_with(start); });
   }
 };
 
-// Of one of its files, as it will be so far.
+// Changes one file of the folder, beginning with its content so far.
 class Update {
  public:
-  // `next` has to live as long.
+  // `next` must live as long as this object.
   Update(NextFolder& next, std::string name);
 
   core::Json& value() { return after_; }
@@ -35,7 +35,8 @@ class Update {
     if (!after_.is_object()) after_ = core::Json::object();
     return after_;
   }
-  // Where anything changed; says what. `depth` as of to_lines.
+  // Writes the file into the NextFolder if anything changed, and adds a line for each change.
+  // `depth` is that of to_lines.
   void write(int depth) const;
 
  private:

@@ -13,7 +13,7 @@ namespace triptych::judge {
 namespace {
 
 constexpr double steps = 4096;
-constexpr double largest = 1e12;  // in steps; what lies beyond, or is no number, is one value
+constexpr double largest = 1e12;  // in steps; larger values and NaN all become one value
 
 std::string hash_on(const core::Image& image, double offset) {
   std::vector<std::int64_t> cells{image.width, image.height};
@@ -28,7 +28,8 @@ std::string hash_on(const core::Image& image, double offset) {
 }  // namespace
 
 ReferenceHash reference_hash(const core::Image& image) {
-  // A quarter and three quarters: 0, 1 and every other multiple of half a step lie off all edges.
+  // Offsets of a quarter and three quarters keep 0, 1 and every other multiple of half a step away
+  // from all edges of cells.
   return {hash_on(image, 0.25), hash_on(image, 0.75)};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is kept of a reference picture where the picture itself is not.
+// What is stored of a reference picture if the picture itself is not stored.
 
 #include <array>
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace triptych::judge {
 
-// Two hashes of the colours, cut into cells of q = 1/4096 on two grids half a cell apart.
-// Another libm moves a colour by δ of some 1e-13 (an ulp or two, through a few hundred steps). On
-// one grid one of N colours would then fall into another cell with probability 2Nδ/q, 1e-3 for a
-// picture of 512²; on both grids at once only with the square of that. q is below any bound that a
-// picture's pixel is held to, so a pixel that changes by what a check could see changes both. Depth
-// and id are left out: at an edge they turn over with the last bit, and what they show has a
-// colour.
+// Two hashes of the colours, rounded to cells of width q = 1/4096 on two grids that lie half a cell
+// apart. Another math library moves a colour by δ, about 1e-13 (an ulp or two, through a few
+// hundred steps). On one grid, the probability that at least one of N colours falls into another
+// cell would be 2Nδ/q, 1e-3 for a picture of 512² pixels; for both grids at once it is the square
+// of that. q is smaller than every bound to which a pixel is held, so a change that a check could
+// detect changes both hashes. Depths and ids are left out: at an edge they change with the last
+// bit, and the surface that they describe also has a colour.
 using ReferenceHash = std::array<std::string, 2>;
 [[nodiscard]] ReferenceHash reference_hash(const core::Image& image);
-// Equal on one of the grids.
+// Whether the hashes are equal on one of the grids.
 [[nodiscard]] bool is_same_reference(const ReferenceHash& a, const ReferenceHash& b);
 
 }  // namespace triptych::judge

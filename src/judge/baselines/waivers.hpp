@@ -1,6 +1,6 @@
 #pragma once
-// What is known to fail, as files say: baselines/waivers.json by hand, with an expiry, and what a
-// validation writes of itself, by configuration.
+// What is known to fail, as files list it: baselines/waivers.json is written by hand and has expiry
+// dates; a validation writes a file of its own, by configuration.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,33 +10,33 @@
 
 namespace triptych::judge {
 
-// What becomes of it. A waiver that says none excuses failures and flakes.
+// What is known to happen. A waiver that does not say it excuses failures and flakes.
 enum class Known : std::uint8_t {
   fail,   // a regression
-  flake,  // a regression in some runs, a pass in others
-  skip    // the device cannot draw it
+  flake,  // a regression in some runs and a pass in others
+  skip    // the device cannot draw the configuration
 };
 [[nodiscard]] std::string_view name_of(Known known);
 
-// Globs over ids of devices and tests and over keys of configurations.
+// The texts are globs: over ids of devices, ids of tests, and keys of configurations.
 struct Waiver {
   std::string device;
   std::string test;
   std::string reason;
-  std::string expiry;  // ISO date; from that day on it excuses nothing. Empty: never
+  std::string expiry;  // ISO date from which on it excuses nothing; empty: never
   std::string configuration = "*";
   Known known = Known::fail;
 };
 
-// [{device, test, reason, expiry}, …], each with a `configuration` where it has one; none where
-// there is no such file. Throws InputError with file and line.
+// Reads [{device, test, reason, expiry}, …]; an entry may also have a `configuration`. Without such
+// a file there are no waivers. Throws InputError with file and line.
 [[nodiscard]] std::vector<Waiver> read_waivers(const std::filesystem::path& file);
 
-// [{device, test, configuration, outcome, reason}, …], each with an `expiry` where it has one; an
-// InputError too where there is no such file.
+// Reads [{device, test, configuration, outcome, reason}, …]; an entry may also have an `expiry`. A
+// missing file is an InputError too.
 [[nodiscard]] std::vector<Waiver> read_expected(const std::filesystem::path& file);
 
-// Such a file: sorted, one entry a line.
+// The text of such a file: sorted, one entry a line.
 [[nodiscard]] std::string expected_text(std::vector<Waiver> waivers);
 
 }  // namespace triptych::judge

@@ -1,5 +1,5 @@
 #pragma once
-// Δ ln t = Δ ln(work) + Δ ln(time per unit of work).
+// Splits a change of time: Δ ln t = Δ ln(work) + Δ ln(time per unit of work).
 
 #include <array>
 #include <functional>
@@ -11,8 +11,8 @@
 
 namespace triptych::judge {
 
-// Counters to which the time of a technique is proportional; the first that both sides have tells
-// how much work a configuration is.
+// Counters to which the time of a technique is proportional. The first one that both sides have
+// measures how much work a configuration is.
 inline constexpr std::array<std::string_view, 2> work_units{"samples", "fragments"};
 
 struct WorkChange {
@@ -20,13 +20,14 @@ struct WorkChange {
   std::string unit;      // one of work_units
 };
 
-// Empty where no unit is known of both, or is nothing on one of them. `then`: the count of a unit.
+// Empty if both sides have no unit in common, or one of them has 0 of it. `then` gives the earlier
+// count of a unit.
 [[nodiscard]] std::optional<WorkChange> work_change(
     const record::Counts& now,
     const std::function<std::optional<double>(const std::string&)>& then);
 [[nodiscard]] std::optional<WorkChange> work_change(const record::Counts& now,
                                                     const record::Counts& then);
-// Against what is stored of the configuration on a device.
+// Compares with the counts that are stored for the configuration on a device.
 [[nodiscard]] std::optional<WorkChange> work_change(const record::Counts& now,
                                                     const Baselines& baselines,
                                                     const std::string& configuration,

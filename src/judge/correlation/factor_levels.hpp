@@ -1,5 +1,5 @@
 #pragma once
-// Which configurations share the level of a factor.
+// Which configurations share a level of a factor.
 
 #include <cstddef>
 #include <map>
@@ -12,13 +12,13 @@ namespace triptych::judge {
 using Factors = std::map<std::string, std::string>;
 
 struct FactorLevel {
-  std::string name;                 // "factor=level", with what holds the same configurations
+  std::string name;  // "factor=level", and the other levels that hold the same configurations
   std::vector<std::size_t> inside;  // indices, ascending
   std::vector<std::size_t> outside;
 };
 
-// Those with at least `least` configurations inside and outside, by name. Levels that hold the same
-// configurations cannot be told apart and are one: "ray=vertex (= corners=4)".
+// The levels with at least `least` configurations inside and outside, sorted by name. Levels that
+// hold the same configurations cannot be told apart and become one: "ray=vertex (= corners=4)".
 [[nodiscard]] std::vector<FactorLevel> factor_levels(std::span<const Factors> configurations,
                                                      std::size_t least);
 

@@ -32,14 +32,15 @@ bool can_have_line(const Values& x) {
   return x.size() >= 4 && std::ranges::any_of(x, [&](double each) { return each != x.front(); });
 }
 
-// Relative to the first, so that no exponential overflows; r knows no units.
+// exp of each value minus the first, which keeps the exponential from overflowing; r does not
+// depend on units.
 Values plain(Values logarithms) {
   const double first = logarithms.front();
   for (double& value : logarithms) value = std::exp(value - first);
   return logarithms;
 }
 
-// Written so that a number that is none is refused.
+// The comparisons are written so that NaN is refused.
 LineRefusal refusal_of(const CorrelationLine& line) {
   if (line.configurations < Model::least_configurations) {
     return LineRefusal::too_few_configurations;
@@ -69,8 +70,8 @@ estimation::RobustLine fit_of(const Values& x, const Values& y) {
   return fit;
 }
 
-// One side of a level: weights about its own median, so that a level that lies off as a whole is no
-// outlier to itself.
+// Weighs one side of a level with deviations from its own median, so that a level that is shifted
+// as a whole is no outlier to itself.
 void weigh_side(const Values& residuals, const std::vector<std::size_t>& side, double scale,
                 Values& weights, Values& centred) {
   Values values;
@@ -82,7 +83,7 @@ void weigh_side(const Values& residuals, const std::vector<std::size_t>& side, d
   }
 }
 
-// Of Σw·a·b about the weighted means.
+// Σw·a·b about the weighted means.
 double weighted_product(const Values& weights, const Values& a, const Values& b) {
   double sum = 0;
   double sum_a = 0;
@@ -99,8 +100,9 @@ double weighted_product(const Values& weights, const Values& a, const Values& b)
   return product;
 }
 
-// The coefficient g of the level's indicator d in y = a + b·x + g·d, where d's own regression on x
-// is taken out (Frisch and Waugh 1933): a level of expensive configurations does not hide in b.
+// The coefficient g of the level's indicator d in y = a + b·x + g·d. The regression of d on x is
+// removed first (Frisch and Waugh 1933), so that a level of expensive configurations does not
+// disappear in b.
 OffTheLine level_effect(const Values& x, const estimation::RobustLine& fit,
                         const FactorLevel& level) {
   Values weights(x.size());
@@ -120,7 +122,7 @@ OffTheLine level_effect(const Values& x, const estimation::RobustLine& fit,
   return result;
 }
 
-// The clearest level, with its q; `effect` 0 where there is none.
+// The level with the clearest effect, and its q; `effect` is 0 if there is none.
 OffTheLine clearest_level(const Values& x, const estimation::RobustLine& fit,
                           std::span<const FactorLevel> levels) {
   OffTheLine best;
@@ -128,7 +130,8 @@ OffTheLine clearest_level(const Values& x, const estimation::RobustLine& fit,
   double least = 2;
   for (const FactorLevel& level : levels) {
     const OffTheLine each = level_effect(x, fit, level);
-    // A level that is one with the line, or all wild, has no effect that is a number.
+    // For a level that coincides with the line, or whose points all got no weight, the effect is
+    // not a number.
     if (!std::isfinite(each.effect) || !(each.error > 0)) continue;
     p.push_back(two_sided(each.effect / each.error, static_cast<double>(x.size()) - 3));
     if (p.back() >= least) continue;

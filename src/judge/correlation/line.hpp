@@ -1,6 +1,6 @@
 #pragma once
-// The robust line of one device's cost along another's, and what lies off it. docs/correlation.md
-// says what it is good for.
+// Fits a robust line to one device's cost as a function of another's, and finds what lies off it.
+// docs/correlation.md explains its use.
 
 #include <span>
 #include <string>
@@ -11,42 +11,45 @@
 
 namespace triptych::judge {
 
-// First guesses, from times: real costs of several devices were not there when these were set. Tune
-// them by the bench.
+// First guesses from times: no real costs of several devices existed when they were chosen. Tune
+// them with the bench.
 struct LineModel {
-  // Which lines can tell something.
+  // Conditions under which a line can tell something.
   static constexpr std::size_t least_configurations = 20;
-  static constexpr double least_rho = 0.9;  // of logarithms
+  static constexpr double least_rho = 0.9;  // of the logarithms
   static constexpr double least_slope = 0.7;
   static constexpr double largest_slope = 1.3;
   static constexpr double largest_scale = 0.25;
-  // Costs repeat by so much: a line cannot be known better.
+  // Costs repeat within this share, so that no line can be known better.
   static constexpr double least_scale = 5e-4;
-  // What is named.
-  // Expected, by Benjamini and Hochberg, of levels and of configurations; 1 % of both together.
+  // Conditions under which something is named.
+  // The expected share of false findings by Benjamini and Hochberg, for levels and for
+  // configurations each; 1 % for both together.
   static constexpr double share_of_false = 0.005;
-  // Half of what is to be found (10 %): what lies there scatters about it.
+  // Half of the effect that is to be found (10 %): measured effects scatter around the true one.
   static constexpr double configuration_effect = 1.05;
-  static constexpr double level_effect = 1.015;  // at least, as measured
-  static constexpr std::size_t least_level = 4;  // configurations inside and outside
-  static constexpr std::size_t most_levels = 4;  // named of one pair
+  static constexpr double level_effect = 1.015;  // the least measured effect
+  static constexpr std::size_t least_level = 4;  // this many configurations inside, and outside
+  static constexpr std::size_t most_levels = 4;  // named for one pair
 };
 
-// Fits points[i].y along points[i].x and sets their residuals. ln y = a + b·ln x: Theil and Sen's
-// line and others to start, refined by an MM-estimate (estimation/regression.hpp).
+// Fits points[i].y as a function of points[i].x and sets the residuals. The model is
+// ln y = a + b·ln x. The line of Theil and Sen and some others are starting points, which an
+// MM-estimate refines (estimation/regression.hpp).
 void fit_line(CorrelationPair& pair);
 
 struct OffTheLine {
   std::string level;                 // empty: one configuration
-  std::vector<std::size_t> members;  // points
-  double effect = 0;                 // ln: of the residual, or of the level against the rest
+  std::vector<std::size_t> members;  // indices of points
+  double effect = 0;                 // ln: the residual, or the level minus the rest
   double error = 0;                  // its standard error
-  double q = 1;                      // expected share of false ones among those as clear as this
+  double q = 1;  // expected share of false ones among all that are at least this clear
 };
 
-// Of a pair whose line is admitted: levels, the clearest first, then configurations that cost more
-// than it lets expect, the farthest first. A level that is told gets an offset of its own, and
-// everything else is held against the line beside it. `factors`: of each point.
+// For a pair whose line is accepted: first levels, beginning with the clearest, then configurations
+// that cost more than the line predicts, beginning with the largest residual. A level that is
+// reported gets its own offset, and everything else is then compared with the line beside it.
+// `factors`: those of each point.
 [[nodiscard]] std::vector<OffTheLine> off_the_line(std::span<const CorrelationPoint> points,
                                                    std::span<const Factors> factors);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Two devices, point by point: what the report draws and `gate --json` gives.
+// Two devices compared point by point: what the report draws and `gate --json` prints.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace triptych::judge {
 
-// Why nothing can be concluded from a line; LineModel has the limits.
+// Why nothing can be concluded from a line. The limits are in LineModel.
 enum class LineRefusal : std::uint8_t {
   none,
   too_few_configurations,
@@ -19,15 +19,16 @@ enum class LineRefusal : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(LineRefusal refusal);
 
-// y = intercept + slope·x of logarithms, so that a factor between two devices is the intercept.
+// y = intercept + slope·x, both as logarithms, so that a constant factor between two devices is the
+// intercept.
 struct CorrelationLine {
   std::size_t configurations = 0;
-  // NaN where there are too few points for a line.
+  // NaN if there are too few points for a line.
   double intercept = 0;
   double slope = 0;
   double scale = 0;    // robust standard deviation of the residuals, in ln
   double rho = 0;      // Pearson's r of the logarithms
-  double pearson = 0;  // of the values themselves, as the paper has it
+  double pearson = 0;  // of the values themselves, as in the paper
   LineRefusal refusal = LineRefusal::none;
 
   [[nodiscard]] bool admitted() const { return refusal == LineRefusal::none; }
@@ -39,19 +40,21 @@ struct CorrelationPoint {
   double x = 0;          // ln of the signal on device_a
   double y = 0;          // ln of it on device_b
   double residual = 0;   // y − the line at x; NaN without a line
-  bool outlier = false;  // a finding names it on one of the two devices; never so of times
+  bool outlier = false;  // a finding names it for one of the two devices; always false for times
 };
 
-// Each pair of devices once per signal.
+// Each pair of devices appears once for each signal.
 struct CorrelationPair {
-  // Along x: the accepted one where the other is new, else the lesser id. An id where the device is
-  // in the run, else the stored id with its driver version.
+  // The device on the x axis: the accepted one if the other is new, otherwise the one with the
+  // lesser id. The name is an id if the device is in the run, otherwise the stored id with its
+  // driver version.
   std::string device_a;
   std::string device_b;
-  std::string signal;       // "cost": instructions per frame; "time": nanoseconds per frame
-  bool new_device = false;  // of cost: device_b has none stored, so that only the line can tell
+  std::string signal;  // "cost": instructions per frame; "time": nanoseconds per frame
+  // For cost: device_b has no stored costs, so that only the line can tell something.
+  bool new_device = false;
   CorrelationLine line = {};
-  std::vector<CorrelationPoint> points = {};  // by configuration
+  std::vector<CorrelationPoint> points = {};  // one for each configuration
 };
 
 }  // namespace triptych::judge

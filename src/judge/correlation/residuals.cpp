@@ -11,7 +11,7 @@
 namespace triptych::judge {
 namespace {
 
-// Of a level's configurations, to speak of the level.
+// The share of a level's configurations that must have moved before the level is named.
 constexpr double least_share_moved = 0.75;
 constexpr std::size_t least_level = 2;
 
@@ -72,7 +72,7 @@ class Explanation {
     cover(all, result_.back().log_ratio);
   }
 
-  // Of its mean against the rest; nullopt where it did not move as one.
+  // The mean of the level minus that of the rest; nullopt if it did not move as one.
   [[nodiscard]] std::optional<double> effect_of(const FactorLevel& level) const {
     const double effect = mean_of(left_, level.inside) - mean_of(left_, level.outside);
     const auto along = std::ranges::count_if(
@@ -82,7 +82,7 @@ class Explanation {
     return effect;
   }
 
-  // The one that explains most of the squares that are left.
+  // Takes the level that explains most of the remaining sum of squares.
   bool find_level() {
     const FactorLevel* best = nullptr;
     double most = 0;
@@ -104,7 +104,7 @@ class Explanation {
     result_.back().log_ratio = of_best;
     const auto before = std::ranges::count(left_, 0.0);
     cover(best->inside, of_best);
-    return std::ranges::count(left_, 0.0) > before;  // else it would be found for ever
+    return std::ranges::count(left_, 0.0) > before;  // otherwise it would be found again and again
   }
 
   void find_configurations() {
@@ -120,7 +120,7 @@ class Explanation {
   }
 
   std::span<const double> moved_;
-  std::vector<double> left_;  // 0: did not move, or told
+  std::vector<double> left_;  // 0: did not move, or is already explained
   std::vector<FactorLevel> levels_;
   std::vector<Movement> result_;
 };

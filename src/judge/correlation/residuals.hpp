@@ -1,6 +1,7 @@
 #pragma once
-// Two accepted devices: their stored residual r0 = ln B0 − ln A0 is exact, so that one by more than
-// the repeatability of both is a change. r − r0 is the change of B less that of A.
+// Compares two accepted devices. Their stored residual r0 = ln B0 − ln A0 is exact, so that a
+// difference from it by more than the repeatability of both is a change. r − r0 is the change of B
+// minus that of A.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,16 +14,16 @@
 
 namespace triptych::judge {
 
-// Instructions of one frame, of the two kinds of memory whose counts repeat.
+// Instructions of one frame, of the two parts whose counts repeat.
 struct FrameCost {
   double device_code = 0;
   double driver = 0;
   [[nodiscard]] double sum() const { return device_code + driver; }
 };
 
-// How far two counts of the same frame may be apart, as a share of it (docs/correlation.md). These
-// bounds are systematic – how the heap happened to lie – and do not shrink with the square root of
-// a number.
+// How far two counts of the same frame may differ, as a share of the frame (docs/correlation.md).
+// The bounds are systematic (they depend on the layout of the heap), so they do not shrink with the
+// square root of the number of counts.
 struct Repeatability {
   double device_code = 0;
   double driver = 5e-4;
@@ -31,34 +32,37 @@ struct Repeatability {
                                           const FrameCost& stored);
 [[nodiscard]] Repeatability operator+(const Repeatability& a, const Repeatability& b);
 
-// Of one configuration on one device since it was accepted, as shares of the stored sum.
+// How one configuration on one device has changed since it was accepted, as shares of the stored
+// sum.
 struct CostChange {
   double device_code = 0;
   double driver = 0;
 };
 [[nodiscard]] CostChange change_of(const FrameCost& stored, const FrameCost& now);
-// ln of the ratio that the parts beyond their bounds make; 0 where none is. Each part by itself, so
-// that a change of generated code shows however loosely the driver repeats.
+// ln of the ratio that results from the parts that moved beyond their bounds; 0 if none did. Each
+// part is judged by itself, so that a change of generated code is visible however loosely the
+// driver repeats.
 [[nodiscard]] double moved_by(const CostChange& change, const Repeatability& bound);
-// Whether r left r0 by more than both devices repeat.
+// Whether r differs from r0 by more than the repeatability of both devices.
 [[nodiscard]] bool residual_moved(const CostChange& a, const Repeatability& bound_a,
                                   const CostChange& b, const Repeatability& bound_b);
 
-// What moved on one device, in as few words as tell it.
+// What moved on one device, told with as few names as possible.
 struct Movement {
   enum class Of : std::uint8_t { everything, level, configuration };
   Of of = Of::configuration;
-  std::string level;                 // name, of a level
+  std::string level;                 // the name, if a level moved
   std::vector<std::size_t> members;  // configurations
-  double log_ratio = 0;              // median of the members; of a level its mean against the rest
-  double least = 0;                  // of the members, by size
+  double log_ratio = 0;  // median of the members; for a level, its mean against the rest
+  double least = 0;      // the smallest absolute value among the members
   double most = 0;
 };
 
-// `moved`: moved_by of each configuration. Everything first, then levels that explain most, then
-// configurations that moved most. A configuration is named beside its level, or beside everything,
-// only where it moved by more than twice as much, or the other way. A mean needs no bound of its
-// own: bounds are systematic, so that a level is known no better than its configurations.
+// `moved`: the result of moved_by for each configuration. First comes everything, then the levels
+// that explain most, then the configurations that moved most. A configuration is named in addition
+// to its level, or to everything, only if it moved by more than twice as much or in the other
+// direction. The mean of a level has no narrower bound: bounds are systematic, so that a level is
+// known no better than its configurations.
 [[nodiscard]] std::vector<Movement> explain(std::span<const double> moved,
                                             std::span<const Factors> factors);
 

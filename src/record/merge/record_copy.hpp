@@ -35,10 +35,9 @@ struct RecordCounts {
   std::uint64_t configurations = 0;
   std::map<std::string, std::uint64_t> records;  // by device
   // Not taken, because another record of the same configuration and device was taken:
-  std::uint64_t repeated = 0;  // the same record
-  std::uint64_t injected = 0;  // had an injected fault, and the other one has none
-  // A different record, which did not fail where the other one was measured.
-  std::uint64_t not_chosen = 0;
+  std::uint64_t repeated = 0;       // the same record
+  std::uint64_t injected = 0;       // had an injected fault, and the other one has none
+  std::uint64_t not_chosen = 0;     // differs from the other one, and is no worse an outcome
   std::uint64_t measured_anew = 0;  // failed or was skipped, and the other one did not
 };
 
