@@ -6,7 +6,8 @@
 
 namespace triptych::judge {
 
-// The comparison of `image` with `expected`: Cause::within_bound where nothing is wrong.
+// The result of comparing `image` with `expected`; its cause is Cause::within_bound if nothing is
+// wrong.
 [[nodiscard]] Observation image_observation(const accuracy::ImageComparison& comparison,
                                             const core::Image& image, const core::Image& expected,
                                             Against against);

@@ -1,4 +1,5 @@
-// Errors against the limit: told of every scene and device, and held to what was accepted.
+// Compares errors with the limit image: they are reported for every scene and device, and compared
+// with the accepted ones.
 
 #include <algorithm>
 #include <map>
@@ -15,17 +16,17 @@
 namespace triptych::judge {
 namespace {
 
-// Writing a picture to float rounds each channel once.
+// Writing a picture as float rounds each channel once.
 constexpr double float_rounding = 0x1.0p-24;
 
-// What rounding, storage and early termination had of the accepted error may be as much again: two
-// right pictures differ by no more than both their distances from the truth on their lattice, the
-// root mean square being a distance.
+// The largest error that is allowed. The part of the accepted error that came from rounding,
+// storage and early termination may appear once more: the root mean square is a distance, so two
+// right pictures differ by no more than the sum of their distances from the truth on their lattice.
 double allowed(const StoredError& stored) {
   return stored.rmse + 2 * stored.arithmetic + float_rounding;
 }
 
-// The device's own, else the largest of all.
+// The limit for the device itself; if there is none, the largest limit of all devices.
 std::optional<double> allowed_on(const std::map<std::string, StoredError>& stored,
                                  const std::string& device) {
   const auto own = stored.find(device);
@@ -55,7 +56,8 @@ Finding judge_error(const RunView& view, const record::Record& record,
   return finding;
 }
 
-// The order that the accepted errors of a family give: nothing but errors is stored.
+// The order that follows from the accepted errors of a family. It is computed because only errors
+// are stored.
 std::optional<accuracy::Order> stored_order(const RunView& view,
                                             const accuracy::AccuracyScene& scene,
                                             const accuracy::AccuracyFamily& family) {
@@ -71,8 +73,8 @@ std::optional<accuracy::Order> stored_order(const RunView& view,
   return accuracy::fit_order(points);
 }
 
-// An order has fallen when it lies below the accepted one by more than both intervals. Where the
-// same steps give none any more, errors of another kind than the step's have grown.
+// An order has fallen if it lies below the accepted one by more than both intervals together. If
+// the same steps give no order any more, errors that do not come from the step have grown.
 Finding judge_order(const RunView& view, const record::Device& device,
                     const std::optional<accuracy::Order>& now, const accuracy::Order& stored) {
   Observation what{.cause = now ? Cause::order : Cause::no_order, .against = Against::baseline};
@@ -98,10 +100,10 @@ void judge_orders(const RunView& view, const accuracy::AccuracyScene& scene,
   }
 }
 
-// Scenes by device and limit, in the order in which they come.
+// The scenes by device and limit, in the order in which they are added.
 class Scenes {
  public:
-  // A level that was named and is what `auto` means on the device makes no second case.
+  // If a named level is what `auto` resolves to on the device, both are one case.
   void add(const record::Record& record, const accuracy::LimitPicture& limit,
            accuracy::AccuracyCase each) {
     const auto [known, is_new] = index_.try_emplace({record.device, limit.key}, scenes_.size());
@@ -122,7 +124,8 @@ class Scenes {
   std::vector<accuracy::AccuracyScene> scenes_;
 };
 
-// Looks at one record after the other: what cannot be looked at is told, and stops no other.
+// Looks at one record after the other. A record that cannot be judged gets a finding and does not
+// stop the others.
 class AccuracyCheck {
  public:
   AccuracyCheck(const RunView& view, AccuracyFindings& out) : view_(view), out_(out) {
@@ -153,7 +156,7 @@ class AccuracyCheck {
   void measure_error(const record::Record& record) {
     const accuracy::LimitPicture* limit = view_.request.limit(record);
     if (limit == nullptr) {
-      // Of a scene without a limit there is none to be missed.
+      // For a scene that never had a limit, no limit is missing.
       if (view_.baselines.errors(record.configuration).empty()) return;
       add(record, Verdict::cannot_judge, {.cause = Cause::no_limit_any_more}, view_.accept());
       return;
@@ -176,7 +179,8 @@ class AccuracyCheck {
   const RunView& view_;
   AccuracyFindings& out_;
   Scenes scenes_;
-  // Devices of which one record at least has no other clock: times on two are never compared.
+  // Devices with at least one record that was timed by the wall clock only. Times by two clocks are
+  // never compared.
   std::set<std::string> by_the_wall_;
 };
 

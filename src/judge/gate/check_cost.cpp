@@ -1,6 +1,6 @@
-// Instructions per frame against those stored for the same driver version, counted by the same
-// emulator: device code, the driver and cache misses decide, each by itself; allocations and what
-// preparing costs are shown.
+// Compares the instructions per frame with those stored for the same driver version and counted by
+// the same emulator. Device code, the driver and cache misses each decide by themselves;
+// allocations and the cost of preparing are only shown.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace triptych::judge {
 namespace {
 
-// What is worth a line, yet decides nothing: the configuration that it changed most in.
+// A change that is worth a line but decides nothing, with the configuration in which it is largest.
 struct Note {
   std::size_t changed = 0;
   double worst = 0;
@@ -68,7 +68,8 @@ class DeviceCostCheck {
         finding_about(view_, device_, Check::cost, verdict, std::move(what), std::move(advice)));
   }
 
-  // By what else than that record: a resumed run, or one merged of shards.
+  // How another record was counted, if not as this one was; that happens in a run that was resumed
+  // or merged from shards.
   [[nodiscard]] std::optional<std::string> counted_otherwise(const record::Record& counted) const {
     for (const record::Record* record : records_) {
       if (record->cost.empty() || record->counted_by == counted.counted_by) continue;
@@ -77,7 +78,8 @@ class DeviceCostCheck {
     return std::nullopt;
   }
 
-  // Of another version of this driver, or by another emulator, the nearest that there is.
+  // Compares with the nearest stored counts that there are: those of another version of this
+  // driver, or by another emulator.
   void tell_other(const record::Record& counted, std::vector<Finding>& findings) const {
     const DriverCost* other = stored_;
     for (const auto& [driver, cost] : view_.baselines.cost_of_all_drivers()) {
@@ -181,7 +183,7 @@ class DeviceCostCheck {
 
   const RunView& view_;
   const record::Device& device_;
-  const DriverCost* stored_;  // of this driver version
+  const DriverCost* stored_;  // for this driver version
   std::vector<const record::Record*> records_;
   std::vector<std::string> not_stored_;
   std::vector<std::string> not_counted_;

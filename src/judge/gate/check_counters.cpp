@@ -12,7 +12,8 @@
 namespace triptych::judge {
 namespace {
 
-// What was accepted on other devices: the least and the most, and of whom. A family has one vote.
+// The values accepted on other devices: the least and the greatest, and the families that have
+// them. Each family has one vote.
 struct Range {
   std::uint64_t least = UINT64_MAX;
   std::uint64_t most = 0;
@@ -25,7 +26,7 @@ struct Range {
       families.emplace(record::family_of(device), value);
     }
   }
-  // The end of the range that is nearer.
+  // The end of the range that is nearer to the value.
   [[nodiscard]] std::uint64_t nearest(std::uint64_t value) const {
     return std::clamp(value, least, most);
   }
@@ -57,7 +58,8 @@ void compare_own(const std::string& name, std::uint64_t stored, const record::Re
   out.wrong.push_back(std::move(change));
 }
 
-// Of another device or driver version. A counter may have no meaning here: it need not be there.
+// Compares with other devices or driver versions. A counter may be missing, because it need not
+// have a meaning on this device.
 void compare_with_others(const std::string& name, const Range& range, const record::Record& record,
                          OpenCounts& open, Differences& out) {
   const auto found = record.counters.find(name);
@@ -74,7 +76,8 @@ void compare_with_others(const std::string& name, const Range& range, const reco
                        .allowed = open.of(name)});
 }
 
-// Exact is what the same driver version counted before, and that a counter is told at all.
+// The value must equal what the same driver version counted before, and a counter that was reported
+// must be reported again.
 void compare_counter(const std::string& name, const std::map<std::string, std::uint64_t>& stored,
                      const record::Record& record, bool known_driver, OpenCounts& open,
                      Differences& out) {
@@ -147,7 +150,7 @@ std::vector<Finding> check_counters(const RunView& view) {
     }
   }
   for (const auto& [device, configurations] : not_stored) {
-    // What no accepted device could draw says nothing of one that was never accepted.
+    // What no accepted device was able to draw says nothing about a device that was never accepted.
     const record::Device& info = view.devices.at(device);
     const bool known = !view.baselines.present() || view.knows_driver(info);
     findings.push_back(

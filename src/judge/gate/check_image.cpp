@@ -16,14 +16,14 @@ namespace {
 // Two renderings of one truth differ only by rounding to float.
 constexpr double truth_tolerance = 1e-5;
 
-// A device's picture that can be held against another device's.
+// A picture of one device that can be compared with those of other devices.
 struct Picture {
   const record::Record* record;
   core::Image image;
   double rmse;  // from the truth
 };
 
-// Nothing but the scene and the technique is set: every device takes the path it prefers.
+// Only the scene and the technique are set, so that every device takes the path that it prefers.
 bool on_default_path(const record::Record& record) {
   const auto scene = record::parse_factor_list(record.scene);
   const auto named = record::parse_factor_list(record.configuration);
@@ -61,7 +61,7 @@ class SceneJudge {
     judge_image(record, std::move(image), pair);
   }
 
-  // Between devices, once every record of the scene was judged.
+  // Compares devices with each other, after every record of the scene was judged.
   void judge_agreement() {
     const Picture* left = nullptr;
     const Picture* right = nullptr;
@@ -106,7 +106,7 @@ class SceneJudge {
     }
   }
 
-  // Once per scene: is the reference image the one that was accepted?
+  // Once for each scene: is the reference image the accepted one?
   void check_truth(const TruthPair& pair) {
     if (truth_checked_ || !view_.baselines.present()) return;
     truth_checked_ = true;
@@ -117,7 +117,7 @@ class SceneJudge {
       Observation how = image_observation(accuracy::compare(pair.truth, *stored_, truth_tolerance),
                                           pair.truth, *stored_, Against::stored_image);
       what.numbers = how.numbers;
-      if (how.cause == Cause::within_bound) {  // ids and depths, where they are certain
+      if (how.cause == Cause::within_bound) {  // ids and depths are compared where they are certain
         how = image_observation(accuracy::compare(pair.truth, *stored_, pair.bound), pair.truth,
                                 *stored_, Against::stored_image);
       }
@@ -155,11 +155,11 @@ class SceneJudge {
   const RunView& view_;
   ImageFindings& out_;
   std::string scene_;
-  std::optional<core::Image> stored_;       // the reference, where the picture is kept
-  std::optional<ReferenceHash> reference_;  // where it is not
+  std::optional<core::Image> stored_;       // the accepted reference, if the picture is stored
+  std::optional<ReferenceHash> reference_;  // its hash, if the picture is not stored
   bool truth_checked_ = false;
   std::vector<Picture> pictures_;
-  core::Image bound_;  // of a particle scene: says where ids are certain
+  core::Image bound_;  // of a particle scene: shows where ids are certain
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Bytes allocated on the device, exact on the device that was accepted.
+// Bytes allocated on the device, which must be equal on a device that was accepted.
 
 #include <set>
 
@@ -42,8 +42,8 @@ Finding judge(const record::Record& record, const record::Counts& stored) {
 struct Untold {
   bool accepted = false;  // some configuration of the device is stored
   std::size_t told = 0;
-  std::vector<std::string> lost;        // stored, and not told now
-  std::vector<std::string> not_stored;  // told, and not stored
+  std::vector<std::string> lost;        // stored, but not reported now
+  std::vector<std::string> not_stored;  // reported, but not stored
 };
 
 void tell(const RunView& view, const record::Device& device, const Untold& untold,

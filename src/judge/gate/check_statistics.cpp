@@ -10,8 +10,8 @@
 namespace triptych::judge {
 namespace {
 
-using Calibration =
-    std::map<std::string, record::StatisticWorth>;  // record::Device::statistics_calibration
+// The type of record::Device::statistics_calibration.
+using Calibration = std::map<std::string, record::StatisticWorth>;
 
 Finding check_exact(const RunView& view, const record::Record& record,
                     const record::Counts& stored) {
@@ -56,15 +56,17 @@ Finding check_exact(const RunView& view, const record::Record& record,
                {.cause = Cause::as_stored, .numbers = {{"values", values}}, .names = unsteady});
 }
 
-// Of a device whose driver version is new here, over all that it measured.
+// Collects, for a device whose driver version is new here, the differences in everything that it
+// measured.
 struct Elsewhere {
   std::size_t configurations = 0;
   std::map<std::string, Change> differences;  // portable values that no stored driver has
   std::set<std::string> differing;            // in which configurations
-  // Statistic → drivers that do not count it exactly, with what it is worth there. No driver: this.
+  // Statistic → drivers that do not count it exactly, and what it is worth there. An empty driver
+  // is the device's own.
   std::map<std::pair<std::string, std::string>, std::string_view> not_compared;
   std::size_t stored = 0;    // configurations that some driver has
-  std::size_t compared = 0;  // values
+  std::size_t compared = 0;  // number of values
 };
 
 void compare_elsewhere(const RunView& view, const record::Record& record, const std::string& name,
@@ -160,8 +162,9 @@ class StatisticsCheck {
  private:
   const RunView& view_;
   std::vector<Finding> findings_;
-  std::map<std::string, Elsewhere> elsewhere_;                  // by device
-  std::map<std::string, std::vector<std::string>> not_stored_;  // beside others of the device
+  std::map<std::string, Elsewhere> elsewhere_;  // by device
+  // By device: configurations without stored statistics, although others have them.
+  std::map<std::string, std::vector<std::string>> not_stored_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Times against the accepted run's: shown, and no verdict unless it is asked for.
+// Compares times with those of the accepted run. They are shown, and decide only on request.
 
 #include <algorithm>
 #include <cmath>
@@ -11,17 +11,17 @@
 namespace triptych::judge {
 namespace {
 
-const double tolerated = std::log(1.02);  // slower by this is not worth a finding
+const double tolerated = std::log(1.02);  // a smaller slowdown is not worth a finding
 
-// A time beside the stored one.
+// A time as a ratio to the stored one.
 struct Ratio {
   const record::Record* record;
   double log_ratio = 0;
-  double half_width = 0;  // of its 95 % interval
+  double half_width = 0;  // half the width of its 95 % interval
 };
 
-// The clock that both times are by: the stored one, where this run trusts it as well; else the wall
-// clock, by which everything is timed, if the stored time is by it.
+// The clock by which both times are compared: the stored one if this run trusts it as well,
+// otherwise the wall clock (every frame is timed by it) if the stored time is by the wall clock.
 std::optional<std::string_view> common_clock(const record::Record& record,
                                              const StoredTiming& stored) {
   if (stored.clock == record.clock()) return record.clock();
@@ -57,7 +57,7 @@ class DeviceTimes {
   }
 
   std::vector<Finding> finish() && {
-    // Where times decide, what they cannot be held against is no pass.
+    // Where times decide, a time that cannot be compared is no pass.
     const Verdict missing = decides() ? Verdict::cannot_judge : Verdict::advisory;
     if (!not_stored_.empty() && stored_.empty()) {
       add(missing, {.cause = Cause::no_stored_device, .facts = {{"device_key", device_.key()}}});
@@ -80,11 +80,11 @@ class DeviceTimes {
         finding_about(view_, device_, Check::timing, verdict, std::move(what), std::move(advice)));
   }
   static bool is_time(const std::vector<double>& times) {
-    const double middle = estimation::median(times);  // NaN of none
+    const double middle = estimation::median(times);  // NaN if there are none
     return std::isfinite(middle) && middle > 0;
   }
 
-  // Where the picture is judged as well, or excused, that is the verdict.
+  // Where the picture is also judged, or is excused, that finding has the verdict.
   void add_wrong(const record::Record& record, const Observation& why) {
     const bool is_told =
         view_.checks.contains(Check::image) || is_waived(view_, record, Check::image);

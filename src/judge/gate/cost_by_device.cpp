@@ -13,14 +13,15 @@
 namespace triptych::judge {
 namespace {
 
-// nullopt: not counted, or nothing of what repeats.
+// nullopt if nothing was counted, or neither of the parts that repeat.
 std::optional<FrameCost> frame_cost(const record::Counts& counts) {
   const FrameCost cost{count_of(counts, "device_code").value_or(0),
                        count_of(counts, "driver").value_or(0)};
   return cost.sum() > 0 ? std::optional(cost) : std::nullopt;
 }
 
-// Measured here: what is drawn once for several configurations would weigh as many times.
+// The record was measured itself. A record that takes its frames from another configuration would
+// count them several times.
 bool stands_for_itself(const record::Record& record) {
   return record.same_as.empty();
 }
@@ -58,7 +59,7 @@ DeviceCost of_before(const DriverCost& stored) {
   return result;
 }
 
-// By the clock that counts for both; the wall clock times everything.
+// By the clock that both trust; the wall clock times every frame.
 std::optional<double> log_median(const record::Record& record, std::string_view clock) {
   const std::vector<double>& times = record.time_ns_by(clock);
   return times.empty() ? std::nullopt : std::optional(std::log(estimation::median(times)));

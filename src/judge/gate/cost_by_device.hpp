@@ -1,6 +1,6 @@
 #pragma once
-// What the correlation of costs rests on: each device's cost by configuration, today's and the
-// stored one.
+// The data for the correlation of costs: the cost of each configuration on each device, today's and
+// the stored one.
 
 #include <map>
 #include <optional>
@@ -15,41 +15,42 @@
 namespace triptych::judge {
 
 struct CorrelationInput {
-  std::map<std::string, record::Device> devices;  // of the run, by id
-  std::vector<const record::Record*> records;     // measured, with right pictures
-  std::map<std::string, DriverCost> stored;       // by Device::statistics_key()
+  std::map<std::string, record::Device> devices;  // the devices of the run, by id
+  std::vector<const record::Record*> records;  // records that were measured and have right pictures
+  std::map<std::string, DriverCost> stored;    // by Device::statistics_key()
 };
 
 struct ConfigurationCost {
-  const record::Record* record = nullptr;  // nullptr: of a device that is not in the run
-  FrameCost now;                           // of such a device, the stored one
-  std::optional<FrameCost> stored = {};    // by the same driver version and the same counter
+  const record::Record* record = nullptr;  // nullptr: the device is not in the run
+  FrameCost now;                           // for a device that is not in the run, the stored one
+  std::optional<FrameCost> stored = {};    // for the same driver version, by the same counter
 };
 
 struct DeviceCost {
   std::string id;
-  std::string name;        // id; of a device that is not in the run, with its driver version
-  std::string counted_by;  // only counts by the same one are held against each other
+  std::string name;        // the id; with the driver version if the device is not in the run
+  std::string counted_by;  // only counts by the same one are compared
   bool measured = false;   // in this run
   std::map<std::string, ConfigurationCost> configurations;
 
-  // Some configuration has a stored cost, so that its changes are exact.
+  // Whether some configuration has a stored cost, so that its changes are exact.
   [[nodiscard]] bool accepted() const;
 };
 
-// Devices of the run whose instructions were counted, by id, then stored ones that it lacks.
+// The devices of the run whose instructions were counted, by id, and then stored devices that are
+// not in the run.
 [[nodiscard]] std::vector<DeviceCost> cost_by_device(const CorrelationInput& input);
 
-// "technique" among the factors of a record.
+// The factors of a record, with its technique as the factor "technique".
 [[nodiscard]] Factors factors_of(const record::Record& record);
 
-// A pair by cost, its line fitted, over the configurations that both have.
+// The pair by cost over all configurations that both have, with its line fitted.
 [[nodiscard]] CorrelationPair pair_of(const DeviceCost& a, const DeviceCost& b);
 
-// The same by time, each two devices of the run: to be seen, nothing is judged by it.
+// The same by time for each two devices of the run. It is shown only; nothing is judged by it.
 [[nodiscard]] std::vector<CorrelationPair> pairs_by_time(const CorrelationInput& input);
 
-// The check itself, apart from the gate.
+// The check itself, without the gate.
 [[nodiscard]] CorrelationFindings correlate(const CorrelationInput& input);
 
 }  // namespace triptych::judge

@@ -20,7 +20,7 @@ bool is_right(Verdict verdict) {
   return verdict == Verdict::pass || verdict == Verdict::improved || verdict == Verdict::advisory;
 }
 
-// As what a finding is expected the next time; nothing: as a pass.
+// How the next run is to expect this finding; nullopt if it is to expect a pass.
 std::optional<Known> expected_as(const Finding& finding) {
   if (finding.verdict == Verdict::skipped) return Known::skip;
   if (finding.verdict == Verdict::regression) {
@@ -30,8 +30,8 @@ std::optional<Known> expected_as(const Finding& finding) {
   return known ? std::optional(finding.excuse.known) : std::nullopt;
 }
 
-// That `finding` was right the second time: a flake, or a timeout that cannot be told from a slow
-// driver.
+// `finding` when the second attempt was right: a flake, or a timeout, which cannot be told from a
+// slow driver.
 Finding right_again(const Finding& finding) {
   Finding again = finding;
   again.drawn_again = Again::flake;
@@ -43,8 +43,9 @@ Finding right_again(const Finding& finding) {
   return again;
 }
 
-// What became of a regression. Where its check says nothing of the place any more, it was the crash
-// of what has no finding once it is drawn, such as an image of speed_of_light.
+// What became of a regression after the second attempt. If its check now has no finding for the
+// place, the regression was a crash of something that has no finding once it is drawn, such as a
+// picture of speed_of_light.
 void tell_again(const Finding& finding, Redrawn& redrawn) {
   std::vector<Finding>& findings = redrawn.result.findings;
   const auto again = std::ranges::find_if(findings, [&](const Finding& each) {

@@ -1,5 +1,6 @@
 #pragma once
-// Regressions that were drawn again, and what a run leaves for the next to expect.
+// Handles regressions that were drawn a second time, and lists what a run leaves for the next one
+// to expect.
 
 #include <functional>
 #include <set>
@@ -14,19 +15,19 @@ namespace triptych::judge {
 
 using Places = std::set<std::pair<std::string, std::string>>;  // device, configuration
 
-// Where the result has regressions of a configuration.
+// The places at which the result has regressions of a configuration.
 [[nodiscard]] Places failing(const GateResult& result);
 
 struct Redrawn {
-  GateResult result;  // of the second time; flakes stay regressions, timeouts are undecided
+  GateResult result;  // of the second attempt; flakes stay regressions, timeouts are undecided
   Places flakes;
 };
 
-// `first` and `second`: the same run judged before and after `places` were drawn again.
+// `first` and `second` judge the same run, before and after `places` were drawn again.
 [[nodiscard]] Redrawn tell_flakes(const GateResult& first, GateResult second, const Places& places);
 
-// What fails, flakes or is skipped in the results, waived by no file but that of such.
-// `reason_of`: the words for a person who reads the file.
+// What fails, flakes or is skipped in the results and is not waived, unless by the file of expected
+// results itself. `reason_of` gives the words for people who read the file.
 [[nodiscard]] std::vector<Waiver> as_expected(
     std::span<const GateResult> results,
     const std::function<std::string(const Finding&)>& reason_of);

@@ -8,14 +8,16 @@
 
 namespace triptych::judge {
 
-// By how much a record's counters may differ between two right devices, by the counters' names
-// (SuiteWithTruth::open_counts); throws core::Error where its scene is not here, and none are open.
+// By how much the counters of a record may differ between two right devices, by the counters' names
+// (SuiteWithTruth::open_counts). Throws core::Error if the scene is not available on this machine,
+// and the record then has no open counters.
 using FindOpenCounts = std::function<std::map<std::string, double>(const record::Record&)>;
 
-// What rounding and rasterization leave open of one record's counters; found once it matters.
+// What rounding and rasterization leave open in one record's counters; computed when it is first
+// needed.
 class OpenCounts {
  public:
-  // `find` may be empty: rounding leaves nothing open.
+  // `find` may be empty if rounding leaves nothing open.
   OpenCounts(const record::Record& record, const FindOpenCounts& find)
       : record_(record), find_(find) {}
 

@@ -9,8 +9,8 @@
 namespace triptych::judge {
 namespace {
 
-// Where the API leaves the number open and the device does not tell, what was accepted has: eight
-// bits, as has our own rasterizer for OpenCL.
+// The bits of sub-pixel precision if the API leaves the number open and the device does not report
+// it. The accepted devices have eight, as has our own rasterizer for OpenCL.
 constexpr double usual_bits = 8;
 
 std::optional<double> told(const record::Record& record, const char* name) {
@@ -20,8 +20,8 @@ std::optional<double> told(const record::Record& record, const char* name) {
 
 bool is_open(const std::string& counter, const record::Record& record) {
   if (counter == "fragments" || counter == "fragments_discarded") return true;
-  // A ray that is made at the vertices moves with them, and with it the silhouette: who is in
-  // sight.
+  // If the ray is computed at the vertices, it moves with them, and so does the silhouette, which
+  // decides what is visible.
   const auto ray = record.factors.find("ray");
   return (counter == "fragments_kept" || counter == "visible_ids") && ray != record.factors.end() &&
          ray->second == "vertex";
@@ -29,16 +29,19 @@ bool is_open(const std::string& counter, const record::Record& record) {
 
 }  // namespace
 
-// A driver moves each vertex to its grid of 2⁻ᵇ pixel, rounding or cutting off: by less than a
-// step. Edges of one sprite by two drivers so lie 2⁻ᵇ + 2⁻⁸ pixel apart, and farther by what the
-// sprite is larger on a coarse grid (technique/particles/margins.hpp): δ in all. A point is larger
-// by its margin, half of it on each side, and by as much again where its size is rounded up. An
-// edge that moves by δ passes δ·L centres of pixels on average, L its length. S sprites with F
-// fragments have edges of at most 4·√(S·F) together (squares, by Cauchy and Schwarz; a polygon
-// around the same disc has less), and four corners of δ². An edge along an axis passes all of its L
-// centres or none, a variance of δ·L², and of 4·δ·F for all; m sprites in one place do it together:
-// m times that, with m = S over the particles in sight. What is open is the mean and five standard
-// deviations.
+// How many fragments two right drivers may differ by.
+//   - A driver moves each vertex to its grid of 2⁻ᵇ pixel by rounding or truncation, that is by
+//     less than one step. So an edge of a sprite lies up to 2⁻ᵇ + 2⁻⁸ pixel apart in the pictures
+//     of two drivers, plus the amount by which the sprite is larger on a coarse grid
+//     (technique/particles/margins.hpp). A point is larger by its margin, half of it on each side,
+//     and by as much again where its size is rounded up. Together this is δ.
+//   - An edge of length L that moves by δ passes δ·L centres of pixels on average. S sprites with F
+//     fragments have edges of at most 4·√(S·F) together (for squares, by Cauchy and Schwarz; a
+//     polygon around the same disc has less), and their four corners add δ² each.
+//   - An edge along an axis passes all of its L centres or none. That is a variance of δ·L² for an
+//     edge, and of 4·δ·F for all edges. m sprites in one place do it together, which makes the
+//     variance m times as large; m is S over the number of visible particles.
+//   - The result is the mean plus five standard deviations.
 double open_fragments(const std::string& counter, const record::Record& record) {
   constexpr double deviations = 5;
   if (!is_open(counter, record)) return 0;

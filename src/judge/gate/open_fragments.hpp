@@ -5,8 +5,8 @@
 
 namespace triptych::judge {
 
-// By how many fragments a counter of a frame may differ between two drivers that are both right,
-// beside what a threshold on floats decides; 0 for counters that rasterization does not touch.
+// By how many fragments a counter of a frame may differ between two right drivers, in addition to
+// comparisons of floats with thresholds. 0 for counters that do not depend on rasterization.
 [[nodiscard]] double open_fragments(const std::string& counter, const record::Record& record);
 
 }  // namespace triptych::judge

@@ -6,7 +6,7 @@
 namespace triptych::judge {
 namespace {
 
-// `configuration`: empty for a finding about a whole device or plan.
+// `configuration` is empty for a finding about a whole device or plan.
 bool covers(const Waiver& waiver, const std::string& device, const std::string& test,
             const std::string& configuration) {
   return core::glob_matches(waiver.device, device) && core::glob_matches(waiver.test, test) &&
@@ -17,7 +17,8 @@ bool has_expired(const Waiver& waiver, const RunView& view) {
   return !waiver.expiry.empty() && view.request.today >= waiver.expiry;
 }
 
-// What the request knows of a finding's place, of these kinds.
+// The entry of these kinds that the request has for the place of a finding; nullptr if there is
+// none.
 const Waiver* known_of(const RunView& view, const Finding& finding, const std::set<Known>& kinds) {
   const auto found = std::ranges::find_if(*view.request.known, [&](const Waiver& each) {
     return kinds.contains(each.known) && !has_expired(each, view) &&
@@ -54,7 +55,8 @@ void compare_with_known(const RunView& view, Finding& finding) {
   }
 }
 
-// Whether the waiver is about anything this gate looked at; others belong to other plans.
+// Whether the waiver concerns anything that this gate has judged; other waivers belong to other
+// plans.
 bool concerns(const Waiver& waiver, const RunView& view) {
   return std::ranges::any_of(view.records, [&](const record::Record& record) {
     return std::ranges::any_of(view.checks, [&](Check check) {
@@ -63,7 +65,7 @@ bool concerns(const Waiver& waiver, const RunView& view) {
   });
 }
 
-// One that names this plan, and no test that the plan can have.
+// Whether the waiver names this plan, but no test that the plan can have.
 bool matches_no_test(const Waiver& waiver, const RunView& view) {
   const record::Checks checks = record::every_check();
   const std::string image = view.plan_test(Check::image);

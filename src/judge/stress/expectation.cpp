@@ -12,7 +12,7 @@
 namespace triptych::judge {
 namespace {
 
-// Where a pixel of this picture lies in the other one.
+// The position of a pixel of this picture in the other one.
 struct Place {
   int x;
   int y;
@@ -27,7 +27,7 @@ bool same_bits(float a, float b) {
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-// A picture, and the bound on it where bits are not asked for.
+// A picture, and the bound on its error for comparisons that do not ask for equal bits.
 struct Judged {
   const core::Image& image;
   core::Image bound = {};
@@ -40,13 +40,14 @@ void add_pixel(Observation& what, const std::string& prefix, const std::array<fl
   }
 }
 
-// Compares pixel by pixel; the pictures have the sizes and channels that the rule asks for.
+// Compares two pictures pixel by pixel. They must have the sizes and channels that the rule
+// requires.
 class SameJudge {
  public:
   SameJudge(const record::SamePicture& rule, const Judged& one, const Judged& other)
       : rule_(rule), one_(one), other_(other) {}
 
-  // Nothing where the images are the same.
+  // nullopt if the pictures are the same.
   [[nodiscard]] std::optional<Observation> difference() const {
     std::size_t wrong = 0;
     Place first{-1, -1};
@@ -85,7 +86,7 @@ class SameJudge {
         return false;
       }
     }
-    // An id is certain where the bound's is 0; what is uncertain may be another surface.
+    // An id is certain where its bound is 0; elsewhere it may belong to another surface.
     const bool certain = rule_.to_the_bit || one_.bound.ids.empty() ||
                          (one_.bound.ids[a] == 0 && other_.bound.ids[b] == 0);
     if (one_.image.ids.empty() || !certain) return true;

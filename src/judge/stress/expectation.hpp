@@ -1,5 +1,5 @@
 #pragma once
-// Whether what a stress case expects of its record holds.
+// Decides whether the expectations of a stress case hold for its record.
 
 #include <map>
 #include <optional>
@@ -11,15 +11,16 @@
 
 namespace triptych::judge {
 
-// The records of one run with their pictures, each read once. The records must outlive it.
+// The records of one run and their pictures, each of which is read once. The records must outlive
+// this object.
 class StressRun {
  public:
   StressRun(const record::Store& store, const std::vector<record::Record>& records);
 
-  // nullptr where the run has none.
+  // nullptr if the run has no such record.
   [[nodiscard]] const record::Record* other(const record::Record& record,
                                             const record::Changed& changed) const;
-  // nullptr where the record has none, or the store's cannot be read.
+  // nullptr if the record has no picture, or if the one in the store cannot be read.
   [[nodiscard]] const core::Image* picture(const record::Record& record);
 
  private:
@@ -30,11 +31,13 @@ class StressRun {
   std::map<std::string, core::Image> pictures_;                             // by hash
 };
 
-// Whether the run has the other record that an expectation is about; true where it is about none.
+// Whether the run has the other record that an expectation needs; true for an expectation that
+// needs none.
 [[nodiscard]] bool has_other(const record::Expectation& expectation, const record::Record& record,
                              const StressRun& run);
 
-// Nothing where it holds, else what does not. The record has an image; MayBeRefused always holds.
+// nullopt if the expectation holds, otherwise what does not hold. The record must have an image.
+// MayBeRefused always holds.
 [[nodiscard]] std::optional<Observation> unmet(const record::Expectation& expectation,
                                                const record::Record& record, StressRun& run,
                                                const FindTruth& truth);

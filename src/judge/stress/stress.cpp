@@ -18,16 +18,16 @@ namespace {
 bool is_finite(const core::Image& image) {
   return !image.rgba.empty() &&
          std::ranges::all_of(image.rgba, [](float value) { return std::isfinite(value); }) &&
-         // Infinitely far is where nothing is.
+         // An infinite depth means that the pixel shows nothing.
          std::ranges::none_of(image.depth, [](float value) { return std::isnan(value); });
 }
 
-// A case under way: of what was drawn, how far it is from the truth.
+// A case that is being scored: for a picture that was drawn, its distance from the truth.
 struct Case {
   const record::Record* record = nullptr;
   StressScore score = {};
   std::optional<double> rmse = {};
-  core::Image bound = {};  // of what was drawn
+  core::Image bound = {};  // the bound of the picture that was drawn
 };
 
 class Scoring {
@@ -56,7 +56,7 @@ class Scoring {
     return truths_.expectations ? truths_.expectations(record) : std::vector<record::Expectation>{};
   }
 
-  // Nothing of a case that the device cannot be asked for.
+  // nullopt for a case that cannot be asked of the device.
   std::optional<Case> first_points(const record::Record& record) {
     Case result{&record};
     StressScore& score = result.score;
@@ -111,7 +111,7 @@ class Scoring {
     }
   }
 
-  // Of two that differ the one nearer to the truth keeps its point.
+  // Of two pictures that differ, the one nearer to the truth keeps its point.
   void judge_agreement(Case& own, const std::vector<Case*>& cases) {
     if (!own.rmse) return;
     own.score.agreed = true;

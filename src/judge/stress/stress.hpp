@@ -1,6 +1,6 @@
 #pragma once
-// How a stress case went on a device: one point for a picture at all, one for the right one, one
-// for the one that other devices show.
+// Scores a stress case on a device: one point for drawing a picture at all, one for the right
+// picture, and one for the picture that other devices show.
 
 #include <functional>
 #include <string>
@@ -19,16 +19,17 @@ using FindExpectations = std::function<std::vector<record::Expectation>(const re
 
 struct StressTruths {
   FindTruth truth;
-  FindExpectations expectations;  // nothing: there are none
-  // Of a part of a plan: what is expected beside a picture that has no record is not asked.
+  FindExpectations expectations;  // empty: there are no expectations
+  // The records are a part of a plan: expectations that need a picture without a record are not
+  // checked.
   bool part = false;
 };
 
 struct StressScore {
-  bool drawn = false;   // a finite picture, without a crash, a hang or an error
-  bool right = false;   // within its bound of the truth, and all that is expected of it holds
+  bool drawn = false;  // a finite picture, drawn without a crash, a hang or an error
+  bool right = false;  // within its bound of the truth, and everything that is expected of it holds
   bool agreed = false;  // no device that is nearer to the truth shows another picture
-  std::vector<Observation> lost = {};  // why, of every point that is missing
+  std::vector<Observation> lost = {};  // the reason for every point that is missing
 
   [[nodiscard]] int points() const {
     return static_cast<int>(drawn) + static_cast<int>(right) + static_cast<int>(agreed);
@@ -37,13 +38,14 @@ struct StressScore {
 inline constexpr int best_stress_score = 3;
 
 struct StressScored {
-  const record::Record* record;  // into the records given
+  const record::Record* record;  // points into the given records
   StressScore score;
 };
 
-// `records`: all of one run, for a device is held against the others and a picture against others
-// of its device; those skipped for what their device lacks are left out. A case that may be refused
-// has all points where it is. Where no other device drew a configuration, none contradicts.
+// `records` must be all records of one run, because devices are compared with each other and
+// pictures with other pictures of the same device. Records that were skipped because the device
+// lacks something get no score. A case that may be refused has all points if it is refused. If no
+// other device drew a configuration, none contradicts it.
 [[nodiscard]] std::vector<StressScored> score_stress(const record::Store& store,
                                                      const std::vector<record::Record>& records,
                                                      const StressTruths& truths);
