@@ -7,9 +7,9 @@
 
 namespace triptych::report {
 
-// Google Benchmark's JSON of runs, one per plan: `context` from the first run's machine with a free
-// key per device, and the entries that the library itself wrote while it drove the timed loops,
-// each with its "plan", which its name and run_name begin with:
+// Writes runs as the JSON of Google Benchmark, one per plan. `context` describes the machine of the
+// first run, with one additional key for each device. The entries are those that the library wrote
+// while it drove the timed loops. Each also has its "plan", with which its name and run_name begin:
 // "volume/quick/gl:llvmpipe-egl/step=1/…".
 [[nodiscard]] std::string benchmark_json(const record::Store& store,
                                          std::span<const record::Run> runs);

@@ -1,5 +1,5 @@
 #pragma once
-// Tables as CSV (RFC 4180, lines ended by LF), written a row at a time.
+// Tables as CSV (RFC 4180, with lines that end in LF), written row by row.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,19 +12,19 @@
 
 namespace triptych::report {
 
-// Missing is an empty field, never zero.
+// A missing value is an empty field, never zero.
 using Cell = std::variant<std::monostate, std::string, double, std::uint64_t>;
 
-// A number that is none is missing; a text that holds a comma, a quote or a line end is quoted.
-// Numbers have the fewest digits that give the same number back.
+// NaN and infinity are written as missing. A text that contains a comma, a quotation mark or the
+// end of a line is quoted. Numbers have as few digits as are needed to read the same number again.
 [[nodiscard]] std::string csv_field(const Cell& cell);
 
 class CsvFile {
  public:
-  // Replaces the file. Throws core::IoError, as do all of its functions.
+  // Replaces the file. Throws core::IoError, as do all functions of this class.
   CsvFile(std::filesystem::path file, std::span<const std::string> columns);
   void add(std::span<const Cell> row);  // as many cells as columns
-  void close();                         // what was added is in the file
+  void close();                         // after this, the file contains everything that was added
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
 
  private:

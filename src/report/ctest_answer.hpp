@@ -1,5 +1,6 @@
 #pragma once
-// What a check says as a CTest test: text for the log, numbers and pictures for the dashboard.
+// The result of a check as output of a CTest test: text for the log, numbers and pictures for the
+// dashboard.
 
 #include <optional>
 #include <string>
@@ -10,12 +11,14 @@
 
 namespace triptych::report {
 
-// Findings, the numbers of the worst one and the headline. With `truth` also the three pictures of
-// the worst one's configuration, which are written among the temporary files; empty: none.
+// The findings, the numbers of the worst one, and the headline. With `truth`, also the three
+// pictures for the configuration of the worst finding, which are written among the temporary files;
+// without it, no pictures.
 [[nodiscard]] std::string ctest_answer(const judge::GateResult& result, const record::Store& store,
                                        const judge::FindTruth& truth);
 
-// A check that only advises or skips has judged nothing: a skip with its reason, never a pass.
+// A check that has only advisory findings or skips has judged nothing. It is a skip with this
+// reason, never a pass.
 [[nodiscard]] std::optional<std::string> reason_to_skip(const judge::GateResult& result);
 
 }  // namespace triptych::report

@@ -12,14 +12,14 @@ namespace {
 
 struct Test {
   std::string name;
-  std::vector<std::string> command;  // arguments of triptych
+  std::vector<std::string> command;  // arguments for triptych
   std::vector<std::string> labels;
   std::vector<std::string> requires_fixtures = {};
   std::string sets_up = {};
   std::string lock = {};
 };
 
-// [=[…]=] takes any text as it is.
+// [=[…]=] takes every text literally.
 std::string quoted(const std::vector<std::string>& words, std::string_view separator) {
   std::string text;
   for (const std::string& word : words) {
@@ -71,7 +71,7 @@ std::vector<Test> tests_of(const PlanTests& plan, std::span<const record::Device
            .command = {"test-check", argument, "--check", check, "--device", device.id, "--store",
                        store},
            .labels = {suite, check, "device", device.api, device.id},
-           // A score says how a device agrees with the others, and so does a line through both.
+           // A score compares the device with all others, and so does a correlation.
            .requires_fixtures = is_of_all(each) ? measured : std::vector<std::string>{fixture}});
     }
   }

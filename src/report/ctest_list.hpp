@@ -1,6 +1,6 @@
 #pragma once
-// The tests that CTest is told of. Fixtures make each device measure a plan once; the checks judge
-// what it left in the store.
+// The tests that CTest is given. Fixtures make each device measure a plan once, and the checks
+// judge the records in the store.
 
 #include <span>
 #include <string>
@@ -13,17 +13,18 @@ namespace triptych::report {
 
 struct PlanTests {
   std::string suite;
-  std::string plan;   // as commands take it
-  std::string stem;   // that names its tests
-  std::string store;  // where its records are kept
+  std::string plan;   // as commands accept it
+  std::string stem;   // the names of its tests begin with it
+  std::string store;  // the store of its records
   record::Checks checks;
 };
 
-// "volume.quick" of volume/quick, also of a file quick.yaml of that suite: what names of tests and
-// of files can hold.
+// "volume.quick" for volume/quick, and also for a file quick.yaml of that suite: letters that names
+// of tests and files can contain.
 [[nodiscard]] std::string ctest_stem(std::string_view suite, std::string_view plan);
 
-// The file that CTest reads. Its tests call `program` as test-start, test-measure and test-check.
+// The file that CTest reads. Its tests call `program` with the commands test-start, test-measure
+// and test-check.
 [[nodiscard]] std::string ctest_list(const std::string& program, std::span<const PlanTests> plans,
                                      std::span<const record::Device> devices);
 

@@ -18,7 +18,7 @@ Cell integer(auto value) {
   return static_cast<std::uint64_t>(value);
 }
 
-// Of what a record has only where it was measured, and never as zero.
+// For values that only measured records have; they are never written as zero.
 Cell positive(auto value) {
   if (!(value > 0)) return {};
   if constexpr (std::is_floating_point_v<decltype(value)>)
@@ -77,7 +77,7 @@ Columns<RecordSource> what_it_was() {
   };
 }
 
-// Only a record that was timed has them.
+// Only a record that was timed has these values.
 Cell when_timed(const RecordSource& s, Cell cell) {
   return s.record.time_ns().empty() ? Cell() : std::move(cell);
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The columns of exported tables: each one says what it is and takes its cell from a row's source.
+// The columns of exported tables. Each one describes itself and takes its cell from the source of a
+// row.
 
 #include <functional>
 #include <set>
@@ -12,8 +13,8 @@
 
 namespace triptych::report {
 
-// What a dictionary says of a column. `type`: "text", "number" or "integer"; a flag is an integer,
-// 0 or 1. `unit`: empty for none.
+// The description of a column in the dictionary. `type` is "text", "number" or "integer"; a flag is
+// an integer, 0 or 1. `unit` is empty if there is none.
 struct ColumnText {
   std::string name, type, unit, description;
 };
@@ -40,11 +41,11 @@ struct ClockSource {
   record::ClockTrust clock;
 };
 struct RecordSource {
-  std::uint64_t number;  // that the other tables name it by
+  std::uint64_t number;  // the number by which other tables refer to it
   const record::Record& record;
 };
 
-// The names that make columns of their own.
+// The names that become columns of their own.
 struct RecordNames {
   std::set<std::string> factors, cost, memory, energy;
 };
@@ -54,7 +55,7 @@ struct RecordNames {
 [[nodiscard]] Columns<ClockSource> clock_columns();
 [[nodiscard]] Columns<RecordSource> record_columns(const RecordNames& names);
 
-// "instructions", or what else a part of a cost counts.
+// The unit in which a part of a cost is counted, such as "instructions".
 [[nodiscard]] std::string cost_unit(const std::string& part);
 
 }  // namespace triptych::report

@@ -1,5 +1,5 @@
 #pragma once
-// Stores as tidy tables, for whoever analyses them: CSV files and a dictionary of their columns
+// Exports stores as tidy tables for analysis: CSV files and a dictionary of their columns
 // (docs/store.md).
 
 #include <cstdint>
@@ -14,18 +14,18 @@
 namespace triptych::report {
 
 struct ExportRequest {
-  std::string plan;  // empty: of all plans
+  std::string plan;  // empty: all plans
   std::filesystem::path folder;
   std::string made_by;                                  // the program and its version
-  std::function<void(const record::Run&)> begins = {};  // a run, for progress
+  std::function<void(const record::Run&)> begins = {};  // called with each run that is begun
 };
 
-// Table → rows.
+// The number of rows of each table.
 using ExportedRows = std::map<std::string, std::uint64_t>;
 
-// Writes a file per table and dictionary.json last, which tells a whole export from one that was
-// cut off. One record is in memory at a time. Throws NotSupported where no run has the plan,
-// InputError where two stores hold the same run – its records would count twice – and IoError.
+// Writes one file for each table, and dictionary.json last: an export without it was interrupted.
+// Only one record at a time is in memory. Throws NotSupported if no run has the plan, InputError if
+// two stores contain the same run (its records would be counted twice), and IoError.
 [[nodiscard]] ExportedRows export_tables(const std::vector<const record::Store*>& stores,
                                          const ExportRequest& request);
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double slack = 1e-9;  // a tick on the edge belongs to the axis
 
-// The nearest of 1, 2, 5 and 10 times a power of ten that is no smaller.
+// The smallest of 1, 2, 5 and 10 times a power of ten that is at least `step`.
 double nice_step(double step) {
   const double power = std::pow(10, std::floor(std::log10(step)));
   for (const double factor : {1.0, 2.0, 5.0}) {

@@ -19,7 +19,8 @@
 namespace triptych::report {
 namespace {
 
-// Of what is open: which configurations, where the line names more than one, and the command.
+// Details of a group that is open: its configurations, if the line names more than one, and the
+// command.
 std::string details_of(const FindingGroup& group, const judge::GateResult& result) {
   if (!is_open(*group.first)) return {};
   std::vector<std::string> lines;
@@ -34,8 +35,8 @@ std::string details_of(const FindingGroup& group, const judge::GateResult& resul
   return text;
 }
 
-// Every finding but those that pass by cause, then how many there are of each verdict and the
-// headline.
+// All findings except those that pass, by cause, and then the number of findings of each verdict
+// and the headline.
 std::string log_of(const judge::GateResult& result) {
   std::string text;
   for (const FindingGroup& group : grouped(result.findings)) {

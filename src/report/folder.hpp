@@ -1,5 +1,5 @@
 #pragma once
-// Everything that a CI keeps of a verdict, and findings for machines.
+// Writes everything that a CI system keeps of a verdict, and findings in machine-readable form.
 
 #include <filesystem>
 #include <span>
@@ -10,14 +10,15 @@
 
 namespace triptych::report {
 
-// Writes report.html (`page`), benchmark.json (`benchmark`), gate.log with every finding that is no
-// pass, summary.md, and JUnit XML of each plan. The files that people read. Throws core::IoError.
+// Writes report.html (`page`), benchmark.json (`benchmark`), gate.log with every finding that does
+// not pass, summary.md, and JUnit XML for each plan. Returns the files that people read. Throws
+// core::IoError.
 [[nodiscard]] std::vector<std::string> write_folder(const std::filesystem::path& folder,
                                                     std::span<const judge::GateResult> results,
                                                     const std::string& page,
                                                     const std::string& benchmark);
 
-// to_json (verdict_json.hpp) of one plan alone, else a list of them.
+// to_json (verdict_json.hpp) of the result if there is one plan, otherwise a list of them.
 [[nodiscard]] std::string json(std::span<const judge::GateResult> results);
 
 }  // namespace triptych::report

@@ -1,5 +1,5 @@
 #pragma once
-// One frame as files: what was drawn, what is right, and in what they differ.
+// Writes one frame as files: what was drawn, what is right, and where they differ.
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
@@ -11,22 +11,24 @@
 
 namespace triptych::report {
 
-// frame.json: enough for another program to draw the same frame. `scene`: what its suite describes.
+// The content of frame.json, with which another program can draw the same frame. `scene` is the
+// description by its suite.
 [[nodiscard]] nlohmann::json frame_json(nlohmann::json scene, const record::Record& record,
                                         const record::Device& device);
 
-// Removes what the functions below write, and frame.json: what cannot be drawn shall not leave
-// another frame's pictures to be taken for its own.
+// Removes the files that the functions below write, and frame.json. Otherwise, the pictures of an
+// earlier frame could be taken for those of a frame that cannot be drawn.
 void remove_frame(const std::filesystem::path& folder);
 
-// image.exr and image.png, or truth.exr and truth.png. Throws IoError.
+// Writes image.exr and image.png, or truth.exr and truth.png. Throws IoError.
 void write_picture(const std::filesystem::path& folder, const std::string& name,
                    const core::Image& image);
 
 // An image compared with its reference image.
 struct HeldAgainstTruth {
   judge::Observation what;
-  double white = 0;  // error that is white in difference.png; 0: sizes differ, there is none
+  double white = 0;  // the error that is white in difference.png; 0: there is no such file, because
+                     // the sizes differ
   [[nodiscard]] bool right() const { return what.cause == judge::Cause::within_bound; }
 };
 

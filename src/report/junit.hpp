@@ -6,8 +6,9 @@
 
 namespace triptych::report {
 
-// JUnit XML: one test suite per plan and check, one case per finding; regressions are failures,
-// what could not be judged is an error, skips keep their reason. Numbers become properties.
+// JUnit XML with a test suite for each plan and check, and a test case for each finding.
+// Regressions are failures, what could not be judged is an error, and skips have their reasons.
+// Numbers become properties.
 [[nodiscard]] std::string junit(std::span<const judge::GateResult> results);
 [[nodiscard]] std::string junit(const judge::GateResult& result);
 

@@ -12,9 +12,9 @@ struct ScreenOptions {
   std::size_t width = 100;  // of the terminal, in characters
 };
 
-// What a command that judges says last, at most 40 lines: the verdict, a row per kind of check over
-// all plans, the findings by cause with the command that shows each again, where the files are and
-// what the exit code means. `seconds`: that it took.
+// What a command that judges prints last, in at most 40 lines: the verdict, a row for each kind of
+// check over all plans, the findings by cause, each with the command that shows it again, the
+// files, and the meaning of the exit code. `seconds` is the time that the command took.
 [[nodiscard]] std::string last_screen(std::span<const judge::GateResult> results, double seconds,
                                       std::span<const std::string> files,
                                       const ScreenOptions& options = {});

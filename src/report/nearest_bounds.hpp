@@ -1,5 +1,5 @@
 #pragma once
-// How near pictures come to their bounds. A bound that no picture comes near sees little.
+// How close pictures come to their bounds. A bound to which no picture comes close is a weak test.
 
 #include <cstddef>
 #include <span>
@@ -15,16 +15,18 @@ struct NearestBound {
   std::string plan;
   std::string device;
   std::size_t pictures = 0;
-  double share = 0;  // the largest of an error over its bound, of all pixels; beyond 1 it is wrong
-  std::string configuration;  // where
+  double share = 0;  // the largest ratio of an error to its bound over all pixels; above 1 the
+                     // picture is wrong
+  std::string configuration;  // the configuration of that pixel
 };
 
-// By plan, then by device. Text of unknown origin.
+// By plan, then by device. The texts are of unknown origin and need escaping.
 [[nodiscard]] std::vector<NearestBound> nearest_bounds(
     std::span<const judge::GateResult* const> results);
 
-// "nearest 0.61 of it; 0.0031 on gl:x in volume/quick": the nearest of all, and the device and plan
-// that stay farthest away where that is less than a hundredth. Empty where there are no pictures.
+// "nearest 0.61 of it, farthest 0.0031 on gl:x in volume/quick": the largest share of all, and then
+// the device and plan with the smallest share if it is below a hundredth. Empty if there are no
+// pictures.
 [[nodiscard]] std::string nearest_text(std::span<const NearestBound> bounds);
 
 }  // namespace triptych::report

@@ -1,6 +1,7 @@
 #pragma once
-// One self-contained HTML page: the verdict, the devices, per scene the panels beside the truth,
-// the time distributions, the counters. It prints nothing that was not measured.
+// One self-contained HTML page with the verdict, the devices, for each scene the pictures beside
+// the reference image, the distributions of times, and the counters. It shows only what was
+// measured.
 
 #include <functional>
 #include <string>

@@ -9,15 +9,15 @@ namespace {
 
 using Factors = std::map<std::string, std::string>;
 
-// "camera=…,data=…" of a configuration or scene, without the technique.
+// The factors in the key of a configuration or scene, "camera=…,data=…", without the technique.
 Factors named_factors(const std::string& key) {
   Factors factors = record::parse_factor_list(key);
   factors.erase("technique");
   return factors;
 }
 
-// The factors with one value throughout the plan. A factor that some configurations leave at its
-// default is not one of them.
+// The factors that have one value throughout the plan. A factor that some configurations leave at
+// its default is not among them.
 Factors shared(const PlanData& plan) {
   std::map<std::string, std::set<std::string>> values;
   std::map<std::string, std::size_t> named;
@@ -42,7 +42,7 @@ std::string joined(const Factors& factors) {
   return text;
 }
 
-// What tells it from the plan's others; all of it where that is nothing.
+// What distinguishes it from the other scenes of the plan, or all factors if nothing does.
 std::string without_shared(const PlanData& plan, const Factors& factors) {
   Factors own = factors;
   for (const auto& [name, value] : shared(plan)) own.erase(name);

@@ -9,7 +9,7 @@ namespace {
 
 using core::Image;
 
-// Of the pixel whose first value is at `i`.
+// For the pixel whose first value is at index `i`.
 double share_at(const Image& image, const Image& truth, const Image& bound, std::size_t i) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const bool certain = !truth.ids.empty() && bound.ids[i / 4] == 0;

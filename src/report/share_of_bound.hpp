@@ -1,16 +1,16 @@
 #pragma once
-// How far a picture is from the truth, as a picture.
+// The distance of a picture from the truth, as a picture.
 
 #include "core/image.hpp"
 
 namespace triptych::report {
 
-// Error as a share of the bound: black 0, through blue and yellow to white at the bound itself;
-// over it, where a value is not finite and where another particle is shown than must be, NaN, which
-// PNGs show as magenta.
+// The error as a share of the bound: 0 is black, then blue and yellow follow, and the bound itself
+// is white. The value is NaN, which PNGs show as magenta, where the error exceeds the bound, where
+// a value is not finite, and where another particle is visible than there must be.
 struct ShareOfBound {
   core::Image image;
-  int x = -1;  // the first pixel of the largest share; -1 where no pixel is off
+  int x = -1;  // the first pixel with the largest share; -1 if no pixel has an error
   int y = -1;
 };
 

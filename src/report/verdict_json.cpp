@@ -28,7 +28,7 @@ Json changes_of(const judge::Observation& what) {
   return changes;
 }
 
-// Leaves out empty members, except the cause and the numbers.
+// Leaves out empty members, except for the cause and the numbers.
 Json observed(const judge::Observation& what) {
   Json json{{"cause", judge::name_of(what.cause)}, {"numbers", what.numbers}};
   if (what.against != judge::Against::nothing) json["against"] = judge::name_of(what.against);

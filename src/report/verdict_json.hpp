@@ -1,22 +1,23 @@
 #pragma once
-// A verdict for machines.
+// A verdict in machine-readable form.
 
 #include "core/json.hpp"
 #include "judge/gate/gate.hpp"
 
 namespace triptych::report {
 
-// {"plan", "run", "exit_code", "headline", "findings": [as of the finding], "correlations": [as of
-// the pair], "accuracies": [as of the scene]}
+// {"plan", "run", "exit_code", "headline", "findings": [see to_json of a finding], "correlations":
+// [see to_json of a pair], "accuracies": [for each scene]}
 [[nodiscard]] core::Json to_json(const judge::GateResult& result);
-// {"check", "verdict", "cause", "test", "device", "configuration", "message", "numbers"}, and where
-// they are not empty {"against", "advice": {"kind", "command"}, "changes": [{"name", "unit",
-// "before", "now", "accepted", "allowed"}], "names", "facts", "detail", "outcome", "reason",
-// "because", "subject", "injected", "excuse", "drawn_again", "again", "measured_before"}.
+// {"check", "verdict", "cause", "test", "device", "configuration", "message", "numbers"}, and the
+// following members if they are not empty: {"against", "advice": {"kind", "command"}, "changes":
+// [{"name", "unit", "before", "now", "accepted", "allowed"}], "names", "facts", "detail",
+// "outcome", "reason", "because", "subject", "injected", "excuse", "drawn_again", "again",
+// "measured_before"}.
 [[nodiscard]] core::Json to_json(const judge::Finding& finding);
 // {"device_a", "device_b", "signal", "new_device", "line": {"configurations", "intercept", "slope",
 // "scale", "rho", "pearson", "admitted", "refusal"}, "points": [{"configuration", "x", "y",
-// "residual", "outlier"}]}; what is no number is null.
+// "residual", "outlier"}]}. NaN and infinities are null.
 [[nodiscard]] core::Json to_json(const judge::CorrelationPair& pair);
 
 }  // namespace triptych::report

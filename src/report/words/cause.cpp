@@ -10,7 +10,7 @@ namespace {
 
 using judge::Finding;
 
-// "a, b are", "a is".
+// "a, b are", or "a is" for one device.
 std::string with_verb(const std::vector<std::string>& devices, std::string_view one,
                       std::string_view many) {
   return fmt::format("{} {}", fmt::join(devices, ", "), devices.size() == 1 ? one : many);

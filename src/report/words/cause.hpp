@@ -1,6 +1,6 @@
 #pragma once
 // Texts about a group of findings with one cause, and about exit codes. They quote drivers and
-// data: escape them.
+// data, so callers must escape them.
 
 #include <string>
 #include <string_view>
@@ -11,18 +11,18 @@ namespace triptych::report::words {
 
 // The configuration, or "12 configurations"; empty for a finding about a whole device or plan.
 [[nodiscard]] std::string subject(const FindingGroup& group);
-// "vulkan:lavapipe, technique=raycast (12 configurations)"; the plans where neither is known.
+// "vulkan:lavapipe, technique=raycast (12 configurations)"; the plans if neither is known.
 [[nodiscard]] std::string place(const Cause& cause);
-// The finding of the smallest configuration, and which devices are right.
+// The finding for the smallest configuration, and the devices that are right.
 [[nodiscard]] std::string found(const Cause& cause);
-// The party at fault; empty where other devices do not show it.
+// The party at fault; empty if the other devices do not show it.
 [[nodiscard]] std::string blame(const FindingGroup& group);
 // The finding, the party at fault and the advice.
 [[nodiscard]] std::string text_of(const Cause& cause);
 
 // "FAIL", "PASS", "CANNOT JUDGE"
 [[nodiscard]] std::string_view word_of(core::ExitCode code);
-// "1: something is wrong" for people who meet the number.
+// "1: something is wrong", for people who see only the number.
 [[nodiscard]] std::string_view meaning_of(core::ExitCode code);
 
 }  // namespace triptych::report::words

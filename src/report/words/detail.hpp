@@ -3,7 +3,7 @@
 
 namespace triptych::report::words {
 
-// `text`, then `detail` where there is one.
+// `text`, followed by `detail` if there is any.
 [[nodiscard]] inline std::string with_detail(std::string text, const std::string& detail) {
   if (!detail.empty()) text += (text.empty() ? "" : ": ") + detail;
   return text;

@@ -1,9 +1,9 @@
 #pragma once
-// Every sentence about a finding, a verdict or advice. Texts are of unknown origin where they quote
-// drivers or name data: escape them for the format they go into.
+// All sentences about findings, verdicts and advice. Texts that quote drivers or name data are of
+// unknown origin: escape them for the format into which they are written.
 //
-// To add a cause: a value in judge::Cause and in its table of names (judge/finding.cpp), and a case
-// in the switch of words/observation.cpp. The compiler names a switch that lacks the value.
+// To add a cause, add a value to judge::Cause and to its table of names (judge/finding.cpp), and a
+// case to the switch in words/observation.cpp. The compiler reports a switch that lacks the value.
 
 #include <string>
 #include <string_view>
@@ -18,14 +18,14 @@ namespace triptych::report::words {
 
 // The sentence with its excuse and with the result of drawing it again.
 [[nodiscard]] std::string found(const judge::Finding& finding);
-// The next step for the reader; empty where there is none.
+// The next step for the reader; empty if there is none.
 [[nodiscard]] std::string advice(const judge::Finding& finding);
 // found() and advice() in one line.
 [[nodiscard]] std::string text_of(const judge::Finding& finding);
 
 // "instructions of generated code 1000 → 1001 (+0.1 %)".
 [[nodiscard]] std::string text_of(const judge::Change& change);
-// Why a line is not used; empty where it is.
+// Why a line is not used; empty if it is used.
 [[nodiscard]] std::string refusal(const judge::CorrelationLine& line);
 
 // "FAIL: 2 regressions in image on vulkan:lavapipe; 96 checks, 4 devices".

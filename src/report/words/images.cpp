@@ -1,4 +1,4 @@
-// Sentences about images and about stress cases, which are images too.
+// Sentences about images and about stress cases, which are also about images.
 
 #include <fmt/format.h>
 

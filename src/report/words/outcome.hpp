@@ -1,6 +1,6 @@
 #pragma once
-// How a configuration or a device ended, and what a driver's statistics are worth, in English. All
-// texts are of unknown origin: they quote drivers.
+// English texts about how a configuration or a device ended, and about what a driver's statistics
+// are worth. All texts quote drivers, so they are of unknown origin.
 
 #include <string>
 
