@@ -123,10 +123,16 @@ class GlBackend final : public measure::Backend {
         if (answer.failure.empty()) {
           add(answer.text, listing);
         } else {
-          listing.broken.push_back({std::string(system.name), answer.failure});
+          listing.broken.push_back(
+              {.what = fmt::format("gl ({})", system.name),
+               .reason = {},
+               .ended = record::Reason{.cause = record::Cause::error, .detail = answer.failure}});
         }
-      } catch (const std::exception& error) {
-        listing.broken.push_back({std::string(system.name), error.what()});
+      } catch (const std::exception& error) {  // an answer that makes no sense, too
+        listing.broken.push_back(
+            {.what = fmt::format("gl ({})", system.name),
+             .reason = {},
+             .ended = record::Reason{.cause = record::Cause::bad_answer, .detail = error.what()}});
       }
     }
     return listing;

@@ -21,6 +21,7 @@ class NullBackend final : public measure::Backend {
 
   measure::Listing list() const override {
     measure::Listing listing;
+    if (script_) play_failure(*script_, Place::list, "null");
     if (script_) listing.devices = devices_of(*script_);
     if (!error_.empty()) listing.broken.push_back({"TRIPTYCH_NULL_SCRIPT", error_});
     return listing;
@@ -28,7 +29,8 @@ class NullBackend final : public measure::Backend {
 
   std::unique_ptr<measure::Device> open(std::string_view device_id) const override {
     if (!error_.empty()) throw core::InputError("TRIPTYCH_NULL_SCRIPT: " + error_);
-    const std::vector<record::Device> devices = list().devices;
+    const std::vector<record::Device> devices =
+        script_ ? devices_of(*script_) : std::vector<record::Device>{};
     const auto found = std::ranges::find(devices, device_id, &record::Device::id);
     if (found == devices.end()) {
       throw core::NotSupported(fmt::format(

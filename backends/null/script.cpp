@@ -18,11 +18,11 @@ namespace {
 
 using core::Json;
 
-constexpr std::array<std::string_view, 8> kind_names{"crash",       "exit",      "hang",
-                                                     "device_lost", "api_error", "not_supported",
-                                                     "wrong_image", "nan_image"};
-constexpr std::array<std::string_view, 5> place_names{"open", "supports", "prepare", "frame",
-                                                      "image"};
+constexpr std::array<std::string_view, 9> kind_names{
+    "crash",         "exit",        "hang",      "device_lost", "api_error",
+    "not_supported", "wrong_image", "nan_image", "garbage"};
+constexpr std::array<std::string_view, 6> place_names{"list",    "open",  "supports",
+                                                      "prepare", "frame", "image"};
 
 [[noreturn]] void refuse(std::string_view key, std::string_view expected) {
   throw core::InputError(fmt::format("null script: '{}': expected {}", key, expected));
@@ -171,6 +171,9 @@ void play(FailureKind kind) {
       throw core::ApiError("null_frame", "NULL_ERROR", "scripted");
     case FailureKind::not_supported:
       throw core::NotSupported("the script says that this is not supported");
+    case FailureKind::garbage:
+      static_cast<void>(::write(4, "garbage", 7));  // measure/system/process.hpp
+      break;
     case FailureKind::wrong_image:
     case FailureKind::nan_image:
       break;  // of the picture: image_failure()

@@ -6,6 +6,7 @@
 #include "app/comparing.hpp"
 #include "app/judging.hpp"
 #include "app/registry.hpp"
+#include "app/saying.hpp"
 #include "comparison/side_by_side.hpp"
 #include "comparison/store_diff.hpp"
 #include "core/quoting.hpp"
@@ -61,7 +62,7 @@ core::ExitCode show_apis(const CompareArguments& arguments) {
     const auto table = comparison::side_by_side(store.records(run.id));
     if (!table) continue;
     json[run.plan] = comparison::to_json(*table);
-    if (!arguments.json) fmt::print("{}\n\n{}\n", run.plan, comparison::to_text(*table));
+    if (!arguments.json) put_lines(fmt::format("{}\n\n{}\n", run.plan, comparison::to_text(*table)));
   }
   if (json.empty()) {
     throw core::NotSupported(comparing.store + ": no two devices measured the same configuration");
@@ -110,7 +111,7 @@ core::ExitCode diff(const DiffArguments& arguments) {
   if (arguments.json) {
     print(comparison::to_json(found));
   } else {
-    fmt::print("{}", comparison::to_text(found));
+    put_lines(comparison::to_text(found));
   }
   return found.exit_code();
 }

@@ -4,6 +4,7 @@
 
 #include "app/arguments.hpp"
 #include "app/registry.hpp"
+#include "app/saying.hpp"
 #include "measure/worker/listing.hpp"
 #include "report/words/outcome.hpp"
 
@@ -19,25 +20,25 @@ std::string why(const measure::Broken& broken) {
 
 void print_text(const std::vector<Greeting>& greeted, const std::vector<measure::Broken>& broken) {
   for (const Greeting& each : greeted) {
-    fmt::print("{}\n  {} ({}), driver {}, {}\n", each.device.id, each.device.name,
+    put("{}\n  {} ({}), driver {}, {}\n", each.device.id, each.device.name,
                each.device.vendor, each.device.driver_version, each.device.api_version);
-    if (each.refused) fmt::print("  cannot be used: {}\n", text_of(*each.refused));
+    if (each.refused) put("  cannot be used: {}\n", text_of(*each.refused));
     for (const record::ClockTrust& clock : each.clocks) {
-      fmt::print("  clock for {}: {}\n", clock.work, clock.verdict);
+      put("  clock for {}: {}\n", clock.work, clock.verdict);
     }
     for (const auto& [statistic, verdict] : each.device.statistics_calibration) {
-      fmt::print("  statistic {}: {}\n", statistic, text_of(verdict));
+      put("  statistic {}: {}\n", statistic, text_of(verdict));
     }
     std::string limits;
     for (const auto& [name, value] : each.device.limits)
       limits += fmt::format(" {}={}", name, value);
-    if (!limits.empty()) fmt::print("  limits:{}\n", limits);
+    if (!limits.empty()) put("  limits:{}\n", limits);
     for (const auto& [name, value] : each.device.environment) {
-      fmt::print("  environment: {}={}\n", name, value);
+      put("  environment: {}={}\n", name, value);
     }
   }
   for (const measure::Broken& each : broken)
-    fmt::print("not usable: {}: {}\n", each.what, why(each));
+    put("not usable: {}: {}\n", each.what, why(each));
 }
 
 void print_json(const std::vector<Greeting>& greeted, const std::vector<measure::Broken>& broken) {

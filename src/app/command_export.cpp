@@ -47,8 +47,8 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
     return core::ExitCode::pass;
   }
   for (const auto& [table, count] : rows)
-    fmt::print("{}/{}.csv: {} rows\n", arguments.out, table, count);
-  fmt::print("{}/dictionary.json: the meaning and unit of each column\n", arguments.out);
+    put("{}/{}.csv: {} rows\n", arguments.out, table, count);
+  put("{}/dictionary.json: the meaning and unit of each column\n", arguments.out);
   return core::ExitCode::pass;
 }
 

@@ -9,6 +9,7 @@
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/saying.hpp"
+#include "app/version.hpp"
 #include "core/foreign_error.hpp"
 #include "core/output_files.hpp"
 #include "core/quoting.hpp"
@@ -30,6 +31,7 @@ struct GateArguments {
   std::vector<std::string> without;
   std::vector<std::string> devices;
   std::vector<std::string> required;
+  std::vector<std::string> without_devices;
   std::vector<std::string> faults;
   std::string base;
   std::string out;
@@ -67,6 +69,11 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
   std::vector<JudgedPlan> plans;
   for (const std::string& typed : arguments.plans.empty() ? main_job : arguments.plans) {
     JudgedPlan each{typed, arguments.choice.load(typed, registry.find_suite()), asked};
+    if (each.plan.configurations.empty()) {
+      throw core::NotSupported(
+          fmt::format("{}: shard {} holds no configuration, so there is nothing to judge",
+                      each.plan.name, arguments.choice.shard));
+    }
     if (without.contains(record::Check::cost) && each.plan.counted()) continue;
     if (each.checks.empty()) each.checks = each.plan.checks;
     std::erase_if(each.checks, [&](record::Check check) { return without.contains(check); });
@@ -81,6 +88,8 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
   judge::GateRequest request = request_of(truths, judged.plan, registry.suite(judged.plan.suite));
   request.devices = arguments.devices;
   request.required_devices = arguments.required;
+  request.without_devices = arguments.without_devices;
+  request.program = version();
   request.checks = judged.checks;
   request.times_decide = arguments.times;
   request.part = !arguments.choice.set.empty() || !arguments.choice.shard.empty();
@@ -176,9 +185,9 @@ void accept_one(const AcceptArguments& arguments, const std::string& typed, reco
       .stress = judge::StressTruths{judged.truth, judged.expectations}};
   const std::vector<std::string> changes = judge::accept(
       store, latest_run_of(store, typed, arguments.store), arguments.baselines, request);
-  for (const std::string& change : changes) fmt::print("{}\n", core::printable(change));
-  fmt::print("{}: {} changes under {}; review them before you commit\n", core::printable(plan),
-             changes.size(), core::printable(arguments.baselines));
+  for (const std::string& change : changes) put_lines(change + "\n");
+  put("{}: {} changes under {}; review them before you commit\n", plan, changes.size(),
+      arguments.baselines);
 }
 
 core::ExitCode accept(const AcceptArguments& arguments) {
@@ -234,6 +243,9 @@ void add_gate_commands(Commands& commands) {
   add_devices_option(command, arguments.devices);
   command.add_option("--require", arguments.required,
                      "A device that matches this glob must have measured something (repeatable)");
+  command.add_option("--without-device", arguments.without_devices,
+                     "This machine is meant to lack devices that match this glob, or an API whose "
+                     "devices cannot be listed (repeatable; see docs/gate.md)");
   command.add_flag("--times", arguments.times,
                    "Let times affect the verdict: for a machine that is reserved for measuring");
   CLI::Option* base = command.add_option(
@@ -250,7 +262,7 @@ void add_gate_commands(Commands& commands) {
   command.add_flag("--bisect", arguments.bisect,
                    "For `git bisect run`: exit with code 125 instead of 2 or 3");
   for (const char* other : {"--measure", "--store", "--baselines", "--check", "--without",
-                            "--require", "--out", "--junit", "--markdown"}) {
+                            "--require", "--without-device", "--out", "--junit", "--markdown"}) {
     base->excludes(other);
   }
   add_inject_option(command, arguments.faults, "As of run, with --measure or --base");

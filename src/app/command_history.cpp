@@ -7,6 +7,7 @@
 #include "app/arguments.hpp"
 #include "app/judging.hpp"
 #include "app/registry.hpp"
+#include "app/saying.hpp"
 #include "comparison/history.hpp"
 #include "core/output_files.hpp"
 #include "report/history_page.hpp"
@@ -49,8 +50,8 @@ core::ExitCode history(const HistoryArguments& arguments) {
   if (arguments.json) {
     print(json);
   } else {
-    fmt::print("{}", comparison::to_text(builder.devices()));
-    if (!arguments.out.empty()) fmt::print("{}\n", arguments.out);
+    put_lines(comparison::to_text(builder.devices()));
+    if (!arguments.out.empty()) put("{}\n", arguments.out);
   }
   return core::ExitCode::pass;
 }

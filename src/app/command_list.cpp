@@ -30,7 +30,7 @@ std::string levels_text(const measure::Factor& factor) {
 
 void print_factor(const measure::Factor& factor) {
   const std::string levels = levels_text(factor);
-  fmt::print("  {}: {}{}{}{}\n      {}\n", factor.name, levels, levels.empty() ? "" : "; ",
+  put("  {}: {}{}{}{}\n      {}\n", factor.name, levels, levels.empty() ? "" : "; ",
              factor.standard.empty() ? "required" : "default " + factor.standard,
              factor.of_scene ? "" : "; does not change the image", factor.summary);
 }
@@ -66,15 +66,15 @@ std::vector<CountedPlan> plans_of(const measure::Suite& suite, const Registry& r
 }
 
 void print_text(const measure::Suite& suite, const std::vector<CountedPlan>& plans) {
-  fmt::print("factors of {}\n", suite.name());
+  put("factors of {}\n", suite.name());
   for (const measure::Factor& factor : suite.factors()) print_factor(factor);
-  if (!suite.generators().empty()) fmt::print("data generators\n");
+  if (!suite.generators().empty()) put("data generators\n");
   for (const auto& [name, summary] : suite.generators()) {
-    fmt::print("  generate:{}\n      {}\n", name, summary);
+    put("  generate:{}\n      {}\n", name, summary);
   }
-  fmt::print("plans\n");
+  put("plans\n");
   for (const auto& [plan, count] : plans) {
-    fmt::print("  {}: {} configurations\n      {}\n", plan.name, count, plan.summary);
+    put("  {}: {} configurations\n      {}\n", plan.name, count, plan.summary);
   }
 }
 
@@ -122,7 +122,7 @@ core::ExitCode list_plan(const ListArguments& arguments, const Registry& registr
   const measure::Plan plan =
       measure::list_plan(name, choice.overrides(), registry.find_suite(), choice.part(),
                          [&](const measure::Suite& suite, const measure::Configuration& each) {
-                           fmt::print("{}\n", measure::configuration_key(suite, each));
+                           put_lines(measure::configuration_key(suite, each) + "\n");
                            ++count;
                          });
   say("{}: {} configurations\n", plan.name, count);

@@ -25,18 +25,18 @@ struct MergeArguments {
 
 void tell_left_out(const record::RecordCounts& counts) {
   if (counts.repeated > 0) {
-    fmt::print("  {} records exist in several stores; each is kept once\n", counts.repeated);
+    put("  {} records exist in several stores; each is kept once\n", counts.repeated);
   }
   if (counts.injected > 0) {
-    fmt::print("  {} records with an injected fault were replaced by records without one\n",
+    put("  {} records with an injected fault were replaced by records without one\n",
                counts.injected);
   }
   if (counts.measured_anew > 0) {
-    fmt::print("  {} failed or skipped records were replaced by measured ones of another store\n",
+    put("  {} failed or skipped records were replaced by measured ones of another store\n",
                counts.measured_anew);
   }
   if (counts.not_chosen > 0) {
-    fmt::print(
+    put(
         "  {} records were dropped, because another store has a different record of the same "
         "configuration and device; the one with the lower seal is kept\n",
         counts.not_chosen);
@@ -44,10 +44,10 @@ void tell_left_out(const record::RecordCounts& counts) {
 }
 
 void tell(const record::MergeResult::Plan& plan, const std::string& out) {
-  fmt::print("{}: run {} in {}: {} configurations\n", plan.run.plan, plan.run.id, out,
+  put("{}: run {} in {}: {} configurations\n", plan.run.plan, plan.run.id, out,
              plan.run.configurations);
   for (const auto& [device, records] : plan.counts.records) {
-    fmt::print("  {}: {}{}\n", device, records,
+    put("  {}: {}{}\n", device, records,
                records < plan.run.configurations
                    ? fmt::format(", {} missing", plan.run.configurations - records)
                    : "");
@@ -63,9 +63,15 @@ std::vector<std::string> gaps_in(const record::Store& store,
     if (!store.latest_run(name)) told.push_back(name + ": not begun");
   }
   for (const record::Gap& gap : record::gaps_of(store)) {
-    told.push_back(fmt::format("{}{}: {} of {} configurations", gap.plan,
+    if (gap.configurations == 0) {
+      told.push_back(gap.plan + ": was to measure no configuration, as an empty shard is");
+      continue;
+    }
+    told.push_back(fmt::format("{}{}: {} of {} configurations{}{}", gap.plan,
                                gap.device.empty() ? "" : " on " + gap.device, gap.records,
-                               gap.configurations));
+                               gap.configurations, gap.missing.empty() ? "" : "; missing: ",
+                               gap.missing.empty() ? "" : gap.missing.front()));
+    if (gap.missing.size() > 1) told.back() += ", …";
   }
   if (told.empty() && store.runs().empty()) told.emplace_back("holds no run");
   return told;
@@ -77,7 +83,7 @@ bool tell_gaps(const MergeArguments& arguments) {
   for (const std::string& file : arguments.stores) {
     const record::Store store(file, record::Store::Mode::read);
     for (const std::string& gap : gaps_in(store, arguments.plans)) {
-      fmt::print("{}: {}\n", file, gap);
+      put("{}: {}\n", file, gap);
       complete = false;
     }
   }
@@ -112,12 +118,12 @@ core::ExitCode merge(const MergeArguments& arguments) {
   clear_line();
   for (const record::MergeResult::Plan& each : result.plans) tell(each, arguments.out);
   if (result.older_runs > 0) {
-    fmt::print("{} older runs were left out: each store contributes the latest run of a plan\n",
+    put("{} older runs were left out: each store contributes the latest run of a plan\n",
                result.older_runs);
   }
   // What no device of a shard has is no gap in the whole.
   if (!tell_gaps(arguments)) {
-    fmt::print("These records are missing in {} unless another store has them\n", arguments.out);
+    put("These records are missing in {} unless another store has them\n", arguments.out);
   }
   return core::ExitCode::pass;
 }

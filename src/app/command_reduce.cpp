@@ -118,7 +118,7 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   reduction::Trial trial(frame.suite, frame.device, other, options, truths, store);
   const std::optional<reduction::Failure> first = trial.first(start);
   if (!first) {
-    fmt::print("the frame does not fail on {}: there is nothing to make smaller\n", frame.device);
+    put("the frame does not fail on {}: there is nothing to make smaller\n", frame.device);
     return core::ExitCode::pass;
   }
   say("{}: {}\n", frame.device, report::words::text_of(*first));
@@ -134,10 +134,10 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   report.files = write_frame(frame, trial, truths, out);
   report.command = command_for(frame, arguments, reduction.failure, trial.last(), report.device);
   core::write_text(out / "README.md", report::markdown(report));
-  fmt::print("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames,
-             report::text_of(report.changes),
-             report.complete ? "" : "; the search ended at its limit of frames",
-             (out / "README.md").string(), report.command);
+  put_lines(fmt::format("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames,
+                        report::text_of(report.changes),
+                        report.complete ? "" : "; the search ended at its limit of frames",
+                        (out / "README.md").string(), report.command));
   return core::ExitCode::regression;
 }
 

@@ -35,9 +35,9 @@ core::ExitCode hold_against_truth(const core::Image& image, const judge::TruthPa
                                   const fs::path& out) {
   const report::HeldAgainstTruth held = report::write_difference(out, image, pair);
   if (held.white > 0) {
-    fmt::print("{}: white is an error of {:.3g}\n", (out / "difference.png").string(), held.white);
+    put("{}: white is an error of {:.3g}\n", (out / "difference.png").string(), held.white);
   }
-  fmt::print("{}\n", report::words::text_of(held.what));
+  put_lines(report::words::text_of(held.what) + "\n");
   return held.right() ? core::ExitCode::pass : core::ExitCode::regression;
 }
 
@@ -87,7 +87,7 @@ Drawn draw_the_fastest(const Drawing& drawing, const measure::Plan& plan) {
     return {records.at(0).run, records.at(0)};
   }
   const record::Record& fastest = *answers.front().contestants.front().record;
-  fmt::print("{}\n", describe(answers.front(), plan.automatic));
+  put_lines(describe(answers.front(), plan.automatic) + "\n");
   return {fastest.run, fastest};
 }
 
@@ -105,7 +105,7 @@ Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
   if (answers.front().record == nullptr) {
     throw core::NotSupported(describe(answers.front(), wanted));
   }
-  fmt::print("{}\n", describe(answers.front(), wanted));
+  put_lines(describe(answers.front(), wanted) + "\n");
   return {run, *answers.front().record};
 }
 
@@ -128,7 +128,7 @@ core::ExitCode render(const RenderArguments& arguments) {
   const core::Json frame =
       report::frame_json(suite.describe(record.factors), record, store.devices(run).at(0).device);
   core::write_text(out / "frame.json", core::json_text(frame, 2) + "\n");
-  fmt::print("{}\n", (out / "image.exr").string());
+  put("{}\n", (out / "image.exr").string());
   if (!arguments.truth) return core::ExitCode::pass;
   return hold_against_truth(image, truths.of(record), out);
 }

@@ -4,6 +4,7 @@
 #include "app/judging.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
+#include "app/saying.hpp"
 #include "core/output_files.hpp"
 #include "report/benchmark_json.hpp"
 
@@ -42,8 +43,8 @@ core::ExitCode write_report(const ReportArguments& arguments) {
   if (!arguments.benchmark_json.empty()) {
     core::write_text(arguments.benchmark_json, report::benchmark_json(store, latest_runs(store)));
   }
-  fmt::print("{}\n", arguments.out);
-  if (!arguments.benchmark_json.empty()) fmt::print("{}\n", arguments.benchmark_json);
+  put("{}\n", arguments.out);
+  if (!arguments.benchmark_json.empty()) put("{}\n", arguments.benchmark_json);
   return core::ExitCode::pass;
 }
 

@@ -9,6 +9,7 @@
 #include "app/judging.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
+#include "app/saying.hpp"
 #include "core/output_files.hpp"
 #include "measure/worker/own_program.hpp"
 #include "report/ctest_answer.hpp"
@@ -113,9 +114,9 @@ core::ExitCode check(const CheckArguments& arguments) {
   if (arguments.check == "image") {
     pictured = [&](const record::Record& record) { return truths.of(record); };
   }
-  fmt::print("{}", report::ctest_answer(result, store, pictured));
+  put_lines(report::ctest_answer(result, store, pictured));
   if (const auto reason = report::reason_to_skip(result)) {
-    fmt::print("skipped: {}\n", *reason);
+    put("skipped: {}\n", *reason);
     return core::ExitCode::skip;
   }
   return result.exit_code();

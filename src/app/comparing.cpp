@@ -98,10 +98,10 @@ void tell(const std::vector<Told>& all, bool json) {
     for (const Told& each : all) found.push_back(to_json(each.result, each.command));
     return print(found.size() == 1 ? found.front() : found);
   }
-  for (const Told& each : all) fmt::print("{}\n", to_text(each.result, each.command));
+  for (const Told& each : all) put_lines(to_text(each.result, each.command) + "\n");
   if (all.size() == 1) return;
   for (const Told& each : all) {
-    fmt::print("{:<16} {:<16} {}\n", each.result.b.id, each.command.plan,
+    put("{:<16} {:<16} {}\n", each.result.b.id, each.command.plan,
                comparison::headline(each.result));
   }
 }

@@ -11,6 +11,7 @@
 #include "core/output_files.hpp"
 #include "measure/request/error_request.hpp"
 #include "measure/request/fastest.hpp"
+#include "measure/system/system_facts.hpp"
 #include "measure/worker/listing.hpp"
 #include "measure/worker/own_program.hpp"
 #include "report/words/outcome.hpp"
@@ -78,7 +79,7 @@ std::vector<measure::Plan> load_plans(const Measuring& measuring, const Registry
   return plans;
 }
 
-measure::RunOptions options_of(const Measuring& measuring) {
+measure::RunOptions options_of(const Measuring& measuring, const record::Beginning& begun) {
   measure::Protocol protocol = measuring.brief ? measure::brief_protocol : measure::Protocol{};
   protocol.timed = !measuring.untimed;
   protocol.statistics = protocol.timed || measuring.statistics;
@@ -92,6 +93,7 @@ measure::RunOptions options_of(const Measuring& measuring) {
           .faults = measure::parse_faults(measuring.faults),
           .jobs = measuring.jobs,
           .worker_command = measure::worker_command(measure::own_program(), more),
+          .begun = begun,
           .program = version()};
 }
 
@@ -100,12 +102,23 @@ struct Bench {
   const Measuring& measuring;
   const Registry& registry;
   std::vector<std::string> devices;
+  record::Beginning begun;
   record::Store& store;
 };
 
+record::Beginning begun_with(const measure::Listing& listing,
+                             const std::vector<std::string>& asked) {
+  record::Beginning begun{.host = measure::host_name(), .asked = asked};
+  for (const record::Device& each : listing.devices) begun.found.push_back(each.id);
+  for (const measure::Broken& each : listing.broken) {
+    begun.unusable.push_back({each.what, each.reason, each.ended});
+  }
+  return begun;
+}
+
 std::vector<measure::RunResult> measure_on(const Bench& bench,
                                            const std::vector<measure::Plan>& plans) {
-  const measure::RunOptions options = options_of(bench.measuring);
+  const measure::RunOptions options = options_of(bench.measuring, bench.begun);
   std::vector<measure::PlannedRun> runs;
   runs.reserve(plans.size());
   for (const measure::Plan& plan : plans) {
@@ -119,8 +132,7 @@ std::vector<measure::RunResult> measure_on(const Bench& bench,
         fault, only);
   }
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    fmt::print(bench.measuring.told_to, "{}",
-               describe(results[i], plans[i].name, bench.measuring.store));
+    put_lines(describe(results[i], plans[i].name, bench.measuring.store), bench.measuring.told_to);
   }
   return results;
 }
@@ -139,10 +151,10 @@ Measured measure_within_error(const Bench& bench, const measure::Plan& plan) {
     records = bench.store.records(measured.results.front().run);
   }
   for (const measure::ErrorAnswer& answer : measure::answer_error(records, suite, wanted, truths)) {
-    fmt::print("{}\n", describe(answer, wanted));
+    put_lines(describe(answer, wanted) + "\n");
     measured.error_kept = measured.error_kept && answer.record != nullptr;
   }
-  for (const std::string& scene : request.out_of_reach) fmt::print("{}\n", scene);
+  for (const std::string& scene : request.out_of_reach) put("{}\n", scene);
   return measured;
 }
 
@@ -151,7 +163,7 @@ void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::
   const std::vector<record::Record> records = bench.store.records(run);
   for (const measure::FastestAnswer& answer :
        measure::answer_fastest(records, bench.registry.suite(plan.suite), plan.automatic)) {
-    fmt::print("{}\n", describe(answer, plan.automatic));
+    put_lines(describe(answer, plan.automatic) + "\n");
   }
 }
 
@@ -160,11 +172,11 @@ void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::
 Measured measure_and_tell(const Measuring& measuring) {
   const Registry registry = make_registry();
   const std::vector<measure::Plan> plans = load_plans(measuring, registry);
-  const std::vector<std::string> devices =
-      measure::choose_devices(registry.devices(), measuring.devices);
+  const measure::Listing listing = registry.devices();
+  const std::vector<std::string> devices = measure::choose_devices(listing, measuring.devices);
   core::require_writable(std::filesystem::path(measuring.store).parent_path());
   record::Store store(measuring.store, record::Store::Mode::append);
-  const Bench bench{measuring, registry, devices, store};
+  const Bench bench{measuring, registry, devices, begun_with(listing, measuring.devices), store};
   if (measuring.error) return measure_within_error(bench, plans.front());
   Measured measured{.results = measure_on(bench, plans)};
   for (std::size_t i = 0; measuring.chooses && i < plans.size(); ++i) {

@@ -1,5 +1,6 @@
 #pragma once
-// What is said on stderr: progress, notes, errors. That nobody can take it ends no run.
+// What commands write on a terminal: answers on stdout; progress, notes and errors on stderr, where
+// nobody's refusal to take them ends a run.
 
 #include <fmt/format.h>
 
@@ -27,14 +28,32 @@ auto shown(const Arg& arg) {
 }
 
 template <typename... Args>
-void say(fmt::format_string<Args...> format, Args&&... args) {
+std::string shown_text(fmt::format_string<Args...> format, Args&&... args) {
   const auto all = std::make_tuple(shown(args)...);
-  const std::string text = std::apply(
+  return std::apply(
       [&](const auto&... each) {
         return fmt::vformat(fmt::string_view(format), fmt::make_format_args(each...));
       },
       all);
+}
+
+template <typename... Args>
+void say(fmt::format_string<Args...> format, Args&&... args) {
+  const std::string text = shown_text(format, std::forward<Args>(args)...);
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
+
+// The same on stdout.
+template <typename... Args>
+void put(fmt::format_string<Args...> format, Args&&... args) {
+  const std::string text = shown_text(format, std::forward<Args>(args)...);
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stdout));
+}
+
+// A text that is laid out already, in lines: what a terminal would obey in it becomes escapes.
+inline void put_lines(std::string_view text, std::FILE* to = stdout) {
+  const std::string lines = core::printable_lines(text);
+  static_cast<void>(std::fwrite(lines.data(), 1, lines.size(), to));
 }
 
 // Whether a terminal shows it.

@@ -1,6 +1,7 @@
 #pragma once
 // Converts JSON to text. Strings from drivers and file names need not be UTF-8; invalid bytes are
-// replaced, because that is better than no output.
+// replaced, because that is better than no output. Hidden characters (core/text.hpp) are written as
+// \uXXXX, which is read back as the same character.
 
 #include <cstdint>
 #include <span>
@@ -13,9 +14,7 @@
 namespace triptych::core {
 
 // On one line, or on lines indented by this number of spaces.
-[[nodiscard]] inline std::string json_text(const Json& json, int indent = -1) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
+[[nodiscard]] std::string json_text(const Json& json, int indent = -1);
 
 // The content hash of a value. It is computed from CBOR (RFC 8949), in which a number is stored as
 // its bits. Keys are sorted.

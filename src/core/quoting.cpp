@@ -3,45 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "core/text.hpp"
 
 namespace triptych::core {
 namespace {
 
-bool is_control(char c) {
-  const auto byte = static_cast<unsigned char>(c);
-  return byte < 0x20 || byte == 0x7F;
-}
-
 bool means_nothing(char c) {
   const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
   return letter || std::string_view("_@%+=:,./-").find(c) != std::string_view::npos;
 }
 
-std::string within_dollar_quotes(std::string_view word) {
-  std::string text = "$'";
-  for (std::string_view rest = word; !rest.empty();) {
-    const std::size_t length = std::max<std::size_t>(utf8_length(rest), 1);
-    const std::string_view character = rest.substr(0, length);
-    rest.remove_prefix(length);
-    if (character == "'" || character == "\\") {
-      text += '\\';
-      text += character;
-    } else if (is_line(character)) {
-      text += character;
-    } else {
-      for (const char c : character) text += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
-    }
-  }
-  return text + "'";
+// A word that begins with '=' names a program to zsh.
+bool needs_no_quotes(std::string_view word) {
+  return !word.empty() && word.front() != '=' && std::ranges::all_of(word, means_nothing);
 }
 
-}  // namespace
-
-std::string shell_quoted(std::string_view word) {
-  if (!is_line(word)) return within_dollar_quotes(word);
-  if (!word.empty() && std::ranges::all_of(word, means_nothing)) return std::string(word);
+std::string within_quotes(std::string_view word) {
   std::string text = "'";
   for (const char c : word) {
     if (c == '\'') {
@@ -53,6 +32,52 @@ std::string shell_quoted(std::string_view word) {
   return text + "'";
 }
 
+// As a format of printf(1) within double quotes: '!' is history to an interactive bash there.
+std::string within_printf(std::string_view word) {
+  std::string text = "\"$(printf '";
+  for (std::string_view rest = word; !rest.empty();) {
+    const std::size_t length = utf8_length(rest);
+    const std::string_view character = rest.substr(0, std::max<std::size_t>(length, 1));
+    rest.remove_prefix(character.size());
+    const bool plain = length > 1 || means_nothing(character.front()) || character == " ";
+    if (length > 0 && plain && character != "%" && !is_hidden(character)) {
+      text += character;
+    } else {
+      for (const char c : character) text += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
+    }
+  }
+  return text + "')\"";
+}
+
+}  // namespace
+
+std::string shell_quoted(std::string_view word) {
+  if (is_line(word)) return needs_no_quotes(word) ? std::string(word) : within_quotes(word);
+  const std::size_t kept = word.find_last_not_of('\n') + 1;
+  const std::string_view ends = word.substr(kept);
+  return (kept > 0 ? within_printf(word.substr(0, kept)) : std::string()) +
+         (ends.empty() ? std::string() : within_quotes(ends));
+}
+
+bool is_shell_name(std::string_view name) {
+  const auto letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+  };
+  return !name.empty() && letter(name.front()) &&
+         std::ranges::all_of(name, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+std::string shell_environment(const std::map<std::string, std::string>& variables) {
+  const bool all = std::ranges::all_of(
+      variables, [](const auto& variable) { return is_shell_name(variable.first); });
+  std::string text = all ? "" : "env ";
+  for (const auto& [name, value] : variables) {
+    text += all ? name + "=" + shell_quoted(value) : shell_quoted(name + "=" + value);
+    text += ' ';
+  }
+  return text;
+}
+
 std::string shell_command(std::span<const std::string> words) {
   std::string text;
   for (const std::string& word : words) {
@@ -61,6 +86,25 @@ std::string shell_command(std::span<const std::string> words) {
   }
   return text;
 }
+
+std::string visible(std::string_view character) {
+  if (character == "\n") return "\\n";
+  const auto code = static_cast<std::uint32_t>(code_point(character));
+  return code < 0x80 ? fmt::format("\\x{:02x}", code) : fmt::format("\\u{{{:04x}}}", code);
+}
+
+namespace {
+
+// Takes the first character off the text, as a terminal may have it.
+std::string take_printable(std::string_view& text) {
+  const std::size_t length = utf8_length(text);
+  const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
+  text.remove_prefix(character.size());
+  if (length == 0) return std::string(replacement_character);
+  return is_hidden(character) ? visible(character) : std::string(character);
+}
+
+}  // namespace
 
 std::string printable(std::string_view text, std::size_t limit) {
   std::string result;
@@ -72,19 +116,20 @@ std::string printable(std::string_view text, std::size_t limit) {
       result += "…";
       return result;
     }
-    const std::size_t length = utf8_length(text);
-    const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
-    text.remove_prefix(character.size());
-    if (length == 0) {
-      result += replacement_character;
-    } else if (is_line(character)) {
-      result += character;
-    } else if (character == "\n") {
-      result += "\\n";
-    } else if (length == 1 && is_control(character.front())) {
-      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(character.front()));
+    result += take_printable(text);
+  }
+  return result;
+}
+
+std::string printable_lines(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  while (!text.empty()) {
+    if (text.front() == '\n') {
+      result += '\n';
+      text.remove_prefix(1);
     } else {
-      result += replacement_character;
+      result += take_printable(text);
     }
   }
   return result;

@@ -1,6 +1,7 @@
 #include "core/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace triptych::core {
@@ -25,13 +26,29 @@ bool may_follow(unsigned char first, unsigned char second) {
   return true;
 }
 
-// C0, DEL and C1, line and paragraph separators, and code points that are not characters in XML.
-bool is_control(std::string_view character) {
-  if (character.size() == 1) return character.front() < 0x20 || character.front() == 0x7F;
-  if (character.size() == 2) return character >= "\u0080" && character <= "\u009F";
-  return character == "\u2028" || character == "\u2029" || character == "\uFFFE" ||
-         character == "\uFFFF";
-}
+struct Range {
+  char32_t first;
+  char32_t last;
+};
+// Sorted. Unicode 15: general categories Cc, Zl, Zp and Cf without the joiners, variation selectors
+// aside, and the noncharacters that XML forbids.
+constexpr std::array<Range, 15> hidden{{
+    {0x00, 0x1F},        // C0
+    {0x7F, 0x9F},        // DEL, C1
+    {0xAD, 0xAD},        // soft hyphen
+    {0x061C, 0x061C},    // Arabic letter mark
+    {0x180E, 0x180E},    // Mongolian vowel separator
+    {0x200B, 0x200B},    // zero width space
+    {0x200E, 0x200F},    // left-to-right and right-to-left marks
+    {0x2028, 0x202E},    // line, paragraph; embeddings and overrides of direction
+    {0x2060, 0x206F},    // word joiner, isolates of direction, deprecated ones
+    {0xFEFF, 0xFEFF},    // zero width no-break space
+    {0xFFF9, 0xFFFB},    // interlinear annotation
+    {0xFFFE, 0xFFFF},    // noncharacters
+    {0x1BCA0, 0x1BCA3},  // shorthand controls
+    {0x1D173, 0x1D17A},  // musical controls
+    {0xE0000, 0xE0FFF},  // tags and the supplementary variation selectors
+}};
 
 }  // namespace
 
@@ -48,10 +65,27 @@ std::size_t utf8_length(std::string_view text) {
   return length;
 }
 
+char32_t code_point(std::string_view character) {
+  const unsigned char first = byte_at(character, 0);
+  if (character.size() == 1) return first;
+  constexpr std::array<unsigned char, 5> payload{0, 0x7F, 0x1F, 0x0F, 0x07};
+  char32_t code = first & payload.at(character.size());
+  for (std::size_t i = 1; i < character.size(); ++i) {
+    code = code << 6U | (byte_at(character, i) & 0x3FU);
+  }
+  return code;
+}
+
+bool is_hidden(std::string_view character) {
+  const char32_t code = code_point(character);
+  const auto* range = std::ranges::lower_bound(hidden, code, {}, &Range::last);
+  return range != hidden.end() && code >= range->first;
+}
+
 bool is_line(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);
-    if (length == 0 || is_control(text.substr(0, length))) return false;
+    if (length == 0 || is_hidden(text.substr(0, length))) return false;
     text.remove_prefix(length);
   }
   return true;

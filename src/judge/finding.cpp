@@ -22,7 +22,7 @@ constexpr Names<Verdict, 7> verdict_names{{
     {Verdict::regression, "regression"},
 }};
 
-constexpr Names<Cause, 68> cause_names{{
+constexpr Names<Cause, 72> cause_names{{
     {Cause::none, "none"},
     {Cause::as_stored, "as_stored"},
     {Cause::values_changed, "values_changed"},
@@ -36,6 +36,10 @@ constexpr Names<Cause, 68> cause_names{{
     {Cause::no_run, "no_run"},
     {Cause::nothing_measured, "nothing_measured"},
     {Cause::no_required_device, "no_required_device"},
+    {Cause::device_missing, "device_missing"},
+    {Cause::listing_failed, "listing_failed"},
+    {Cause::no_description, "no_description"},
+    {Cause::checks_lost, "checks_lost"},
     {Cause::missing, "missing"},
     {Cause::extra, "extra"},
     {Cause::other_plan, "other_plan"},
@@ -102,7 +106,7 @@ constexpr Names<Against, 6> against_names{{
     {Against::expectation, "expectation"},
 }};
 
-constexpr Names<Advice, 13> advice_names{{
+constexpr Names<Advice, 14> advice_names{{
     {Advice::none, "none"},
     {Advice::accept, "accept"},
     {Advice::run_again, "run_again"},
@@ -114,6 +118,7 @@ constexpr Names<Advice, 13> advice_names{{
     {Advice::judge_more, "judge_more"},
     {Advice::more_time, "more_time"},
     {Advice::times, "times"},
+    {Advice::repair_driver, "repair_driver"},
     {Advice::remove_entry, "remove_entry"},
     {Advice::remove_waiver, "remove_waiver"},
 }};

@@ -48,6 +48,10 @@ enum class Cause : std::uint8_t {
   no_run,              // no run was begun
   nothing_measured,    // <run> <plan> "records"
   no_required_device,  // <glob>
+  device_missing,      // <sibling>: a device that was accepted with the same driver version
+  listing_failed,      // <what>; reason
+  no_description,      // <run>: of a device that it has records of
+  checks_lost,         // names: checks of the baselines that the plan does not ask for
   missing,             // names: configurations without a record; "wanted" of them, <kind>
   extra,               // names: configurations that the plan lacks
   other_plan,          // <run> <plan> <hash> <now>
@@ -137,6 +141,7 @@ enum class Advice : std::uint8_t {
   judge_more,         // or accept: `command`
   more_time,          // a longer --limit
   times,              // --times makes times decide
+  repair_driver,      // or state that the machine lacks it: `command`
   remove_entry,       // from the file of expectations
   remove_waiver
 };

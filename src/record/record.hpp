@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "record/beginning.hpp"
 #include "record/check.hpp"
 #include "record/device_fault.hpp"
 #include "record/reason.hpp"
@@ -155,6 +156,9 @@ struct Run {
   Checks checks = {};  // those that its plan is for
   std::string plan_hash = {};        // of the plan's text
   std::uint64_t configurations = 0;  // that it was to measure on each device
+  // Of each command that measured for it; empty in a store that no command wrote.
+  std::vector<Beginning> begun = {};
+  std::string planned_hash = {};  // of the keys of those configurations, Store::planned()
 };
 
 // What `triptych run` and `triptych compare` take as PLAN for a run's plan: SUITE/PLAN as it is. A

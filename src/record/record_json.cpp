@@ -232,6 +232,8 @@ void visit_fields(auto& run,
   visit("system", run.system);
   visit("plan_hash", run.plan_hash);
   visit("configurations", run.configurations);
+  visit("begun", run.begun);
+  visit("planned_hash", run.planned_hash);
 }
 
 template <typename T>

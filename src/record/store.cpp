@@ -95,6 +95,25 @@ Run Store::latest_run_or_add(const Run& run) {
   return found;
 }
 
+void Store::begin(const std::string& run, const Beginning& beginning,
+                  std::span<const std::string> configurations) {
+  on_store(state_->file, [&] {
+    const WaitsForDisk waits(state_->database);
+    state_->write([&] {
+      state_->require_run(run);
+      std::vector<Run> all = read_runs(state_->database);
+      Run& known = *std::ranges::find(all, run, &Run::id);
+      known.begun.push_back(beginning);
+      known.begun = joined(std::move(known.begun));
+      insert_planned(state_->database, run, configurations);
+      const std::vector<std::string> planned = read_planned(state_->database, run);
+      known.configurations = planned.size();
+      known.planned_hash = hash_of_planned(planned);
+      insert_run(state_->database, known);
+    });
+  });
+}
+
 void Store::add_device(const std::string& run, const Device& d,
                        const std::vector<ClockTrust>& clocks) {
   state_->write([&] {
@@ -152,8 +171,8 @@ void Store::unbegin_record(const std::string& run, const std::string& configurat
 
 void Store::set_truth(const TruthImage& truth) {
   state_->write([&] {
-    execute(state_->database, "INSERT OR REPLACE INTO truth VALUES (?, ?, ?, ?, ?)", truth.scene,
-            truth.version, truth.image, truth.bound, seal_of(truth));
+    execute(state_->database, "INSERT OR REPLACE INTO truth VALUES (?, ?, ?, ?, ?, ?)", truth.scene,
+            truth.version, truth.image, truth.bound, truth.own_seal, seal_of(truth));
   });
 }
 
@@ -163,6 +182,29 @@ std::vector<Run> Store::runs() const {
 
 std::optional<Run> Store::latest_run(std::string_view plan) const {
   return on_store(state_->file, [&] { return latest_run_in(state_->database, plan); });
+}
+
+std::vector<std::string> Store::planned(const Run& run) const {
+  return on_store(state_->file, [&] {
+    std::vector<std::string> planned = read_planned(state_->database, run.id);
+    const bool none = planned.empty() && run.planned_hash.empty();
+    if (!none) {
+      require_seal(run.planned_hash, hash_of_planned(planned),
+                   fmt::format("what run '{}' was to measure", run.id));
+    }
+    return planned;
+  });
+}
+
+std::set<std::string> Store::configurations(std::string_view run, std::string_view device) const {
+  return on_store(state_->file, [&] {
+    std::set<std::string> found;
+    SQLite::Statement rows =
+        prepared(state_->database, "SELECT configuration FROM record WHERE run = ? AND device = ?",
+                 run, device);
+    while (rows.executeStep()) found.insert(rows.getColumn(0).getString());
+    return found;
+  });
 }
 
 std::vector<Store::DeviceEntry> Store::devices(std::string_view run) const {
@@ -242,12 +284,13 @@ std::optional<TruthImage> Store::truth(std::string_view scene, std::string_view 
   return on_store(state_->file, [&]() -> std::optional<TruthImage> {
     SQLite::Statement row = prepared(
         state_->database,
-        "SELECT scene, version, image, bound, seal FROM truth WHERE scene = ? AND version = ?",
+        "SELECT scene, version, image, bound, own_seal, seal FROM truth WHERE scene = ? AND version = ?",
         scene, version);
     if (!row.executeStep()) return std::nullopt;
     TruthImage truth;
     std::string seal;
-    Reader(row) >> truth.scene >> truth.version >> truth.image >> truth.bound >> seal;
+    Reader(row) >> truth.scene >> truth.version >> truth.image >> truth.bound >>
+        truth.own_seal >> seal;
     require_seal(seal, seal_of(truth), fmt::format("the truth of {}", scene));
     return truth;
   });

@@ -27,6 +27,7 @@ struct TruthImage {
   std::string version;  // of the renderer and its error model; another version is rendered anew
   std::vector<std::byte> image;  // EXR
   std::vector<std::byte> bound;  // EXR, the same in every channel
+  std::string own_seal = {};     // measure/truth/own_seal.hpp; empty: anybody may have drawn it
 };
 
 class Store {
@@ -61,6 +62,10 @@ class Store {
   // The latest run of the plan, or where there is none this one, now added. Of several processes
   // that ask at once one adds, the others find its run.
   [[nodiscard]] Run latest_run_or_add(const Run& run);
+  // A command begins to measure these configurations for the run, which has to be there: at once
+  // kept on the disk, so that a run that is cut short afterwards says what it lacks.
+  void begin(const std::string& run, const Beginning& beginning,
+             std::span<const std::string> configurations);
   void add_device(const std::string& run, const Device& device,
                   const std::vector<ClockTrust>& clocks);
   void add_image(std::string_view hash,
@@ -79,6 +84,12 @@ class Store {
 
   [[nodiscard]] std::vector<Run> runs() const;  // oldest first
   [[nodiscard]] std::optional<Run> latest_run(std::string_view plan) const;
+  // Keys of all configurations that the run was to measure, sorted. Throws InputError where they
+  // are not those that it began with.
+  [[nodiscard]] std::vector<std::string> planned(const Run& run) const;
+  // Keys of those that the run has a record of on the device.
+  [[nodiscard]] std::set<std::string> configurations(std::string_view run,
+                                                     std::string_view device) const;
   struct DeviceEntry {
     Device device;
     std::vector<ClockTrust> clocks;

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "core/hash.hpp"
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "record/store_seal.hpp"
@@ -30,9 +31,11 @@ Run read_run(SQLite::Statement& row) {
   std::string system;
   std::string checks;
   std::string seal;
+  std::string begun;
   Reader(row) >> run.id >> run.plan >> run.started_at >> system >> checks >> run.plan_hash >>
-      run.configurations >> seal;
+      run.configurations >> begun >> run.planned_hash >> seal;
   run.system = map_of(system);
+  run.begun = Json::parse(begun).get<std::vector<Beginning>>();
   run.checks = checks_of(checks);
   require_seal(seal, seal_of(run), fmt::format("run '{}'", run.id));
   return run;
@@ -41,7 +44,8 @@ Run read_run(SQLite::Statement& row) {
 // Runs in the order of read_run.
 std::string select_runs(std::string_view rest) {
   return fmt::format(
-      "SELECT id, plan, started_at, system, checks, plan_hash, configurations, seal FROM run {}",
+      "SELECT id, plan, started_at, system, checks, plan_hash, configurations, begun, planned_hash, "
+      "seal FROM run {}",
       rest);
 }
 
@@ -104,14 +108,40 @@ std::optional<Run> latest_run_in(const SQLite::Database& database, std::string_v
 
 void insert_run(const SQLite::Database& database, const Run& run) {
   execute(database,
-          "INSERT INTO run (id, plan, started_at, system, checks, plan_hash, configurations, "
-          "seal) VALUES (?, ?, ?, ?, ?, ?, ?, ?) "
+          "INSERT INTO run (id, plan, started_at, system, checks, plan_hash, configurations, begun, "
+          "planned_hash, seal) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?) "
           "ON CONFLICT (id) DO UPDATE SET plan = excluded.plan, "
           "started_at = excluded.started_at, system = excluded.system, "
           "checks = excluded.checks, plan_hash = excluded.plan_hash, "
-          "configurations = excluded.configurations, seal = excluded.seal",
+          "configurations = excluded.configurations, begun = excluded.begun, "
+          "planned_hash = excluded.planned_hash, seal = excluded.seal",
           run.id, run.plan, run.started_at, text_of(run.system, "system", run), text_of(run.checks),
-          run.plan_hash, run.configurations, seal_of(run));
+          run.plan_hash, run.configurations, core::json_text(Json(run.begun)), run.planned_hash,
+          seal_of(run));
+}
+
+void insert_planned(const SQLite::Database& database, const std::string& run,
+                    std::span<const std::string> configurations) {
+  SQLite::Statement insert(database, "INSERT OR IGNORE INTO planned VALUES (?, ?)");
+  for (const std::string& each : configurations) {
+    Binder(insert) << run << each;
+    insert.exec();
+    insert.reset();
+  }
+}
+
+std::vector<std::string> read_planned(const SQLite::Database& database, std::string_view run) {
+  std::vector<std::string> planned;
+  SQLite::Statement rows = prepared(
+      database, "SELECT configuration FROM planned WHERE run = ? ORDER BY configuration", run);
+  while (rows.executeStep()) planned.push_back(rows.getColumn(0).getString());
+  return planned;
+}
+
+std::string hash_of_planned(std::span<const std::string> configurations) {
+  core::HashBuilder hash("planned");
+  for (const std::string& each : configurations) hash.add(each);
+  return hash.hash();
 }
 
 std::vector<Run> read_runs(const SQLite::Database& database) {

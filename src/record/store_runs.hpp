@@ -5,6 +5,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,13 @@ namespace triptych::record {
 
 // What is already there under the same key is replaced, also by insert_device.
 void insert_run(const SQLite::Database& database, const Run& run);
+// Keys of configurations that the run is to measure, which may be there already.
+void insert_planned(const SQLite::Database& database, const std::string& run,
+                    std::span<const std::string> configurations);
+[[nodiscard]] std::vector<std::string> read_planned(const SQLite::Database& database,
+                                                    std::string_view run);
+// Run::planned_hash of the sorted keys.
+[[nodiscard]] std::string hash_of_planned(std::span<const std::string> configurations);
 // Store::latest_run.
 [[nodiscard]] std::optional<Run> latest_run_in(const SQLite::Database& database,
                                                std::string_view plan);

@@ -24,9 +24,16 @@ CREATE TABLE run (
   checks TEXT NOT NULL,
   plan_hash TEXT NOT NULL,
   configurations INTEGER NOT NULL,
+  begun TEXT NOT NULL,
+  planned_hash TEXT NOT NULL,
   seal TEXT NOT NULL
 ) STRICT;
 CREATE INDEX run_of_plan ON run (plan, seq);
+CREATE TABLE planned (
+  run TEXT NOT NULL REFERENCES run (id) ON DELETE CASCADE,
+  configuration TEXT NOT NULL,
+  PRIMARY KEY (run, configuration)
+) STRICT, WITHOUT ROWID;
 
 CREATE TABLE device (
   seq INTEGER PRIMARY KEY,
@@ -168,6 +175,7 @@ CREATE TABLE truth (
   version TEXT NOT NULL,
   image BLOB NOT NULL,
   bound BLOB NOT NULL,
+  own_seal TEXT NOT NULL,
   seal TEXT NOT NULL,
   PRIMARY KEY (scene, version)
 ) STRICT;

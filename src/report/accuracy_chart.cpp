@@ -83,7 +83,7 @@ class Diagram {
                 {.title = "RMSE against the limit", .logarithmic = true},
                 {.title = axis_of(cost).title, .logarithmic = true}, 230, 150) {}
 
-  [[nodiscard]] std::string svg() {
+  [[nodiscard]] Html svg() {
     find_front();
     name_front();
     for (const accuracy::AccuracyFamily& family : scene_.families) add_family(family);
@@ -175,14 +175,14 @@ std::string accuracy_title(std::span<const accuracy::AccuracyScene> scenes,
   return title;
 }
 
-std::string accuracy_chart(std::span<const accuracy::AccuracyScene> scenes, Cost cost) {
+Html accuracy_chart(std::span<const accuracy::AccuracyScene> scenes, Cost cost) {
   std::vector<Titled> all;
   for (const accuracy::AccuracyScene& scene : scenes) {
     const std::string title = accuracy_title(scenes, scene);
-    std::string svg = Diagram(scene, title, cost).svg();
+    Html svg = Diagram(scene, title, cost).svg();
     if (!svg.empty()) all.push_back({title + " on " + scene.device, std::move(svg)});
   }
-  return all.empty() ? std::string() : figures(all);
+  return all.empty() ? Html() : figures(all);
 }
 
 }  // namespace triptych::report

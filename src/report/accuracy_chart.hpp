@@ -2,6 +2,7 @@
 #include <span>
 #include <string>
 
+#include "report/html.hpp"
 #include "accuracy/cases.hpp"
 
 namespace triptych::report {
@@ -12,7 +13,7 @@ enum class Cost { time, samples, instructions, fetched, memory, energy };
 // line per family, the front in ink, the goals as upright rules. A case without error or without
 // cost has no place on such axes and is left out; empty where none has one. Scenes are named by
 // accuracy_title.
-[[nodiscard]] std::string accuracy_chart(std::span<const accuracy::AccuracyScene> scenes,
+[[nodiscard]] Html accuracy_chart(std::span<const accuracy::AccuracyScene> scenes,
                                          Cost cost);
 
 // The data, and those factors of the picture that tell it from the others of the same data.

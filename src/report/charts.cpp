@@ -40,7 +40,7 @@ std::vector<Scene> scenes_of(const PlanData& plan) {
   return scenes;
 }
 
-std::string figure_of(const Scene& scene, const std::vector<std::string>& techniques) {
+Html figure_of(const Scene& scene, const std::vector<std::string>& techniques) {
   Axis up;
   for (const Row& row : scene.rows) up.names.push_back(row.device + " " + row.technique);
   Figure figure("Times of frames: " + scene.title,
@@ -63,7 +63,7 @@ std::string figure_of(const Scene& scene, const std::vector<std::string>& techni
 
 }  // namespace
 
-std::string time_chart(const PlanData& plan) {
+Html time_chart(const PlanData& plan) {
   const std::vector<Scene> scenes = scenes_of(plan);
   std::set<std::string> names;
   for (const Scene& scene : scenes) {
@@ -72,7 +72,7 @@ std::string time_chart(const PlanData& plan) {
   const std::vector<std::string> techniques(names.begin(), names.end());
   std::vector<Titled> all;
   for (const Scene& scene : scenes) all.push_back({scene.title, figure_of(scene, techniques)});
-  return all.empty() ? std::string() : figures(all);
+  return all.empty() ? Html() : figures(all);
 }
 
 }  // namespace triptych::report

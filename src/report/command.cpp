@@ -2,11 +2,41 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <string_view>
+
 #include "core/quoting.hpp"
 #include "record/factor_list.hpp"
 #include "record/reason.hpp"
 
 namespace triptych::report {
+namespace {
+
+constexpr std::array<std::string_view, 8> driver_settings{
+    "GALLIUM_", "GALLIVM_", "LIBGL_ALWAYS_", "LP_", "MESA_", "POCL_", "RUSTICL_", "TRIPTYCH_"};
+
+bool names_no_code(const std::string& name, const std::string& value) {
+  const bool setting = std::ranges::any_of(
+      driver_settings, [&](std::string_view prefix) { return name.starts_with(prefix); });
+  return setting && core::is_shell_name(name) && value.find_first_of("/=") == std::string::npos;
+}
+
+bool is_set_here(const std::string& name, const std::string& value) {
+  const char* here = std::getenv(name.c_str());
+  return here != nullptr && value == here;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> repeatable(std::map<std::string, std::string> environment) {
+  std::erase_if(environment, [](const auto& variable) {
+    const auto& [name, value] = variable;
+    return !names_no_code(name, value) && !is_set_here(name, value);
+  });
+  return environment;
+}
 
 std::string text_of(const Command& command) {
   std::vector<std::string> words{"triptych", command.command, command.object};
@@ -19,11 +49,7 @@ std::string text_of(const Command& command) {
     words.insert(words.end(), {"--limit", fmt::format("{}", command.limit->count())});
   }
   words.insert(words.end(), command.more.begin(), command.more.end());
-  std::string text;
-  for (const auto& [name, value] : command.environment) {
-    text += name + "=" + core::shell_quoted(value) + " ";
-  }
-  return text + core::shell_command(words);
+  return core::shell_environment(command.environment) + core::shell_command(words);
 }
 
 }  // namespace triptych::report

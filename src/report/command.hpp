@@ -21,6 +21,13 @@ struct Command {
   std::map<std::string, std::string> environment = {};  // set for the device
 };
 
+// The variables of a device that a command may repeat. They come from a store, which anybody may
+// have written, and the command is pasted: a variable that names code to load, such as LD_PRELOAD or
+// VK_DRIVER_FILES, is repeated only where it is set to the same value here. Settings of the known
+// drivers that name no file are always repeated.
+[[nodiscard]] std::map<std::string, std::string> repeatable(
+    std::map<std::string, std::string> environment);
+
 // As a shell reads it, the environment before it.
 [[nodiscard]] std::string text_of(const Command& command);
 

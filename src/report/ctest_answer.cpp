@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <string_view>
 
 #include "accuracy/image_metrics.hpp"
 #include "core/image_io.hpp"
+#include "core/private_folder.hpp"
 #include "core/quoting.hpp"
 #include "report/words/finding.hpp"
 
@@ -21,11 +23,15 @@ std::string number(std::string_view name, double value) {
       "<CTestMeasurement type=\"numeric/double\" name=\"{}\">{}</CTestMeasurement>\n", name, value);
 }
 
-// Of a test; `what` is in the file's name.
+// Of a test; `what` is in the file's name. CTest reads the file after this process has ended, so it
+// stays, in a folder where nobody else can put a link of that name.
 std::string picture(std::string_view name, std::string test, std::string_view what,
                     const core::Image& image) {
-  std::ranges::replace(test, ':', '_');
-  const fs::path file = fs::temp_directory_path() / fmt::format("{}.{}.png", test, what);
+  // Names come from a store: none may lead to another folder.
+  std::ranges::replace_if(
+      test, [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; }, '_');
+  const core::PrivateFolder folder = core::private_temporary_folder("ctest");
+  const fs::path file = folder.path() / fmt::format("{}.{}.png", test, what);
   core::write_png(image, file);
   return fmt::format(
       "<CTestMeasurementFile type=\"image/png\" name=\"{}\">{}</CTestMeasurementFile>\n", name,

@@ -92,20 +92,20 @@ class Figure::Drawing {
     lay_out();
   }
 
-  std::string svg() {
+  Html svg() {
     for (const Shape& shape : figure_.shapes_) marks_ += element(shape);
     const std::string clip =
         fmt::format("{:.0f} {:.0f} {:.0f} {:.0f}", left_, top_, figure_.width_, figure_.height_);
-    return fmt::format(
+    return markup(
                "<svg class=\"figure\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
                "height=\"{1:.0f}\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\">",
                total_width_, total_height_) +
            title_element(figure_.description_) + legend() + axes() +
-           fmt::format(
+           markup(
                "<svg class=\"marks\" x=\"{0:.0f}\" y=\"{1:.0f}\" width=\"{2:.0f}\" "
                "height=\"{3:.0f}\" viewBox=\"{4}\">",
                left_, top_, figure_.width_, figure_.height_, clip) +
-           marks_ + "</svg>" + labels_ + "</svg>";
+           marks_ + markup("</svg>") + labels_ + markup("</svg>");
   }
 
  private:
@@ -156,17 +156,16 @@ class Figure::Drawing {
     legend_height_ = spots_.empty() ? 0 : (row + 1) * line_height + 4;
   }
 
-  [[nodiscard]] std::string legend() const {
-    std::string text;
+  [[nodiscard]] Html legend() const {
+    Html text;
     for (std::size_t i = 0; i < spots_.size(); ++i) {
       const auto& [x, y] = spots_[i];
       const Entry& entry = figure_.entries_[i];
-      text += entry.line ? fmt::format("<path {} d=\"M{:.1f} {:.1f}h14\"/>",
+      text += entry.line ? markup("<path {} d=\"M{:.1f} {:.1f}h14\"/>",
                                        line_attributes(entry.style), x, y)
                          : mark_element(x + 8, y, entry.style, {});
-      text += "<g>" + title_element(entry.text) +
-              text_element(x + 18, y + 4, "start", escape(shortened(entry.text, longest_entry))) +
-              "</g>";
+      text += markup("<g>{}{}</g>", title_element(entry.text),
+                     text_element(x + 18, y + 4, "start", shortened(entry.text, longest_entry)));
     }
     return text;
   }
@@ -180,10 +179,10 @@ class Figure::Drawing {
     return top_ + figure_.height_ * (figure_.up_.names.empty() ? 1 - share : share);
   }
 
-  [[nodiscard]] std::string axes() const {
+  [[nodiscard]] Html axes() const {
     const double bottom = top_ + figure_.height_;
     std::string grid;
-    std::string text;
+    Html text;
     double free_from = -std::numeric_limits<double>::infinity();
     for (const auto& tick : across_ticks_) {
       const double x = x_of(tick.at);
@@ -192,45 +191,45 @@ class Figure::Drawing {
       const double half = width_of(tick.text) / 2;
       if (!turned_ && x - half < free_from) continue;  // no room
       free_from = x + half + 4;
-      const std::string more =
-          turned_ ? fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", x + 4, bottom + 8) : "";
+      const Html more =
+          turned_ ? markup(" transform=\"rotate(-90 {:.1f} {:.1f})\"", x + 4, bottom + 8) : Html();
       text +=
-          named(tick, turned_ ? text_element(x + 4, bottom + 8, "end", escape(tick.text), more)
-                              : text_element(x, bottom + line_height, "middle", escape(tick.text)));
+          named(tick, turned_ ? text_element(x + 4, bottom + 8, "end", tick.text, more)
+                              : text_element(x, bottom + line_height, "middle", tick.text));
     }
     for (const auto& tick : up_ticks_) {
       const double y = y_of(tick.at);
       if (figure_.up_.names.empty())
         grid += fmt::format("M{:.1f} {:.1f}h{:.0f}", left_, y, figure_.width_);
-      text += named(tick, text_element(left_ - gap, y + 4, "end", escape(tick.text)));
+      text += named(tick, text_element(left_ - gap, y + 4, "end", tick.text));
     }
-    return fmt::format(
+    return markup(
                "<path class=\"grid\" d=\"{}\"/><rect class=\"frame\" x=\"{:.1f}\" y=\"{:.1f}\" "
                "width=\"{:.0f}\" height=\"{:.0f}\"/>",
                grid.empty() ? "M0 0" : grid, left_, top_, figure_.width_, figure_.height_) +
            text + titles();
   }
 
-  static std::string named(const Measure::Tick& tick, const std::string& element) {
+  static Html named(const Measure::Tick& tick, const Html& element) {
     if (tick.whole.empty() || tick.whole == tick.text) return element;
-    return "<g>" + title_element(tick.whole) + element + "</g>";
+    return markup("<g>{}{}</g>", title_element(tick.whole), element);
   }
 
-  [[nodiscard]] std::string titles() const {
-    std::string text;
+  [[nodiscard]] Html titles() const {
+    Html text;
     if (!figure_.across_.title.empty()) {
       text += text_element(left_ + figure_.width_ / 2, total_height_ - 5, "middle",
-                           escape(shortened(figure_.across_.title)), " class=\"axis\"");
+                           shortened(figure_.across_.title), markup(" class=\"axis\""));
     }
     if (!figure_.up_.title.empty()) {
       const double y = top_ + figure_.height_ / 2;
-      text += text_element(12, y, "middle", escape(shortened(figure_.up_.title)),
-                           fmt::format(" class=\"axis\" transform=\"rotate(-90 12 {:.1f})\"", y));
+      text += text_element(12, y, "middle", shortened(figure_.up_.title),
+                           markup(" class=\"axis\" transform=\"rotate(-90 12 {:.1f})\"", y));
     }
     return text;
   }
 
-  std::string element(const Shape& shape) {
+  Html element(const Shape& shape) {
     const Place& first = shape.places.front();
     switch (shape.kind) {
       case Kind::point:
@@ -244,7 +243,7 @@ class Figure::Drawing {
       case Kind::upright:
         if (const double at = across_.share(first.x); at < 0 || at > 1)
           return {};  // beyond the frame
-        return fmt::format("<path {} d=\"M{:.1f} {:.1f}v{:.0f}\"/>", line_attributes(shape.style),
+        return markup("<path {} d=\"M{:.1f} {:.1f}v{:.0f}\"/>", line_attributes(shape.style),
                            x_of(first.x), top_, figure_.height_);
       case Kind::label:
         place_label(shape);
@@ -253,27 +252,27 @@ class Figure::Drawing {
     return {};
   }
 
-  [[nodiscard]] std::string line_element(const Shape& shape) const {
+  [[nodiscard]] Html line_element(const Shape& shape) const {
     std::string path;
     for (const Place& place : shape.places) {
       path +=
           fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x_of(place.x), y_of(place.y));
     }
-    return fmt::format("<path {} d=\"{}\">{}</path>", line_attributes(shape.style), path,
+    return markup("<path {} d=\"{}\">{}</path>", line_attributes(shape.style), path,
                        title_element(shape.text));
   }
 
-  [[nodiscard]] std::string box_element(const Shape& shape) const {
+  [[nodiscard]] Html box_element(const Shape& shape) const {
     const auto [x0, x1] = std::minmax({x_of(shape.places[0].x), x_of(shape.places[1].x)});
     const auto [y0, y1] = std::minmax({y_of(shape.places[0].y), y_of(shape.places[1].y)});
-    return fmt::format(
+    return markup(
         "<rect class=\"fill {}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
         "opacity=\"{:.2f}\">{}</rect>",
         shape.style.colour, x0, y0, x1 - x0, y1 - y0, shape.style.opacity,
         title_element(shape.text));
   }
 
-  [[nodiscard]] std::string strokes_element(const Shape& shape) const {
+  [[nodiscard]] Html strokes_element(const Shape& shape) const {
     const double half = shape.half * std::abs(y_of(1) - y_of(0));
     std::string path;
     double last = -1;
@@ -283,7 +282,7 @@ class Figure::Drawing {
       last = x;
       path += fmt::format("M{:.1f} {:.1f}v{:.1f}", x, y_of(place.y) - half, 2 * half);
     }
-    return fmt::format("<path {} d=\"{}\"/>", line_attributes(shape.style), path);
+    return markup("<path {} d=\"{}\"/>", line_attributes(shape.style), path);
   }
 
   void place_label(const Shape& shape) {
@@ -297,7 +296,7 @@ class Figure::Drawing {
     });
     if (taken || x < left_) return;
     labelled_.push_back({x, y, width});
-    labels_ += text_element(x, y, "start", escape(shape.text));
+    labels_ += text_element(x, y, "start", shape.text);
   }
 
   struct Label {
@@ -317,8 +316,8 @@ class Figure::Drawing {
   bool turned_ = false;
   std::vector<Place> spots_;
   std::vector<Label> labelled_;
-  std::string marks_;
-  std::string labels_;
+  Html marks_;
+  Html labels_;
 };
 
 Figure::Figure(std::string description, Axis across, Axis up, double width, double height)
@@ -370,18 +369,17 @@ void Figure::legend(std::string_view text, const Style& style, bool line) {
   entries_.push_back({std::string(text), style, line});
 }
 
-std::string Figure::svg() const {
+Html Figure::svg() const {
   return Drawing(*this).svg();
 }
 
-std::string figures(std::span<const Titled> all) {
-  std::string text = "<div class=\"figures\">";
+Html figures(std::span<const Titled> all) {
+  Html text = markup("<div class=\"figures\">");
   for (const Titled& each : all) {
-    text += "<div class=\"plot\">";
-    if (!each.title.empty()) text += "<h5>" + escape(each.title) + "</h5>";
-    text += each.svg + "</div>\n";
+    const Html title = each.title.empty() ? Html() : markup("<h5>{}</h5>", each.title);
+    text += markup("<div class=\"plot\">{}{}</div>\n", title, each.svg);
   }
-  return text + "</div>\n";
+  return text + markup("</div>\n");
 }
 
 }  // namespace triptych::report

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "report/html.hpp"
+
 namespace triptych::report {
 
 struct Axis {
@@ -64,7 +66,7 @@ class Figure {
   void label(Place at, std::string_view text);
   void legend(std::string_view text, const Style& style, bool line = false);
 
-  [[nodiscard]] std::string svg() const;
+  [[nodiscard]] Html svg() const;
   // Whether any mark has a place.
   [[nodiscard]] bool empty() const { return shapes_.empty(); }
 
@@ -98,8 +100,8 @@ class Figure {
 // Figures beside each other, each with a heading; those that wrap on a narrow screen.
 struct Titled {
   std::string title;
-  std::string svg;
+  Html svg;
 };
-[[nodiscard]] std::string figures(std::span<const Titled> all);
+[[nodiscard]] Html figures(std::span<const Titled> all);
 
 }  // namespace triptych::report

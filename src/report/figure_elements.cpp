@@ -59,27 +59,27 @@ std::string shortened(std::string_view text, std::size_t longest) {
          std::string(text.substr(byte_of(length_of(text) - half + 1)));
 }
 
-std::string title_element(std::string_view text) {
-  return text.empty() ? std::string() : "<title>" + escape(text) + "</title>";
+Html title_element(std::string_view text) {
+  return text.empty() ? Html() : markup("<title>{}</title>", text);
 }
 
-std::string text_element(double x, double y, std::string_view anchor, std::string_view text,
-                         std::string_view more) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>", x, y, anchor,
+Html text_element(double x, double y, std::string_view anchor, std::string_view text,
+                         const Html& more) {
+  return markup("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>", x, y, anchor,
                      more, text);
 }
 
-std::string mark_element(double x, double y, const Style& style, std::string_view tooltip) {
-  return fmt::format("<path class=\"{} {}\" d=\"{}\"{}>{}</path>", style.hollow ? "line" : "fill",
+Html mark_element(double x, double y, const Style& style, std::string_view tooltip) {
+  return markup("<path class=\"{} {}\" d=\"{}\"{}>{}</path>", style.hollow ? "line" : "fill",
                      style.colour, mark_path(style.mark, x, y),
-                     style.opacity < 1 ? fmt::format(" opacity=\"{:.2f}\"", style.opacity) : "",
+                     style.opacity < 1 ? markup(" opacity=\"{:.2f}\"", style.opacity) : Html(),
                      title_element(tooltip));
 }
 
-std::string line_attributes(const Style& style) {
-  return fmt::format("class=\"line {}\" stroke-width=\"{:.1f}\"{}{}", style.colour, style.width,
-                     style.dashed ? " stroke-dasharray=\"4 3\"" : "",
-                     style.opacity < 1 ? fmt::format(" opacity=\"{:.2f}\"", style.opacity) : "");
+Html line_attributes(const Style& style) {
+  return markup("class=\"line {}\" stroke-width=\"{:.1f}\"{}{}", style.colour, style.width,
+                     style.dashed ? markup(" stroke-dasharray=\"4 3\"") : Html(),
+                style.opacity < 1 ? markup(" opacity=\"{:.2f}\"", style.opacity) : Html());
 }
 
 }  // namespace triptych::report

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "report/html.hpp"
 #include "report/figure.hpp"
 
 namespace triptych::report {
@@ -20,15 +21,15 @@ inline constexpr std::size_t longest_entry = 64;
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t longest = longest_name);
 
 // What a pointer over the element shows; nothing for no text.
-[[nodiscard]] std::string title_element(std::string_view text);
+[[nodiscard]] Html title_element(std::string_view text);
 
-// `text` is escaped already; `more`: further attributes, each with a blank before it.
-[[nodiscard]] std::string text_element(double x, double y, std::string_view anchor,
-                                       std::string_view text, std::string_view more = {});
+// `more`: further attributes, each with a blank before it.
+[[nodiscard]] Html text_element(double x, double y, std::string_view anchor,
+                                       std::string_view text, const Html& more = {});
 
-[[nodiscard]] std::string mark_element(double x, double y, const Style& style,
+[[nodiscard]] Html mark_element(double x, double y, const Style& style,
                                        std::string_view tooltip);
 
-[[nodiscard]] std::string line_attributes(const Style& style);
+[[nodiscard]] Html line_attributes(const Style& style);
 
 }  // namespace triptych::report

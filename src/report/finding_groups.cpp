@@ -338,7 +338,7 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
     judge_again(finding, result, command);
   }
   if (const auto set = result.environments.find(finding.device); set != result.environments.end()) {
-    command.environment = set->second;
+    command.environment = repeatable(set->second);
   }
   return text_of(command);
 }

@@ -55,7 +55,7 @@ std::string number_text(const Json& point, const char* key) {
 }
 
 // Each store is a band; a point that is missing leaves a gap.
-std::string figure_of(const Json& device) {
+Html figure_of(const Json& device) {
   const Json& points = device.at("points");
   std::vector<std::string> names;
   for (const Json& point : points) names.push_back(name_of_store(point));
@@ -78,21 +78,22 @@ std::string figure_of(const Json& device) {
     figure.line(places, series.style);
     figure.legend(series.key, series.style, true);
   }
-  return figure.empty() ? std::string("<p>Neither cost nor time was measured.</p>\n")
+  return figure.empty() ? markup("<p>Neither cost nor time was measured.</p>\n")
                         : figure.svg();
 }
 
-std::string table_of(const Json& device) {
-  std::vector<std::vector<std::string>> rows{
+Html table_of(const Json& device) {
+  Rows rows{
       {"store", "begun", "driver", "cost", "time", "changes"}};
   for (const Json& point : device.at("points")) {
     const std::string changes = point.at("changes").get<std::string>();
-    const std::string_view summary =
-        point.at("worse").get<bool>() ? "<b class=\"regression\">worse</b>" : "changed";
-    rows.push_back({escape(name_of_store(point)), escape(point.at("started_at").get<std::string>()),
-                    escape(driver_of(point)), number_text(point, "cost"),
+    const Html summary = point.at("worse").get<bool>()
+                             ? markup("<b class=\"regression\">worse</b>")
+                             : markup("changed");
+    rows.push_back({name_of_store(point), point.at("started_at").get<std::string>(),
+                    driver_of(point), number_text(point, "cost"),
                     number_text(point, "time"),
-                    changes.empty() ? "" : folded(summary, "<pre>" + escape(changes) + "</pre>")});
+                    changes.empty() ? Html() : folded(summary, markup("<pre>{}</pre>", changes))});
   }
   return table(rows);
 }
@@ -100,21 +101,21 @@ std::string table_of(const Json& device) {
 }  // namespace
 
 std::string history_page(const Json& history) {
-  std::string page = page_begin("History");
-  page +=
+  Html page = page_begin("History");
+  page += markup(
       "<main><h1>History</h1>\n<p>Cost: instructions of a frame, of generated code and driver. "
       "Both by "
       "the "
-      "geometric mean over what neighbours share. Times are shown, not judged.</p>\n";
+      "geometric mean over what neighbours share. Times are shown, not judged.</p>\n");
   for (const Json& device : history) {
-    page += "<h2>" + escape(device.at("device").get<std::string>()) + "</h2>\n";
+    page += markup("<h2>{}</h2>\n", device.at("device").get<std::string>());
     if (device.contains("first_worse")) {
-      page += "<p><b class=\"regression\">First worse</b>: " +
-              escape(device.at("first_worse").get<std::string>()) + "</p>\n";
+      page += markup("<p><b class=\"regression\">First worse</b>: {}</p>\n",
+                     device.at("first_worse").get<std::string>());
     }
     page += figure_of(device) + table_of(device);
   }
-  return page + "</main>" + page_end();
+  return (page + markup("</main>") + page_end()).text();
 }
 
 }  // namespace triptych::report

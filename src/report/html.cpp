@@ -1,32 +1,26 @@
 #include "report/html.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <utility>
 
+#include "core/quoting.hpp"
+#include "core/sha256.hpp"
 #include "core/text.hpp"
+#include "triptych_report_embedded.hpp"
 
 namespace triptych::report {
 
 namespace {
 
-// The next character, taken off the front of the text; another one in the place of what is none,
-// in UTF-8 or in XML.
+// The next character, taken off the front of the text.
 std::string_view take_character(std::string_view& text) {
-  const std::size_t length = core::utf8_length(text);
-  const std::string_view character = text.substr(0, length);
-  text.remove_prefix(std::max<std::size_t>(length, 1));
-  const bool is_one = length > 0 && character != "\xEF\xBF\xBE" && character != "\xEF\xBF\xBF";
-  return is_one ? character : core::replacement_character;
-}
-
-// Those that have no place in either language.
-bool is_control(unsigned char c) {
-  return c < 0x20 && c != '\n' && c != '\t';
+  const std::string_view character = text.substr(0, std::max<std::size_t>(core::utf8_length(text), 1));
+  text.remove_prefix(character.size());
+  return character;
 }
 
 }  // namespace
@@ -35,46 +29,51 @@ std::string escape(std::string_view text) {
   std::string result;
   result.reserve(text.size());
   while (!text.empty()) {
+    const bool is_one = core::utf8_length(text) > 0;
     const std::string_view character = take_character(text);
-    switch (character.front()) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        if (!is_control(static_cast<unsigned char>(character.front()))) result += character;
+    const char first = character.front();
+    if (!is_one) {
+      result += core::replacement_character;
+    } else if (first == '&') {
+      result += "&amp;";
+    } else if (first == '<') {
+      result += "&lt;";
+    } else if (first == '>') {
+      result += "&gt;";
+    } else if (first == '"') {
+      result += "&quot;";
+    } else if (first == '\n' || first == '\t' || (first >= 0x20 && first < 0x7F)) {
+      result += first;
+    } else if (core::is_hidden(character)) {
+      result += core::visible(character);
+    } else {
+      result += character;
     }
   }
   return result;
 }
 
-std::string breakable(std::string_view text) {
-  std::string result;
+Html breakable(std::string_view text) {
+  Html result;
   for (std::size_t from = 0; from < text.size();) {
     const std::size_t to = std::min(text.find_first_of(".:,=/", from), text.size() - 1) + 1;
-    result += escape(text.substr(from, to - from)) + "<wbr>";
+    result += markup("{}<wbr>", text.substr(from, to - from));
     from = to;
   }
   return result;
 }
 
-std::string data_uri(std::span<const std::byte> png) {
+namespace {
+
+std::string base64(std::span<const std::byte> bytes) {
   static constexpr std::string_view digits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string result = "data:image/png;base64,";
-  for (std::size_t i = 0; i < png.size(); i += 3) {
+  std::string result;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t group = 0;
-    const std::size_t here = std::min<std::size_t>(3, png.size() - i);
+    const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
     for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (k < here ? std::to_integer<std::uint32_t>(png[i + k]) : 0U);
+      group = group << 8 | (k < here ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0U);
     }
     for (std::size_t k = 0; k < 4; ++k) {
       result += k <= here ? digits[group >> (18 - 6 * k) & 63U] : '=';
@@ -83,7 +82,23 @@ std::string data_uri(std::span<const std::byte> png) {
   return result;
 }
 
-std::string without_repeated_pictures(std::string_view page) {
+}  // namespace
+
+Html data_uri(std::span<const std::byte> png) {
+  return Html("data:image/png;base64," + base64(png));
+}
+
+Html embedded_markup(std::string_view file) {
+  return Html(std::string(embedded(file)));
+}
+
+std::string embedded_sha256(std::string_view file) {
+  const auto hash = core::sha256(embedded(file));
+  return base64(std::as_bytes(std::span(hash)));
+}
+
+Html without_repeated_pictures(const Html& whole) {
+  std::string_view page = whole.text();
   static constexpr std::string_view image = "<img ";
   static constexpr std::string_view source = "src=\"data:";
   std::map<std::string_view, std::size_t> first;
@@ -101,7 +116,7 @@ std::string without_repeated_pictures(std::string_view page) {
     }
     ++number;
   }
-  return result + std::string(page);
+  return Html(result + std::string(page));
 }
 
 namespace {
@@ -120,13 +135,13 @@ bool is_quantity(std::string_view cell) {
 }
 
 // Below their heads, of cells that hold something.
-std::vector<bool> columns_of_quantities(const std::vector<std::vector<std::string>>& rows) {
+std::vector<bool> columns_of_quantities(const Rows& rows) {
   std::vector<bool> result;
   for (std::size_t column = 0; column < rows.front().size(); ++column) {
     bool any = false;
     bool all = true;
     for (std::size_t row = 1; row < rows.size(); ++row) {
-      const std::string& cell = rows[row].at(column);
+      const std::string& cell = rows[row].at(column).html().text();
       const bool nothing = cell.empty() || cell == "–";
       any = any || !nothing;
       all = all && (nothing || is_quantity(cell));
@@ -138,20 +153,20 @@ std::vector<bool> columns_of_quantities(const std::vector<std::vector<std::strin
 
 }  // namespace
 
-std::string table(const std::vector<std::vector<std::string>>& rows, std::string_view css_class) {
-  std::string text = fmt::format("<div class=\"scroll\"><table class=\"{}\">\n", css_class);
+Html table(const Rows& rows, std::string_view css_class) {
+  Html text = markup("<div class=\"scroll\"><table class=\"{}\">\n", css_class);
   const std::vector<bool> numbers = columns_of_quantities(rows);
   bool head = true;
-  for (const auto& row : rows) {
-    text += "<tr>";
+  for (const TableRow& row : rows) {
+    text += markup("<tr>");
     for (std::size_t i = 0; i < row.size(); ++i) {
-      text += fmt::format("<{0}{1}>{2}</{0}>", head ? "th" : "td",
-                          numbers.at(i) ? " class=\"number\"" : "", row[i]);
+      text += markup("<{0}{1}>{2}</{0}>", head ? "th" : "td",
+                     numbers.at(i) ? markup(" class=\"number\"") : Html(), row[i].html());
     }
-    text += "</tr>\n";
+    text += markup("</tr>\n");
     head = false;
   }
-  return text + "</table></div>\n";
+  return text + markup("</table></div>\n");
 }
 
 std::string duration(double nanoseconds) {

@@ -20,6 +20,7 @@ constexpr std::size_t least_width = 40;
 constexpr std::size_t longest_command = 600;
 constexpr std::size_t longest_message = 3;  // lines
 constexpr std::size_t most_waived = 3;
+constexpr std::size_t most_circumstances = 5;
 
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
@@ -64,6 +65,7 @@ class Screen {
                       core::printable(row.sentence, width_ - 25)));
     }
     add("");
+    circumstances(all);
     waived(all);
     causes(all, files);
     list(files);
@@ -109,6 +111,18 @@ class Screen {
 
   [[nodiscard]] std::string sign_of(const judge::Finding& finding) const {
     return coloured(finding.verdict == Verdict::regression ? "✗" : "?", finding.verdict);
+  }
+
+  // They are true of a pass, too.
+  void circumstances(const Overview& all) {
+    const std::size_t shown = std::min(most_circumstances, all.circumstances.size());
+    for (std::size_t i = 0; i < shown; ++i) {
+      add("  ! " + core::printable(all.circumstances[i], width_ - 4));
+    }
+    if (shown < all.circumstances.size()) {
+      add(fmt::format("  ! {} more of these are in the page", all.circumstances.size() - shown));
+    }
+    if (shown > 0) add("");
   }
 
   // A line each: whoever reads a pass has to know what it excuses.

@@ -91,6 +91,8 @@ std::string markdown(std::span<const judge::GateResult> results) {
         fmt::format("{} {}", &result == results.data() ? ":" : ",", markdown_escaped(result.plan));
   }
   text += fmt::format("{}\n\n{}\n", all.part ? " (a part)" : "", rows(all));
+  for (const std::string& each : all.circumstances) text += "- **" + markdown_escaped(each) + "**\n";
+  if (!all.circumstances.empty()) text += '\n';
   std::vector<const Cause*> rest;
   for (std::size_t i = 0; i < all.open.size(); ++i) {
     if (i < shown_openly) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "report/circumstances.hpp"
 #include "core/exit_code.hpp"
 #include "report/words/check.hpp"
 
@@ -138,6 +139,7 @@ Overview overview(std::span<const GateResult* const> results) {
                              [](const Cause& cause) { return cause.group.first->verdict; });
   }
   all.bounds = nearest_bounds(results);
+  all.circumstances = circumstances(results);
   for (const words::CheckWords& kind : words::check_words) {
     if (!kind.always && !was_checked(kind, results)) continue;
     all.rows.push_back(row_of(kind, results));

@@ -35,6 +35,7 @@ struct Overview {
   std::vector<Cause> open;   // what somebody has to look at, worst first
   std::vector<Cause> aside;  // waived, improved, advice, skips; not what passed
   std::vector<NearestBound> bounds;
+  std::vector<std::string> circumstances;  // report/circumstances.hpp
 };
 
 // It points into the results. Nothing judged is no pass.

@@ -6,28 +6,27 @@
 #include "report/page_frame.hpp"
 #include "report/page_sections.hpp"
 #include "report/words/finding.hpp"
-#include "triptych_report_embedded.hpp"
 
 namespace triptych::report {
 namespace {
 
-std::string system_line(const record::Run& run) {
-  std::string text = "measured " + escape(run.started_at);
+Html system_line(const record::Run& run) {
+  std::string text = "measured " + run.started_at;
   for (const auto& [name, value] : run.system) {
-    text += fmt::format(" · {}: {}", escape(name), escape(value));
+    text += fmt::format(" · {}: {}", name, value);
   }
-  return "<p class=\"system\">" + text + "</p>\n";
+  return markup("<p class=\"system\">{}</p>\n", text);
 }
 
-std::string common_line(const PlanData& plan) {
+Html common_line(const PlanData& plan) {
   const std::string common = common_factors(plan);
-  return common.empty() ? common : "<p>All scenes: " + escape(common) + ".</p>\n";
+  return common.empty() ? Html() : markup("<p>All scenes: {}.</p>\n", common);
 }
 
 std::string devices_of(const PlanData& plan) {
   std::string text;
   for (const auto& [device, clocks] : plan.devices) {
-    text += (text.empty() ? "" : " ") + escape(device.id);
+    text += (text.empty() ? "" : " ") + device.id;
   }
   return text;
 }
@@ -46,24 +45,24 @@ PlanData data_of(const record::Store& store, const PlanReport& report, std::size
   return plan;
 }
 
-std::string plan_part(const PlanReport& report, const PlanData& plan) {
-  return fmt::format(
+Html plan_part(const PlanReport& report, const PlanData& plan) {
+  return markup(
              "<section id=\"{}\" data-kind=\"plan\" data-suite=\"{}\" data-device=\"{}\"><h2>{}"
              "</h2><p>{}</p>",
-             plan.prefix, escape(suite_of(plan)), devices_of(plan), escape(plan.name),
-             escape(words::headline(report.verdict))) +
+             plan.prefix, suite_of(plan), devices_of(plan), plan.name,
+             words::headline(report.verdict)) +
          system_line(report.run) + common_line(plan) + changes_section(plan) +
          accuracy_section(plan) + correlation_section(plan) + devices_section(plan) +
          times_section(plan) + speed_of_light_section(plan) + needed_section(plan) +
-         counts_section(plan) + "</section>\n";
+         counts_section(plan) + markup("</section>\n");
 }
 
 // Findings stand beside the pictures where any of these is wrong.
-std::string first_part(const Overview& all, const PictureSources& sources,
+Html first_part(const Overview& all, const PictureSources& sources,
                        std::span<const PlanData> plans) {
   const Pictures pictures = pictures_section(sources, plans);
   const bool beside = !all.open.empty() && pictures.wrong;
-  return fmt::format("<div class=\"{}\"><div>{}</div><div>{}</div></div>\n",
+  return markup("<div class=\"{}\"><div>{}</div><div>{}</div></div>\n",
                      beside ? "columns" : "", findings_section(all, plans), pictures.html);
 }
 
@@ -78,11 +77,12 @@ std::string page(const record::Store& store, const PageRequest& request) {
   }
   const Overview all = overview(std::span<const judge::GateResult* const>(results));
   const JudgedPictures judged = judged_pictures(all, plans);
-  std::string text = page_begin("Triptych report") + verdict_card(all, plans) + filters(plans) +
-                     "<main>" + first_part(all, {store, request.truth, judged}, plans);
+  Html text = page_begin("Triptych report") + verdict_card(all, plans) + filters(plans) +
+              markup("<main>") + first_part(all, {store, request.truth, judged}, plans);
   for (std::size_t i = 0; i < plans.size(); ++i) text += plan_part(request.plans[i], plans[i]);
-  return without_repeated_pictures(text) + "</main>" + comparison_dialog() +
-         page_end(embedded("page.js"));
+  const Html whole = without_repeated_pictures(text) + markup("</main>") + comparison_dialog() +
+                     page_end(/*with_script=*/true);
+  return whole.text();
 }
 
 }  // namespace triptych::report

@@ -14,7 +14,6 @@
 namespace triptych::report {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
 using accuracy::AccuracyScene;
 using accuracy::Order;
 
@@ -48,7 +47,7 @@ const accuracy::FrontArea& widest(const std::vector<AccuracyScene>& scenes,
   return *best;
 }
 
-void append_area(std::vector<std::string>& row, const std::vector<AccuracyScene>& scenes,
+void append_area(TableRow& row, const std::vector<AccuracyScene>& scenes,
                  const AccuracyScene& scene) {
   if (scene.area) {
     row.push_back(fmt::format("{:.1f}", scene.area->area));
@@ -78,7 +77,7 @@ std::string to_error(const AccuracyScene& scene, double goal) {
 
 // How many stand on the front, and how many are beaten, in time or else in instructions; nothing
 // where neither was told.
-void append_standing(std::vector<std::string>& row, const AccuracyScene& scene) {
+void append_standing(TableRow& row, const AccuracyScene& scene) {
   const auto add = [&](std::size_t front, std::size_t beaten) {
     row.push_back(fmt::to_string(front));
     row.push_back(fmt::format("{} of {}", beaten, scene.cases.size()));
@@ -91,12 +90,12 @@ void append_standing(std::vector<std::string>& row, const AccuracyScene& scene) 
   row.insert(row.end(), 2, "");
 }
 
-std::string summary_table(const std::vector<AccuracyScene>& scenes) {
+Html summary_table(const std::vector<AccuracyScene>& scenes) {
   Rows rows{{"scene", "device", "order in the step", "least error", "to 1/255", "to 1/1024",
              "to 1e-4", "hypervolume", "times as long as the best", "on the front", "dominated"}};
   for (const AccuracyScene& scene : scenes) {
     const std::size_t best = accuracy::most_accurate(scene.cases);
-    std::vector<std::string> row{escape(accuracy_title(scenes, scene)), escape(scene.device),
+    TableRow row{accuracy_title(scenes, scene), scene.device,
                                  order_text(family_of(scene, best).order),
                                  error_text(scene.cases[best].rmse)};
     for (const double goal : accuracy::accuracy_goals) {
@@ -109,12 +108,12 @@ std::string summary_table(const std::vector<AccuracyScene>& scenes) {
   return table(rows);
 }
 
-std::string order_table(const std::vector<AccuracyScene>& scenes) {
+Html order_table(const std::vector<AccuracyScene>& scenes) {
   Rows rows{{"scene", "device", "family", "order ± 95 %", "coarsest", "finest"}};
   for (const AccuracyScene& scene : scenes) {
     for (const accuracy::AccuracyFamily& family : scene.families) {
-      rows.push_back({escape(accuracy_title(scenes, scene)), escape(scene.device),
-                      escape(family.name), order_text(family.order),
+      rows.push_back({accuracy_title(scenes, scene), scene.device,
+                      family.name, order_text(family.order),
                       error_text(scene.cases[family.members.front()].rmse),
                       error_text(scene.cases[family.members.back()].rmse)});
     }
@@ -154,7 +153,7 @@ class Parts {
  private:
   void add(const std::string& what, std::string before, double error, std::string largest = {},
            std::string time = {}) {
-    rows_.push_back({escape(title_), escape(scene_.device), escape(what), std::move(before),
+    rows_.push_back({title_, scene_.device, what, std::move(before),
                      error_text(error), std::move(largest), std::move(time)});
   }
   void add(const accuracy::Switched& each, const accuracy::AccuracyCase& to, const char* remark) {
@@ -170,20 +169,20 @@ class Parts {
   Rows& rows_;
 };
 
-std::string parts_table(const std::vector<AccuracyScene>& scenes) {
+Html parts_table(const std::vector<AccuracyScene>& scenes) {
   Rows rows{{"scene", "device", "what is changed", "RMSE before", "RMSE", "largest", "time"}};
   for (const AccuracyScene& scene : scenes) Parts(scenes, scene, rows).append();
   return table(rows);
 }
 
-std::string dominated_table(const std::vector<AccuracyScene>& scenes) {
+Html dominated_table(const std::vector<AccuracyScene>& scenes) {
   Rows rows{{"device", "configuration", "RMSE", "time", "beaten by", "RMSE", "time"}};
   for (const AccuracyScene& scene : scenes) {
     for (const accuracy::Dominated& each : scene.dominated) {
       const accuracy::AccuracyCase& worse = scene.cases[each.index];
       const accuracy::AccuracyCase& better = scene.cases[each.by];
-      rows.push_back({escape(scene.device), escape(worse.configuration), error_text(worse.rmse),
-                      time_text(worse), escape(better.configuration), error_text(better.rmse),
+      rows.push_back({scene.device, worse.configuration, error_text(worse.rmse),
+                      time_text(worse), better.configuration, error_text(better.rmse),
                       time_text(better)});
     }
   }
@@ -209,12 +208,12 @@ constexpr Beside beside_time[]{
      "Against the joules that the machine’s meters told of a frame, its idle share and "
      "other programs’ included."}};
 
-std::string charts_beside(const std::vector<AccuracyScene>& scenes) {
-  std::string text;
+Html charts_beside(const std::vector<AccuracyScene>& scenes) {
+  Html text;
   for (const auto& [cost, title, sentence] : beside_time) {
-    const std::string chart = accuracy_chart(scenes, cost);
+    const Html chart = accuracy_chart(scenes, cost);
     if (chart.empty()) continue;
-    const std::string body = fmt::format("<p>{}</p>{}", sentence, chart);
+    const Html body = markup("<p>{}</p>{}", sentence, chart);
     text += title.empty() ? body : folded(title, body);
   }
   return text;
@@ -222,18 +221,18 @@ std::string charts_beside(const std::vector<AccuracyScene>& scenes) {
 
 }  // namespace
 
-std::string accuracy_section(const PlanData& plan) {
+Html accuracy_section(const PlanData& plan) {
   const std::vector<AccuracyScene>& scenes = plan.verdict->accuracies;
   if (scenes.empty()) return {};
-  std::string text =
-      "<h3>Run time against error</h3><p>The error is the root mean square over all channels, in "
+  Html text =
+      markup("<h3>Run time against error</h3><p>The error is the root mean square over all channels, in "
       "linear float, against the picture that the scene tends to as its sampling is refined. A "
       "line joins configurations that differ by their step alone; the thick line is the front, "
       "which nothing beats on both axes; dashed: 1/255, 1/1024 and 1e-4. What an error takes is "
       "read off between two neighbours of a line. The hypervolume is the area between the front "
       "and one second by the error of an empty picture, in natural logarithms; beside it how many "
       "times as long the device with the largest may take on every frame before its area is no "
-      "larger. It rests on times of one run and decides nothing.</p>" +
+      "larger. It rests on times of one run and decides nothing.</p>") +
       summary_table(scenes);
   text += accuracy_chart(scenes, Cost::time) + charts_beside(scenes);
   text += folded("Orders of all families", order_table(scenes)) +

@@ -44,8 +44,8 @@ std::string percent(double share) {
 }
 
 // As long as the change is of the largest, in one colour where it is more and another where less.
-std::string bar(double share, double largest) {
-  return fmt::format("<span class=\"bar {}\" style=\"width:{:.1f}%\"></span>",
+Html bar(double share, double largest) {
+  return markup("<span class=\"bar {}\" style=\"width:{:.1f}%\"></span>",
                      share > 0 ? "more" : "less",
                      largest > 0 ? 100 * std::abs(share) / largest : 0);
 }
@@ -60,7 +60,7 @@ std::string counts_of(const Finding& finding, const std::string& part) {
 }
 
 // What costs other than stored, the most changed first.
-std::string cost_bars(const PlanData& plan) {
+Html cost_bars(const PlanData& plan) {
   const std::vector<Change> all = changes_in(plan, Check::cost);
   if (all.empty()) return {};
   std::vector<Change> changed;
@@ -68,19 +68,19 @@ std::string cost_bars(const PlanData& plan) {
     return each.finding->verdict != judge::Verdict::pass;
   });
   if (changed.empty()) {
-    return fmt::format("<p>{} frames take as many instructions as stored.</p>\n", all.size());
+    return markup("<p>{} frames take as many instructions as stored.</p>\n", all.size());
   }
   std::ranges::stable_sort(changed, std::greater{},
                            [](const Change& each) { return std::abs(each.share); });
   constexpr std::size_t shown = 12;
-  const std::string told = fmt::format(
+  const Html told = markup(
       "<p>{} of {} frames take other instructions than stored{}.</p>\n", changed.size(), all.size(),
       changed.size() > shown ? fmt::format("; these {} differ most", shown) : "");
   changed.resize(std::min(shown, changed.size()));
-  std::vector<std::vector<std::string>> rows{
+  Rows rows{
       {"device", "technique", "scene", "device code", "driver", "in all", ""}};
   for (const Change& each : changed) {
-    rows.push_back({escape(each.finding->device), escape(each.record->technique),
+    rows.push_back({each.finding->device, each.record->technique,
                     breakable(scene_title(plan, *each.record)),
                     counts_of(*each.finding, "device_code"), counts_of(*each.finding, "driver"),
                     percent(each.share), bar(each.share, std::abs(changed.front().share))});
@@ -89,7 +89,7 @@ std::string cost_bars(const PlanData& plan) {
 }
 
 // Of each technique on a device the median change of its configurations, and their middle half.
-std::string time_bars(const PlanData& plan) {
+Html time_bars(const PlanData& plan) {
   std::map<std::pair<std::string, std::string>, std::vector<double>> by_row;
   for (const Change& each : changes_in(plan, Check::timing)) {
     by_row[{each.finding->device, each.record->technique}].push_back(each.share);
@@ -98,25 +98,24 @@ std::string time_bars(const PlanData& plan) {
   for (const auto& [row, shares] : by_row) {
     largest = std::max(largest, std::abs(record::percentile(shares, 0.5)));
   }
-  std::vector<std::vector<std::string>> rows{
+  Rows rows{
       {"device", "technique", "median", "", "from", "to", "configurations"}};
   for (const auto& [row, shares] : by_row) {
     const record::Summary of = *record::summarise(shares);
-    rows.push_back({escape(row.first), escape(row.second), percent(of.median),
+    rows.push_back({row.first, row.second, percent(of.median),
                     bar(of.median, largest), percent(of.lower_quartile), percent(of.upper_quartile),
                     fmt::to_string(shares.size())});
   }
-  return by_row.empty()
-             ? ""
-             : "<p>Times beside stored: median and middle half of the configurations.</p>\n" +
-                   table(rows, "bars");
+  if (by_row.empty()) return {};
+  return markup("<p>Times beside stored: median and middle half of the configurations.</p>\n") +
+         table(rows, "bars");
 }
 
 }  // namespace
 
-std::string changes_section(const PlanData& plan) {
-  const std::string all = cost_bars(plan) + time_bars(plan);
-  return all.empty() ? all : "<h3>Beside what is stored</h3>\n" + all;
+Html changes_section(const PlanData& plan) {
+  const Html all = cost_bars(plan) + time_bars(plan);
+  return all.empty() ? all : markup("<h3>Beside what is stored</h3>\n") + all;
 }
 
 }  // namespace triptych::report

@@ -10,17 +10,17 @@
 namespace triptych::report {
 namespace {
 
-std::string choice(std::string_view label, std::string_view name,
+Html choice(std::string_view label, std::string_view name,
                    const std::set<std::string>& values) {
-  std::string text =
-      fmt::format("<label>{} <select name=\"{}\"><option value=\"\">all</option>", label, name);
-  for (const std::string& value : values) text += "<option>" + escape(value) + "</option>";
-  return text + "</select></label>";
+  Html text =
+      markup("<label>{} <select name=\"{}\"><option value=\"\">all</option>", label, name);
+  for (const std::string& value : values) text += markup("<option>{}</option>", value);
+  return text + markup("</select></label>");
 }
 
 }  // namespace
 
-std::string filters(std::span<const PlanData> plans) {
+Html filters(std::span<const PlanData> plans) {
   std::set<std::string> devices;
   std::set<std::string> suites;
   std::set<std::string> checks;
@@ -31,14 +31,16 @@ std::string filters(std::span<const PlanData> plans) {
       checks.emplace(judge::name_of(finding.check));
     }
   }
-  return "<form id=\"filters\" role=\"search\" aria-label=\"Filter\" hidden>" +
-         choice("Device", "device", devices) + choice("Suite", "suite", suites) +
-         choice("Check", "check", checks) +
-         "<button type=\"reset\">Show all</button><output aria-live=\"polite\"></output></form>\n";
+  return markup(
+      "<form id=\"filters\" role=\"search\" aria-label=\"Filter\" hidden>{}{}{}"
+      "<button type=\"reset\">Show all</button><output aria-live=\"polite\"></output></form>\n",
+      choice("Device", "device", devices), choice("Suite", "suite", suites),
+      choice("Check", "check", checks));
 }
 
-std::string comparison_dialog() {
-  return "<dialog id=\"compare\" aria-labelledby=\"compared\"><h2 id=\"compared\">Compare</h2>"
+Html comparison_dialog() {
+  return markup(
+      "<dialog id=\"compare\" aria-labelledby=\"compared\"><h2 id=\"compared\">Compare</h2>"
          "<div class=\"choices\"><label>Left <select></select></label>"
          "<label>Right <select></select></label></div>"
          "<div class=\"view\"><div class=\"layer\"><img alt=\"\"><span class=\"mark\"></span></div>"
@@ -48,7 +50,7 @@ std::string comparison_dialog() {
          "<div class=\"choices\"><button type=\"button\" class=\"zoom\" "
          "aria-pressed=\"false\">Zoom "
          "to the worst pixel</button><output aria-live=\"polite\"></output>"
-         "<form method=\"dialog\"><button>Close</button></form></div></dialog>\n";
+         "<form method=\"dialog\"><button>Close</button></form></div></dialog>\n");
 }
 
 }  // namespace triptych::report

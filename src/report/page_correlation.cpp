@@ -24,16 +24,15 @@ std::string technique_in(const std::string& configuration) {
   return configuration.substr(at + name.size(), configuration.find(',', at) - at - name.size());
 }
 
-std::string fit_text(const CorrelationPair& pair) {
+Html fit_text(const CorrelationPair& pair) {
   const judge::CorrelationLine& line = pair.line;
-  if (!std::isfinite(line.slope)) return "<p>" + escape(words::refusal(line)) + ".</p>\n";
-  return fmt::format(
+  if (!std::isfinite(line.slope)) return markup("<p>{}.</p>\n", words::refusal(line));
+  return markup(
       "<p>{} configurations; ln y = {:.3f} + {:.3f} ln x, scatter {:.2g} %; Pearson’s r {:.4f}, of "
       "the logarithms {:.4f}. {}</p>\n",
       line.configurations, line.intercept, line.slope, 100 * std::expm1(line.scale), line.pearson,
       line.rho,
-      line.admitted() ? ""
-                      : "<b class=\"cannot_judge\">Refused</b>: " + escape(words::refusal(line)));
+      line.admitted() ? Html() : markup("<b class=\"cannot_judge\">Refused</b>: {}", words::refusal(line)));
 }
 
 // The one place that knows how a pair is kept.
@@ -61,31 +60,29 @@ ScatterFigure scatter_of(const CorrelationPair& pair) {
   return scatter;
 }
 
-std::string pair_part(const CorrelationPair& pair) {
-  return fmt::format("<h4>{} against {}, by {}{}</h4>", escape(pair.device_b),
-                     escape(pair.device_a), pair.signal,
+Html pair_part(const CorrelationPair& pair) {
+  return markup("<h4>{} against {}, by {}{}</h4>", pair.device_b,
+                     pair.device_a, pair.signal,
                      pair.new_device ? ", never accepted" : "") +
          scatter_chart(scatter_of(pair)) + fit_text(pair);
 }
 
 }  // namespace
 
-std::string correlation_section(const PlanData& plan) {
-  std::string judged;
-  std::string shown;
+Html correlation_section(const PlanData& plan) {
+  Html judged;
+  Html shown;
   for (const CorrelationPair& pair : plan.verdict->correlations) {
     if (pair.points.empty()) continue;
     const bool marked = std::ranges::any_of(pair.points, &judge::CorrelationPoint::outlier);
     (pair.signal == "cost" && (marked || judged.empty()) ? judged : shown) += pair_part(pair);
   }
   if (judged.empty() && shown.empty()) return {};
-  std::string text =
-      "<h3>Devices against each other</h3><p>Each point is a configuration: what it takes on one "
-      "device across, on the other upwards. Beside it what is left of each beyond the line.</p>" +
+  Html text =
+      markup("<h3>Devices against each other</h3><p>Each point is a configuration: what it takes on one "
+      "device across, on the other upwards. Beside it what is left of each beyond the line.</p>") +
       judged;
-  if (!shown.empty())
-    text += "<details><summary>The other pairs</summary>" + shown + "</details>\n";
-  return text;
+  return text + folded("The other pairs", shown);
 }
 
 }  // namespace triptych::report

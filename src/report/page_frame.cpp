@@ -1,29 +1,38 @@
 #include "report/page_frame.hpp"
 
-#include <fmt/format.h>
-
-#include "report/html.hpp"
 #include "triptych_report_embedded.hpp"
 
 namespace triptych::report {
 
-std::string page_begin(std::string_view title) {
-  std::string text =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">";
-  text += fmt::format("<title>{}</title><link rel=\"icon\" href=\"data:,\"><style>", escape(title));
-  text += embedded("style.css");
-  return text + "</style></head><body>\n";
+namespace {
+
+// Nothing but what the page holds itself. Widths of bars are style attributes, which no hash covers.
+Html policy() {
+  return markup(
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+      "style-src 'unsafe-inline'; script-src 'sha256-{}'; base-uri 'none'; form-action 'none'\">",
+      embedded_sha256("page.js"));
 }
 
-std::string page_end(std::string_view script) {
-  if (script.empty()) return "</body></html>\n";
-  return fmt::format("<script>{}</script></body></html>\n", script);
+}  // namespace
+
+Html page_begin(std::string_view title) {
+  return markup(
+             "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+             "{}<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
+             "<title>{}</title><link rel=\"icon\" href=\"data:,\"><style>",
+             policy(), title) +
+         embedded_markup("style.css") + markup("</style></head><body>\n");
 }
 
-std::string folded(std::string_view summary, const std::string& body) {
+Html page_end(bool with_script) {
+  const Html script = with_script ? markup("<script>{}</script>", embedded_markup("page.js")) : Html();
+  return script + markup("</body></html>\n");
+}
+
+Html folded(const Content& summary, const Html& body) {
   if (body.empty()) return {};
-  return fmt::format("<details><summary>{}</summary>{}</details>\n", summary, body);
+  return markup("<details><summary>{}</summary>{}</details>\n", summary.html(), body);
 }
 
 }  // namespace triptych::report

@@ -38,7 +38,7 @@ std::optional<Work> work_of(const record::Counts& counters) {
 
 }  // namespace
 
-std::string needed_section(const PlanData& plan) {
+Html needed_section(const PlanData& plan) {
   const bool volume = suite_of(plan) == "volume";
   const std::string factor = volume ? "skip" : "culling";
   // Devices that took the same stand together.
@@ -49,21 +49,22 @@ std::string needed_section(const PlanData& plan) {
     const auto level = record.factors.find(factor);
     if (!work || level == record.factors.end()) continue;
     const std::string scene = picture_title(plan, record);
-    devices[{scene, record.technique, level->second, *work}].insert(escape(record.device));
+    devices[{scene, record.technique, level->second, *work}].insert(record.device);
   }
   if (devices.empty()) return {};
-  std::vector<std::vector<std::string>> rows{
+  Rows rows{
       {"scene", "technique", factor, "taken", "needed", "needed of taken", "device"}};
   for (const auto& [key, names] : devices) {
     const auto& [scene, technique, level, work] = key;
     const double share = static_cast<double>(work.needed) / static_cast<double>(work.taken);
-    rows.push_back({escape(scene), escape(technique), escape(level), grouped(work.taken),
+    rows.push_back({scene, technique, level, grouped(work.taken),
                     grouped(work.needed), fmt::format("{:.3f}", share),
                     fmt::format("{}", fmt::join(names, ", "))});
   }
   return folded("Skipping: what was taken, and what the picture needed",
-                volume ? "<p>Samples, and those that are not transparent.</p>" + table(rows)
-                       : "<p>Spheres drawn, and those that a pixel shows.</p>" + table(rows));
+                markup("<p>{}.</p>", volume ? "Samples, and those that are not transparent"
+                                     : "Spheres drawn, and those that a pixel shows") +
+                    table(rows));
 }
 
 }  // namespace triptych::report

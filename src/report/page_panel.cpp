@@ -63,62 +63,62 @@ std::variant<judge::TruthPair, std::string> truth_or_reason(const PictureSources
   }
 }
 
-std::string picture(const Image& image, std::string_view alt) {
-  return fmt::format("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
-                     data_uri(core::encode_png(image)), image.width, image.height, escape(alt));
+Html picture(const Image& image, std::string_view alt) {
+  return markup("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
+                     data_uri(core::encode_png(image)), image.width, image.height, alt);
 }
 
-std::string figure(const std::string& content, std::string_view caption) {
-  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>", content, caption);
+Html figure(const Html& content, std::string_view caption) {
+  return markup("<figure>{}<figcaption>{}</figcaption></figure>", content, caption);
 }
 
 // What a filter and the comparison need to know, and where links lead.
-std::string opening(const PictureScene& scene, const SameBits& group, const ShareOfBound* shares) {
-  std::string ids;
+Html opening(const PictureScene& scene, const SameBits& group, const ShareOfBound* shares) {
+  Html ids;
   std::set<std::string_view> checks;
   for (const record::Record* record : group) {
     const std::string id = picture_id(scene.plan, record->device, record->configuration);
-    ids += fmt::format("<span id=\"{}\"></span>", id);
+    ids += markup("<span id=\"{}\"></span>", id);
     if (const auto found = scene.sources.judged.find(id); found != scene.sources.judged.end()) {
       checks.insert(found->second.checks.begin(), found->second.checks.end());
     }
   }
-  std::string text = fmt::format(
+  Html text = markup(
       "<section data-kind=\"picture\" data-device=\"{}\" data-suite=\"{}\" data-check=\"{}\" "
       "data-scene=\"{}\" data-title=\"{}\"",
-      escape(group.front()->device), escape(group.front()->suite), fmt::join(checks, " "),
-      scene.number, escape(scene.title + ": " + name_of(scene, group)));
+      group.front()->device, group.front()->suite, fmt::format("{}", fmt::join(checks, " ")),
+      scene.number, scene.title + ": " + name_of(scene, group));
   if (shares != nullptr && shares->x >= 0) {
-    text += fmt::format(" data-x=\"{}\" data-y=\"{}\"", shares->x, shares->y);
+    text += markup(" data-x=\"{}\" data-y=\"{}\"", shares->x, shares->y);
   }
-  return text + ">" + ids;
+  return text + markup(">") + ids;
 }
 
-std::string finding_link(const PictureScene& scene, const SameBits& group) {
+Html finding_link(const PictureScene& scene, const SameBits& group) {
   for (const record::Record* record : group) {
     const auto found =
         scene.sources.judged.find(picture_id(scene.plan, record->device, record->configuration));
     if (found == scene.sources.judged.end() || found->second.cause.empty()) continue;
-    return fmt::format(" <a href=\"#{}\">its finding</a>", found->second.cause);
+    return markup(" <a href=\"#{}\">its finding</a>", found->second.cause);
   }
   return {};
 }
 
 // `about`: what is to be said of it, before how it was made.
-std::string titled(const PictureScene& scene, const SameBits& group, const std::string& figures,
-                   const std::string& about, const ShareOfBound* shares = nullptr) {
+Html titled(const PictureScene& scene, const SameBits& group, const Html& figures,
+                   const Html& about, const ShareOfBound* shares = nullptr) {
   std::string made = "technique: " + technique_names(group);
   if (group.size() > 1 && made.find(", ") != std::string::npos) made += ": the same bits";
   for (const std::string& difference : made_by(group, scene)) made += "; " + difference;
   return opening(scene, group, shares) +
-         fmt::format(
+         markup(
              "<h4>{}</h4><div class=\"triple\">{}</div><p class=\"system\">{}{}<br>{}</p>"
              "</section>\n",
              breakable(group.front()->device), figures, about, finding_link(scene, group),
-             escape(made));
+             made);
 }
 
-std::string verdict_text(const accuracy::ImageComparison& result, const ShareOfBound& shares) {
+Html verdict_text(const accuracy::ImageComparison& result, const ShareOfBound& shares) {
   const bool right = result.within_bound();
   std::string text = fmt::format("within the bound, {:.0f} % of it used", 100 * result.worst.ratio);
   if (!right)
@@ -127,17 +127,17 @@ std::string verdict_text(const accuracy::ImageComparison& result, const ShareOfB
     text += fmt::format(", {} of another particle or at another depth", other);
   }
   const std::string worst = right ? "" : fmt::format(", worst pixel ({}, {})", shares.x, shares.y);
-  return fmt::format("<b class=\"{}\">{}</b>{}<br>largest error {:.2e}, RMSE {:.2e}",
+  return markup("<b class=\"{}\">{}</b>{}<br>largest error {:.2e}, RMSE {:.2e}",
                      right ? "pass" : "regression", text, worst, result.largest.error, result.rmse);
 }
 
 // What ended a program, where its picture would be.
-std::string tile(const record::Record& record) {
+Html tile(const record::Record& record) {
   const std::string_view what = record::name_of(record.outcome);
-  return figure(fmt::format("<div class=\"tile\" role=\"img\" aria-label=\"{}: {}, no picture\">{}"
+  return figure(markup("<div class=\"tile\" role=\"img\" aria-label=\"{}: {}, no picture\">{}"
                             "</div>",
-                            escape(record.device), what, what),
-                escape(record.device));
+                            record.device, what, what),
+                record.device);
 }
 
 }  // namespace
@@ -146,24 +146,23 @@ Panel panel_of(const PictureScene& scene, const SameBits& group) {
   const record::Record& record = *group.front();
   const auto found = truth_or_reason(scene.sources, record);
   const auto* pair = std::get_if<judge::TruthPair>(&found);
-  const std::string reference = pair ? figure(picture(pair->truth, "the truth"), "the truth") : "";
+  const Html reference = pair ? figure(picture(pair->truth, "the truth"), "the truth") : Html();
   if (record.image.empty()) {
-    return {
-        .html = titled(scene, group, reference + tile(record),
-                       "<b class=\"regression\">" + escape(words::text_of(record.reason)) + "</b>"),
-        .wrong = true,
-        .drawn = false};
+    return {.html = titled(scene, group, reference + tile(record),
+                           markup("<b class=\"regression\">{}</b>", words::text_of(record.reason))),
+            .wrong = true,
+            .drawn = false};
   }
   const std::string name = name_of(scene, group);
   const Image image = scene.sources.store.picture(record.image);
-  const std::string drawn = figure(picture(image, name), escape(record.device));
+  const Html drawn = figure(picture(image, name), record.device);
   if (pair == nullptr) {
-    return {.html = titled(scene, group, drawn, escape(std::get<std::string>(found)))};
+    return {.html = titled(scene, group, drawn, markup("{}", std::get<std::string>(found)))};
   }
   const accuracy::ImageComparison result = accuracy::compare(image, pair->truth, pair->bound);
   if (result.size_mismatch) {
     return {
-        .html = titled(scene, group, reference + drawn, "<b class=\"regression\">wrong size</b>"),
+        .html = titled(scene, group, reference + drawn, markup("<b class=\"regression\">wrong size</b>")),
         .wrong = true};
   }
   ShareOfBound shares = share_of_bound(image, pair->truth, pair->bound);
@@ -171,7 +170,7 @@ Panel panel_of(const PictureScene& scene, const SameBits& group) {
     shares.x = result.worst.x;
     shares.y = result.worst.y;
   }
-  const std::string difference =
+  const Html difference =
       figure(picture(shares.image, "the difference of " + name), "the difference");
   return {.html = titled(scene, group, reference + drawn + difference, verdict_text(result, shares),
                          &shares),

@@ -22,7 +22,7 @@ struct PictureScene {
 };
 
 struct Panel {
-  std::string html;
+  Html html;
   bool wrong = false;
   bool drawn = true;
   double ratio = 0;  // of the worst pixel to its bound

@@ -68,8 +68,8 @@ void append_scenes(std::vector<Scene>& scenes, const PictureSources& sources, co
   }
 }
 
-std::string part(const Scene& scene, std::size_t from, std::size_t to) {
-  std::string text;
+Html part(const Scene& scene, std::size_t from, std::size_t to) {
+  Html text;
   for (std::size_t i = from; i < to; ++i) text += scene.panels[i].html;
   return text;
 }
@@ -77,21 +77,21 @@ std::string part(const Scene& scene, std::size_t from, std::size_t to) {
 constexpr std::size_t open_scenes = 6;
 constexpr std::size_t open_panels = 4;  // of a scene in which something is wrong
 
-std::string scene_part(const Scene& scene, std::size_t from, std::size_t to) {
+Html scene_part(const Scene& scene, std::size_t from, std::size_t to) {
   if (from >= to) return {};
-  return fmt::format("<div class=\"scene\"><h3>{}</h3><div class=\"panels{}\">{}</div></div>\n",
+  return markup("<div class=\"scene\"><h3>{}</h3><div class=\"panels{}\">{}</div></div>\n",
                      breakable(scene.title), scene.panels[from].wrong ? " wrong" : "",
                      part(scene, from, to));
 }
 
 // Where nothing is wrong, one of each scene beside the others: the one nearest to its bound.
-std::string one_of_each(std::span<const Scene> scenes) {
-  std::string text = "<div class=\"panels\">";
+Html one_of_each(std::span<const Scene> scenes) {
+  Html text = markup("<div class=\"panels\">");
   for (const Scene& scene : scenes) {
-    text += "<div class=\"scene\"><h3>" + breakable(scene.title) + "</h3>" + part(scene, 0, 1) +
-            "</div>";
+    text += markup("<div class=\"scene\"><h3>{}</h3>{}</div>", breakable(scene.title),
+                   part(scene, 0, 1));
   }
-  return text + "</div>\n";
+  return text + markup("</div>\n");
 }
 
 }  // namespace
@@ -106,13 +106,13 @@ Pictures pictures_section(const PictureSources& sources, std::span<const PlanDat
   for (const PlanData& plan : plans) append_scenes(scenes, sources, plan, plans.size() > 1);
   if (scenes.empty()) return {};
   std::ranges::stable_sort(scenes, std::greater{}, &Scene::rank);
-  std::string text =
+  Html text = markup(
       "<h2 id=\"pictures\">Pictures</h2><p class=\"system\">The difference is the error as a share "
       "of the bound derived for that pixel: 0 <span class=\"ramp\"></span> the bound itself, <span "
-      "class=\"beyond\"></span> beyond it.</p>";
+      "class=\"beyond\"></span> beyond it.</p>");
   const std::size_t shown = std::min(open_scenes, scenes.size());
   const bool any_wrong = scenes.front().wrong();
-  std::string rest;
+  Html rest;
   std::size_t left = 0;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const Scene& scene = scenes[i];

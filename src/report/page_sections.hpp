@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "report/html.hpp"
 #include "judge/gate/gate.hpp"
 #include "record/store.hpp"
 #include "report/overview.hpp"
@@ -38,14 +39,14 @@ struct PictureSources {
 };
 
 // The verdict with links to its causes.
-[[nodiscard]] std::string verdict_card(const Overview& all, std::span<const PlanData> plans);
+[[nodiscard]] Html verdict_card(const Overview& all, std::span<const PlanData> plans);
 // Of what the page is about; hidden until its script shows them.
-[[nodiscard]] std::string filters(std::span<const PlanData> plans);
+[[nodiscard]] Html filters(std::span<const PlanData> plans);
 // The row of each kind of check, the findings by cause.
-[[nodiscard]] std::string findings_section(const Overview& all, std::span<const PlanData> plans);
+[[nodiscard]] Html findings_section(const Overview& all, std::span<const PlanData> plans);
 // Of all plans: what is wrong first, else a picture of each scene; the others folded.
 struct Pictures {
-  std::string html;
+  Html html;
   bool wrong = false;
 };
 [[nodiscard]] Pictures pictures_section(const PictureSources& sources,
@@ -53,20 +54,20 @@ struct Pictures {
 // Whether it drew a picture, or ended instead of drawing one.
 [[nodiscard]] bool has_tile(const record::Record& record);
 // Two pictures of a scene under a slider; closed until its script opens it.
-[[nodiscard]] std::string comparison_dialog();
+[[nodiscard]] Html comparison_dialog();
 // Of one plan.
-[[nodiscard]] std::string devices_section(const PlanData& plan);
+[[nodiscard]] Html devices_section(const PlanData& plan);
 // Cost and times beside what is stored, as bars.
-[[nodiscard]] std::string changes_section(const PlanData& plan);
-[[nodiscard]] std::string times_section(const PlanData& plan);
-[[nodiscard]] std::string speed_of_light_section(const PlanData& plan);
+[[nodiscard]] Html changes_section(const PlanData& plan);
+[[nodiscard]] Html times_section(const PlanData& plan);
+[[nodiscard]] Html speed_of_light_section(const PlanData& plan);
 // Samples and spheres that skipping and culling leave, and how many of them show.
-[[nodiscard]] std::string needed_section(const PlanData& plan);
+[[nodiscard]] Html needed_section(const PlanData& plan);
 // Of each pair of devices, what keeps step and what is off its line.
-[[nodiscard]] std::string correlation_section(const PlanData& plan);
+[[nodiscard]] Html correlation_section(const PlanData& plan);
 // Of the scenes whose accuracy the verdict tells.
-[[nodiscard]] std::string accuracy_section(const PlanData& plan);
-[[nodiscard]] std::string counts_section(const PlanData& plan);
+[[nodiscard]] Html accuracy_section(const PlanData& plan);
+[[nodiscard]] Html counts_section(const PlanData& plan);
 
 // Empty where nothing was recorded.
 [[nodiscard]] std::string suite_of(const PlanData& plan);

@@ -15,27 +15,25 @@
 namespace triptych::report {
 namespace {
 
-using Rows = std::vector<std::vector<std::string>>;
-
 // The exact ones by number only: what deserves a word is the others.
-std::string calibration_text(const record::Device& device) {
-  std::string text;
+Html calibration_text(const record::Device& device) {
+  Html text;
   int exact = 0;
   for (const auto& [statistic, verdict] : device.statistics_calibration) {
     if (verdict.is_exact()) {
       ++exact;
     } else {
-      text += fmt::format("<div>{}: {}</div>", escape(statistic), escape(words::text_of(verdict)));
+      text += markup("<div>{}: {}</div>", statistic, words::text_of(verdict));
     }
   }
-  if (device.statistics_calibration.empty()) return "none told";
-  return fmt::format("<div>{} counted exactly</div>", exact) + text;
+  if (device.statistics_calibration.empty()) return markup("none told");
+  return markup("<div>{} counted exactly</div>", exact) + text;
 }
 
-std::string clock_text(const std::vector<record::ClockTrust>& clocks) {
-  std::string text;
+Html clock_text(const std::vector<record::ClockTrust>& clocks) {
+  Html text;
   for (const record::ClockTrust& clock : clocks) {
-    text += fmt::format("<div>{}: {}</div>", escape(clock.work), escape(clock.verdict));
+    text += markup("<div>{}: {}</div>", clock.work, clock.verdict);
   }
   return text;
 }
@@ -58,12 +56,12 @@ std::string_view clock_of_both(const record::Record& a, const record::Record& b)
 }
 
 // What took over another configuration's frames, and why it could.
-std::string taken_over(const PlanData& plan) {
+Html taken_over(const PlanData& plan) {
   Rows rows{{"configuration", "device", "measured as", "why"}};
   for (const record::Record& record : plan.records) {
     if (record.same_as.empty()) continue;
-    rows.push_back({escape(record.configuration), escape(record.device), escape(record.same_as),
-                    escape(words::text_of(record.reason))});
+    rows.push_back({record.configuration, record.device, record.same_as,
+                    words::text_of(record.reason)});
   }
   if (rows.size() == 1) return {};
   return folded(fmt::format("{} configurations measured as another, which their scene cannot tell "
@@ -74,24 +72,24 @@ std::string taken_over(const PlanData& plan) {
 
 }  // namespace
 
-std::string devices_section(const PlanData& plan) {
+Html devices_section(const PlanData& plan) {
   Rows rows{{"device", "name", "driver", "API"}};
   Rows witnesses{{"device", "clock", "driver's statistics", "processor features, environment"}};
   for (const auto& [device, clocks] : plan.devices) {
-    std::string environment = escape(device.cpu_features);
+    Html environment = markup("{}", device.cpu_features);
     for (const auto& [name, value] : device.environment) {
-      environment += fmt::format("<div>{}={}</div>", escape(name), escape(value));
+      environment += markup("<div>{}={}</div>", name, value);
     }
-    rows.push_back({escape(device.id), escape(device.name + " (" + device.vendor + ")"),
-                    escape(device.driver_version), escape(device.api_version)});
+    rows.push_back({device.id, device.name + " (" + device.vendor + ")",
+                    device.driver_version, device.api_version});
     witnesses.push_back(
-        {escape(device.id), clock_text(clocks), calibration_text(device), environment});
+        {device.id, clock_text(clocks), calibration_text(device), environment});
   }
   return folded("Devices: drivers, what their clocks and statistics are worth, what they ran on",
                 table(rows) + table(witnesses));
 }
 
-std::string times_section(const PlanData& plan) {
+Html times_section(const PlanData& plan) {
   const auto records = measured(plan);
   if (records.empty()) return {};
   Rows rows{{"scene", "technique", "device", "clock", "minimum", "25 %", "median", "75 %", "90 %",
@@ -100,7 +98,7 @@ std::string times_section(const PlanData& plan) {
     const auto& samples = record->time_ns();
     const record::Summary summary = *record::summarise(samples);
     rows.push_back(
-        {escape(scene_title(plan, *record)), escape(record->technique), escape(record->device),
+        {scene_title(plan, *record), record->technique, record->device,
          std::string(record->clock()), duration(summary.minimum), duration(summary.lower_quartile),
          duration(summary.median), duration(summary.upper_quartile),
          duration(record::percentile(samples, 0.9)), duration(summary.maximum),
@@ -109,12 +107,12 @@ std::string times_section(const PlanData& plan) {
   }
   return folded(
       plan.verdict->times_decided ? "Times: judged" : "Times: shown, not judged",
-      "<p>Every timed frame is a stroke, its quartiles a box. “In a loop” is the wall clock "
-      "of frames drawn back to back.</p>" +
+      markup("<p>Every timed frame is a stroke, its quartiles a box. “In a loop” is the wall clock "
+      "of frames drawn back to back.</p>") +
           time_chart(plan) + folded("The numbers", table(rows, "times")) + taken_over(plan));
 }
 
-std::string speed_of_light_section(const PlanData& plan) {
+Html speed_of_light_section(const PlanData& plan) {
   // By device and scene the bare fetches.
   std::map<std::pair<std::string, std::string>, const record::Record*> bounds;
   for (const record::Record* record : measured(plan)) {
@@ -129,21 +127,21 @@ std::string speed_of_light_section(const PlanData& plan) {
     const std::string_view clock = clock_of_both(*record, *found->second);
     const double time = record::percentile(record->time_ns_by(clock), 0.5);
     const double bound = record::percentile(found->second->time_ns_by(clock), 0.5);
-    rows.push_back({escape(scene_title(plan, *record)), escape(record->device),
-                    escape(record->technique), std::string(clock), duration(time), duration(bound),
+    rows.push_back({scene_title(plan, *record), record->device,
+                    record->technique, std::string(clock), duration(time), duration(bound),
                     fmt::format("{:.2f}", time / bound)});
   }
   if (rows.size() == 1) return {};
   return folded(
       "Speed of light: times over those of the bare fetches",
-      "<p>The same fetches and transfer-function look-ups alone, with "
+      markup("<p>The same fetches and transfer-function look-ups alone, with "
       "the same skipping but without early termination: a picture can be faster than that where "
-      "rays end early, and is hardly faster where they do not.</p>" +
+      "rays end early, and is hardly faster where they do not.</p>") +
           table(rows));
 }
 
-std::string counts_section(const PlanData& plan) {
-  std::string text;
+Html counts_section(const PlanData& plan) {
+  Html text;
   const auto section = [&](std::string_view title, auto&& counts_of) {
     std::set<std::string> names;
     for (const record::Record& record : plan.records) {
@@ -156,7 +154,7 @@ std::string counts_section(const PlanData& plan) {
       const record::Counts& counts = counts_of(record);
       if (counts.empty()) continue;
       rows.push_back(
-          {escape(scene_title(plan, record)), escape(record.technique), escape(record.device)});
+          {scene_title(plan, record), record.technique, record.device});
       for (const std::string& name : names) {
         const auto found = counts.find(name);
         rows.back().push_back(found == counts.end() ? "" : grouped(found->second));

@@ -32,6 +32,14 @@ std::string_view css_class(core::ExitCode code) {
   }
 }
 
+Html circumstances_of(const Overview& all) {
+  Html text;
+  for (const std::string& each : all.circumstances) {
+    text += markup("<p class=\"cannot_judge\">{}</p>", each);
+  }
+  return text;
+}
+
 std::string lead(const Overview& all) {
   if (all.open.size() == 1) return "One cause:";
   if (!all.open.empty()) return fmt::format("{} causes, the worst first:", all.open.size());
@@ -44,37 +52,37 @@ std::string cause_id(std::size_t number) {
 }
 
 // A link to each cause in sight, and one to where the others are folded.
-std::string contents(const Overview& all) {
+Html contents(const Overview& all) {
   if (all.open.empty()) return {};
-  std::string text = "<ol class=\"causes\">";
+  Html text = markup("<ol class=\"causes\">");
   const std::size_t shown = std::min(openly_listed, all.open.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const Cause& cause = all.open[i];
-    text += fmt::format("<li><a href=\"#{}\">{}: {}</a></li>", cause_id(i),
+    text += markup("<li><a href=\"#{}\">{}: {}</a></li>", cause_id(i),
                         judge::name_of(cause.group.first->check), breakable(words::place(cause)));
   }
   if (shown < all.open.size()) {
-    text += fmt::format("<li><a href=\"#{}\">{} more</a></li>", cause_id(shown),
+    text += markup("<li><a href=\"#{}\">{} more</a></li>", cause_id(shown),
                         all.open.size() - shown);
   }
-  return text + "</ol>";
+  return text + markup("</ol>");
 }
 
-std::string card(const Overview& all, std::span<const PlanData> plans) {
-  std::string names;
+Html card(const Overview& all, std::span<const PlanData> plans) {
+  Html names;
   for (const PlanData& plan : plans) {
-    names += fmt::format(" · <a href=\"#{}\">{}</a>", plan.prefix, escape(plan.name));
+    names += markup(" · <a href=\"#{}\">{}</a>", plan.prefix, plan.name);
   }
-  return fmt::format(
+  return markup(
       "<header id=\"verdict\" class=\"{}\"><h1>{} ({})</h1><p class=\"lead\">{}</p>{}"
-      "<p>Triptych · {} {}{}{}</p></header>\n",
+      "{}<p>Triptych · {} {}{}{}</p></header>\n",
       css_class(all.code), words::word_of(all.code), static_cast<int>(all.code), lead(all),
-      contents(all), all.devices, all.devices == 1 ? "device" : "devices",
+      contents(all), circumstances_of(all), all.devices, all.devices == 1 ? "device" : "devices",
       all.part ? " · a part of the plans" : "", names);
 }
 
 // With a link to the first cause of its kind.
-std::string word_of(const KindRow& row, const Overview& all) {
+Html word_of(const KindRow& row, const Overview& all) {
   const bool work = row.check == judge::Check::counters || row.check == judge::Check::statistics;
   const auto first = std::ranges::find_if(all.open, [&](const Cause& cause) {
     const bool told_with_picture = work && cause.group.changed_with_it > 0;
@@ -82,27 +90,27 @@ std::string word_of(const KindRow& row, const Overview& all) {
   });
   const bool open =
       row.worst == judge::Verdict::regression || row.worst == judge::Verdict::cannot_judge;
-  if (!open || first == all.open.end()) return std::string(row.verdict);
+  if (!open || first == all.open.end()) return markup("{}", row.verdict);
   const auto number = static_cast<std::size_t>(first - all.open.begin());
-  return fmt::format("<a href=\"#{}\">{}</a>", cause_id(number), row.verdict);
+  return markup("<a href=\"#{}\">{}</a>", cause_id(number), row.verdict);
 }
 
-std::string kinds(const Overview& all) {
-  std::string text = "<table class=\"kinds\">\n";
+Html kinds(const Overview& all) {
+  Html text = markup("<table class=\"kinds\">\n");
   for (const KindRow& row : all.rows) {
-    text += fmt::format(
+    text += markup(
         "<tr><th scope=\"row\">{}</th><td class=\"verdict {}\">{}</td><td>{}</td></tr>\n", row.kind,
-        judge::name_of(row.worst), word_of(row, all), escape(row.sentence));
+        judge::name_of(row.worst), word_of(row, all), row.sentence);
   }
-  return text + "</table>\n";
+  return text + markup("</table>\n");
 }
 
-std::string bounds(const Overview& all) {
+Html bounds(const Overview& all) {
   if (all.bounds.empty()) return {};
-  std::vector<std::vector<std::string>> rows{
+  Rows rows{
       {"plan", "device", "pictures", "largest error over bound", "where"}};
   for (const NearestBound& bound : all.bounds) {
-    rows.push_back({escape(bound.plan), escape(bound.device), fmt::to_string(bound.pictures),
+    rows.push_back({bound.plan, bound.device, fmt::to_string(bound.pictures),
                     fmt::format("{:.3g}", bound.share), breakable(bound.configuration)});
   }
   return folded("How near pictures come to their bounds", table(rows));
@@ -112,73 +120,73 @@ const PlanData& plan_of(const Cause& cause, std::span<const PlanData> plans) {
   return *std::ranges::find(plans, cause.result, &PlanData::verdict);
 }
 
-std::string picture_link(const PlanData& plan, const Finding& finding) {
+Html picture_link(const PlanData& plan, const Finding& finding) {
   const auto drawn = [&](const record::Record& record) {
     return record.device == finding.device && record.configuration == finding.configuration &&
            has_tile(record);
   };
   if (!std::ranges::any_of(plan.records, drawn)) return {};
-  return fmt::format(" <a href=\"#{}\">picture</a>",
+  return markup(" <a href=\"#{}\">picture</a>",
                      picture_id(plan, finding.device, finding.configuration));
 }
 
-std::string links(const Cause& cause, const PlanData& plan) {
+Html links(const Cause& cause, const PlanData& plan) {
   const Finding& first = *cause.group.first;
   if (!is_open(first)) return {};
-  return picture_link(plan, first) + " <a href=\"#verdict\">verdict</a>";
+  return picture_link(plan, first) + markup(" <a href=\"#verdict\">verdict</a>");
 }
 
 // An option and its value stay on one line where they fit.
-std::string command_block(std::string_view command) {
+Html command_block(std::string_view command) {
   if (command.empty()) return {};
-  std::string text = "<pre><span>";
+  Html text = markup("<pre><span>");
   std::size_t from = 0;
   bool quoted = false;
   for (std::size_t i = 0; i < command.size(); ++i) {
     if (command[i] == '\'') quoted = !quoted;
     if (quoted || !command.substr(i).starts_with(" --")) continue;
-    text += escape(command.substr(from, i - from)) + "</span> <span>";
+    text += markup("{}</span> <span>", command.substr(from, i - from));
     from = i + 1;
   }
-  return text + escape(command.substr(from)) + "</span></pre>";
+  return text + markup("{}</span></pre>", command.substr(from));
 }
 
-std::string article(const Cause& cause, const PlanData& plan, const std::string& id) {
+Html article(const Cause& cause, const PlanData& plan, const Html& id) {
   const Finding& first = *cause.group.first;
   const std::string command = command_of(first, *cause.result);
   const bool several = cause.group.configurations > 1;
-  return fmt::format(
+  return markup(
       "<article class=\"{0}\"{1} data-kind=\"{2}\" data-device=\"{3}\" data-suite=\"{4}\" "
       "data-check=\"{5}\"><h3><span class=\"verdict {0}\">{5}</span> {6}</h3><p>{7}{8}</p>{9}{10}"
       "</article>\n",
       judge::name_of(first.verdict), id, is_open(first) ? "finding" : "remark",
-      escape(first.device), escape(suite_of(plan)), judge::name_of(first.check),
-      breakable(words::place(cause)), escape(words::text_of(cause)), links(cause, plan),
+      first.device, suite_of(plan), judge::name_of(first.check),
+      breakable(words::place(cause)), words::text_of(cause), links(cause, plan),
       first.configuration.empty()
-          ? ""
-          : fmt::format("<p class=\"system\">{}{}</p>", several ? "the smallest: " : "",
+          ? Html()
+          : markup("<p class=\"system\">{}{}</p>", several ? "the smallest: " : "",
                         breakable(first.configuration)),
       command_block(command));
 }
 
 // Those that are open have ids, by their number.
-std::string listed(std::span<const Cause> causes, std::span<const PlanData> plans,
+Html listed(std::span<const Cause> causes, std::span<const PlanData> plans,
                    std::optional<std::size_t> first_number) {
-  std::string text;
+  Html text;
   for (std::size_t i = 0; i < causes.size(); ++i) {
-    const std::string id =
-        first_number ? fmt::format(" id=\"{}\"", cause_id(*first_number + i)) : "";
+    const Html id =
+        first_number ? markup(" id=\"{}\"", cause_id(*first_number + i)) : Html();
     text += article(causes[i], plan_of(causes[i], plans), id);
   }
   return text;
 }
 
-std::string findings(const Overview& all, std::span<const PlanData> plans) {
+Html findings(const Overview& all, std::span<const PlanData> plans) {
   const std::span<const Cause> open(all.open);
   const std::size_t shown = std::min(openly_listed, open.size());
-  std::string text;
+  Html text;
   if (shown > 0) {
-    text += "<h2 id=\"findings\">Findings</h2>\n" + listed(open.first(shown), plans, 0);
+    text += markup("<h2 id=\"findings\">Findings</h2>\n") + listed(open.first(shown), plans, 0);
   }
   text += folded(fmt::format("{} more causes", open.size() - shown),
                  listed(open.subspan(shown), plans, shown));
@@ -190,11 +198,11 @@ std::string findings(const Overview& all, std::span<const PlanData> plans) {
 
 }  // namespace
 
-std::string verdict_card(const Overview& all, std::span<const PlanData> plans) {
+Html verdict_card(const Overview& all, std::span<const PlanData> plans) {
   return card(all, plans);
 }
 
-std::string findings_section(const Overview& all, std::span<const PlanData> plans) {
+Html findings_section(const Overview& all, std::span<const PlanData> plans) {
   return kinds(all) + bounds(all) + findings(all, plans);
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double side = 300;
 
-std::string percent(double share) {
+std::string whole_percent(double share) {
   return fmt::format("{:+.0f} %", 100 * share);
 }
 
@@ -26,7 +26,7 @@ class Scatter {
     techniques_.assign(names.begin(), names.end());
   }
 
-  [[nodiscard]] std::string values() const {
+  [[nodiscard]] Html values() const {
     Figure figure(fmt::format("{} against {}, {} configurations", scatter_.up, scatter_.across,
                               scatter_.points.size()),
                   {.title = scatter_.across, .logarithmic = true},
@@ -39,7 +39,7 @@ class Scatter {
     return figure.svg();
   }
 
-  [[nodiscard]] std::string deviations() const {
+  [[nodiscard]] Html deviations() const {
     double largest = std::max(0.01, scatter_.shows_from.value_or(0));
     for (const auto& point : scatter_.points) {
       largest = std::max(largest, std::abs(point.deviation));
@@ -55,7 +55,7 @@ class Scatter {
     for (const auto& point : scatter_.points) {
       figure.point({point.across, point.deviation}, style_of(point), tooltip(point));
       if (!point.flag.empty())
-        figure.label({point.across, point.deviation}, percent(point.deviation));
+        figure.label({point.across, point.deviation}, whole_percent(point.deviation));
     }
     add_legend(figure);
     return figure.svg();
@@ -107,7 +107,7 @@ class Scatter {
 
 }  // namespace
 
-std::string scatter_chart(const ScatterFigure& scatter) {
+Html scatter_chart(const ScatterFigure& scatter) {
   if (scatter.points.empty()) return {};
   const Scatter drawn(scatter);
   std::vector<Titled> all{{"", drawn.values()}};

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "report/html.hpp"
+
 namespace triptych::report {
 
 // Two devices' values of the same configurations against each other.
@@ -26,6 +28,6 @@ struct ScatterFigure {
 
 // HTML: both values on logarithmic axes with the line, and beside it what is left beyond the line,
 // flagged points with their deviation. Without a line the first alone.
-[[nodiscard]] std::string scatter_chart(const ScatterFigure& scatter);
+[[nodiscard]] Html scatter_chart(const ScatterFigure& scatter);
 
 }  // namespace triptych::report

@@ -79,5 +79,38 @@ TEST(Hostile, AnEndlessValueMakesNoEndlessLine) {
   EXPECT_THAT(result.output, HasSubstr("…"));
 }
 
+// A run's own lines too, on stdout and stderr.
+TEST(Hostile, ARunPrintsNamesAsText) {
+  const Program program;
+  const std::string name = "a\x1b[2J\u202Eb.yaml";
+  program.write(name, tiny_plan);
+  for (const char* command : {"run", "list", "gate --measure"}) {
+    const Result result = program.run(std::string(command) + " '" + name +
+                                      "' --store s.sqlite 2>&1");
+    for (const char* hidden : {"\x1b", "\u202E"}) {
+      EXPECT_THAT(result.output, Not(HasSubstr(hidden))) << command;
+    }
+    EXPECT_THAT(result.output, HasSubstr("a\\x1b[2J\\u{202e}b")) << command;
+  }
+}
+
+// 10¹² combinations: refused before the first.
+TEST(Hostile, AListThatWouldNotEndIsRefused) {
+  const Program program;
+  std::string steps;
+  std::string cameras;
+  for (int i = 1; i <= 1000; ++i) {
+    steps += std::to_string(0.01 * i) + ", ";
+    cameras += "random:" + std::to_string(i) + ", ";
+  }
+  program.write("p.yaml", "suite: volume\nstep: [" + steps + "]\ncamera: [" + cameras +
+                              "]\nbudget: [" + steps + "]\nviewport: [16, 32]\n");
+  for (const char* command : {"list p.yaml", "run p.yaml --store s.sqlite"}) {
+    const Result result = program.run(command, "{}", "timeout 20");
+    EXPECT_EQ(result.code, 3) << command << result.output;
+    EXPECT_LT(result.output.size(), 9000U) << command;
+  }
+}
+
 }  // namespace
 }  // namespace triptych::command_line

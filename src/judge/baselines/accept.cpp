@@ -225,6 +225,34 @@ void append_history(const Accepted& accepted, const AcceptRequest& request, Next
   next.files[Layout::history] = bytes_of(core::to_lines(history.value(), 1));
 }
 
+record::Checks all_of(record::Checks checks, const record::Checks& more) {
+  checks.insert(more.begin(), more.end());
+  return checks;
+}
+
+// With what was accepted on each machine of the run. A set that is part of another says nothing more.
+Json machines_of(const Accepted& accepted, const Manifest& stored) {
+  std::vector<std::set<std::string>> machines = stored.machines;
+  for (const record::Beginning& begun : accepted.run.begun) {
+    std::set<std::string>& drivers = machines.emplace_back();
+    for (const std::string& id : begun.devices) {
+      const auto device = accepted.devices.find(id);
+      if (device != accepted.devices.end()) drivers.insert(device->second.statistics_key());
+    }
+  }
+  std::ranges::sort(machines);
+  const auto repeated = std::ranges::unique(machines);
+  machines.erase(repeated.begin(), repeated.end());
+  Json kept = Json::array();
+  for (const auto& each : machines) {
+    const bool is_part = std::ranges::any_of(machines, [&](const auto& other) {
+      return &other != &each && std::ranges::includes(other, each);
+    });
+    if (each.size() > 1 && !is_part) kept.push_back(each);
+  }
+  return kept;
+}
+
 void write_manifest(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
   // A part of a run says nothing of the plan as a whole.
   const bool whole = accepted.replaces_all || stored.plan_hash.empty();
@@ -241,7 +269,8 @@ void write_manifest(const Accepted& accepted, const Manifest& stored, NextFolder
   for (const auto& [name, content] : next.files) files[name] = core::content_hash(content);
   const Json manifest{
       {"plan_hash", whole ? accepted.run.plan_hash : stored.plan_hash},
-      {"checks", record::text_of(accepted.checks)},
+      {"checks", record::text_of(whole ? accepted.checks : all_of(accepted.checks, stored.checks))},
+      {"machines", machines_of(accepted, stored)},
       {"configurations",
        whole ? std::max<std::uint64_t>(accepted.run.configurations, accepted.configurations.size())
              : stored.configurations},
@@ -335,6 +364,27 @@ void refuse_part(const Accepted& accepted, const Baselines& stored, const std::s
       request.store_option));
 }
 
+// A run that was cut short before there are any baselines would make those of a part of the plan.
+void refuse_incomplete(const record::Store& store, const Accepted& accepted,
+                       const AcceptRequest& request) {
+  if (!accepted.replaces_all || request.drop) return;
+  const std::vector<std::string> planned = store.planned(accepted.run);
+  for (const std::string& device : record::devices_of(accepted.run.begun)) {
+    const std::set<std::string> there = store.configurations(accepted.run.id, device);
+    std::vector<std::string> missing;
+    std::ranges::set_difference(planned, there, std::back_inserter(missing));
+    if (missing.empty()) continue;
+    throw core::InputError(fmt::format(
+        "run {} was cut short: of {} configurations on {} it has no record of {} ({}{}); finish it "
+        "with triptych run {} --resume{}, accept what it has with --only GLOB, or with --drop",
+        accepted.run.id, planned.size(), device, missing.size(), missing.front(),
+        missing.size() > 1 ? "; …" : "",
+        core::shell_quoted(request.argument.empty() ? record::plan_argument(request.plan)
+                                                    : request.argument),
+        request.store_option));
+  }
+}
+
 // Everything that is stored and as it was accepted; nothing where that is to be dropped.
 NextFolder next_of(const Baselines& stored, const AcceptRequest& request) {
   NextFolder next{.folder = stored.folder(), .files = {}, .lines = {}};
@@ -361,6 +411,7 @@ record::Checks checked_in(const record::Run& run) {
 std::vector<std::string> accept(const record::Store& store, const std::string& run,
                                 const std::filesystem::path& root, const AcceptRequest& request) {
   const Accepted accepted = select(store, run, request);
+  refuse_incomplete(store, accepted, request);
   refuse_other_data(accepted, request);
   const WriterLock lock(root);
   const Baselines stored(root, request.plan);

@@ -17,6 +17,7 @@
 
 namespace triptych::judge {
 namespace fs = std::filesystem;
+using record::Check;
 namespace {
 
 struct StoredImage {
@@ -76,6 +77,12 @@ Manifest read_manifest(const core::JsonNode& node) {
     for (const core::JsonNode& driver : drivers.elements()) {
       manifest.devices[device].insert(driver.text());
     }
+  }
+  manifest.checks = record::checks_of(node.at("checks").text());
+  if (!node.has("machines")) return manifest;
+  for (const core::JsonNode& machine : node.at("machines").elements()) {
+    std::set<std::string>& drivers = manifest.machines.emplace_back();
+    for (const core::JsonNode& driver : machine.elements()) drivers.insert(driver.text());
   }
   return manifest;
 }
@@ -142,10 +149,15 @@ std::map<std::string, fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
+bool is_outside(const fs::path& name) {
+  return name.is_absolute() || std::ranges::find(name, fs::path("..")) != name.end();
+}
+
 // The first file that is not as the manifest says, and how; empty where all are.
 std::string first_change(const fs::path& folder, const Manifest& manifest) {
   for (const auto& [name, hash] : manifest.files) {
     const fs::path file = folder / name;
+    if (is_outside(name)) return name + " is outside the folder";
     if (!fs::is_regular_file(file)) return name + " is gone";
     if (core::content_hash(core::read_file(file)) != hash) return name + " was changed";
   }
@@ -194,6 +206,7 @@ struct Baselines::Cache {
   std::map<fs::path, ByName<record::StatisticWorth>> calibrations;
   std::map<fs::path, ByName<StoredTiming>> timings;
   std::optional<std::vector<Waiver>> waivers;
+  std::optional<std::vector<Absent>> absent;
 
   // {configuration: …} of a whole file.
   template <typename Value, typename Read>
@@ -248,12 +261,48 @@ const std::string& Baselines::problem() const {
   } else {
     try {
       problem = first_change(folder_, manifest());
+      if (problem.empty()) problem = contradiction();
     } catch (const core::InputError& error) {  // what a careless merge leaves
       problem = error.what();
     }
   }
   cache_->problem = std::move(problem);
   return *cache_->problem;
+}
+
+// Nothing proves the manifest, which proves the other files: what it says of them must be so. A
+// device or driver that it leaves out would count as new, and a check as not asked for.
+std::string Baselines::contradiction() const {
+  const Manifest& manifest = this->manifest();
+  std::set<std::string> drivers;
+  for (const auto& [id, known] : manifest.devices) drivers.insert(known.begin(), known.end());
+  const auto lacks = [](const std::string& what) {
+    return fmt::format("{} does not name {}", Layout::manifest, what);
+  };
+  for (const auto& [configuration, counters] : cache_->all_counters()) {
+    for (const auto& [counter, values] : counters) {
+      for (const auto& [id, value] : values) {
+        if (!manifest.devices.contains(id)) return lacks(id + ", which counters.json has");
+      }
+    }
+  }
+  for (const char* folder : {Layout::cost_folder, Layout::statistics_folder}) {
+    for (const auto& [driver, path] : files_in(folder_ / folder)) {
+      if (!drivers.contains(driver)) return lacks(folder + driver + ".json");
+    }
+  }
+  for (const std::set<std::string>& machine : manifest.machines) {
+    for (const std::string& driver : machine) {
+      if (!drivers.contains(driver)) return lacks("a driver of a machine, " + driver);
+    }
+  }
+  for (const auto& [check, file] : {std::pair{Check::accuracy, Layout::errors},
+                                    std::pair{Check::stress, Layout::scores}}) {
+    if (fs::exists(folder_ / file) && !manifest.checks.contains(check)) {
+      return lacks(fmt::format("the check {}, which {} is of", record::name_of(check), file));
+    }
+  }
+  return {};
 }
 
 const Manifest& Baselines::manifest() const {
@@ -363,6 +412,11 @@ std::vector<std::string> Baselines::configurations() const {
     result.push_back(configuration);
   }
   return result;
+}
+
+const std::vector<Absent>& Baselines::absent() const {
+  if (!cache_->absent) cache_->absent = read_absent(absent_file());
+  return *cache_->absent;
 }
 
 const std::vector<Waiver>& Baselines::waivers() const {

@@ -2,7 +2,7 @@
 // baselines/<suite>/<plan>/ : what was accepted. Text, sorted, one value per line, so that a change
 // can be reviewed. `accept` is the only writer.
 //   manifest.json             the plan's hash and checks, number of configurations, {device id:
-//                             [drivers]}, {file: content hash} of all that follows
+//                             [drivers]}, [[drivers of one machine]], {file: content hash} of all that follows
 //   counters.json             {configuration: {counter: {device id: value}}}
 //   memory.json               {configuration: {device id: {kind: bytes}}}
 //   cost/<driver>.json        {device, driver_version, counted_by, configurations: {configuration:
@@ -32,6 +32,7 @@
 
 #include "accuracy/cases.hpp"
 #include "core/image.hpp"
+#include "judge/baselines/absent.hpp"
 #include "judge/baselines/reference_hash.hpp"
 #include "judge/baselines/waivers.hpp"
 #include "judge/stress/stress.hpp"
@@ -44,6 +45,10 @@ struct Manifest {
   std::uint64_t configurations = 0;
   std::map<std::string, std::set<std::string>> devices;  // id → Device::statistics_key()
   std::map<std::string, std::string> files;              // name → content hash
+  record::Checks checks;                                 // of the plan as it was accepted
+  // Drivers that were accepted on one machine, by Device::statistics_key(): where one of them is
+  // found, the others are expected.
+  std::vector<std::set<std::string>> machines;
 };
 
 struct StoredTiming {
@@ -127,8 +132,14 @@ class Baselines {
   // Configurations that have counters stored: what a complete run must hold.
   [[nodiscard]] std::vector<std::string> configurations() const;
   [[nodiscard]] const std::vector<Waiver>& waivers() const;
+  // absent.json beside waivers.json: devices that machines are meant to lack.
+  [[nodiscard]] const std::vector<Absent>& absent() const;
+  [[nodiscard]] std::filesystem::path absent_file() const { return root_ / "absent.json"; }
 
  private:
+  // What the manifest says of the files, and is not so; empty where all is.
+  [[nodiscard]] std::string contradiction() const;
+
   std::filesystem::path root_;
   std::filesystem::path folder_;
   struct Cache;

@@ -1,17 +1,16 @@
 #include "judge/baselines/waivers.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/json_file.hpp"
 #include "core/json_text.hpp"
+#include "judge/baselines/waiver_values.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -19,45 +18,23 @@ namespace {
 constexpr std::array<std::pair<Known, std::string_view>, 3> known_names{
     {{Known::fail, "fail"}, {Known::flake, "flake"}, {Known::skip, "skip"}}};
 
-// A day that there is.
-bool is_iso_date(std::string_view text) {
-  constexpr std::string_view shape = "dddd-dd-dd";
-  const bool written_so = std::ranges::equal(
-      text, shape, [](char c, char s) { return s == 'd' ? c >= '0' && c <= '9' : c == s; });
-  if (!written_so) return false;
-  const auto number = [&](std::size_t begin, std::size_t length) {
-    return std::stoi(std::string(text.substr(begin, length)));
-  };
-  const std::chrono::year_month_day date{std::chrono::year(number(0, 4)),
-                                         std::chrono::month(static_cast<unsigned>(number(5, 2))),
-                                         std::chrono::day(static_cast<unsigned>(number(8, 2)))};
-  return date.ok();
-}
-
-// A key that nobody reads would leave an entry that excuses more than it says.
-void refuse_other_keys(const core::JsonNode& entry) {
-  constexpr std::array<std::string_view, 6> known{"device", "test",   "configuration",
-                                                  "reason", "expiry", "outcome"};
-  for (const auto& [key, value] : entry.members()) {
-    if (std::ranges::find(known, key) != known.end()) continue;
-    value.fail(fmt::format("no such key; there are: {}", fmt::join(known, ", ")));
-  }
-}
-
 Waiver read_entry(const core::JsonNode& entry) {
-  refuse_other_keys(entry);
+  refuse_other_keys(entry, {"device", "test", "configuration", "reason", "expiry", "outcome"});
   Waiver waiver{.device = entry.at("device").text(),
                 .test = entry.at("test").text(),
-                .reason = entry.at("reason").text(),
-                .expiry = entry.has("expiry") ? entry.at("expiry").text() : std::string()};
+                .reason = reason_of(entry),
+                .expiry = entry.has("expiry") ? expiry_of(entry) : std::string()};
   if (entry.has("configuration")) waiver.configuration = entry.at("configuration").text();
-  if (waiver.reason.find_first_not_of(" \t") == std::string::npos) {
-    entry.at("reason").fail("expected a reason");
-  }
-  if (entry.has("expiry") && !is_iso_date(waiver.expiry)) {
-    entry.at("expiry").fail("expected a day of the calendar as YYYY-MM-DD");
-  }
   return waiver;
+}
+
+// What excuses everything hides everything that is found later.
+void refuse_without_limits(const core::JsonNode& entry, const Waiver& waiver) {
+  if (matches_everything(waiver.device) && matches_everything(waiver.test) &&
+      matches_everything(waiver.configuration)) {
+    entry.at("test").fail(
+        "excuses every finding on every device: name the device, the test or the configuration");
+  }
 }
 
 Known read_known(const core::JsonNode& node) {
@@ -81,6 +58,7 @@ std::vector<Waiver> read_waivers(const std::filesystem::path& file) {
   for (const core::JsonNode& entry : json->root().elements()) {
     static_cast<void>(entry.at("expiry"));  // by hand nothing is excused for ever
     result.push_back(read_entry(entry));
+    refuse_without_limits(entry, result.back());
   }
   return result;
 }

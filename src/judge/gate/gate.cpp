@@ -46,10 +46,16 @@ record::Run run_of(const record::Store& store, const std::string& id) {
 
 RunView view_of(const record::Store& store, const std::string& run, const Baselines& baselines,
                 const GateRequest& request) {
-  RunView view{store, baselines, request, request.checks, {}, {}, {}, {}};
-  if (view.checks.empty()) view.checks = checked_in(run_of(store, run));
+  RunView view{store, baselines, request, run_of(store, run), request.checks, {}, {}, {}, {}};
+  if (view.checks.empty()) view.checks = checked_in(view.run);
   for (auto& entry : store.devices(run)) {
     if (asked_for(request, entry.device.id)) view.devices.emplace(entry.device.id, entry.device);
+  }
+  // A device that was to be measured is judged though nothing of it is there.
+  for (const std::string& id : record::devices_of(view.run.begun)) {
+    record::Device unknown;
+    unknown.id = id;
+    if (asked_for(request, id)) view.devices.try_emplace(id, unknown);
   }
   for (record::Record& record : store.records(run)) {
     if (record.plan != request.plan || !asked_for(request, record.device)) continue;
@@ -147,7 +153,9 @@ void report_missing(const RunView& view, const record::Device& device,
 // Every device must have a record, of whatever outcome, of every configuration of the plan, of
 // every accepted one, and no others.
 void report_rows(const RunView& view, std::vector<Finding>& findings) {
-  const std::set<std::string> expected(view.request.expected.begin(), view.request.expected.end());
+  const std::vector<std::string> planned =
+      view.request.expected.empty() ? view.store.planned(view.run) : view.request.expected;
+  const std::set<std::string> expected(planned.begin(), planned.end());
   std::set<std::string> accepted;
   if (view.baselines.present() && !view.request.part) {
     for (std::string& each : view.baselines.configurations()) accepted.insert(std::move(each));
@@ -170,7 +178,7 @@ void report_rows(const RunView& view, std::vector<Finding>& findings) {
 void report_other_plan(const RunView& view, const std::string& run,
                        std::vector<Finding>& findings) {
   if (view.request.plan_hash.empty() || view.records.empty()) return;
-  const std::string measured = run_of(view.store, run).plan_hash;
+  const std::string& measured = view.run.plan_hash;
   if (measured == view.request.plan_hash) return;
   findings.push_back(finding_about(view, *view.checks.begin(), Verdict::cannot_judge,
                                    {.cause = Cause::other_plan,
@@ -291,6 +299,17 @@ int rank(Verdict verdict) {
 void report_what_is_there(const RunView& view, GateResult& result) {
   for (const record::Record* record : view.measured) result.devices.insert(record->device);
   for (const auto& [id, device] : view.devices) result.environments[id] = device.environment;
+  for (const record::Beginning& each : view.run.begun) {
+    result.unusable.insert(result.unusable.end(), each.unusable.begin(), each.unusable.end());
+  }
+  for (const record::Record& record : view.records) {
+    if (!record.injected.empty()) ++result.injected[record.injected];
+  }
+  const auto program = view.run.system.find("triptych");
+  if (program != view.run.system.end() && !view.request.program.empty() &&
+      program->second != view.request.program) {
+    result.measured_by = program->second;
+  }
   report_nothing_measured(view, result.run, result.findings);
   report_outcomes(view, result.findings);
   report_other_plan(view, result.run, result.findings);
@@ -357,6 +376,7 @@ GateResult judge_run(const record::Store& store, const std::string& run, const B
   result.times_decided = request.times_decide;
   result.part = request.part;
   report_what_is_there(view, result);
+  report_as_begun(view, result.findings);
   Judging all{view, result};
   run_checks(all);
   apply_waivers(view, result.findings);

@@ -37,6 +37,12 @@ struct GateResult {
   std::string baselines = {};                        // the folder, where commands have to name it
   bool times_decided = false;                        // as of the request
   bool part = false;                                 // likewise
+  // Of the run: what was met while its devices were listed and cannot be used, the faults that were
+  // injected with the number of their records, and the program that measured it where that is not
+  // the one that judges. The last screen shows all of these, whatever the verdict.
+  std::vector<record::Unusable> unusable = {};
+  std::map<std::string, std::size_t> injected = {};
+  std::string measured_by = {};
   // Of which all findings are advice or reasons for not judging.
   [[nodiscard]] std::vector<std::string> nothing_decided() const;
   [[nodiscard]] core::ExitCode exit_code() const;
@@ -53,6 +59,10 @@ struct GateRequest {
   std::vector<std::string> devices;  // globs; empty: all in the run
   std::vector<std::string>
       required_devices;  // globs; each must match a device that measured something
+  // Globs over devices that this machine is meant to lack, and over APIs whose devices cannot be
+  // listed here.
+  std::vector<std::string> without_devices = {};
+  std::string program = {};  // the judging program's version; empty: not compared
   // The truth for a record's scene with the bound that holds for the record's path. Computed by the
   // suite, cached in the store by the caller.
   FindTruth truth;

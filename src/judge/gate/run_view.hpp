@@ -15,6 +15,7 @@ struct RunView {
   const record::Store& store;
   const Baselines& baselines;
   const GateRequest& request;
+  record::Run run;
   std::set<Check> checks;
   std::vector<record::Record> records;               // of the devices asked for
   std::map<std::string, record::Device> devices;     // by id
@@ -75,6 +76,10 @@ struct AccuracyFindings {
 
 // A finding per record that has a score, those that failed among them.
 [[nodiscard]] std::vector<Finding> check_stress(const RunView& view);
+
+// Whether the run is what it set out to be, on all devices that its machine should have, by a plan
+// that asks for all that its baselines hold.
+void report_as_begun(const RunView& view, std::vector<Finding>& findings);
 
 // Whether waivers.json excuses what this check may find about the record, today.
 [[nodiscard]] bool is_waived(const RunView& view, const record::Record& record, Check check);

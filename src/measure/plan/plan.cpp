@@ -148,6 +148,9 @@ core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& va
 
 // More in one run is a slip of the pen: at a tenth of a second each these would take a day.
 constexpr std::size_t most_configurations = 1'000'000;
+// Each line is written and forgotten: a list may be longer than what is held to be run, but it must
+// end on the same day.
+constexpr std::size_t most_listed = 100'000'000;
 
 // What a plan's text says, before any configuration is made.
 struct OpenPlan {
@@ -199,16 +202,15 @@ OpenPlan open_plan(std::string_view name_or_file, const Overrides& overrides,
 }
 
 void require_few(const Combinations& combinations, const std::vector<core::FilePlace>& places,
-                 const Shard& shard) {
+                 const Shard& shard, std::size_t most = most_configurations) {
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (combinations.most_of(i) / static_cast<std::size_t>(std::max(1, shard.count)) <=
-        most_configurations) {
+    if (combinations.most_of(i) / static_cast<std::size_t>(std::max(1, shard.count)) <= most) {
       continue;
     }
     throw core::InputError(
         places[i], fmt::format("more than {} combinations, most of this factor; take shards of the "
                                "plan (--shard i/n), or split it",
-                               most_configurations));
+                               most));
   }
 }
 
@@ -251,6 +253,7 @@ Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
                const FindSuite& find_suite, const Shard& shard,
                const std::function<void(const Suite&, const Configuration&)>& use) {
   OpenPlan open = open_plan(name_or_file, overrides, find_suite);
+  require_few(open.combinations, open.places, shard, most_listed);
   open.combinations.for_each(shard, [&](const Configuration& each) { use(open.suite, each); });
   return std::move(open.plan);
 }

@@ -49,7 +49,8 @@ using FindSuite = std::function<Suite&(std::string_view name)>;  // throws Input
 [[nodiscard]] Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
                              const FindSuite& find_suite, const Shard& shard = {});
 
-// The same plan of any size without its configurations, each handed to `use` in their order.
+// The same plan without its configurations, each handed to `use` in their order. Throws as load_plan
+// does, but only for more than a hundred million configurations.
 Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
                const FindSuite& find_suite, const Shard& shard,
                const std::function<void(const Suite&, const Configuration&)>& use);

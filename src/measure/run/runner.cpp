@@ -46,16 +46,28 @@ void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& 
   }
 }
 
-// The id of the run to add to: a new one, or the plan's latest when it is to be resumed.
-std::string open_run(const PlannedRun& planned, record::Store& store) {
+// The id of the run to add to: a new one, or the plan's latest when it is to be resumed. What is to
+// be measured is in the store before anything is.
+std::string open_run(const PlannedRun& planned, const std::vector<std::string>& devices,
+                     record::Store& store) {
   const auto& [plan, suite, options] = planned;
-  const record::Run fresh = new_run(plan, options.program);
-  if (!options.resume) {
-    store.add_run(fresh);
-    return fresh.id;
+  record::Run run = new_run(plan, options.program);
+  if (options.resume) {
+    const record::Run found = store.latest_run_or_add(run);
+    if (found.id != run.id) refuse_another_plan(found, plan, suite, store);
+    run = found;
+  } else {
+    store.add_run(run);
   }
-  const record::Run run = store.latest_run_or_add(fresh);
-  if (run.id != fresh.id) refuse_another_plan(run, plan, suite, store);
+  record::Beginning begun = options.begun;
+  begun.devices = devices;
+  if (begun.found.empty()) begun.found = devices;
+  std::vector<std::string> keys;
+  keys.reserve(plan.configurations.size());
+  for (const Configuration& each : plan.configurations) {
+    keys.push_back(configuration_key(suite, each));
+  }
+  store.begin(run.id, begun, keys);
   return run.id;
 }
 
@@ -211,7 +223,7 @@ std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
                              store,
                              options,
                              interrupts,
-                             open_run(each, store),
+                             open_run(each, devices, store),
                              kinds_of(plan, options.protocol)};
     const bool timed = context.plan.timed() && options.protocol.timed;
     const bool side_by_side = !timed && (devices.size() > 1 || options.jobs > 1);
@@ -231,7 +243,7 @@ std::array<RunResult, 2> run_sides(const SidesRun& sides, record::Store& store,
     const PlannedRun planned{sides.plan, sides.suite, sides.options[i]};
     refuse_bad_options(planned.options);
     contexts.push_back({planned.plan, planned.suite, store, planned.options, interrupts,
-                        open_run(planned, store),
+                        open_run(planned, {sides.devices[i]}, store),
                         kinds_of(planned.plan, planned.options.protocol)});
     parts.push_back({&contexts.back(), sides.devices[i]});
   }

@@ -36,6 +36,8 @@ struct RunOptions {
   int jobs = 0;
   std::vector<std::string> worker_command;           // as SideOptions::command
   std::vector<std::string> worker_environment = {};  // as SideOptions::environment
+  // What the command was asked for and found; its devices are those that are measured.
+  record::Beginning begun = {};
   std::string program = {};  // the version, with its commit, that a run says; empty: the version
 };
 

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <cstdlib>
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/private_folder.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -28,19 +30,25 @@ std::string variable(const char* name) {
   return value == nullptr ? std::string() : std::string(value);
 }
 
-std::vector<std::filesystem::path> cache_roots() {
-  std::vector<std::filesystem::path> roots;
+// A place for caches, and the folder in it.
+struct CachePlace {
+  std::filesystem::path root;
+  std::string name;
+};
+
+std::vector<CachePlace> cache_places() {
+  std::vector<CachePlace> places;
   if (const std::string xdg = variable("XDG_CACHE_HOME"); !xdg.empty()) {
-    roots.emplace_back(std::filesystem::path(xdg) / "triptych");
+    places.push_back({xdg, "triptych"});
   }
   if (const std::string home = variable("HOME"); !home.empty()) {
-    roots.emplace_back(std::filesystem::path(home) / ".cache" / "triptych");
+    places.push_back({std::filesystem::path(home) / ".cache", "triptych"});
   }
   // A name of this user's own: the folder for temporary files is everybody's.
   std::error_code error;
   const auto temporary = std::filesystem::temp_directory_path(error);
-  if (!error) roots.emplace_back(temporary / fmt::format("triptych-{}", ::getuid()));
-  return roots;
+  if (!error) places.push_back({temporary, core::name_of_this_user()});
+  return places;
 }
 
 std::string as_file_name(std::string_view device_id) {
@@ -52,13 +60,15 @@ std::string as_file_name(std::string_view device_id) {
   return name;
 }
 
-// The lock file in the folder, locked; empty when the folder cannot be used or is in use.
-FileDescriptor try_lock(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return {};
-  FileDescriptor lock(::open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
-  if (lock && ::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) lock.reset();
+// The lock file in the folder, locked; empty when the folder is in use.
+FileDescriptor try_lock(const core::PrivateFolder& folder) {
+  FileDescriptor lock(
+      ::openat(folder.fd(), "lock", O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));
+  if (!lock) {
+    throw core::IoError(fmt::format("{}: {}", (folder.path() / "lock").string(),
+                                    std::generic_category().message(errno)));
+  }
+  if (::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) lock.reset();
   return lock;
 }
 
@@ -93,17 +103,36 @@ std::span<const EnvironmentDefault> environment_defaults() {
 
 CacheFolder::CacheFolder(std::string_view device_id) {
   constexpr int most_at_once = 64;
-  for (const auto& root : cache_roots()) {
-    for (int n = 0; n < most_at_once; ++n) {
-      path_ = root / fmt::format("{}-{}", as_file_name(device_id), n);
-      lock_ = try_lock(path_);
-      if (lock_) return;
+  std::string reasons;
+  for (const auto& [root, name] : cache_places()) {
+    try {
+      for (int n = 0; n < most_at_once; ++n) {
+        const std::array names{name, fmt::format("{}-{}", as_file_name(device_id), n)};
+        const core::PrivateFolder folder(root, names);
+        path_ = folder.path();
+        lock_ = try_lock(folder);
+        if (lock_) return;
+      }
+      reasons += fmt::format("; {}: {} workers hold one each", root.string(), most_at_once);
+    } catch (const core::IoError& error) {
+      reasons += fmt::format("; {}", error.what());
     }
   }
-  throw core::IoError(
-      fmt::format("no cache folder for {}: none can be written, or {} workers hold one each; set "
-                  "XDG_CACHE_HOME",
-                  device_id, most_at_once));
+  throw core::IoError(fmt::format(
+      "no cache folder for {}: set XDG_CACHE_HOME to a folder of your own{}", device_id, reasons));
+}
+
+core::PrivateFolder cache_folder(const std::string& name) {
+  std::string reasons;
+  for (const CachePlace& place : cache_places()) {
+    try {
+      const std::array names{place.name, name};
+      return {place.root, names};
+    } catch (const core::IoError& error) {
+      reasons += fmt::format("; {}", error.what());
+    }
+  }
+  throw core::IoError("no cache folder can be used" + reasons);
 }
 
 std::vector<std::string> worker_environment(std::string_view device_id, const CacheFolder& cache,

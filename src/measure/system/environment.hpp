@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/private_folder.hpp"
 #include "measure/system/process.hpp"
 
 namespace triptych::measure {
@@ -25,10 +26,11 @@ struct EnvironmentDefault {
 // A cache folder that belongs to one worker at a time, kept from run to run so that drivers find
 // what they compiled before: $XDG_CACHE_HOME/triptych (or ~/.cache/triptych, or the folder for
 // temporary files) /<device>-<n>, n the first that nobody else holds. Held until destroyed, across
-// the worker's replacements.
+// the worker's replacements. Drivers load compiled code from it: only folders that are this user's
+// alone are used (core/private_folder.hpp).
 class CacheFolder {
  public:
-  // Throws IoError when no such folder can be made anywhere.
+  // Throws IoError that says why when no such folder can be used anywhere.
   explicit CacheFolder(std::string_view device_id);
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
@@ -36,6 +38,10 @@ class CacheFolder {
   std::filesystem::path path_;
   FileDescriptor lock_;
 };
+
+// The folder of that name beside those of the workers, where the first of these places is usable.
+// Throws IoError as CacheFolder does.
+[[nodiscard]] core::PrivateFolder cache_folder(const std::string& name);
 
 // The whole environment of a worker for this device, "NAME=VALUE" each: the caller's own without
 // what would change how benchmarks are run (BENCHMARK_*), with the defaults it lacks. `overrides`,

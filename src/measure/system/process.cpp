@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "measure/system/descendants.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -159,8 +160,12 @@ Process::Process(const std::vector<std::string>& command,
   const Attributes attributes;
   const std::vector<char*> arguments = pointers(command);
   const std::vector<char*> variables = pointers(environment);
-  const int error = ::posix_spawnp(&pid_, command.front().c_str(), files.get(), attributes.get(),
-                                   arguments.data(), variables.data());
+  inherit_orphans();
+  const auto spawn = [&](pid_t* pid) {
+    return ::posix_spawnp(pid, command.front().c_str(), files.get(), attributes.get(),
+                          arguments.data(), variables.data());
+  };
+  const int error = start_child(spawn, pid_);
   if (error != 0) fail(fmt::format("cannot start '{}'", command.front()), error);
   request_ = std::move(request.write);
   answer_ = std::move(answer.read);
@@ -173,6 +178,7 @@ Process::Process(const std::vector<std::string>& command,
   } catch (...) {
     kill();
     ::waitpid(pid_, nullptr, 0);
+    forget_child(pid_);
     throw;
   }
 }
@@ -183,10 +189,11 @@ Process::~Process() {
   // A process that sleeps inside a driver cannot be reaped even so; it is not worth hanging for.
   constexpr std::chrono::seconds patience{10};
   try {
-    static_cast<void>(wait(patience));
+    if (wait(patience)) return;
   } catch (const core::Error&) {
     // Nothing is left to be done about a child that cannot be waited for.
   }
+  forget_child(pid_);
 }
 
 void Process::kill() noexcept {
@@ -209,6 +216,7 @@ std::optional<Exit> Process::wait(std::chrono::milliseconds limit) {
   kill();  // what the child left behind; until it is reaped its number cannot be anyone else's
   int status = 0;
   if (::waitpid(pid_, &status, 0) != pid_) fail("cannot reap a worker", errno);
+  forget_child(pid_);
   exit_ = WIFSIGNALED(status) ? Exit{0, WTERMSIG(status)} : Exit{WEXITSTATUS(status), 0};
   return exit_;
 }

@@ -42,7 +42,8 @@ struct Exit {
 // The child reads requests at `child_request_fd` and writes answers at `child_answer_fd`; its
 // standard input is empty, its standard output and error both end in the log pipe, so that nothing
 // a driver prints can mix with the answers. No other descriptor of ours reaches it. It leads a
-// process group of its own: what it starts dies with it.
+// process group of its own: what it starts dies with it, and what leaves the group dies with the
+// last process of this kind (descendants.hpp).
 class Process {
  public:
   static constexpr int child_request_fd = 3;

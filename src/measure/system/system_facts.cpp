@@ -56,6 +56,11 @@ std::string_view compiler() {
 
 }  // namespace
 
+std::string host_name() {
+  utsname names{};
+  return ::uname(&names) == 0 ? names.nodename : "";
+}
+
 std::map<std::string, std::string> system_facts() {
   std::map<std::string, std::string> facts{
       {"processor", value_in("/proc/cpuinfo", "model name", ':')},

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
+#include "measure/truth/own_seal.hpp"
 #include "record/data_factors.hpp"
 
 namespace triptych::measure {
@@ -64,17 +65,20 @@ std::string Truths::data_hash_of(const record::Record& record) {
 
 accuracy::TruthPair Truths::kept(const std::string& scene, const std::string& version,
                                  const std::function<accuracy::TruthPair()>& render) {
-  if (const auto stored = store_.truth(scene, version)) {
+  const auto stored = store_.truth(scene, version);
+  if (stored && !stored->own_seal.empty() && own_seal(*stored) == stored->own_seal) {
     const std::string name = fmt::format("{}: truth of {}", store_.file().string(), scene);
     return {.truth = core::decode_exr(stored->image, name),
             .bound = core::decode_exr(stored->bound, name)};
   }
   accuracy::TruthPair rendered = render();
   try {
-    store_.set_truth({.scene = scene,
-                      .version = version,
-                      .image = core::encode_exr(rendered.truth),
-                      .bound = core::encode_exr(rendered.bound)});
+    record::TruthImage drawn{.scene = scene,
+                             .version = version,
+                             .image = core::encode_exr(rendered.truth),
+                             .bound = core::encode_exr(rendered.bound)};
+    drawn.own_seal = own_seal(drawn).value_or("");
+    store_.set_truth(drawn);
   } catch (const core::IoError&) {
     // One that cannot be kept – the store is read-only, the disk full – is as true.
   }

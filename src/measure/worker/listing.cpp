@@ -24,7 +24,7 @@ constexpr std::chrono::seconds greeting_limit{
 core::Json as_json(const Listing& listing) {
   core::Json broken = core::Json::array();
   for (const Broken& each : listing.broken) {
-    broken.push_back({{"what", each.what}, {"reason", each.reason}});
+    broken.push_back(record::Unusable{each.what, each.reason, each.ended});
   }
   return {{"devices", listing.devices}, {"broken", broken}};
 }
@@ -32,7 +32,8 @@ core::Json as_json(const Listing& listing) {
 Listing from_json(const core::Json& json) {
   Listing listing{.devices = json.at("devices"), .broken = {}};
   for (const core::Json& each : json.at("broken")) {
-    listing.broken.push_back({.what = each.at("what"), .reason = each.at("reason")});
+    const auto unusable = each.get<record::Unusable>();
+    listing.broken.push_back({unusable.what, unusable.reason, unusable.ended});
   }
   return listing;
 }
@@ -58,8 +59,15 @@ Listing list_one(const std::string& api) {
   const WorkerLink::Reply reply =
       ask_once({own_program(), "list-api", api}, api + ":listing",
                {.json = core::Json::object(), .binary = {}}, listing_limit);
-  if (const auto* answer = std::get_if<Message>(&reply)) return from_json(answer->json);
-  return {.devices = {}, .broken = {{.what = api, .reason = {}, .ended = reason_of(reply)}}};
+  record::Reason reason = reason_of(reply);
+  if (const auto* answer = std::get_if<Message>(&reply)) {
+    try {
+      return from_json(answer->json);
+    } catch (const core::Json::exception& error) {
+      reason.detail = error.what();
+    }
+  }
+  return {.devices = {}, .broken = {{.what = api, .reason = {}, .ended = std::move(reason)}}};
 }
 
 // Says why no device of the listing is one that `glob` asks for.

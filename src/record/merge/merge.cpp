@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -109,7 +111,7 @@ class Writing {
         }
       }
       copy_named("image", {"hash"}, {"exr"});
-      copy_named("truth", {"scene", "version"}, {"image", "bound"});
+      copy_named("truth", {"scene", "version"}, {"image", "bound", "own_seal"});
       out_.exec("COMMIT");
       return counts;
     });
@@ -233,6 +235,7 @@ void add_runs(const fs::path& file, const fs::path& out, const std::vector<Merge
     store.exec("BEGIN");
     for (const MergedRun& each : runs) {
       insert_run(store, each.run);
+      insert_planned(store, each.run.id, each.planned);
       for (const auto& [device, clocks] : each.devices) {
         insert_device(store, each.run.id, device, clocks);
       }
@@ -245,18 +248,42 @@ void add_runs(const fs::path& file, const fs::path& out, const std::vector<Merge
 
 }  // namespace
 
+namespace {
+
+// Those that it set out to measure, and those that it says anything of.
+std::set<std::string> devices_in(const Store& store, const Run& run) {
+  const std::vector<std::string> begun = devices_of(run.begun);
+  std::set<std::string> devices(begun.begin(), begun.end());
+  for (const Store::DeviceEntry& each : store.devices(run.id)) devices.insert(each.device.id);
+  return devices;
+}
+
+void add_gaps(const Store& store, const Run& run, std::vector<Gap>& gaps) {
+  const std::set<std::string> devices = devices_in(store, run);
+  const std::vector<std::string> planned = store.planned(run);
+  if (devices.empty() && run.configurations > 0) {
+    gaps.push_back({run.plan, "", 0, run.configurations, planned});
+  }
+  for (const std::string& device : devices) {
+    const std::set<std::string> there = store.configurations(run.id, device);
+    Gap gap{run.plan, device, there.size(), run.configurations};
+    std::ranges::set_difference(planned, there, std::back_inserter(gap.missing));
+    if (!gap.missing.empty() || there.size() < run.configurations) gaps.push_back(std::move(gap));
+  }
+}
+
+}  // namespace
+
 std::vector<Gap> gaps_of(const Store& store) {
   std::vector<Gap> gaps;
-  for (const Run& run : latest_runs(store)) {
-    const std::vector<Store::DeviceEntry> devices = store.devices(run.id);
-    if (devices.empty() && run.configurations > 0) {
-      gaps.push_back({run.plan, "", 0, run.configurations});
-    }
-    for (const Store::DeviceEntry& each : devices) {
-      const std::uint64_t records = store.count_records(run.id, each.device.id);
-      if (records >= run.configurations) continue;
-      gaps.push_back({run.plan, each.device.id, records, run.configurations});
-    }
+  const std::vector<Run> runs = latest_runs(store);
+  for (const Run& run : runs) add_gaps(store, run, gaps);
+  const auto is_empty = [](const Run& run) {
+    return run.configurations == 0 && !run.begun.empty();
+  };
+  // A shard of several plans may be empty for the smaller ones, but not for all of them.
+  if (!runs.empty() && std::ranges::all_of(runs, is_empty)) {
+    for (const Run& run : runs) gaps.push_back({run.plan, "", 0, 0});
   }
   return gaps;
 }
@@ -279,7 +306,11 @@ MergeResult merge_stores(const std::vector<fs::path>& stores, const fs::path& ou
   MergeResult result{.plans = {}, .older_runs = merged.older};
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Run& run = merged.runs[i].run;
-    run.configurations = std::max(run.configurations, steps.counts[i].configurations);
+    const std::vector<std::string>& planned = merged.runs[i].planned;
+    run.configurations = planned.empty()
+                             ? std::max(run.configurations, steps.counts[i].configurations)
+                             : planned.size();
+    if (!planned.empty()) run.planned_hash = hash_of_planned(planned);
     result.plans.push_back({run, std::move(steps.counts[i])});
   }
   add_runs(file, out, merged.runs);

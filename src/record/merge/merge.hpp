@@ -17,9 +17,10 @@ struct Gap {
   std::string plan;
   std::string device;  // empty: none was begun
   std::uint64_t records = 0;
-  std::uint64_t configurations = 0;  // that there are to be
+  std::uint64_t configurations = 0;  // that there are to be; 0: the run was to measure nothing
+  std::vector<std::string> missing = {};  // their keys, where the run says which they are
 };
-// None in a shard that is complete.
+// None in a shard that is complete. A store whose shards are all empty is a gap of each plan.
 [[nodiscard]] std::vector<Gap> gaps_of(const Store& store);
 
 struct MergeResult {

@@ -66,6 +66,8 @@ void add(const Run& run, Run& sum) {
   sum.id = std::min(sum.id, run.id);
   sum.started_at = std::min(sum.started_at, run.started_at);
   sum.configurations = std::max(sum.configurations, run.configurations);
+  sum.begun.insert(sum.begun.end(), run.begun.begin(), run.begun.end());
+  sum.begun = joined(std::move(sum.begun));
   for (const auto& [fact, value] : run.system) {
     const auto [known, is_new] = sum.system.try_emplace(fact, value);
     if (!is_new) known->second = all_of(known->second, value);
@@ -101,6 +103,7 @@ struct Growing {
   Run sum;
   std::vector<std::string> parts;
   Devices devices;
+  std::set<std::string> planned;
 };
 
 void add_store(const fs::path& file, std::size_t index, std::size_t count,
@@ -110,11 +113,12 @@ void add_store(const fs::path& file, std::size_t index, std::size_t count,
   older += store.runs().size() - latest.size();
   for (const Run& run : latest) {
     const auto [found, is_new] =
-        plans.try_emplace(run.plan, Growing{{run, file}, run, std::vector<std::string>(count), {}});
+        plans.try_emplace(run.plan, Growing{{run, file}, run, std::vector<std::string>(count), {}, {}});
     Growing& plan = found->second;
     require_same_plan(plan.first, run, file);
     add(run, plan.sum);
     plan.parts[index] = run.id;
+    for (std::string& each : store.planned(run)) plan.planned.insert(std::move(each));
     for (Store::DeviceEntry& each : store.devices(run.id)) {
       add(std::move(each), file, plan.devices);
     }
@@ -131,7 +135,8 @@ MergedRuns merged_runs(const std::vector<fs::path>& stores) {
   }
   for (auto& [name, plan] : plans) {
     MergedRun& run =
-        merged.runs.emplace_back(MergedRun{std::move(plan.sum), std::move(plan.parts), {}});
+        merged.runs.emplace_back(MergedRun{std::move(plan.sum), std::move(plan.parts), {}, {}});
+    run.planned.assign(plan.planned.begin(), plan.planned.end());
     for (auto& [id, entry] : plan.devices) run.devices.push_back(std::move(entry.value));
   }
   return merged;

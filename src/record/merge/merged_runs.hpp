@@ -15,6 +15,7 @@ struct MergedRun {
   Run run;
   std::vector<std::string> parts;           // id of the run in each store, empty where it has none
   std::vector<Store::DeviceEntry> devices;  // by id
+  std::vector<std::string> planned;         // keys of configurations of any part, sorted
 };
 
 struct MergedRuns {

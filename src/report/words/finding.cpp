@@ -142,6 +142,8 @@ std::string advice(const Finding& finding) {
       return "give it more time with --limit";
     case Advice::times:
       return "times decide only with --times";
+    case Advice::repair_driver:
+      return "repair the driver, or state that this machine lacks the device with " + command;
     case Advice::remove_entry:
       return "remove its entry from the file of expectations";
     case Advice::remove_waiver:

@@ -100,6 +100,21 @@ std::string sentence_of(const Observation& what) {
     case Cause::no_required_device:
       return fmt::format("no device that matches {} measured anything, but one is required",
                          what.fact("glob"));
+    case Cause::device_missing:
+      return fmt::format(
+          "no driver lists this device here, but it was accepted on a machine with this driver "
+          "version of {}",
+          what.fact("sibling"));
+    case Cause::listing_failed:
+      return fmt::format("the devices of {} could not be listed, so some may be missing: {}",
+                         what.fact("what"), text_of(what.reason));
+    case Cause::no_description:
+      return fmt::format(
+          "run {} has records of this device, but rows that describe the device were lost",
+          what.fact("run"));
+    case Cause::checks_lost:
+      return fmt::format("the baselines were accepted for {}, which the plan no longer checks",
+                         fmt::join(what.names, ", "));
     case Cause::missing:
       return missing(what);
     case Cause::extra:

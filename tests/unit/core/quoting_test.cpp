@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
 
+#include "core/text.hpp"
 #include "support/command.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -16,26 +20,106 @@ TEST(ShellQuoted, LeavesAloneWhatNeedsNoQuotes) {
   EXPECT_EQ(shell_quoted("a b"), "'a b'");
   EXPECT_EQ(shell_quoted("it's"), R"('it'\''s')");
   EXPECT_EQ(shell_quoted("vulkan:*"), "'vulkan:*'");
-  EXPECT_EQ(shell_quoted("a\x1b'\n"), R"($'a\033\'\012')");
+  EXPECT_EQ(shell_quoted("=ls"), "'=ls'");  // a program's path to zsh
+  EXPECT_EQ(shell_quoted("a\x1b'\n"), "\"$(printf 'a\\033\\047')\"'\n'");
 }
 
-// What the shell makes of it is the word again.
-TEST(ShellQuoted, IsReadBackByAShell) {
-  for (const std::string& word :
-       {std::string("ev$(touch x)`id`"), std::string("a;b|c&d>e<f"), std::string("it's \"both\""),
-        std::string("\x1b[31mred\x7f"), std::string("line\nend"), std::string("~"),
-        std::string("#x"), std::string("µ–😀\\"), std::string("no utf-8 \xff'\\"),
-        std::string(20000, '\'')}) {
-    const std::array words{std::string("printf"), std::string("%s"), word};
-    const test::TemporaryFolder folder;
-    const auto script = folder.write("script", shell_command(words));
-    EXPECT_EQ(test::run_command("bash " + script.string()).output, word);
+// Words that a shell could obey, or lose a part of.
+const std::vector<std::string> hostile_words{"ev$(touch x)`id`",
+                                             "a;b|c&d>e<f",
+                                             "it's \"both\"",
+                                             "\x1b[31mred\x7f",
+                                             "line\nend",
+                                             "ends\n\n",
+                                             "\n",
+                                             "'\n$(touch x)\n'",
+                                             "~",
+                                             "#x",
+                                             "=ls",
+                                             "!!",
+                                             "\x1b!!",
+                                             "\x1b%s%d%%",
+                                             "\x1b\\0101",
+                                             "\x1b'$(touch x)'",
+                                             "$'\\x41'",
+                                             "{a,b}*?[c]",
+                                             "-n",
+                                             "µ–😀\\",
+                                             "\u202Egnp.exe",
+                                             "no utf-8 \xff'\\",
+                                             std::string(20000, '\'')};
+
+// The shells that are here of those that people paste into.
+std::vector<std::string> shells() {
+  std::vector<std::string> found;
+  for (const std::string& shell : {std::string("dash"), std::string("bash"), std::string("zsh -f"),
+                                   std::string("busybox sh"), std::string("ksh"), std::string("sh")}) {
+    if (test::run_command(shell + " -c :").code == 0) found.push_back(shell);
   }
+  return found;
+}
+
+std::string read_back(const std::string& shell, const std::string& command) {
+  const test::TemporaryFolder folder;
+  const auto script = folder.write("script", command);
+  const test::Result result =
+      test::run_command("cd '" + folder.path().string() + "' && " + shell + " " + script.string());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "x")) << shell << ": " << command;
+  return result.output;
+}
+
+TEST(ShellQuoted, EveryShellReadsTheWordAndRunsNothing) {
+  for (const std::string& shell : shells()) {
+    for (const std::string& word : hostile_words) {
+      const std::array words{std::string("printf"), std::string("%s"), word};
+      EXPECT_EQ(read_back(shell, shell_command(words)), word) << shell;
+    }
+  }
+}
+
+// A line of a terminal, but for the line ends that a word ends with.
+TEST(ShellQuoted, HoldsNoHiddenCharacter) {
+  for (const std::string& word : hostile_words) {
+    if (word.ends_with('\n')) continue;
+    EXPECT_TRUE(is_line(shell_quoted(word))) << word;
+  }
+}
+
+TEST(ShellEnvironment, IsReadByEveryShellWhateverTheNames) {
+  for (const std::string& shell : shells()) {
+    for (const std::string& hostile : hostile_words) {
+      if (hostile.find('=') != std::string::npos || hostile.size() > 1000) continue;
+      // `env` takes no option for a variable: each entry holds a '='.
+      const std::string name = "V" + hostile;
+      const std::array words{std::string("printenv"), name};
+      EXPECT_EQ(read_back(shell, shell_environment({{"A", "1"}, {name, hostile}}) +
+                                     shell_command(words)),
+                hostile + "\n")
+          << shell;
+    }
+  }
+}
+
+TEST(ShellEnvironment, IsPlainWhereNamesAre) {
+  EXPECT_EQ(shell_environment({}), "");
+  EXPECT_EQ(shell_environment({{"A", "1"}, {"B_2", "x y"}}), "A=1 B_2='x y' ");
+  EXPECT_EQ(shell_environment({{"A", "1"}, {"B;id", "2"}}), "env A=1 'B;id=2' ");
 }
 
 TEST(Printable, ShowsWhatATerminalWouldObey) {
   EXPECT_EQ(printable("\x1b[31m\n\t"), "\\x1b[31m\\n\\x09");
-  EXPECT_EQ(printable("µ\xff\u0085"), "µ\uFFFD\uFFFD");
+  EXPECT_EQ(printable("µ\xff\u0085"), "µ\uFFFD\\u{0085}");
+}
+
+// What shows a name as another one: direction, and what is not seen at all.
+TEST(Printable, ShowsWhatChangesTheDirectionOfText) {
+  EXPECT_EQ(printable("\u202Egnp.exe\u2069\u200F"), "\\u{202e}gnp.exe\\u{2069}\\u{200f}");
+  EXPECT_EQ(printable("a\u200Bb\uFEFF\U000E0041"), "a\\u{200b}b\\u{feff}\\u{e0041}");
+  EXPECT_EQ(printable("\u0645\u200C\u0627"), "\u0645\u200C\u0627");  // a joiner of letters
+}
+
+TEST(Printable, LinesStayLines) {
+  EXPECT_EQ(printable_lines("a\nb\x1b\u202E\n"), "a\nb\\x1b\\u{202e}\n");
 }
 
 TEST(Printable, CutsByCharacters) {

@@ -19,7 +19,8 @@ TEST(Text, ALineIsUtf8WithoutControlCharacters) {
   for (const auto line : {""sv, "a b"sv, "größe"sv, "\u9AD4\U0001F9CA"sv, "\U0010FFFD"sv}) {
     EXPECT_TRUE(is_line(line)) << line;
   }
-  for (const auto line : {"a\nb"sv, "a\0b"sv, "\x7f"sv, "\x1b[2J"sv, "\u0085"sv, "\u2028"sv}) {
+  for (const auto line : {"a\nb"sv, "a\0b"sv, "\x7f"sv, "\x1b[2J"sv, "\u0085"sv, "\u2028"sv, "\u202E"sv,
+                          "\u2066"sv, "\uFEFF"sv, "\U000E0041"sv}) {
     EXPECT_FALSE(is_line(line)) << line;
   }
 }
@@ -39,6 +40,14 @@ TEST(JsonText, HasALetterWhereUtf8IsBroken) {
   EXPECT_EQ(json_text(Json{{"a", "x\xff"}}), "{\"a\":\"x\uFFFD\"}");
   EXPECT_EQ(mended_utf8("größe"), "größe");
   EXPECT_EQ(mended_utf8("x\xff"), "x\uFFFD");
+}
+
+TEST(JsonText, ShowsNoHiddenCharacterAndKeepsIt) {
+  const Json json{{"a\u202E", "\x7f\u0085\U000E0041 größe\n"}};
+  const std::string text = json_text(json);
+  EXPECT_EQ(text, "{\"a\\u202e\":\"\\u007f\\u0085\\udb40\\udc41 größe\\n\"}");
+  EXPECT_EQ(Json::parse(text), json);
+  EXPECT_EQ(json_text(Json{1, 2}, 1), "[\n 1,\n 2\n]");
 }
 
 }  // namespace

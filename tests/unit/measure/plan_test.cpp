@@ -250,6 +250,24 @@ TEST_F(PlanTest, MillionsAreListedAndCutWithoutBeingHeld) {
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 20 << 10) << "KiB";
 }
 
+// 10¹² combinations: neither run nor listed, and refused before the first.
+TEST_F(PlanTest, AListThatWouldNotEndIsRefused) {
+  std::string values;
+  for (int i = 1; i <= 1000; ++i) values += std::to_string(0.01 * i) + ", ";
+  std::string cameras;
+  for (int i = 0; i < 1000; ++i) cameras += "random:" + std::to_string(i) + ", ";
+  std::string data;
+  for (int i = 0; i < 1000; ++i) data += "d" + std::to_string(i) + ", ";
+  const std::string yaml = "suite: fake\ndata: [" + data + "]\nstep: [" + values +
+                           "]\ncamera: [" + cameras + "]\n";
+  EXPECT_THAT(refusal(yaml), HasSubstr("more than 1000000 combinations"));
+  int listed = 0;
+  EXPECT_THROW(list_plan(file_.string(), {}, find_, {},
+                         [&](const Suite&, const Configuration&) { ++listed; }),
+               core::InputError);
+  EXPECT_EQ(listed, 0);
+}
+
 TEST_F(PlanTest, ChecksSayWhatIsMeasured) {
   const Plan standard = load("suite: fake\n");
   EXPECT_TRUE(standard.timed());

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/image_io.hpp"
 #include "core/temporary_folder.hpp"
+#include "measure/truth/own_seal.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -87,6 +89,36 @@ TEST_F(TruthsTest, AreRenderedOnceAndKeptForTheNext) {
   record::Store second = store();
   EXPECT_EQ(truths(second).of(record_with("1")).bound.rgba[0], 0.25F);
   EXPECT_EQ(suite_.rendered, 2);
+}
+
+// Whoever gives a store away can seal whatever he wrote: only what was drawn here is believed.
+TEST_F(TruthsTest, ABoundThatAnybodyWroteIsDrawnAgain) {
+  {
+    record::Store first = store();
+    static_cast<void>(truths(first).of(record_with("1")));
+    record::TruthImage widened = first.truth("step=1", "1").value();
+    EXPECT_EQ(own_seal(widened), widened.own_seal);
+    core::Image wide(2, 2);
+    for (float& each : wide.rgba) each = 1e6F;
+    widened.bound = core::encode_exr(wide);
+    first.set_truth(widened);
+  }
+  record::Store second = store();
+  EXPECT_EQ(truths(second).of(record_with("1")).bound.rgba[0], 0.25F);
+  EXPECT_EQ(suite_.rendered, 2);
+  EXPECT_EQ(truths(second).of(record_with("1")).bound.rgba[0], 0.25F);
+  EXPECT_EQ(suite_.rendered, 2);  // the new one is this user's own
+}
+
+// RFC 4231, test cases 1, 2 and 6.
+TEST(OwnSeal, IsThatOfTheStandard) {
+  EXPECT_EQ(hmac_sha256(std::string(20, '\x0b'), "Hi There"),
+            "b0344c61d8db38535ca8afceaf0bf12b881dc200c9833da726e9376c2e32cff7");
+  EXPECT_EQ(hmac_sha256("Jefe", "what do ya want for nothing?"),
+            "5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843");
+  EXPECT_EQ(hmac_sha256(std::string(131, '\xaa'),
+                        "Test Using Larger Than Block-Size Key - Hash Key First"),
+            "60e431591ee0b67f0d8a26aacbf5b77f8e0bc6213728c5140546040f0ee37f54");
 }
 
 TEST_F(TruthsTest, AreAsTrueWhereTheyCannotBeKept) {

@@ -1,10 +1,13 @@
 #include "measure/system/environment.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
 #include "core/error.hpp"
+#include "core/private_folder.hpp"
 #include "tests/unit/measure_run/scratch.hpp"
 
 namespace triptych::measure {
@@ -88,6 +91,75 @@ TEST(CacheFolder, FallsBackToTheNextPlaceThatCanBeWritten) {
   const Variable home("HOME", "/proc/nowhere");
   const Variable temporary("TMPDIR", scratch.path().string());
   EXPECT_THAT(CacheFolder("opencl:pocl").path().string(), StartsWith(scratch.path().string()));
+}
+
+// Code that somebody else compiled lies in a folder of the expected name, in a place that everybody
+// may write to.
+class PlantedCache : public testing::Test {
+ protected:
+  // Where nothing but the folder for temporary files is left.
+  const ScratchFolder scratch_;
+  const Variable cache_home_{"XDG_CACHE_HOME", "/proc/nowhere"};
+  const Variable home_{"HOME", "/proc/nowhere"};
+  const Variable temporary_{"TMPDIR", scratch_.path().string()};
+  const std::filesystem::path planted_ = scratch_.path() / core::name_of_this_user();
+
+  static std::string refusal() {
+    try {
+      return "used: " + CacheFolder("opencl:pocl").path().string();
+    } catch (const core::IoError& error) {
+      return error.what();
+    }
+  }
+};
+
+TEST_F(PlantedCache, IsMadeForThisUserAlone) {
+  const mode_t before = ::umask(0);
+  const CacheFolder cache("opencl:pocl");
+  ::umask(before);
+  for (const auto& folder : {cache.path(), cache.path().parent_path()}) {
+    EXPECT_EQ(std::filesystem::status(folder).permissions(), std::filesystem::perms::owner_all)
+        << folder;
+  }
+}
+
+TEST_F(PlantedCache, ALinkIsRefused) {
+  const ScratchFolder other;
+  std::filesystem::create_directory_symlink(other.path(), planted_);
+  EXPECT_THAT(refusal(), testing::HasSubstr("is a symbolic link"));
+  std::filesystem::remove(planted_);
+  std::filesystem::create_directory(planted_);
+  std::filesystem::permissions(planted_, std::filesystem::perms::owner_all);
+  std::filesystem::create_directory_symlink(other.path(), planted_ / "opencl-pocl-0");
+  EXPECT_THAT(refusal(), testing::HasSubstr("is a symbolic link"));
+}
+
+TEST_F(PlantedCache, AFolderThatOthersCanWriteIsRefused) {
+  std::filesystem::create_directory(planted_);
+  ASSERT_EQ(::chmod(planted_.c_str(), 0777), 0);
+  EXPECT_THAT(refusal(), testing::HasSubstr("other users can write to it"));
+}
+
+TEST_F(PlantedCache, AFolderThatOthersCanOnlyReadIsClosedToThem) {
+  std::filesystem::create_directory(planted_);
+  ASSERT_EQ(::chmod(planted_.c_str(), 0755), 0);
+  EXPECT_THAT(refusal(), StartsWith("used: "));
+  EXPECT_EQ(std::filesystem::status(planted_).permissions(), std::filesystem::perms::owner_all);
+}
+
+TEST_F(PlantedCache, AFolderOfAnotherUserIsRefused) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can give a folder to another user";
+  std::filesystem::create_directory(planted_);
+  ASSERT_EQ(::chmod(planted_.c_str(), 0755), 0);
+  ASSERT_EQ(::chown(planted_.c_str(), 65534, 65534), 0);
+  EXPECT_THAT(refusal(), testing::HasSubstr("belongs to another user"));
+}
+
+TEST_F(PlantedCache, APlaceInWhichOthersCanRenameIsRefused) {
+  ASSERT_EQ(::chmod(scratch_.path().c_str(), 0777), 0);
+  EXPECT_THAT(refusal(), testing::HasSubstr("not sticky"));
+  ASSERT_EQ(::chmod(scratch_.path().c_str(), 01777), 0);
+  EXPECT_THAT(refusal(), StartsWith("used: "));
 }
 
 TEST(ForbidsMeasuring, NamesLpPerf) {

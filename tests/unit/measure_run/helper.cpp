@@ -6,6 +6,8 @@
 // measure_run_helper count-busy LOOPS    the same beside a thread that has much to do first
 // measure_run_helper count-stride BYTES  instructions and cache misses of 1,000 loads, each so far
 //                                        behind the last
+// keeps PID                              0 where this child is alive after a process was started and
+//                                        has ended
 //
 // What counts does so three times, a line each.
 //
@@ -18,6 +20,7 @@
 
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -142,6 +145,12 @@ int count_loop(std::uint32_t loops, bool busy) {
   return 0;
 }
 
+int keeps(pid_t child) {
+  measure::Process process({"/bin/true"}, {});
+  const bool ended = process.wait(std::chrono::seconds(10)).has_value();
+  return ended && ::kill(child, 0) == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -153,5 +162,6 @@ int main(int count, char** arguments) {
   if (part == "count-stride") {
     return count_stride(static_cast<unsigned char>(std::stoul(arguments[2])));
   }
+  if (part == "keeps") return keeps(std::stoi(arguments[2]));
   return part == "worker" ? work(arguments[2]) : supervise(arguments[0], arguments[2]);
 }

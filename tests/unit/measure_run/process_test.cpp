@@ -91,6 +91,55 @@ TEST(Process, DestructionTakesTheWholeGroupAndLeavesNoZombie) {
   EXPECT_EQ(errno, ECHILD);
 }
 
+// A shell with a daemon in a session of its own, whose number it answers with.
+constexpr const char* starts_a_daemon =
+    "setsid sh -c 'echo $$ >&4; exec sleep 100 4>&-' & exec 4>&-; ";
+
+bool dies(pid_t pid) {
+  for (int i = 0; i < 200 && alive(pid); ++i) std::this_thread::sleep_for(milliseconds(10));
+  return !alive(pid);
+}
+
+TEST(Process, DestructionTakesWhatLeftTheGroup) {
+  pid_t daemon = 0;
+  {
+    Process process = shell(std::string(starts_a_daemon) + "wait");
+    daemon = std::stoi(all_from(process.answer_fd()));
+    ASSERT_TRUE(alive(daemon));
+    ASSERT_NE(::getpgid(daemon), process.pid());
+  }
+  EXPECT_TRUE(dies(daemon));
+}
+
+TEST(Process, WhatItLeftBehindDiesWhereItEndsByItself) {
+  Process process = shell(starts_a_daemon);
+  const pid_t daemon = std::stoi(all_from(process.answer_fd()));
+  ASSERT_TRUE(process.wait(seconds(5)));
+  EXPECT_TRUE(dies(daemon));
+}
+
+// Whose daemon it is cannot be told while two are at work: neither loses one that it may need.
+TEST(Process, WhatWasLeftBehindDiesWithTheLastAndHarmsNoOther) {
+  pid_t daemon = 0;
+  {
+    Process other = shell("sleep 100");
+    {
+      Process process = shell(starts_a_daemon);
+      daemon = std::stoi(all_from(process.answer_fd()));
+      ASSERT_TRUE(process.wait(seconds(5)));
+    }
+    EXPECT_TRUE(alive(daemon));
+    EXPECT_TRUE(alive(other.pid()));
+  }
+  EXPECT_TRUE(dies(daemon));
+}
+
+// Who replaces himself by this program may have children of his own.
+TEST(Process, AChildFromBeforeIsLeftAlone) {
+  Process process = shell("sleep 100 & exec '" MEASURE_RUN_HELPER "' keeps $!");
+  EXPECT_EQ(describe(process.wait(seconds(20)).value()), "exited with code 0");
+}
+
 TEST(Process, AMissingProgramIsAnIoError) {
   if (!spawning_tells_of_a_missing_program()) GTEST_SKIP() << spawning_tells_nothing;
   EXPECT_THROW(Process({"/nowhere/triptych"}, {}), core::IoError);
@@ -115,9 +164,8 @@ TEST(WorkerLink, AWorkerThatTalksNonsenseIsBuriedWithItsWords) {
   const auto reply = link.ask(to_message(Start{}), seconds(10));
   const auto* died = std::get_if<WorkerLink::Died>(&reply);
   ASSERT_NE(died, nullptr);
-  EXPECT_EQ(died->reason.cause, record::Cause::bad_answer);
-  EXPECT_THAT(died->reason.detail, testing::HasSubstr("no message"));
-  EXPECT_EQ(died->reason.last_words, "broken");
+  EXPECT_THAT(died->reason, testing::HasSubstr("no message"));
+  EXPECT_THAT(died->reason, testing::HasSubstr("it last said: broken"));
 }
 
 TEST(WorkerLink, AnInterruptEndsTheWaiting) {

@@ -3,7 +3,6 @@
 #include <sys/wait.h>
 
 #include <cerrno>
-#include <csignal>
 #include <filesystem>
 
 #include "core/error.hpp"

@@ -309,6 +309,41 @@ TEST_F(Merge, NamesWhatAShardLacks) {
   EXPECT_EQ(gaps[0].configurations, 2U);
 }
 
+// What each part set out to measure is what the whole has to hold.
+TEST_F(Merge, NamesWhatWasNeverBegun) {
+  const fs::path file = shard(1, {record_of(1)});
+  {
+    Store store(file, Mode::append);
+    const std::vector<std::string> planned{configuration(1), configuration(2)};
+    store.begin(store.runs().back().id,
+                {.host = "a", .found = {"null:other", "null:scripted"},
+                 .devices = {"null:other", "null:scripted"}},
+                planned);
+  }
+  std::vector<Gap> gaps = gaps_of(Store(file, Mode::read));
+  ASSERT_THAT(gaps, SizeIs(2));
+  EXPECT_EQ(gaps[0].device, "null:other");
+  EXPECT_THAT(gaps[0].missing, SizeIs(2));
+  EXPECT_EQ(gaps[1].missing, std::vector{configuration(2)});
+  static_cast<void>(merge({file}));
+  gaps = gaps_of(Store(folder_ / "out", Mode::read));
+  ASSERT_THAT(gaps, SizeIs(2));
+  EXPECT_EQ(gaps[1].missing, std::vector{configuration(2)});
+}
+
+// A shard of a plan with fewer configurations than shards.
+TEST_F(Merge, AnEmptyShardIsAGap) {
+  const fs::path file = folder_ / "empty.sqlite";
+  Store store(file, Mode::append);
+  Run run = sample_run();
+  run.configurations = 0;
+  store.add_run(run);
+  store.begin(run.id, {.host = "a", .found = {"null:scripted"}, .devices = {"null:scripted"}}, {});
+  const std::vector<Gap> gaps = gaps_of(store);
+  ASSERT_THAT(gaps, SizeIs(1));
+  EXPECT_EQ(gaps[0].configurations, 0U);
+}
+
 // A value that was changed in a part is found in what was made of it.
 TEST_F(Merge, SealsHoldAfterwards) {
   const fs::path file = shard(1, {record_of(1)});

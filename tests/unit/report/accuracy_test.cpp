@@ -45,17 +45,17 @@ std::string untimed_section(accuracy::AccuracyScene scene = some_scene()) {
 
 TEST(AccuracyChart, ShowsWhatLogarithmicAxesCan) {
   const std::vector<accuracy::AccuracyScene> scenes{some_scene()};
-  const std::string html = accuracy_chart(scenes, Cost::time);
+  const std::string html = accuracy_chart(scenes, Cost::time).text();
   EXPECT_EQ(test::xml_fault(html), "") << html;
   EXPECT_THAT(html, HasSubstr("step=2: RMSE 0.004, 3 ms"));
   EXPECT_THAT(html, HasSubstr("the front"));
   EXPECT_THAT(html, testing::Not(HasSubstr("step=0.125:")));  // the one without error
-  EXPECT_EQ(accuracy_chart(scenes, Cost::samples), "");
-  EXPECT_THAT(accuracy_chart(scenes, Cost::instructions),
+  EXPECT_EQ(accuracy_chart(scenes, Cost::samples).text(), "");
+  EXPECT_THAT(accuracy_chart(scenes, Cost::instructions).text(),
               HasSubstr("step=2: RMSE 0.004, 3 million"));
-  EXPECT_THAT(accuracy_chart(scenes, Cost::fetched), HasSubstr("step=2: RMSE 0.004, 5 MiB"));
-  EXPECT_THAT(accuracy_chart(scenes, Cost::memory), HasSubstr("step=2: RMSE 0.004, 3 MiB"));
-  EXPECT_THAT(accuracy_chart(scenes, Cost::energy), HasSubstr("step=2: RMSE 0.004, 0.25 J"));
+  EXPECT_THAT(accuracy_chart(scenes, Cost::fetched).text(), HasSubstr("step=2: RMSE 0.004, 5 MiB"));
+  EXPECT_THAT(accuracy_chart(scenes, Cost::memory).text(), HasSubstr("step=2: RMSE 0.004, 3 MiB"));
+  EXPECT_THAT(accuracy_chart(scenes, Cost::energy).text(), HasSubstr("step=2: RMSE 0.004, 0.25 J"));
 }
 
 // Each axis has its own front: the most accurate that has an error holds the least, so it is alone.
@@ -63,7 +63,7 @@ TEST(AccuracyChart, DrawsTheFrontOfWhatItShows) {
   std::vector<accuracy::AccuracyScene> scenes{some_scene()};
   scenes[0].cases[2].memory = 1U << 20;
   const auto rings = [&scenes](Cost cost) {
-    const std::string html = accuracy_chart(scenes, cost);
+    const std::string html = accuracy_chart(scenes, cost).text();
     std::size_t count = 0;
     for (std::size_t at = 0; (at = html.find("class=\"line ink\"", at)) != std::string::npos; ++at)
       ++count;

@@ -57,21 +57,21 @@ TEST(Figure, ARuleBeyondTheAxisIsNotDrawn) {
   Figure figure("rules", {.logarithmic = true}, {}, 200, 100);
   figure.point({1, 2}, {});
   figure.point({10, 4}, {});
-  const std::string without = figure.svg();
+  const std::string without = figure.svg().text();
   figure.upright(1e-6);
-  EXPECT_EQ(figure.svg(), without);
+  EXPECT_EQ(figure.svg().text(), without);
   figure.upright(5);
-  EXPECT_NE(figure.svg(), without);
+  EXPECT_NE(figure.svg().text(), without);
 }
 
 TEST(Figure, IsWellFormedWhateverItIsTold) {
   for (const std::string& text : test::hostile_strings()) {
-    const std::string svg = some_figure(text).svg();
+    const std::string svg = some_figure(text).svg().text();
     EXPECT_EQ(xml_fault(svg), "");
     EXPECT_THAT(svg, Not(HasSubstr("<script")));
     Figure named(text, {.names = {text, "b"}}, {.names = {"a", text}}, 100, 50);
     named.box({0, 0}, {1, 1}, {}, text);
-    EXPECT_EQ(xml_fault(named.svg()), "");
+    EXPECT_EQ(xml_fault(named.svg().text()), "");
   }
 }
 
@@ -82,7 +82,7 @@ TEST(Figure, DrawsNothingAtNoNumber) {
   figure.box({1, 1}, {NAN, 2}, {});
   figure.line(std::array{Figure::Place{-1, 1}}, {});
   EXPECT_TRUE(figure.empty());
-  const std::string svg = figure.svg();
+  const std::string svg = figure.svg().text();
   EXPECT_EQ(xml_fault(svg), "");
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   EXPECT_THAT(svg, Not(HasSubstr("inf")));
@@ -91,7 +91,7 @@ TEST(Figure, DrawsNothingAtNoNumber) {
 TEST(Figure, ABoxLiesWhereItsCornersAre) {
   Figure figure("f", {.low = 0, .high = 10}, {.low = 0, .high = 10}, 100, 100);
   figure.box({2, 8}, {4, 3}, {});
-  EXPECT_THAT(figure.svg(), HasSubstr("width=\"20.0\" height=\"50.0\""));
+  EXPECT_THAT(figure.svg().text(), HasSubstr("width=\"20.0\" height=\"50.0\""));
 }
 
 // Of one value, of many that are the same: an axis has a length all the same.
@@ -99,8 +99,8 @@ TEST(Figure, OfOneValueHasAxes) {
   for (const bool logarithmic : {false, true}) {
     Figure figure("f", {.logarithmic = logarithmic}, {.logarithmic = logarithmic}, 100, 50);
     figure.point({5, 5}, {});
-    EXPECT_THAT(figure.svg(), Not(HasSubstr("nan")));
-    EXPECT_THAT(figure.svg(), HasSubstr(">5<"));
+    EXPECT_THAT(figure.svg().text(), Not(HasSubstr("nan")));
+    EXPECT_THAT(figure.svg().text(), HasSubstr(">5<"));
   }
 }
 
@@ -109,7 +109,7 @@ TEST(Figure, LabelsStayInside) {
   Figure figure("f", {.title = "across"}, {.names = {"a device with a long name", "b"}}, 200, 60);
   figure.box({0, -0.3}, {1'000'000, 0.3}, {});
   figure.label({1'000'000, 0}, "at the right edge");
-  const std::string svg = figure.svg();
+  const std::string svg = figure.svg().text();
   std::smatch size;
   ASSERT_TRUE(std::regex_search(svg, size, std::regex("viewBox=\"0 0 ([0-9]+) ([0-9]+)\"")));
   const std::regex text(
@@ -133,8 +133,8 @@ TEST(Figure, LabelsDoNotCoverEachOther) {
   figure.point({1, 1}, {});
   figure.label({0.2, 0.5}, "first");
   figure.label({0.2, 0.5}, "second");
-  EXPECT_THAT(figure.svg(), HasSubstr("first"));
-  EXPECT_THAT(figure.svg(), Not(HasSubstr("second")));
+  EXPECT_THAT(figure.svg().text(), HasSubstr("first"));
+  EXPECT_THAT(figure.svg().text(), Not(HasSubstr("second")));
 }
 
 // Whose middle tells them apart, as factors in the order of their names do.
@@ -142,7 +142,7 @@ TEST(Figure, ALegendTellsLongNamesApart) {
   Figure figure("", {}, {}, 100, 100);
   figure.point({1, 1}, {}, "");
   figure.legend("precision=fp32, quadrature=cells, sampler=manual", {});
-  EXPECT_THAT(figure.svg(), HasSubstr(">precision=fp32, quadrature=cells, sampler=manual</text>"));
+  EXPECT_THAT(figure.svg().text(), HasSubstr(">precision=fp32, quadrature=cells, sampler=manual</text>"));
 }
 
 TEST(WellFormed, TellsWhatIsNot) {

@@ -8,7 +8,23 @@ namespace triptych::report {
 namespace {
 
 TEST(Html, EscapesWhatHasMeaning) {
-  EXPECT_EQ(escape("a<b & \"c\">\x01"), "a&lt;b &amp; &quot;c&quot;&gt;");
+  EXPECT_EQ(escape("a<b & \"c\">\x01"), "a&lt;b &amp; &quot;c&quot;&gt;\\x01");
+}
+
+TEST(Html, ShowsHiddenCharacters) {
+  EXPECT_EQ(escape("\u202Egnp.exe\x1b\n"), "\\u{202e}gnp.exe\\x1b\n");
+}
+
+// Whoever makes an element cannot forget to escape: only a literal is markup.
+TEST(Html, MarkupEscapesItsArguments) {
+  const std::string name = "<script>\"";
+  const Html inner = markup("<b>{}</b>", name);
+  EXPECT_EQ(inner.text(), "<b>&lt;script&gt;&quot;</b>");
+  EXPECT_EQ(markup("<p id=\"{}\">{}{}</p>", name, inner, 3).text(),
+            "<p id=\"&lt;script&gt;&quot;\"><b>&lt;script&gt;&quot;</b>3</p>");
+  EXPECT_EQ(table({{name}, {inner}}).text(),
+            "<div class=\"scroll\"><table class=\"\">\n<tr><th>&lt;script&gt;&quot;</th></tr>\n"
+            "<tr><td><b>&lt;script&gt;&quot;</b></td></tr>\n</table></div>\n");
 }
 
 TEST(Html, MalformedTextIsReplaced) {
@@ -22,14 +38,14 @@ TEST(Html, MalformedTextIsReplaced) {
 }
 
 TEST(Html, BreaksBetweenParts) {
-  EXPECT_EQ(breakable("gl:x,a=<1"), "gl:<wbr>x,<wbr>a=<wbr>&lt;1<wbr>");
-  EXPECT_EQ(breakable(""), "");
+  EXPECT_EQ(breakable("gl:x,a=<1").text(), "gl:<wbr>x,<wbr>a=<wbr>&lt;1<wbr>");
+  EXPECT_EQ(breakable("").text(), "");
 }
 
 // RFC 4648, section 10.
 TEST(Html, DataUriIsBase64) {
   const auto encoded = [](std::string_view text) {
-    return data_uri(std::as_bytes(std::span(text.data(), text.size()))).substr(22);
+    return data_uri(std::as_bytes(std::span(text.data(), text.size()))).text().substr(22);
   };
   EXPECT_EQ(encoded(""), "");
   EXPECT_EQ(encoded("f"), "Zg==");
@@ -51,7 +67,8 @@ TEST(Html, NumbersAreGrouped) {
 
 TEST(Html, ColumnsOfQuantitiesAreFlushRight) {
   const std::string text =
-      table({{"API", "time"}, {"4.5", "12.3 ms"}, {"3.1+debian", ""}, {"gl", "-0.01 ± 0.08"}});
+      table({{"API", "time"}, {"4.5", "12.3 ms"}, {"3.1+debian", ""}, {"gl", "-0.01 ± 0.08"}})
+          .text();
   EXPECT_NE(text.find("<td>4.5</td><td class=\"number\">12.3 ms"), std::string::npos) << text;
   EXPECT_NE(text.find("<td>gl</td><td class=\"number\">-0.01"), std::string::npos) << text;
   EXPECT_NE(text.find("<th>API</th><th class=\"number\">time"), std::string::npos) << text;

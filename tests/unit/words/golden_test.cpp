@@ -93,6 +93,8 @@ judge::Observation everything(judge::Cause cause) {
                 {"levels", "skip=bricks"},
                 {"counter", "samples"},
                 {"of", "rays"},
+                {"sibling", "opencl:pocl"},
+                {"what", "vulkan"},
                 {"by", "bits"}};
   what.detail = "DETAIL";
   what.outcome = record::Outcome::crashed;

@@ -1,0 +1,146 @@
+// Whether the run is what it set out to be, on all devices that its machine should have, for all
+// checks that its baselines hold.
+
+#include <algorithm>
+#include <iterator>
+
+#include "core/glob.hpp"
+#include "core/quoting.hpp"
+#include "judge/gate/run_view.hpp"
+
+namespace triptych::judge {
+namespace {
+
+bool applies(const Absent& entry, const record::Run& run, const std::string& today) {
+  const bool ended = !entry.expiry.empty() && today >= entry.expiry;
+  return !ended && std::ranges::any_of(run.begun, [&](const record::Beginning& begun) {
+    return core::glob_matches(entry.host, begun.host);
+  });
+}
+
+// Whether somebody said that this machine has no such device, or no devices of such an API.
+bool is_excused(const RunView& view, const std::string& device) {
+  if (core::any_glob_matches(view.request.without_devices, device)) return true;
+  return std::ranges::any_of(view.baselines.absent(), [&](const Absent& entry) {
+    return core::glob_matches(entry.device, device) && applies(entry, view.run, view.request.today);
+  });
+}
+
+// A command that would have measured it, had it been there.
+bool is_asked_for(const RunView& view, const std::string& device) {
+  const bool judged = view.request.devices.empty() ||
+                      core::any_glob_matches(view.request.devices, device);
+  return judged && std::ranges::any_of(view.run.begun, [&](const record::Beginning& begun) {
+    return begun.asks_for(device);
+  });
+}
+
+Advised without(const std::string& device) {
+  return {Advice::repair_driver, "--without-device " + core::shell_quoted(device)};
+}
+
+// A process that ended before it answered may have had devices to list.
+void report_failed_listings(const RunView& view, std::vector<Finding>& findings) {
+  for (const record::Beginning& begun : view.run.begun) {
+    for (const record::Unusable& each : begun.unusable) {
+      const std::string api = each.api();
+      const bool matters = each.ended && begun.asks_for_api(api);
+      if (!matters || is_excused(view, api) || is_excused(view, api + ":*")) continue;
+      findings.push_back(finding_about(view, *view.checks.begin(), Verdict::cannot_judge,
+                                       {.cause = Cause::listing_failed,
+                                        .facts = {{"what", each.what}},
+                                        .reason = *each.ended},
+                                       without(api)));
+    }
+  }
+}
+
+std::map<std::string, std::string> ids_of_drivers(const Manifest& manifest) {
+  std::map<std::string, std::string> ids;
+  for (const auto& [id, drivers] : manifest.devices) {
+    for (const std::string& driver : drivers) ids.emplace(driver, id);
+  }
+  return ids;
+}
+
+// Devices by id that were accepted on a machine of this one's kind and are not listed here, each
+// with a device that tells of the kind.
+std::map<std::string, std::string> gone_devices(const RunView& view) {
+  const Manifest& manifest = view.baselines.manifest();
+  const std::map<std::string, std::string> ids = ids_of_drivers(manifest);
+  std::set<std::string> here;
+  for (const auto& entry : view.store.devices(view.run.id)) {
+    here.insert(entry.device.statistics_key());
+  }
+  const std::vector<std::string> found = record::found_in(view.run.begun);
+  std::map<std::string, std::string> gone;
+  for (const std::set<std::string>& machine : manifest.machines) {
+    const auto known = std::ranges::find_if(
+        machine, [&](const std::string& driver) { return here.contains(driver); });
+    if (known == machine.end()) continue;
+    for (const std::string& driver : machine) {
+      const auto id = ids.find(driver);
+      if (id == ids.end() || std::ranges::find(found, id->second) != found.end()) continue;
+      const auto sibling = ids.find(*known);
+      gone.emplace(id->second, sibling == ids.end() ? *known : sibling->second);
+    }
+  }
+  return gone;
+}
+
+void report_gone_devices(const RunView& view, std::vector<Finding>& findings) {
+  if (!view.baselines.present()) return;
+  for (const auto& [id, sibling] : gone_devices(view)) {
+    if (!is_asked_for(view, id) || is_excused(view, id)) continue;
+    record::Device device;
+    device.id = id;
+    findings.push_back(
+        finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
+                      {.cause = Cause::device_missing, .facts = {{"sibling", sibling}}},
+                      without(id)));
+  }
+}
+
+// A device without a description matches no stored key, so that findings about it would only
+// advise.
+void report_undescribed(const RunView& view, std::vector<Finding>& findings) {
+  std::set<std::string> described;
+  for (const auto& entry : view.store.devices(view.run.id)) described.insert(entry.device.id);
+  std::set<std::string> measured;
+  for (const record::Record* record : view.measured) measured.insert(record->device);
+  std::vector<std::string> without;
+  std::ranges::set_difference(measured, described, std::back_inserter(without));
+  for (const std::string& id : without) {
+    findings.push_back(
+        finding_about(view, view.devices.at(id), *view.checks.begin(), Verdict::cannot_judge,
+                      {.cause = Cause::no_description, .facts = {{"run", view.run.id}}},
+                      {Advice::run_again}));
+  }
+}
+
+// A plan that no longer asks for a check passes whatever that check would have found. Times affect
+// no verdict unless they are asked to.
+void report_lost_checks(const RunView& view, std::vector<Finding>& findings) {
+  if (!view.baselines.present() || view.run.checks.empty()) return;
+  std::vector<std::string> lost;
+  for (const Check check : view.baselines.manifest().checks) {
+    const bool decides = check != Check::timing || view.request.times_decide;
+    if (decides && !view.run.checks.contains(check)) lost.emplace_back(name_of(check));
+  }
+  if (lost.empty()) return;
+  findings.push_back(finding_about(view, *view.checks.begin(), Verdict::cannot_judge,
+                                   {.cause = Cause::checks_lost, .names = lost}, view.accept()));
+}
+
+}  // namespace
+
+void report_as_begun(const RunView& view, std::vector<Finding>& findings) {
+  report_lost_checks(view, findings);
+  if (view.run.begun.empty()) return;
+  report_undescribed(view, findings);
+  if (!view.request.decides_each_device) return;
+  report_failed_listings(view, findings);
+  report_gone_devices(view, findings);
+}
+
+}  // namespace triptych::judge

@@ -1,0 +1,104 @@
+#include "measure/system/descendants.hpp"
+
+#include <dirent.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace triptych::measure {
+namespace {
+
+// 0 where the process is gone. Its name, between parentheses, may hold anything.
+pid_t parent_of(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  std::getline(file, text, '\0');
+  const std::size_t name_end = text.rfind(')');
+  if (name_end == std::string::npos || name_end + 4 > text.size()) return 0;
+  return static_cast<pid_t>(std::strtol(text.c_str() + name_end + 4, nullptr, 10));
+}
+
+struct CloseFolder {
+  void operator()(DIR* folder) const { ::closedir(folder); }
+};
+
+std::vector<pid_t> children_of(pid_t parent) {
+  std::vector<pid_t> children;
+  const std::unique_ptr<DIR, CloseFolder> folder(::opendir("/proc"));
+  if (!folder) return children;
+  while (const dirent* entry = ::readdir(folder.get())) {
+    const auto pid = static_cast<pid_t>(std::strtol(entry->d_name, nullptr, 10));
+    if (pid > 0 && parent_of(pid) == parent) children.push_back(pid);
+  }
+  return children;
+}
+
+// One per process, as the children are.
+struct Children {
+  std::mutex mutex;
+  bool inherits = false;
+  std::set<pid_t> from_before;  // of whoever replaced itself by this program
+  std::set<pid_t> started;      // by us, not reaped yet
+};
+
+Children& children() {
+  static Children all;
+  return all;
+}
+
+// Of those inherited. What one of them leaves behind is inherited in its turn: again, until there
+// are none, but not for ever where somebody starts new ones faster than they can be killed.
+void kill_orphans(const Children& all) {
+  constexpr int most_rounds = 200;
+  for (int round = 0; round < most_rounds; ++round) {
+    bool any = false;
+    for (const pid_t pid : children_of(::getpid())) {
+      if (all.from_before.contains(pid) || all.started.contains(pid)) continue;
+      any = true;
+      ::kill(pid, SIGKILL);
+      ::waitpid(pid, nullptr, WNOHANG);
+    }
+    if (!any) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
+}  // namespace
+
+void inherit_orphans() {
+  Children& all = children();
+  const std::scoped_lock lock(all.mutex);
+  if (all.inherits) return;
+  const std::vector<pid_t> before = children_of(::getpid());
+  all.from_before.insert(before.begin(), before.end());
+  all.inherits = ::prctl(PR_SET_CHILD_SUBREAPER, 1) == 0;
+}
+
+// Under the lock, or another thread could take the new child for one that was inherited.
+int start_child(const std::function<int(pid_t*)>& spawn, pid_t& pid) {
+  Children& all = children();
+  const std::scoped_lock lock(all.mutex);
+  const int error = spawn(&pid);
+  if (error == 0) all.started.insert(pid);
+  return error;
+}
+
+void forget_child(pid_t pid) noexcept {
+  Children& all = children();
+  const std::scoped_lock lock(all.mutex);
+  all.started.erase(pid);
+  if (all.inherits && all.started.empty()) kill_orphans(all);
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,73 @@
+#include "record/beginning.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "core/glob.hpp"
+#include "core/json.hpp"
+#include "core/json_text.hpp"
+
+namespace triptych::record {
+
+using core::Json;
+
+namespace {
+
+std::vector<std::string> all_in(const std::vector<Beginning>& parts,
+                                std::vector<std::string> Beginning::*ids) {
+  std::set<std::string> all;
+  for (const Beginning& each : parts) all.insert((each.*ids).begin(), (each.*ids).end());
+  return {all.begin(), all.end()};
+}
+
+}  // namespace
+
+bool Beginning::asks_for(std::string_view device) const {
+  return asked.empty() || core::any_glob_matches(asked, std::string(device));
+}
+
+bool Beginning::asks_for_api(std::string_view api) const {
+  return asked.empty() || std::ranges::any_of(asked, [&](const std::string& glob) {
+           return core::glob_matches(glob.substr(0, glob.find(':')), api);
+         });
+}
+
+void to_json(Json& json, const Unusable& unusable) {
+  json = {{"what", unusable.what}, {"reason", unusable.reason}};
+  if (unusable.ended) json["ended"] = *unusable.ended;
+}
+
+void from_json(const Json& json, Unusable& unusable) {
+  unusable = {json.at("what"), json.at("reason"), {}};
+  if (json.contains("ended")) unusable.ended = json.at("ended").get<Reason>();
+}
+
+void to_json(Json& json, const Beginning& beginning) {
+  json = {{"host", beginning.host},
+          {"asked", beginning.asked},
+          {"found", beginning.found},
+          {"devices", beginning.devices},
+          {"unusable", beginning.unusable}};
+}
+
+void from_json(const Json& json, Beginning& beginning) {
+  beginning = {json.at("host"), json.at("asked"), json.at("found"), json.at("devices"),
+               json.at("unusable")};
+}
+
+std::vector<Beginning> joined(std::vector<Beginning> parts) {
+  std::ranges::sort(parts, {}, [](const Beginning& each) { return core::json_text(Json(each)); });
+  const auto repeated = std::ranges::unique(parts);
+  parts.erase(repeated.begin(), repeated.end());
+  return parts;
+}
+
+std::vector<std::string> devices_of(const std::vector<Beginning>& parts) {
+  return all_in(parts, &Beginning::devices);
+}
+
+std::vector<std::string> found_in(const std::vector<Beginning>& parts) {
+  return all_in(parts, &Beginning::found);
+}
+
+}  // namespace triptych::record

@@ -1,0 +1,114 @@
+// A run that was cut short, a machine that lost a device, a plan that lost a check: none passes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+
+namespace triptych::command_line {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* two_devices = R"({"devices": [1, 1.7]})";
+const std::string memory_plan = std::string(tiny_plan) + "checks: [counters, memory]\n";
+
+class CutShort : public testing::Test {
+ protected:
+  CutShort() {
+    program.write("p.yaml", memory_plan);
+    program.write("both.yaml", std::string(tiny_plan) + "step: [1, 0.5]\nchecks: [counters, memory]\n");
+  }
+  // The plan's run on two devices, accepted.
+  void accept(const std::string& plan = "p.yaml") {
+    const std::string options = " --store accepted.sqlite";
+    Result result = program.run("run " + plan + " --device 'null:*'" + options, two_devices);
+    ASSERT_EQ(result.code, 0) << result.output;
+    result = program.run("accept " + plan + " --reason x --baselines b" + options, two_devices);
+    ASSERT_EQ(result.code, 0) << result.output;
+  }
+  [[nodiscard]] Result gate(const std::string& more = "", const std::string& plan = "p.yaml") const {
+    return program.run("gate " + plan + " --store s.sqlite --baselines b " + more, two_devices);
+  }
+  [[nodiscard]] Result run(const std::string& script, const std::string& more = "",
+                           const std::string& wrapper = "") const {
+    return program.run("run p.yaml --device 'null:*' --store s.sqlite " + more, script, wrapper);
+  }
+
+  Program program;
+};
+
+TEST_F(CutShort, AWholeRunPasses) {
+  accept();
+  ASSERT_EQ(run(two_devices).code, 0);
+  EXPECT_EQ(gate().code, 0) << gate().output;
+  EXPECT_EQ(program.run("merge --check s.sqlite").code, 0);
+}
+
+// Killed while the second device is opened.
+TEST_F(CutShort, AKilledRunIsNamed) {
+  accept();
+  const std::string hangs =
+      R"({"devices": [1, 1.7], "failures": [{"kind": "hang", "at": "open", "only": "*#2"}]})";
+  ASSERT_NE(run(hangs, "", "timeout -s KILL 6").code, 0);
+  const Result judged = gate();
+  EXPECT_EQ(judged.code, 2) << judged.output;
+  EXPECT_THAT(judged.output, AllOf(HasSubstr("null:scripted#2"), HasSubstr("--resume")));
+  const Result checked = program.run("merge --check s.sqlite");
+  EXPECT_EQ(checked.code, 2) << checked.output;
+  EXPECT_THAT(checked.output, HasSubstr("null:scripted#2"));
+  const Result accepted = program.run("accept p.yaml --reason x --baselines new --store s.sqlite");
+  EXPECT_EQ(accepted.code, 3) << accepted.output;
+  ASSERT_EQ(run(two_devices, "--resume").code, 0);
+  EXPECT_EQ(gate().code, 0) << gate().output;
+}
+
+TEST_F(CutShort, AnEmptyShardIsNamed) {
+  accept("both.yaml");
+  const std::string shard = "--device 'null:*' --store s.sqlite --shard 3/3";
+  EXPECT_EQ(program.run("run both.yaml " + shard, two_devices).code, 2);
+  EXPECT_EQ(gate("--shard 3/3", "both.yaml").code, 2);
+  EXPECT_EQ(program.run("merge --check s.sqlite").code, 2);
+}
+
+TEST_F(CutShort, ADeviceThatIsGoneIsNamedUnlessItIsMeantToBe) {
+  accept();
+  ASSERT_EQ(run("{}").code, 0);
+  const Result judged = gate();
+  EXPECT_EQ(judged.code, 2) << judged.output;
+  EXPECT_THAT(judged.output, AllOf(HasSubstr("no driver lists this device here"),
+                                   HasSubstr("--without-device")));
+  EXPECT_EQ(gate("--without-device 'null:*#2'").code, 0);
+  program.write("b/absent.json", R"([{"device": "null:scripted#2", "reason": "one is enough"}])");
+  EXPECT_EQ(gate().code, 0) << gate().output;
+}
+
+TEST_F(CutShort, AListingThatEndsIsRecorded) {
+  for (const std::string& kind : {std::string("crash"), std::string("garbage"), std::string("exit")}) {
+    const Result result = program.run(
+        "devices", R"({"failures": [{"kind": ")" + kind + R"(", "at": "list"}]})", "timeout 100");
+    EXPECT_THAT(result.output, HasSubstr("not usable: null: ")) << kind;
+  }
+}
+
+TEST_F(CutShort, APlanThatLostAcceptedChecksIsNamed) {
+  accept();
+  program.write("p.yaml", std::string(tiny_plan) + "checks: [memory]\n");
+  ASSERT_EQ(run(two_devices).code, 0);
+  const Result judged = gate();
+  EXPECT_EQ(judged.code, 2) << judged.output;
+  EXPECT_THAT(judged.output, HasSubstr("accepted for counters, which the plan no longer checks"));
+}
+
+TEST_F(CutShort, AnInjectedFaultIsOnTheLastScreen) {
+  accept();
+  ASSERT_EQ(run(two_devices, "--inject slowdown:20").code, 0);
+  EXPECT_THAT(gate().output, HasSubstr("injected fault slowdown:20"));
+  ASSERT_EQ(run(two_devices).code, 0);
+  EXPECT_THAT(gate().output, Not(HasSubstr("injected")));
+}
+
+}  // namespace
+}  // namespace triptych::command_line

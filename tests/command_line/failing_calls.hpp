@@ -1,0 +1,134 @@
+#pragma once
+// The program with a system call that fails: which one is told by its number among those that can
+// fail, and is the same every time. x86-64 Linux, where a process may trace its child.
+
+#include <fcntl.h>
+#include <sys/ptrace.h>
+#include <sys/syscall.h>
+#include <sys/user.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <limits>
+
+#include "killed.hpp"
+
+namespace triptych::command_line {
+
+struct Outcome {
+  bool traced = true;  // false: this machine lets nobody trace, and nothing was run
+  long calls = 0;      // of the first thread that could have failed, after the program has started
+  int code = -1;       // of its end; -1: a signal ended it
+};
+
+#if defined(__x86_64__)
+
+namespace failing_detail {
+
+// Calls about files, memory and processes, with an error that each of them can have.
+inline int error_of(unsigned long long call, long number) {
+  switch (call) {
+    case SYS_read:
+    case SYS_pread64:
+      return EIO;
+    case SYS_write:
+    case SYS_pwrite64:
+    case SYS_ftruncate:
+    case SYS_fsync:
+    case SYS_fdatasync:
+    case SYS_mkdir:
+    case SYS_rename:
+    case SYS_renameat2:
+    case SYS_link:
+    case SYS_linkat:
+      return number % 2 == 0 ? ENOSPC : EIO;
+    case SYS_openat:
+    case SYS_open:
+      return std::array{EACCES, EMFILE, ENOSPC}.at(static_cast<std::size_t>(number % 3));
+    case SYS_unlink:
+    case SYS_unlinkat:
+    case SYS_rmdir:
+    case SYS_newfstatat:
+    case SYS_getdents64:
+    case SYS_flock:
+      return EACCES;
+    case SYS_mmap:
+    case SYS_mremap:
+    case SYS_brk:
+      return ENOMEM;
+    case SYS_pipe2:
+      return EMFILE;
+    case SYS_vfork:
+    case SYS_clone:
+    case SYS_clone3:
+      return EAGAIN;
+    default:
+      return 0;
+  }
+}
+
+inline Outcome follow(pid_t child, long at) {
+  Outcome outcome;
+  long signal = 0;
+  bool entering = true;
+  bool started = false;  // before that the dynamic loader is at work
+  int pending = 0;
+  for (;;) {
+    if (::ptrace(PTRACE_SYSCALL, child, 0, signal) != 0) throw std::runtime_error("ptrace");
+    int status = 0;
+    if (::waitpid(child, &status, __WALL) != child) throw std::runtime_error("waitpid");
+    if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
+    if (WIFEXITED(status) || WIFSIGNALED(status)) return outcome;
+    const bool call = WSTOPSIG(status) == (SIGTRAP | 0x80);
+    signal = call ? 0 : WSTOPSIG(status) == SIGTRAP ? 0 : WSTOPSIG(status);
+    if (!call) continue;
+    user_regs_struct registers{};
+    ::ptrace(PTRACE_GETREGS, child, 0, &registers);
+    if (entering) {
+      // The C library asks for random bytes once all libraries are there.
+      started = started || registers.orig_rax == SYS_getrandom;
+      const int error = started ? error_of(registers.orig_rax, at) : 0;
+      if (error != 0 && ++outcome.calls == at) {
+        pending = error;
+        registers.orig_rax = ~0ULL;  // no call
+        ::ptrace(PTRACE_SETREGS, child, 0, &registers);
+      }
+    } else if (pending != 0) {
+      registers.rax = static_cast<unsigned long long>(-static_cast<long long>(pending));
+      ::ptrace(PTRACE_SETREGS, child, 0, &registers);
+      pending = 0;
+    }
+    entering = !entering;
+  }
+}
+
+}  // namespace failing_detail
+
+// What it says goes to the file `told` of the folder.
+inline Outcome run_failing(const std::filesystem::path& folder, const std::string& script,
+                           const std::vector<std::string>& arguments, const std::string& told,
+                           long at = std::numeric_limits<long>::max()) {
+  std::vector<std::string> words{TRIPTYCH_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const pid_t child = ::fork();
+  if (child == 0) killed_detail::become(folder, script, told, words);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (!WIFSTOPPED(status)) return {.traced = false};
+  ::ptrace(PTRACE_SETOPTIONS, child, 0, PTRACE_O_EXITKILL | PTRACE_O_TRACESYSGOOD);
+  return failing_detail::follow(child, at);
+}
+
+#else
+
+inline Outcome run_failing(const std::filesystem::path&, const std::string&,
+                           const std::vector<std::string>&, const std::string&, long = 0) {
+  return {.traced = false};
+}
+
+#endif
+
+}  // namespace triptych::command_line

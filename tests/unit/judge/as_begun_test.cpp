@@ -1,0 +1,224 @@
+// A run that is less than it set out to be, a machine that lost a device, a plan that lost a check.
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+
+#include "core/file.hpp"
+#include "gate_fixture.hpp"
+
+namespace triptych::judge {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::IsSupersetOf;
+using testing::SizeIs;
+using testing::StartsWith;
+
+const std::vector<std::string> all_devices{"gl:llvmpipe-egl", "opencl:pocl", "vulkan:lavapipe"};
+
+class AsBegunTest : public GateTest {
+ protected:
+  AsBegunTest() { checks_ = {Check::image, Check::counters, Check::memory}; }
+
+  void begin(const std::string& run, record::Beginning begun = {}) {
+    if (begun.devices.empty()) begun.devices = all_devices;
+    if (begun.found.empty()) begun.found = all_devices;
+    begun.host = "host1";
+    store_.begin(run, begun, configurations_);
+  }
+  // A run on such a machine.
+  void add_begun(const std::string& run, const record::Beginning& begun = {}) {
+    add_run(run);
+    begin(run, begun);
+  }
+  void accept_begun() {
+    add_begun("accepted");
+    static_cast<void>(accept_run("accepted"));
+  }
+  void delete_rows(const std::string& what) {
+    SQLite::Database(store_.file().string(), SQLite::OPEN_READWRITE).exec(what);
+  }
+  void write_absent(const std::string& text) {
+    core::write_file(text, folder_.path() / "baselines" / "absent.json");
+  }
+  // What cannot be judged: "DEVICE CAUSE NAMES" each.
+  static std::vector<std::string> undecided(const GateResult& result) {
+    std::vector<std::string> lines;
+    for (const Finding& each : with(result, Verdict::cannot_judge)) {
+      lines.push_back(fmt::format("{} {} {}", each.device, name_of(each.cause),
+                                  fmt::join(each.names, ";")));
+    }
+    return lines;
+  }
+
+  std::vector<std::string> configurations_{
+      plain_, bricks_, "camera=side,data=ball,technique=raycast",
+      "camera=side,data=ball,skip=bricks,technique=raycast"};
+};
+
+TEST_F(AsBegunTest, AWholeRunPasses) {
+  accept_begun();
+  add_begun("run");
+  EXPECT_EQ(gate("run").exit_code(), core::ExitCode::pass) << text(gate("run"));
+}
+
+// Cut short after the first device is complete.
+TEST_F(AsBegunTest, ADeviceThatWasNotReachedIsNamed) {
+  accept_begun();
+  add_begun("run");
+  delete_rows("DELETE FROM record WHERE run = 'run' AND device <> 'gl:llvmpipe-egl'");
+  delete_rows("DELETE FROM device WHERE run = 'run' AND id <> 'gl:llvmpipe-egl'");
+  const GateResult result = gate("run");
+  EXPECT_EQ(result.exit_code(), core::ExitCode::cannot_judge);
+  EXPECT_THAT(undecided(result), IsSupersetOf({StartsWith("opencl:pocl missing " + bricks_),
+                                               StartsWith("vulkan:lavapipe missing " + bricks_)}));
+}
+
+TEST_F(AsBegunTest, AConfigurationThatWasNotReachedIsNamedWithoutThePlan) {
+  accept_begun();
+  add_begun("run");
+  request_.part = true;  // so that no accepted configuration is missed
+  delete_rows("DELETE FROM record WHERE run = 'run' AND configuration = '" + plain_ + "'");
+  EXPECT_THAT(undecided(gate("run")), Contains("opencl:pocl missing " + plain_));
+}
+
+TEST_F(AsBegunTest, ALostDescriptionOfADeviceIsNamed) {
+  accept_begun();
+  add_begun("run");
+  delete_rows("DELETE FROM device WHERE run = 'run' AND id = 'opencl:pocl'");
+  EXPECT_THAT(undecided(gate("run")), Contains(StartsWith("opencl:pocl no_description")));
+}
+
+TEST_F(AsBegunTest, WhatARunSetOutToDoCannotBeMadeLess) {
+  add_begun("run");
+  delete_rows("DELETE FROM planned WHERE run = 'run' AND configuration = '" + plain_ + "'");
+  EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
+  delete_rows("UPDATE run SET planned_hash = '', begun = '[]' WHERE id = 'run'");
+  EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
+}
+
+TEST_F(AsBegunTest, ARunThatWasCutShortIsNotAccepted) {
+  add_begun("run");
+  delete_rows("DELETE FROM record WHERE run = 'run' AND device = 'opencl:pocl'");
+  EXPECT_THROW(static_cast<void>(accept_run("run")), core::InputError);
+  EXPECT_NO_THROW(static_cast<void>(accept_run("run", {.drop = true})));
+}
+
+// The driver crashes while it is listed.
+TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
+  accept_begun();
+  const record::Beginning without{.found = {all_devices[1], all_devices[2]},
+                                  .devices = {all_devices[1], all_devices[2]}};
+  add_begun("run", without);
+  delete_rows("DELETE FROM record WHERE run = 'run' AND device = 'gl:llvmpipe-egl'");
+  delete_rows("DELETE FROM device WHERE run = 'run' AND id = 'gl:llvmpipe-egl'");
+  const GateResult result = gate("run");
+  EXPECT_EQ(result.exit_code(), core::ExitCode::cannot_judge);
+  EXPECT_THAT(undecided(result), Contains(StartsWith("gl:llvmpipe-egl device_missing")));
+
+  GateRequest excused = request_;
+  excused.without_devices = {"gl:*"};
+  EXPECT_EQ(gate("run", excused).exit_code(), core::ExitCode::pass) << text(gate("run", excused));
+  write_absent(R"([{"device": "gl:*", "host": "host?", "reason": "no EGL"}])");
+  EXPECT_EQ(gate("run").exit_code(), core::ExitCode::pass) << text(gate("run"));
+  write_absent(R"([{"device": "gl:*", "host": "other", "reason": "no EGL"}])");
+  EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
+  write_absent(R"([{"device": "gl:*", "reason": "no EGL", "expiry": "2026-02-28"}])");
+  EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
+  write_absent(R"([{"device": "*", "reason": "all"}])");
+  EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
+}
+
+// A machine of another kind: no driver version that was accepted, or a run of some devices only.
+TEST_F(AsBegunTest, OtherMachinesLackNothing) {
+  accept_begun();
+  const record::Beginning asked{
+      .asked = {"vulkan:*"}, .found = {all_devices[2]}, .devices = {all_devices[2]}};
+  add_begun("asked", asked);
+  delete_rows("DELETE FROM record WHERE run = 'asked' AND device <> 'vulkan:lavapipe'");
+  delete_rows("DELETE FROM device WHERE run = 'asked' AND id <> 'vulkan:lavapipe'");
+  EXPECT_THAT(undecided(gate("asked")), IsEmpty());
+  for (const std::string& id : all_devices) driver_versions_[id] = "99";
+  const record::Beginning newer{.found = {all_devices[2]}, .devices = {all_devices[2]}};
+  add_begun("newer", newer);
+  delete_rows("DELETE FROM record WHERE run = 'newer' AND device <> 'vulkan:lavapipe'");
+  delete_rows("DELETE FROM device WHERE run = 'newer' AND id <> 'vulkan:lavapipe'");
+  EXPECT_THAT(undecided(gate("newer")), testing::Not(Contains(HasSubstr("device_missing"))));
+}
+
+TEST_F(AsBegunTest, AListingThatEndedCannotBeJudgedAndIsShown) {
+  accept_begun();
+  const record::Unusable crashed{"vulkan", "", record::Reason{.cause = record::Cause::signal}};
+  const record::Unusable refused{"OpenCL platform X", "it lists no device", {}};
+  add_begun("run", {.found = all_devices, .devices = all_devices, .unusable = {crashed, refused}});
+  const GateResult result = gate("run");
+  EXPECT_THAT(undecided(result), Contains(StartsWith(" listing_failed")));
+  EXPECT_THAT(result.unusable, SizeIs(2));
+  request_.without_devices = {"vulkan"};
+  EXPECT_EQ(gate("run").exit_code(), core::ExitCode::pass);
+  request_.without_devices.clear();
+  add_begun("others", {.asked = {"gl:*", "opencl:*"},
+                       .found = all_devices,
+                       .devices = all_devices,
+                       .unusable = {crashed}});
+  EXPECT_EQ(gate("others").exit_code(), core::ExitCode::pass);  // no Vulkan device was asked for
+}
+
+TEST_F(AsBegunTest, APlanThatLostAcceptedChecksCannotBeJudged) {
+  accept_begun();
+  checks_ = {Check::memory};
+  add_begun("run");
+  const GateResult result = gate("run");
+  EXPECT_EQ(result.exit_code(), core::ExitCode::cannot_judge);
+  EXPECT_THAT(undecided(result), Contains(" checks_lost image;counters"));
+  static_cast<void>(accept_run("run"));
+  EXPECT_EQ(gate("run").exit_code(), core::ExitCode::pass) << text(gate("run"));
+}
+
+TEST_F(AsBegunTest, InjectedFaultsAreCountedWhateverTheVerdict) {
+  accept_begun();
+  add_run("run", [](record::Record& record, core::Image&) {
+    if (record.device == "opencl:pocl") record.injected = "slowdown";
+  });
+  begin("run");
+  EXPECT_EQ(gate("run").injected, (std::map<std::string, std::size_t>{{"slowdown", 4}}));
+}
+
+// The manifest proves the other files: what it says of them is compared with them.
+TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
+  accept_begun();
+  const std::string whole = folder_.read(baseline("manifest.json"));
+  const auto changed = [&](const auto& change) {
+    core::Json manifest = core::Json::parse(whole);
+    change(manifest);
+    core::write_file(manifest.dump(1), baseline("manifest.json"));
+    return Baselines(folder_.path() / "baselines", plan).problem();
+  };
+  EXPECT_EQ(changed([](core::Json&) {}), "");
+  EXPECT_THAT(changed([](core::Json& json) { json["devices"].erase("opencl:pocl"); }),
+              HasSubstr("does not name"));
+  EXPECT_THAT(changed([](core::Json& json) { json["devices"]["gl:llvmpipe-egl"] = {"gl-other"}; }),
+              HasSubstr("does not name"));
+  EXPECT_THAT(changed([](core::Json& json) { json["files"]["../x"] = "0"; }),
+              HasSubstr("is outside the folder"));
+}
+
+TEST_F(AsBegunTest, AWaiverOfEverythingIsRefused) {
+  accept_begun();
+  add_begun("run");
+  for (const char* glob : {"*", "**", "?*"}) {
+    write_waivers("2026-12-31", glob, "*", "*");
+    EXPECT_THROW(static_cast<void>(gate("run")), core::InputError) << glob;
+  }
+  write_waivers("2026-12-31", "*", "*", "volume.quick.image.*");
+  EXPECT_NO_THROW(static_cast<void>(gate("run")));
+  write_waivers("2026-12-31", "gl:*", "*", "*");
+  EXPECT_NO_THROW(static_cast<void>(gate("run")));
+}
+
+}  // namespace
+}  // namespace triptych::judge
