@@ -7,6 +7,7 @@ find_package(yaml-cpp REQUIRED)
 find_package(SQLiteCpp REQUIRED)
 find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(BZip2 REQUIRED)
 find_package(benchmark REQUIRED)
 find_package(CLI11 REQUIRED)
 # Found through Boost's own package file, because CMake 3.30 removed FindBoost. Only headers are used.

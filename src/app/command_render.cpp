@@ -28,6 +28,7 @@ struct RenderArguments {
   std::optional<std::string> error;  // as it was typed
   int limit_s = standard_limit_s;
   bool truth = false;
+  bool describe = false;
 };
 
 // Writes the truth and the difference beside the picture, and says whether it is right.
@@ -109,8 +110,24 @@ Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
   return {run, *answers.front().record};
 }
 
+// What the data are, for a look before anything is drawn.
+core::ExitCode describe_data(const Registry& registry, const FrameArguments& arguments) {
+  const auto [suite, plan] = choose_data(registry, arguments);
+  for (const std::string& line : suite.describe_data(plan.configurations.front())) {
+    fmt::print("{}\n", line);
+  }
+  return core::ExitCode::pass;
+}
+
+void require_option(const std::string& value, std::string_view name) {
+  if (value.empty()) throw core::InputError(fmt::format("{} is required", name));
+}
+
 core::ExitCode render(const RenderArguments& arguments) {
   const Registry registry = make_registry();
+  if (arguments.describe) return describe_data(registry, arguments.frame);
+  require_option(arguments.frame.device, "--device");
+  require_option(arguments.frame.out, "--out");
   const auto [suite, plan, device] = choose_frame(registry, arguments.frame);
   const fs::path out(arguments.frame.out);
   report::remove_frame(out);
@@ -138,9 +155,9 @@ core::ExitCode render(const RenderArguments& arguments) {
 void add_render_command(Commands& commands) {
   auto [command, arguments] =
       commands.add("render", "Draw one configuration, and write image.exr, image.png, frame.json",
-                   render, {.frame = {.chooses = true}});
+                   render, {.frame = {.chooses = true, .describes = true}});
   arguments.frame.add_to(command);
-  command.add_option("--out", arguments.frame.out, "Folder to write into")->required();
+  command.add_option("--out", arguments.frame.out, "Folder to write into");
   command.add_option("--error", arguments.error,
                      "E or E:METRIC (rms, the default, covered, p99.9 or max): choose the fastest "
                      "step, quadrature, ert, adapt and skip whose error against the scene's limit "
@@ -149,6 +166,9 @@ void add_render_command(Commands& commands) {
   command.add_flag("--truth", arguments.truth,
                    "Compare with the reference image: write truth.exr, truth.png and "
                    "difference.png, and exit with code 1 if the image is wrong");
+  command.add_flag("--describe", arguments.describe,
+                   "Draw nothing: print what the data are (format, sizes, spacing, orientation, "
+                   "elements, range, a small picture). Needs neither --device nor --out");
   add_example(command,
               "triptych render volume --device vulkan:lavapipe --set viewport=256 --out frame");
 }

@@ -7,13 +7,14 @@ namespace triptych::app {
 
 void FrameArguments::add_to(CLI::App& command) {
   command.add_option("SUITE", suite, "volume or particles")->required();
-  command.add_option("--device", device, "A device id, or a glob that matches one device")
-      ->required();
+  CLI::Option* const option =
+      command.add_option("--device", device, "A device id, or a glob that matches one device");
+  if (!describes) option->required();
   command.add_option("--set", set, "factor=value (repeatable); write a comma in a value as %2C");
   add_inject_option(command, faults, "Inject a fault (repeatable); see run --help");
 }
 
-OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments) {
+ChosenData choose_data(const Registry& registry, const FrameArguments& arguments) {
   measure::SuiteWithTruth& suite = registry.suite(arguments.suite);
   measure::Plan plan = measure::default_plan(suite, PlanChoice{.set = arguments.set}.overrides());
   std::vector<std::string> several = plan.varied;
@@ -23,10 +24,15 @@ OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments)
   if (!several.empty()) {
     throw core::InputError("one configuration is drawn: give each factor one value");
   }
-  core::require_writable(arguments.out);
   if (const std::string reason = suite.missing_data(plan.configurations.front()); !reason.empty()) {
     throw core::InputError(reason);
   }
+  return {suite, std::move(plan)};
+}
+
+OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments) {
+  core::require_writable(arguments.out);
+  auto [suite, plan] = choose_data(registry, arguments);
   return {suite, std::move(plan),
           measure::choose_device(registry.devices(), "--device", arguments.device)};
 }

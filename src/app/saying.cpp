@@ -14,6 +14,11 @@ void clear_line() {
 }
 
 void show_loading(const measure::Loading& loading) {
+  if (!loading.note.empty()) {
+    clear_line();
+    fmt::print(stderr, "{}: {}\n", loading.what, loading.note);
+    return;
+  }
   if (loading.share < 1) {
     show("loading {}: {:.0f} %", loading.what, 100 * loading.share);
   } else {

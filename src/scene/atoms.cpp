@@ -84,6 +84,43 @@ std::vector<std::uint32_t> sorted_by_number(const Atoms& atoms, const LineReader
   return sorted;
 }
 
+// How many atoms each kind has, in the order of the ranks.
+std::vector<ReadFacts::Kind> counted_kinds(const Atoms& atoms) {
+  const std::vector<std::size_t> ranks = ranks_of(atoms);
+  std::vector<ReadFacts::Kind> kinds(ranks.size());
+  for (std::size_t kind = 0; kind < ranks.size(); ++kind) {
+    kinds[ranks[kind]].name = atoms.kind_names[kind];
+  }
+  for (const std::uint32_t kind : atoms.kinds) ++kinds[ranks[kind]].count;
+  return kinds;
+}
+
+// "3 of Xx, 1 of Qq", or nothing where every kind is an element.
+std::string without_element(const std::vector<ReadFacts::Kind>& kinds) {
+  std::string list;
+  for (const auto& [name, count] : kinds) {
+    if (atomic_number(name)) continue;
+    list += fmt::format("{}{} of '{}'", list.empty() ? "" : ", ", count, quotable(name));
+  }
+  return list;
+}
+
+ReadFacts facts_of(Atoms& atoms) {
+  ReadFacts facts{.kinds = counted_kinds(atoms),
+                  .elements = atoms.elements,
+                  .value_type = {},
+                  .orientation = {},
+                  .notes = std::move(atoms.notes)};
+  if (!atoms.elements || !atoms.radii.empty()) return facts;
+  if (const std::string list = without_element(facts.kinds); !list.empty()) {
+    facts.notes.push_back(
+        fmt::format("{}: these are not chemical elements; they are drawn with a radius of 2 Å "
+                    "and a colour of their own",
+                    list));
+  }
+  return facts;
+}
+
 }  // namespace
 
 std::uint32_t Atoms::kind(std::string_view name) {
@@ -102,6 +139,7 @@ ParticleSet to_particles(Atoms atoms, ColourKind colour, const LineReader& reade
   const auto total = static_cast<double>(sorted.size());
   ParticleSet set;
   set.colour = colour;
+  set.facts = facts_of(atoms);
   reserve(set, sorted.size());
   for (std::uint32_t id = 0; id < sorted.size(); ++id) {
     const std::uint32_t index = sorted[id];

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/line_reader.hpp"
@@ -22,12 +23,19 @@ struct Atoms {
   std::vector<std::int64_t> order;  // the file's own numbers, one per particle, or none
   bool elements = true;             // whether kinds are elements; else they are types
   double angstrom = 1;              // how long an ångström is in the file's unit
+  std::vector<std::string> notes;   // what had to be guessed (ReadFacts::notes)
 
   // The index of a kind, which is new or known.
   [[nodiscard]] std::uint32_t kind(std::string_view name);
   void add(const std::array<double, 3>& place, std::uint32_t kind_index) {
     places.push_back(place);
     kinds.push_back(kind_index);
+  }
+
+  // Replaces the names of the kinds; `kinds` must index them already.
+  void take_names(Atoms&& other) {
+    kind_names = std::move(other.kind_names);
+    index_ = std::move(other.index_);
   }
 
  private:

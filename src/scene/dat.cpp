@@ -27,7 +27,7 @@ class Description {
   explicit Description(const std::filesystem::path& file) : file_(file.string()) {
     const std::string text = core::read_text(file);
     core::FilePlace place{.file = file_};
-    for (const std::string_view line : split_lines(text)) {
+    for (const std::string_view line : split_lines(without_mark(text))) {
       ++place.line;
       if (!trimmed(line).empty()) add(line, place);
     }
@@ -46,10 +46,10 @@ class Description {
   }
 
  private:
-  static constexpr std::array<std::string_view, 11> known{
-      "objectfilename", "resolution",     "format",  "slicethickness",
-      "endianness",     "taggedfilename", "nbrtags", "objecttype",
-      "objectmodel",    "gridtype",       "modality"};
+  static constexpr std::array<std::string_view, 13> known{
+      "objectfilename", "resolution",     "format",  "slicethickness", "endianness",
+      "taggedfilename", "nbrtags",        "objecttype", "objectmodel", "gridtype",
+      "modality",       "timestep",       "endianess"};  // sic: some programs spell it so
 
   void add(std::string_view line, const core::FilePlace& place) {
     const std::size_t colon = line.find(':');
@@ -71,20 +71,22 @@ class Description {
   std::map<std::string, Entry> entries_;
 };
 
-ScalarType parse_format(const Entry& entry) {
-  static constexpr std::array<std::pair<std::string_view, ScalarType>, 6> formats{
-      {{"uchar", ScalarType::u8},
-       {"char", ScalarType::i8},
-       {"ushort", ScalarType::u16},
-       {"short", ScalarType::i16},
-       {"float", ScalarType::f32},
-       {"double", ScalarType::f64}}};
+StoredType parse_format(const Entry& entry) {
+  static constexpr std::array<std::pair<std::string_view, StoredType>, 8> formats{
+      {{"uchar", StoredType::u8},
+       {"char", StoredType::i8},
+       {"ushort", StoredType::u16},
+       {"short", StoredType::i16},
+       {"uint", StoredType::u32},
+       {"int", StoredType::i32},
+       {"float", StoredType::f32},
+       {"double", StoredType::f64}}};
   for (const auto& [name, type] : formats) {
     if (name == lower_case(entry.value)) return type;
   }
   throw core::InputError(
-      entry.place, fmt::format("unknown format '{}'; expected UCHAR, CHAR, USHORT, SHORT, FLOAT or "
-                               "DOUBLE",
+      entry.place, fmt::format("unknown format '{}'; expected UCHAR, CHAR, USHORT, SHORT, UINT, "
+                               "INT, FLOAT or DOUBLE",
                                quotable(entry.value)));
 }
 
@@ -96,21 +98,32 @@ bool parse_endianness(const Entry* entry) {
       fmt::format("unknown endianness '{}'; expected LITTLE or BIG", quotable(entry->value)));
 }
 
+// Both spellings of the key are in use.
+const Entry* endianness_in(const Description& description) {
+  const Entry* right = description.find("endianness");
+  const Entry* wrong = description.find("endianess");
+  if (right != nullptr && wrong != nullptr) {
+    throw core::InputError(wrong->place, "the byte order is given twice");
+  }
+  return right != nullptr ? right : wrong;
+}
+
 }  // namespace
 
-Volume read_dat(const std::filesystem::path& file) {
+Volume read_dat(const std::filesystem::path& file, const Component& component) {
   const Description description(file);
   const Entry& resolution = description.require("resolution", "Resolution");
   const Entry& data = description.require("objectfilename", "ObjectFileName");
   Volume volume;
   volume.size = parse_sizes(resolution.value, resolution.place);
-  volume.type = parse_format(description.require("format", "Format"));
   if (const Entry* spacing = description.find("slicethickness")) {
     volume.spacing = parse_spacings(spacing->value, volume.size, spacing->place);
   }
   RawVoxels source;
   source.file = data_file_beside(file, data.value, data.place);
-  source.big_endian = parse_endianness(description.find("endianness"));
+  source.layout.type = parse_format(description.require("format", "Format"));
+  source.layout.big_endian = parse_endianness(endianness_in(description));
+  source.component = component;
   source.sizes_place = resolution.place;
   read_voxels(volume, source);
   return volume;

@@ -63,13 +63,6 @@ bool is_letter(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-// The letters of a word up to the first other character, leading digits left out.
-std::string_view letters_of(std::string_view word) {
-  while (!word.empty() && !is_letter(word.front())) word.remove_prefix(1);
-  const auto end = std::ranges::find_if_not(word, is_letter);
-  return word.substr(0, static_cast<std::size_t>(end - word.begin()));
-}
-
 }  // namespace
 
 std::string proper_symbol(std::string_view symbol) {
@@ -111,14 +104,6 @@ Rgb element_colour(std::string_view symbol) {
   }
   const double turns = golden_ratio * number;
   return hue_colour(turns - std::floor(turns));
-}
-
-std::string element_from_name(std::string_view atom, std::string_view residue) {
-  const std::string_view name = letters_of(atom);
-  if (name.empty()) return std::string(trimmed(atom));
-  const bool is_ion = proper_symbol(name) == proper_symbol(letters_of(residue));
-  if (is_ion && atomic_number(name)) return proper_symbol(name);
-  return proper_symbol(name.substr(0, 1));
 }
 
 }  // namespace triptych::scene

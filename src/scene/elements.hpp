@@ -22,11 +22,6 @@ namespace triptych::scene {
 // Elements without such a colour, and unknown symbols, have one of many hues.
 [[nodiscard]] Rgb element_colour(std::string_view symbol);
 
-// The element of an atom that has a name only, such as "CA" or "1HB", in a residue: the first
-// letter, but the whole name for an ion, which has the name of its residue ("NA" in "NA" is
-// sodium).
-[[nodiscard]] std::string element_from_name(std::string_view atom, std::string_view residue);
-
 // A symbol in its proper case: "CL" as "Cl".
 [[nodiscard]] std::string proper_symbol(std::string_view symbol);
 

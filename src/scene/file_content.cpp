@@ -6,7 +6,9 @@
 #include <span>
 #include <string>
 
+#include "core/error.hpp"
 #include "core/file.hpp"
+#include "scene/compression.hpp"
 #include "scene/inflate.hpp"
 #include "scene/progress_steps.hpp"
 #include "scene/text_lines.hpp"
@@ -15,14 +17,14 @@ namespace triptych::scene {
 
 namespace {
 
-// Calls `take` with each piece of what the gzip stream holds.
+// Calls `take` with each piece of what the compressed stream holds.
 template <typename Take>
-void unpack(const std::vector<std::byte>& packed, const std::string& name, ProgressSteps& steps,
-            Take&& take) {
+void unpack(const std::vector<std::byte>& packed, Packing packing, const std::string& name,
+            ProgressSteps& steps, Take&& take) {
   // Small enough that the progress moves in steps of a hundredth.
   const std::size_t sip = std::max<std::size_t>(packed.size() / 200, 1);
   std::size_t taken = 0;
-  Inflater inflater(
+  const ByteSource source = unpacked(
       [&](std::span<std::byte> out) {
         const std::size_t size = std::min({out.size(), packed.size() - taken, sip});
         if (size > 0) std::memcpy(out.data(), packed.data() + taken, size);
@@ -30,20 +32,20 @@ void unpack(const std::vector<std::byte>& packed, const std::string& name, Progr
         steps.reach(taken);
         return size;
       },
-      name);
+      packing, name);
   std::vector<std::byte> piece(std::size_t{1} << 20);
   for (;;) {
-    const std::size_t got = inflater.read(piece);
+    const std::size_t got = source(piece);
     take(std::span<const std::byte>(piece).first(got));
     if (got < piece.size()) return;
   }
 }
 
 // The stream is read twice: what it holds is counted before memory is taken for it.
-std::uint64_t count_unpacked(const std::vector<std::byte>& packed, const std::string& name,
-                             ProgressSteps& steps, std::uint64_t most) {
+std::uint64_t count_unpacked(const std::vector<std::byte>& packed, Packing packing,
+                             const std::string& name, ProgressSteps& steps, std::uint64_t most) {
   std::uint64_t count = 0;
-  unpack(packed, name, steps, [&](std::span<const std::byte> piece) {
+  unpack(packed, packing, name, steps, [&](std::span<const std::byte> piece) {
     count += piece.size();
     if (count > most) refuse_unpacked(name, most);
   });
@@ -55,16 +57,22 @@ std::uint64_t count_unpacked(const std::vector<std::byte>& packed, const std::st
 std::vector<char> read_content(const std::filesystem::path& file, const Progress& progress,
                                std::uint64_t most) {
   const std::vector<std::byte> bytes = core::read_file(file);
-  if (lower_case(file.extension().string()) != ".gz") {
+  const std::string name = file.string();
+  const Packing packing = packing_of(bytes, name);
+  const bool promises_gzip = lower_case(file.extension().string()) == ".gz";
+  if (promises_gzip && packing == Packing::none) {
+    throw core::InputError({.file = name}, "broken gzip stream: it does not begin as one; if the file "
+                                           "is not compressed, take .gz off its name");
+  }
+  if (packing == Packing::none) {
     const auto* begin = reinterpret_cast<const char*>(bytes.data());
     return {begin, begin + bytes.size()};
   }
-  const std::string name = file.string();
   ProgressSteps counting(progress, bytes.size(), 0, 0.5);
   std::vector<char> content;
-  content.reserve(count_unpacked(bytes, name, counting, most));
+  content.reserve(count_unpacked(bytes, packing, name, counting, most));
   ProgressSteps steps(progress, bytes.size(), 0.5, 1);
-  unpack(bytes, name, steps, [&](std::span<const std::byte> piece) {
+  unpack(bytes, packing, name, steps, [&](std::span<const std::byte> piece) {
     const auto* begin = reinterpret_cast<const char*>(piece.data());
     content.insert(content.end(), begin, begin + piece.size());
   });

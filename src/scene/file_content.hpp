@@ -8,8 +8,9 @@
 
 namespace triptych::scene {
 
-// What a file holds, unpacked where its name ends in .gz; `progress` tells how far that has come.
-// Throws IoError for a file that cannot be read, InputError for a gzip stream that is broken or
+// What a file holds, unpacked where it is compressed with gzip or bzip2, whatever its name is.
+// `progress` gets the share that is done.
+// Throws IoError for a file that cannot be read, InputError for a compressed stream that is broken or
 // holds more than `most` bytes.
 [[nodiscard]] std::vector<char> read_content(const std::filesystem::path& file,
                                              const Progress& progress = {},

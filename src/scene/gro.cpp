@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
-#include "scene/elements.hpp"
+#include "scene/element_names.hpp"
 
 namespace triptych::scene {
 namespace {
@@ -12,18 +14,27 @@ namespace {
 constexpr double nanometre = 0.1;  // an ångström in this file's unit
 constexpr std::size_t places_begin = 20;
 
-// How wide the columns of a place are: the distance between its decimal points, which tells the
-// number of decimals that the file was written with.
+// Numbers are written as "%{n+5}.{n}f": the first decimal point is always in column 25, and their
+// distance gives the width. The numbers of one line tell, as none may be wider than its columns.
 std::size_t place_width(std::string_view line, const LineReader& reader) {
+  constexpr std::size_t first_point = places_begin + 4;
   const std::size_t first = line.find('.', places_begin);
   const std::size_t second = first == std::string_view::npos ? first : line.find('.', first + 1);
-  if (second == std::string_view::npos) {
+  const std::size_t third = second == std::string_view::npos ? second : line.find('.', second + 1);
+  if (third == std::string_view::npos) {
     reader.reject("expected x, y and z with decimal points from column 21 on");
+  }
+  if (first != first_point || third - second != second - first || second - first < 6) {
+    reader.reject(fmt::format("the decimal points of x, y and z are in columns {}, {} and {}; "
+                              "expected the first one in column 25 and equal distances: a number "
+                              "may be too wide for its columns",
+                              first + 1, second + 1, third + 1));
   }
   return second - first;
 }
 
-void add_atom(Atoms& atoms, std::string_view line, std::size_t width, const LineReader& reader) {
+void add_gro_atom(Atoms& atoms, std::string_view line, std::size_t width,
+                  const LineReader& reader) {
   if (line.size() < places_begin + 3 * width) {
     reader.reject(
         fmt::format("expected an atom with its place in columns 21 to {}, found {} columns",
@@ -32,19 +43,25 @@ void add_atom(Atoms& atoms, std::string_view line, std::size_t width, const Line
   constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
   std::array<double, 3> place{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    place.at(axis) = reader.number(line.substr(places_begin + axis * width, width), axes.at(axis));
+    const std::string_view field = line.substr(places_begin + axis * width, width);
+    place.at(axis) = reader.number(field, axes.at(axis));
+    if (field.find('.') == 4 || !std::isfinite(place.at(axis))) continue;
+    reader.reject(fmt::format("{}: '{}' does not fill its columns {} to {} as the first atom does; a "
+                              "number that is too wide for its columns cannot be read",
+                              axes.at(axis), quotable(trimmed(field)),
+                              places_begin + axis * width + 1, places_begin + (axis + 1) * width));
   }
-  const std::string element =
-      element_from_name(trimmed(line.substr(10, 5)), trimmed(line.substr(5, 5)));
-  atoms.add(place, atoms.kind(element));
+  atoms.add(place, unnamed_kind(atoms, trimmed(line.substr(10, 5)), line.substr(5, 5)));
 }
 
+// Numbers of a box above 1000 nm touch, and the box is not needed: what must be right is only that
+// this line is no further atom.
 void check_box(std::string_view line, const LineReader& reader) {
-  const auto words = split_words(line);
-  if (words.size() != 3 && words.size() != 9) {
-    reader.reject("expected the box, 3 or 9 numbers, after the last atom");
-  }
-  for (const std::string_view word : words) static_cast<void>(reader.number(word, "box"));
+  const std::size_t words = split_words(line).size();
+  const bool numbers = line.find_first_not_of("0123456789.+-eE \t") == std::string_view::npos;
+  const bool enough = words == 3 || words == 9 || std::ranges::count(line, '.') >= 3;
+  if (numbers && enough) return;
+  reader.reject("expected the box, 3 or 9 numbers, after the last atom");
 }
 
 }  // namespace
@@ -70,10 +87,11 @@ ParticleSet read_gro(LineReader& reader, std::uint64_t frame, ColourKind colour)
     for (std::uint64_t i = 0; i < count; ++i) {
       const std::string_view line = reader.require(atoms_wanted);
       if (i == 0) width = place_width(line, reader);
-      add_atom(atoms, line, width, reader);
+      add_gro_atom(atoms, line, width, reader);
     }
     check_box(reader.require("the box"), reader);
     if (atoms.places.empty()) reader.reject("expected atoms, found none");
+    name_elements(atoms);
     return to_particles(std::move(atoms), colour, reader);
   }
 }

@@ -24,10 +24,10 @@ void refuse_unpacked(const std::string& file, std::uint64_t most) {
 }
 
 struct Inflater::Stream {
-  Stream(std::function<std::size_t(std::span<std::byte>)> source_, std::string name_)
+  Stream(ByteSource source_, std::string name_, Wrapper wrapper)
       : source(std::move(source_)), name(std::move(name_)) {
-    constexpr int gzip_only = 16 + MAX_WBITS;
-    if (inflateInit2(&zlib, gzip_only) != Z_OK) throw std::bad_alloc();
+    const int accepted = (wrapper == Wrapper::gzip ? 16 : 32) + MAX_WBITS;
+    if (inflateInit2(&zlib, accepted) != Z_OK) throw std::bad_alloc();
   }
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
@@ -66,15 +66,15 @@ struct Inflater::Stream {
     ended = code == Z_STREAM_END;
   }
 
-  std::function<std::size_t(std::span<std::byte>)> source;
+  ByteSource source;
   std::string name;
   std::vector<std::byte> buffer = std::vector<std::byte>(std::size_t{1} << 16);
   z_stream zlib{};
   bool ended = false;
 };
 
-Inflater::Inflater(std::function<std::size_t(std::span<std::byte>)> source, std::string name)
-    : stream_(std::make_unique<Stream>(std::move(source), std::move(name))) {}
+Inflater::Inflater(ByteSource source, std::string name, Wrapper wrapper)
+    : stream_(std::make_unique<Stream>(std::move(source), std::move(name), wrapper)) {}
 Inflater::Inflater(Inflater&&) noexcept = default;
 Inflater& Inflater::operator=(Inflater&&) noexcept = default;
 Inflater::~Inflater() = default;

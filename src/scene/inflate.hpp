@@ -15,13 +15,18 @@ inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{1} << 30;
 // Throws InputError: the file unpacks to more than `most` bytes.
 [[noreturn]] void refuse_unpacked(const std::string& file, std::uint64_t most);
 
-// Decompresses a gzip stream (RFC 1952, one member or several, then zero bytes or none) piece by
-// piece into the caller's memory.
+// Fills a buffer and returns how many bytes were there, fewer only at the end.
+using ByteSource = std::function<std::size_t(std::span<std::byte>)>;
+
+enum class Wrapper : std::uint8_t { gzip, gzip_or_zlib };
+
+// Decompresses a gzip stream (RFC 1952, one member or several, then zero bytes or none) or a zlib
+// stream (RFC 1950) piece by piece into the caller's memory.
 class Inflater {
  public:
-  // `source` fills a buffer and returns how many bytes were left, 0 at the end. `name` is the file
-  // named in errors.
-  Inflater(std::function<std::size_t(std::span<std::byte>)> source, std::string name);
+  // `source` may return fewer bytes than asked for before its end, but none only there. `name` is
+  // the file named in errors.
+  Inflater(ByteSource source, std::string name, Wrapper wrapper = Wrapper::gzip);
   Inflater(Inflater&&) noexcept;
   Inflater& operator=(Inflater&&) noexcept;
   ~Inflater();

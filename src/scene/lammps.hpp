@@ -13,8 +13,8 @@ namespace triptych::scene {
                                            ColourKind colour);
 
 // A LAMMPS data file: its Atoms section in the style that its comment names (atomic, charge, bond,
-// angle, molecular, full or sphere), or atomic where its columns leave no doubt. Image flags are
-// whole numbers and have no effect. Sorted by id. Throws InputError with file and line.
+// angle, molecular, full, sphere and others), or atomic where its columns leave no doubt. Image
+// flags are whole numbers and have no effect. Sorted by id. Throws InputError with file and line.
 [[nodiscard]] ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame,
                                            ColourKind colour);
 

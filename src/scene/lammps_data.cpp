@@ -18,21 +18,30 @@ struct Style {
   std::string_view name;
   std::size_t type;
   std::size_t place;
-  std::optional<std::size_t> diameter;
+  std::optional<std::size_t> diameter = std::nullopt;
+  std::size_t behind = 0;  // columns between the place and the image flags
 
-  [[nodiscard]] bool has_flags(std::size_t words) const { return words == place + 6; }
+  [[nodiscard]] std::size_t flags() const { return place + 3 + behind; }
+  [[nodiscard]] bool has_flags(std::size_t words) const { return words == flags() + 3; }
   [[nodiscard]] bool fits(std::size_t words) const {
-    return words == place + 3 || has_flags(words);
+    return words == flags() || has_flags(words);
   }
 };
 
-constexpr std::array<Style, 7> styles{{{"atomic", 1, 2, std::nullopt},
-                                       {"charge", 1, 3, std::nullopt},
-                                       {"molecular", 2, 3, std::nullopt},
-                                       {"bond", 2, 3, std::nullopt},
-                                       {"angle", 2, 3, std::nullopt},
-                                       {"full", 2, 4, std::nullopt},
-                                       {"sphere", 1, 4, 2}}};
+constexpr std::array<Style, 14> styles{{{"atomic", 1, 2},
+                                        {"charge", 1, 3},
+                                        {"molecular", 2, 3},
+                                        {"bond", 2, 3},
+                                        {"angle", 2, 3},
+                                        {"full", 2, 4},
+                                        {"sphere", 1, 4, 2},
+                                        {"dipole", 1, 3, std::nullopt, 3},
+                                        {"electron", 1, 5},
+                                        {"ellipsoid", 1, 4},
+                                        {"body", 1, 4},
+                                        {"peri", 1, 4},
+                                        {"line", 2, 5},
+                                        {"tri", 2, 5}}};
 
 std::string_view without_comment(std::string_view line) {
   return trimmed(line.substr(0, line.find('#')));
@@ -44,22 +53,33 @@ const Style* named_style(std::string_view comment, const LineReader& reader) {
   const auto found = std::ranges::find(styles, name, &Style::name);
   if (found == styles.end()) {
     reader.reject(
-        fmt::format("expected Atoms in the style atomic, charge, molecular, bond, angle, "
-                    "full or sphere, found '{}'",
-                    name));
+        fmt::format("expected Atoms in the style atomic, charge, molecular, bond, angle, full, "
+                    "sphere, dipole, electron, ellipsoid, body, peri, line or tri, found '{}'",
+                    quotable(name)));
   }
   return &*found;
 }
 
-// Without a comment the columns must do: 5 are atomic, and so are 8 that end in image flags (an
-// electron's or a line's are its place); 6 and 7 could be two things.
+bool are_whole(const Words& words, std::size_t first) {
+  return std::all_of(words.begin() + static_cast<std::ptrdiff_t>(first),
+                     words.begin() + static_cast<std::ptrdiff_t>(first) + 3,
+                     [](std::string_view word) {
+                       return parse_number<std::int64_t>(word).has_value();
+                     });
+}
+
+// Without a comment the columns must do: 5 are atomic. So are 8 that end in image flags, but only
+// where the place has a decimal point: an electron and a line have 8 columns that end with their
+// place, which may be whole numbers. 6 and 7 could be two things.
 const Style& guessed_style(const Words& words, const LineReader& reader) {
   const Style& atomic = styles[0];
-  const bool has_flags = atomic.has_flags(words.size()) &&
-                         std::all_of(words.end() - 3, words.end(), [](std::string_view word) {
-                           return parse_number<std::int64_t>(word).has_value();
-                         });
-  if (words.size() == atomic.place + 3 || has_flags) return atomic;
+  if (words.size() == atomic.flags()) return atomic;
+  if (atomic.has_flags(words.size()) && are_whole(words, atomic.flags())) {
+    if (!are_whole(words, atomic.place)) return atomic;
+    reader.reject(
+        "8 whole numbers: the last 3 could be image flags (style atomic) or the place (style electron "
+        "and others); expected the style in a comment, such as 'Atoms # atomic'");
+  }
   reader.reject(
       fmt::format("expected the style of {} columns in a comment, such as 'Atoms # charge' or "
                   "'Atoms # molecular'",
@@ -83,10 +103,10 @@ std::string_view find_atoms(LineReader& reader, std::optional<std::uint64_t>& co
   }
 }
 
-void add_atom(Atoms& atoms, const Words& words, const Style& style, const LineReader& reader) {
+void add_data_atom(Atoms& atoms, const Words& words, const Style& style, const LineReader& reader) {
   if (!style.fits(words.size())) {
     reader.reject(fmt::format("expected {} or, with image flags, {} columns (style {}), found {}",
-                              style.place + 3, style.place + 6, style.name, words.size()));
+                              style.flags(), style.flags() + 3, style.name, words.size()));
   }
   atoms.order.push_back(reader.integer(words[0], "id"));
   atoms.add({reader.number(words[style.place], "x"), reader.number(words[style.place + 1], "y"),
@@ -96,7 +116,7 @@ void add_atom(Atoms& atoms, const Words& words, const Style& style, const LineRe
     constexpr std::array<std::string_view, 3> names{"image flag in x", "image flag in y",
                                                     "image flag in z"};
     for (std::size_t i = 0; i < names.size(); ++i) {
-      static_cast<void>(reader.integer(words[style.place + 3 + i], names.at(i)));
+      static_cast<void>(reader.integer(words[style.flags() + i], names.at(i)));
     }
   }
   if (style.diameter) {
@@ -128,7 +148,7 @@ ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame, ColourKind
       reader.reject(fmt::format("the section ends after {} atoms, expected {}", i, *count));
     }
     if (style == nullptr) style = &guessed_style(words, reader);
-    add_atom(atoms, words, *style, reader);
+    add_data_atom(atoms, words, *style, reader);
   }
   // What follows is blank or nothing: else the count was too small.
   const auto after = reader.next();

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <optional>
 
+#include "scene/element_names.hpp"
 #include "scene/elements.hpp"
 
 namespace triptych::scene {
@@ -39,14 +42,14 @@ class Tokens {
     return ahead_;
   }
   void take() { ahead_.reset(); }
-  // Whether a line that begins with '#' came before the word, or the end, that was last seen.
-  [[nodiscard]] bool after_mark() const { return marks_ > 0; }
-  // Whether just one did, and said nothing.
-  [[nodiscard]] bool after_lone_mark() const { return marks_ == 1 && bare_mark_; }
+  // How many lines that begin with '#' came before the word, or the end, that was last seen: all of
+  // them, and those right before it.
+  [[nodiscard]] std::uint64_t marks() const { return marks_; }
+  [[nodiscard]] std::uint64_t marks_before() const { return marks_before_; }
 
  private:
   std::optional<Token> read() {
-    marks_ = 0;
+    marks_before_ = 0;
     for (;;) {
       const std::size_t begin = rest_.find_first_not_of(" \t");
       if (begin != std::string_view::npos && rest_[begin] != '#') {
@@ -61,7 +64,7 @@ class Tokens {
       rest_ = *line;
       if (rest_.starts_with('#')) {
         ++marks_;
-        bare_mark_ = trimmed(rest_) == "#";
+        ++marks_before_;
       }
       if (rest_.starts_with(';')) return text_field();
     }
@@ -101,67 +104,141 @@ class Tokens {
   std::string_view rest_;  // of the current line
   std::optional<Token> ahead_;
   bool ended_ = false;
-  int marks_ = 0;
-  bool bare_mark_ = false;  // the last of them
+  std::uint64_t marks_ = 0;
+  std::uint64_t marks_before_ = 0;
 };
 
-// Where the columns that matter stand in a row.
-struct Columns {
+// The items of _atom_site that matter, and where they stand in a row.
+enum class Item : std::uint8_t { element, x, y, z, model, atom, residue, old_atom, old_residue };
+constexpr std::array<std::string_view, 9> item_names{
+    "type_symbol",   "cartn_x",       "cartn_y",      "cartn_z",     "pdbx_pdb_model_num",
+    "label_atom_id", "label_comp_id", "auth_atom_id", "auth_comp_id"};
+
+struct AtomColumns {
   std::size_t count = 0;
-  std::optional<std::size_t> element, x, y, z, model;
+  std::array<std::optional<std::size_t>, item_names.size()> places;
+
+  [[nodiscard]] const std::optional<std::size_t>& operator[](Item item) const {
+    return places.at(static_cast<std::size_t>(item));
+  }
+  // A further item, by its tag in small letters.
+  void add(std::string_view tag, const LineReader& reader) {
+    const std::size_t index = count++;
+    if (!tag.starts_with(category)) return;
+    const auto found = std::ranges::find(item_names, tag.substr(category.size()));
+    if (found == item_names.end()) return;
+    auto& place = places.at(static_cast<std::size_t>(found - item_names.begin()));
+    if (place) reader.reject(fmt::format("'{}' is there twice", tag));
+    place = index;
+  }
 };
 
-std::size_t require_column(const std::optional<std::size_t>& column, std::string_view name,
-                           const LineReader& reader) {
-  if (!column) reader.reject(fmt::format("expected a column {}{}", category, name));
-  return *column;
+// Crystals of small molecules have other items: places in fractions of the cell.
+void refuse_small_molecule(std::string_view tag, const LineReader& reader) {
+  if (tag != "_atom_site_fract_x") return;
+  reader.reject(
+      "the places are fractions of a unit cell (_atom_site_fract_x), as in CIF files of small "
+      "molecules; expected mmCIF with _atom_site.Cartn_x. To convert: obabel IN.cif -O OUT.xyz");
 }
 
 // The tags of a loop, whose keyword is taken; nothing where it is not the loop over atoms.
-std::optional<Columns> read_columns(Tokens& tokens) {
-  Columns columns;
+std::optional<AtomColumns> read_columns(Tokens& tokens, const LineReader& reader) {
+  AtomColumns columns;
   bool atoms = false;
   for (; tokens.peek() && tokens.peek()->is_tag(); tokens.take()) {
     const std::string tag = lower_case(tokens.peek()->text);
-    const std::size_t index = columns.count++;
-    if (!tag.starts_with(category)) continue;
-    atoms = true;
-    const std::string_view name = std::string_view(tag).substr(category.size());
-    if (name == "type_symbol") columns.element = index;
-    if (name == "cartn_x") columns.x = index;
-    if (name == "cartn_y") columns.y = index;
-    if (name == "cartn_z") columns.z = index;
-    if (name == "pdbx_pdb_model_num") columns.model = index;
+    refuse_small_molecule(tag, reader);
+    atoms |= tag.starts_with(category);
+    columns.add(tag, reader);
   }
   if (!atoms) return std::nullopt;
   return columns;
 }
 
-// Counts the models as they come: rows of one model stand together.
-class Models {
+// Collects the rows of one model. Rows of a model need not stand together: frames are counted in the
+// order in which models appear.
+class AtomRows {
  public:
-  std::uint64_t index_of(std::string_view name) {
-    if (count_ == 0 || name != current_) {
-      current_ = name;
-      ++count_;
+  AtomRows(const AtomColumns& columns, std::uint64_t frame, const LineReader& reader)
+      : columns_(columns), frame_(frame), reader_(reader) {
+    constexpr std::array<std::string_view, 3> names{"Cartn_x", "Cartn_y", "Cartn_z"};
+    constexpr std::array<Item, 3> items{Item::x, Item::y, Item::z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      place_.at(axis) = require(items.at(axis), names.at(axis));
     }
-    return count_ - 1;
+    atom_ = columns[Item::atom] ? columns[Item::atom] : columns[Item::old_atom];
+    residue_ = columns[Item::residue] ? columns[Item::residue] : columns[Item::old_residue];
+    if (!atom_) static_cast<void>(require(Item::element, "type_symbol"));
   }
-  [[nodiscard]] std::uint64_t count() const { return count_; }
+
+  void add(const std::vector<std::string_view>& row) {
+    const auto& model = columns_[Item::model];
+    if (index_of(model ? row[*model] : std::string_view{}) != frame_) return;
+    constexpr std::array<std::string_view, 3> names{"Cartn_x", "Cartn_y", "Cartn_z"};
+    std::array<double, 3> place{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      place.at(axis) = reader_.number(without_uncertainty(row[place_.at(axis)]), names.at(axis));
+    }
+    atoms_.add(place, kind_of(row));
+  }
+
+  [[nodiscard]] Atoms take() {
+    if (models_.empty()) {
+      reader_.reject(fmt::format("expected rows of {}, found none", category));
+    }
+    if (frame_ >= models_.size()) {
+      reader_.reject(fmt::format("there is no frame {}; the file has {}", frame_, models_.size()));
+    }
+    name_elements(atoms_);
+    return std::move(atoms_);
+  }
 
  private:
-  std::string_view current_;
-  std::uint64_t count_ = 0;
+  std::size_t require(Item item, std::string_view name) const {
+    const auto& column = columns_[item];
+    if (!column) reader_.reject(fmt::format("expected a column {}{}", category, name));
+    return *column;
+  }
+
+  // "1.234(5)" states how certain a number is.
+  static std::string_view without_uncertainty(std::string_view word) {
+    return word.ends_with(')') ? word.substr(0, word.find('(')) : word;
+  }
+
+  std::uint32_t kind_of(const std::vector<std::string_view>& row) {
+    const auto& element = columns_[Item::element];
+    const std::string_view symbol = element ? row[*element] : std::string_view("?");
+    const bool unstated = symbol.empty() || symbol == "?" || symbol == ".";
+    if (!unstated) {
+      // A charge may follow: "Fe3+".
+      return atoms_.kind(proper_symbol(symbol.substr(0, symbol.find_first_of("0123456789+-"))));
+    }
+    if (!atom_) return atoms_.kind(unknown_element);
+    return unnamed_kind(atoms_, row[*atom_], residue_ ? row[*residue_] : std::string_view{});
+  }
+
+  std::size_t index_of(std::string_view model) {
+    if (model == last_ && !models_.empty()) return last_index_;
+    last_ = model;
+    last_index_ = models_.try_emplace(std::string(model), models_.size()).first->second;
+    return last_index_;
+  }
+
+  const AtomColumns& columns_;
+  std::uint64_t frame_;
+  const LineReader& reader_;
+  std::array<std::size_t, 3> place_{};
+  std::optional<std::size_t> atom_;
+  std::optional<std::size_t> residue_;
+  std::map<std::string, std::size_t> models_;
+  std::string_view last_;
+  std::size_t last_index_ = 0;
+  Atoms atoms_;
 };
 
-ParticleSet read_rows(Tokens& tokens, const Columns& columns, std::uint64_t frame,
-                      ColourKind colour, const LineReader& reader) {
-  const std::size_t element = require_column(columns.element, "type_symbol", reader);
-  const std::size_t x = require_column(columns.x, "Cartn_x", reader);
-  const std::size_t y = require_column(columns.y, "Cartn_y", reader);
-  const std::size_t z = require_column(columns.z, "Cartn_z", reader);
-  Atoms atoms;
-  Models models;
+Atoms read_rows(Tokens& tokens, const AtomColumns& columns, std::uint64_t frame,
+                const LineReader& reader) {
+  AtomRows rows(columns, frame, reader);
   std::vector<std::string_view> row;
   while (tokens.peek() && tokens.peek()->is_value()) {
     row.clear();
@@ -172,39 +249,106 @@ ParticleSet read_rows(Tokens& tokens, const Columns& columns, std::uint64_t fram
       }
       row.push_back(tokens.peek()->text);
     }
-    if (models.index_of(columns.model ? row[*columns.model] : "") != frame) continue;
-    atoms.add({reader.number(row[x], "Cartn_x"), reader.number(row[y], "Cartn_y"),
-               reader.number(row[z], "Cartn_z")},
-              atoms.kind(proper_symbol(row[element])));
+    rows.add(row);
   }
-  if (models.count() == 0) reader.reject(fmt::format("expected rows of {}, found none", category));
-  if (frame >= models.count()) {
-    reader.reject(fmt::format("there is no frame {}; the file has {}", frame, models.count()));
+  return rows.take();
+}
+
+// One atom whose items are tags with a value each, as CIF allows for a loop of one row. The first
+// tag is not taken.
+Atoms read_pairs(Tokens& tokens, std::uint64_t frame, const LineReader& reader) {
+  AtomColumns columns;
+  std::vector<std::string_view> row;
+  while (tokens.peek() && tokens.peek()->is_tag()) {
+    const std::string tag = lower_case(tokens.peek()->text);
+    if (!tag.starts_with(category)) break;
+    columns.add(tag, reader);
+    tokens.take();
+    if (!tokens.peek() || !tokens.peek()->is_value()) {
+      reader.reject(fmt::format("expected a value after {}", tag));
+    }
+    row.push_back(tokens.peek()->text);
+    tokens.take();
   }
-  return to_particles(std::move(atoms), colour, reader);
+  AtomRows rows(columns, frame, reader);
+  rows.add(row);
+  return rows.take();
+}
+
+// Whoever closes the heading and every category with '#', as the PDB does, closes the last one, too:
+// else the file was cut off. Of a few marks nothing follows: some programs only put them between.
+class ClosingMarks {
+ public:
+  void heading(const Tokens& tokens) {
+    closes_heading_ = tokens.marks_before() == 1;
+    at_heading_ = tokens.marks();
+  }
+  void atoms_follow(const Tokens& tokens) { closed_ = tokens.marks() - at_heading_; }
+  void atoms_end(Tokens& tokens, Atoms& atoms, const LineReader& reader) const {
+    if (tokens.peek() || tokens.marks_before() > 0 || !closes_heading_ || closed_ == 0) return;
+    if (closed_ >= enough) reader.reject("the file ends here, where '#' was expected");
+    atoms.notes.emplace_back(
+        "other parts of the file end with '#', and the atoms do not: if the file was cut off, atoms "
+        "are missing");
+  }
+
+ private:
+  static constexpr std::uint64_t enough = 3;
+  bool closes_heading_ = false;
+  std::uint64_t at_heading_ = 0;
+  std::uint64_t closed_ = 0;
+};
+
+// What a file without atoms is instead, as far as its first categories show.
+std::string_view other_content(std::string_view tag) {
+  if (tag.starts_with("_chem_comp_atom.")) {
+    return "the file describes a chemical component (_chem_comp_atom), not a structure";
+  }
+  if (tag.starts_with("_refln")) return "the file has reflections (_refln), not a structure";
+  return {};
 }
 
 }  // namespace
 
 ParticleSet read_mmcif(LineReader& reader, std::uint64_t frame, ColourKind colour) {
   Tokens tokens(reader);
-  bool closes_parts = false;
+  std::optional<Atoms> atoms;
+  ClosingMarks marks;
+  std::uint64_t others = 0;
+  std::string_view other;
   while (tokens.peek()) {
-    const std::string word = tokens.peek()->is_keyword() ? lower_case(tokens.peek()->text) : "";
-    tokens.take();
-    // Whoever closes the heading with '#' closes every part; others only put it before each, or
-    // say there who they are.
-    if (word.starts_with("data_")) closes_parts = tokens.peek() && tokens.after_lone_mark();
-    if (word != "loop_") continue;
-    if (const auto columns = read_columns(tokens)) {
-      ParticleSet set = read_rows(tokens, *columns, frame, colour, reader);
-      if (closes_parts && !tokens.peek() && !tokens.after_mark()) {
-        reader.reject("the file ends here, where '#' was expected");
+    const Token token = *tokens.peek();
+    constexpr std::size_t enough = 20;
+    const std::string word = lower_case(token.text.substr(0, enough));
+    if (token.is_tag() && word.starts_with(category)) {
+      if (atoms) {
+        ++others;
+        tokens.take();
+        continue;
       }
-      return set;
+      atoms = read_pairs(tokens, frame, reader);
+      continue;
+    }
+    const bool is_heading = token.is_keyword() && word.starts_with("data_");
+    if (!atoms) marks.atoms_follow(tokens);
+    tokens.take();
+    if (is_heading && !atoms && tokens.peek()) marks.heading(tokens);
+    if (!token.is_keyword() || word != "loop_" || atoms) continue;
+    if (other.empty() && tokens.peek()) other = other_content(lower_case(tokens.peek()->text));
+    if (const auto columns = read_columns(tokens, reader)) {
+      atoms = read_rows(tokens, *columns, frame, reader);
+      marks.atoms_end(tokens, *atoms, reader);
     }
   }
-  reader.reject(fmt::format("expected a loop over {}, found none", category));
+  if (!atoms) {
+    reader.reject(fmt::format("expected a loop over {}, found none{}{}", category,
+                              other.empty() ? "" : ": ", other));
+  }
+  if (others > 0) {
+    atoms->notes.emplace_back(
+        "the file has atoms in further data blocks, too; only those of the first are read");
+  }
+  return to_particles(std::move(*atoms), colour, reader);
 }
 
 }  // namespace triptych::scene

@@ -4,27 +4,16 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <system_error>
 
+#include "scene/compression.hpp"
 #include "scene/text_lines.hpp"
 
 namespace triptych::scene::nrrd {
 namespace {
 
-// The start of a file, as much of it as a header may take.
-std::string read_start(const std::filesystem::path& file) {
-  constexpr std::uintmax_t longest_header = std::uintmax_t{1} << 20;
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  std::ifstream in(file, std::ios::binary);
-  if (error || !in) throw core::IoError(file.string() + ": cannot be read");
-  std::string text(std::min(size, longest_header), '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) throw core::IoError(file.string() + ": cannot be read");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return text;
-}
+// Key/value pairs may be long, whole documents among them.
+constexpr std::size_t usual_header = std::size_t{1} << 16U;
+constexpr std::size_t longest_header = std::size_t{64} << 20U;
 
 std::string canonical(std::string_view name) {
   const std::string lower = lower_case(trimmed(name));
@@ -48,8 +37,22 @@ std::string canonical(std::string_view name) {
 }  // namespace
 
 Header::Header(const std::filesystem::path& file) : file_(file.string()) {
-  const std::string start = read_start(file);
-  std::string_view rest = start;
+  std::string start = content_start(file, usual_header);
+  // More than is usual is read only where the header does not end before.
+  const bool ends = start.find("\n\n") != std::string::npos ||
+                    start.find("\n\r\n") != std::string::npos || start.size() < usual_header;
+  if (!ends) start = content_start(file, longest_header);
+  parse(start);
+  const bool too_long = !data_start_ && start.size() == longest_header && find("data file") == nullptr;
+  if (too_long) {
+    throw core::InputError(last_line(),
+                           fmt::format("no blank line ends the header within {} bytes",
+                                       longest_header));
+  }
+}
+
+void Header::parse(std::string_view start) {
+  std::string_view rest = without_mark(start);
   while (!rest.empty()) {
     const std::size_t length = std::min(rest.find('\n'), rest.size());
     std::string_view line = rest.substr(0, length);
@@ -60,6 +63,8 @@ Header::Header(const std::filesystem::path& file) : file_(file.string()) {
       if (line.size() != 8 || !line.starts_with("NRRD000") || line[7] < '1' || line[7] > '5') {
         throw core::InputError(place, "not an NRRD file; expected NRRD0001 … NRRD0005");
       }
+    } else if (lists_files_) {
+      if (!trimmed(line).empty()) files_.push_back({std::string(trimmed(line)), place});
     } else if (line.empty()) {
       data_start_ = start.size() - rest.size();
       return;
@@ -104,15 +109,23 @@ void Header::add(std::string_view line, const core::FilePlace& place) {
   if (colon == std::string_view::npos) {
     throw core::InputError(place, "expected 'field: value', 'key:=value' or a comment");
   }
-  if (line.substr(colon).starts_with(":=")) return;
   const std::string name = canonical(line.substr(0, colon));
-  if (name != "sample units" && std::find(known.begin(), known.end(), name) == known.end()) {
+  const bool is_field =
+      name == "sample units" || std::find(known.begin(), known.end(), name) != known.end();
+  // A key may have colons of its own.
+  const bool is_pair = line.substr(colon).starts_with(":=") ||
+                       (!is_field && line.find(":=") != std::string_view::npos);
+  if (is_pair) return;
+  if (!is_field) {
     throw core::InputError(place,
                            fmt::format("unknown NRRD field '{}'", quotable(line.substr(0, colon))));
   }
-  if (!fields_.emplace(name, Field{std::string(trimmed(line.substr(colon + 1))), place}).second) {
+  const Field field{std::string(trimmed(line.substr(colon + 1))), place};
+  if (!fields_.emplace(name, field).second) {
     throw core::InputError(place, fmt::format("field '{}' is given twice", name));
   }
+  const std::string first_word = field.value.substr(0, field.value.find_first_of(" \t"));
+  lists_files_ = lists_files_ || (name == "data file" && first_word == "LIST");
 }
 
 }  // namespace triptych::scene::nrrd

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -36,16 +37,21 @@ class Header {
     }
     return *field;
   }
-  // Where the blank line ends, if there is one.
+  // Where the blank line ends, if there is one; in unpacked bytes.
   [[nodiscard]] std::optional<std::uint64_t> data_start() const noexcept { return data_start_; }
+  // The lines behind "data file: LIST".
+  [[nodiscard]] const std::vector<Field>& listed_files() const noexcept { return files_; }
   [[nodiscard]] core::FilePlace last_line() const { return {.file = file_, .line = lines_}; }
 
  private:
+  void parse(std::string_view start);
   void add(std::string_view line, const core::FilePlace& place);
 
   std::string file_;
   std::map<std::string, Field> fields_;
   std::optional<std::uint64_t> data_start_;
+  std::vector<Field> files_;
+  bool lists_files_ = false;
   int lines_ = 0;
 };
 

@@ -1,21 +1,19 @@
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "core/error.hpp"
+#include "scene/compression.hpp"
 #include "scene/file_content.hpp"
 #include "scene/find_file.hpp"
-#include "scene/gro.hpp"
-#include "scene/lammps.hpp"
-#include "scene/mmcif.hpp"
-#include "scene/mmpld.hpp"
+#include "scene/particle_formats.hpp"
 #include "scene/particle_generators.hpp"
 #include "scene/particles.hpp"
-#include "scene/pdb.hpp"
-#include "scene/xyz.hpp"
+#include "scene/text_lines.hpp"
 
 namespace triptych::scene {
 namespace {
@@ -61,52 +59,48 @@ std::optional<Source> find_source(std::string_view data,
   return Source{*file, *frame};
 }
 
-using TextReader = ParticleSet (*)(LineReader&, std::uint64_t, ColourKind);
-constexpr std::string_view binary_kind = ".mmpld";
-constexpr std::array<std::pair<std::string_view, TextReader>, 8> text_kinds{
-    {{".pdb", read_pdb},
-     {".cif", read_mmcif},
-     {".gro", read_gro},
-     {".xyz", read_xyz},
-     {".lammpstrj", read_lammps_dump},
-     {".dump", read_lammps_dump},
-     {".data", read_lammps_data},
-     {".lmp", read_lammps_data}}};
-
-// The extension that names the format, without .gz.
-std::string kind_of(const std::filesystem::path& file) {
-  const std::string last = lower_case(file.extension().string());
-  return last == ".gz" ? lower_case(file.stem().extension().string()) : last;
+// A mark that editors put before a text. Throws InputError for text in two bytes a letter.
+std::span<const char> without_byte_order_mark(const std::vector<char>& content,
+                                              const std::string& file) {
+  const std::string_view text(content.data(), content.size());
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+    throw core::InputError({.file = file}, "is text in UTF-16; expected ASCII or UTF-8: iconv -f "
+                                           "UTF-16 -t UTF-8 IN > OUT");
+  }
+  return without_mark(text);
 }
 
-// nullptr for the binary kind.
-TextReader reader_of(const std::filesystem::path& file) {
-  const std::string kind = kind_of(file);
-  if (kind == binary_kind) return nullptr;
-  for (const auto& [name, reader] : text_kinds) {
-    if (kind == name) return reader;
-  }
-  throw core::InputError(
-      {.file = file.string()},
-      fmt::format("'{}' is no known kind of particles; expected .pdb, .cif, .gro, .xyz, "
-                  ".lammpstrj, .dump, .data, .lmp or .mmpld, plain or .gz",
-                  kind));
+// The first letters of a content, enough to recognise a format.
+std::string_view start_of(std::span<const char> content) {
+  constexpr std::size_t enough = 4096;
+  return {content.data(), std::min(content.size(), enough)};
+}
+
+// Lines may end with a single CR, as old Macintosh programs wrote them.
+void end_lines_with_lf(std::vector<char>& content) {
+  const bool has_lf = std::ranges::find(content, '\n') != content.end();
+  if (!has_lf) std::ranges::replace(content, '\r', '\n');
 }
 
 ParticleSet read(const Source& source, ColourKind colour, const Progress& progress) {
+  const std::string name = source.file.string();
+  const bool packed = packing_of_file(source.file) != Packing::none;
   // The share of the progress that unpacking has.
-  const double unpacked = lower_case(source.file.extension().string()) == ".gz" ? 0.25 : 0;
-  const TextReader reader = reader_of(source.file);
+  const double unpacked = packed ? 0.25 : 0;
   const Progress unpacking =
       progress ? Progress([&progress, unpacked](double share) { progress(unpacked * share); })
                : Progress{};
-  const std::vector<char> content = read_content(source.file, unpacking);
-  const std::string name = source.file.string();
+  std::vector<char> content = read_content(source.file, unpacking);
   if (content.empty()) throw core::InputError({.file = name}, "is empty; expected particles");
+  const std::span<const char> text = without_byte_order_mark(content, name);
+  const ParticleFormat& format = particle_format(name, start_of(text));
+  if (format.text) end_lines_with_lf(content);
   const ProgressSteps steps(progress, content.size(), unpacked, 1);
-  if (reader == nullptr) return read_mmpld(content, name, source.frame, colour, steps);
-  LineReader lines({content.data(), content.size()}, name, steps);
-  return reader(lines, source.frame, colour);
+  ParticleSet set =
+      format.read({.bytes = text, .file = name, .progress = steps}, source.frame, colour);
+  set.facts.format = format.name;
+  set.facts.unit = format.unit;
+  return set;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/camera.hpp"
+#include "scene/read_facts.hpp"
 
 namespace triptych::scene {
 
@@ -38,6 +39,7 @@ struct ParticleSet {
   std::vector<float> intensity;
   std::uint64_t dropped = 0;  // radius ≤ 0 or not finite, centre not finite
   std::string hash;           // content hash of all of the above but the name
+  ReadFacts facts;            // of a file; no part of the hash
 
   [[nodiscard]] std::size_t count() const noexcept { return spheres.size(); }
 };
@@ -56,12 +58,12 @@ struct ParticleSet {
 // Called now and then while particles are read or made, with the share done in [0, 1].
 using Progress = std::function<void(double share)>;
 
-// `data` as in a plan: "generate:NAME:COUNT" (scene/particle_generators.hpp) or a file, plain or
-// gzipped: .pdb, .cif, .gro, .xyz, .lammpstrj and .dump, .data and .lmp (LAMMPS), .mmpld. The first
-// frame of a trajectory, or the K-th (from 0) of "FILE@K". A relative file is looked for as it is,
-// then in each of `folders`.
+// `data` as in a plan: "generate:NAME:COUNT" (scene/particle_generators.hpp) or a file of one of the
+// formats in scene/particle_formats.hpp, plain or compressed with gzip or bzip2. The first frame of
+// a trajectory, or the K-th (from 0) of "FILE@K". A relative file is looked for as it is, then in
+// each of `folders`.
 //
-// Radii: the file's own (MMPLD; LAMMPS `radius`), else van der Waals radii by element (Bondi 1964;
+// Radii: the file's own (MMPLD; PQR; LAMMPS `radius`), else van der Waals radii by element (Bondi 1964;
 // 2.0 Å for elements not listed there), in the file's unit of length; for LAMMPS types without
 // elements half the median distance to the nearest neighbour. Colours: the file's own (MMPLD), else
 // one per element or type; intensity: the file's own, else the element's or type's index among

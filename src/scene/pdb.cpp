@@ -3,85 +3,187 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
+#include "scene/element_names.hpp"
 #include "scene/elements.hpp"
 
 namespace triptych::scene {
 namespace {
+
+constexpr std::size_t end_of_place = 54;
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+bool is_letter_of_pdb(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
 
 // Columns as the format counts them, from 1, both included.
 std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
   return line.size() < first ? std::string_view{} : line.substr(first - 1, last - first + 1);
 }
 
-// The element in its own columns, or, in files older than those, which have other things or nothing
-// there, from the name: its first two columns hold the symbol, adjusted to the right.
-std::string element_of(std::string_view line) {
-  const std::string_view symbol = trimmed(columns(line, 77, 78));
-  if (atomic_number(symbol)) return proper_symbol(symbol);
-  const std::string_view name = columns(line, 13, 16);
-  const bool two_letters = name.front() != ' ' && (name.front() < '0' || name.front() > '9');
-  if (two_letters && trimmed(name).size() < 4 && atomic_number(name.substr(0, 2))) {
-    return proper_symbol(name.substr(0, 2));
-  }
-  return element_from_name(trimmed(name), columns(line, 18, 20));
+bool is_blank_column(std::string_view line, std::size_t column) {
+  return line.size() < column || line[column - 1] == ' ';
 }
 
-void add_atom(Atoms& atoms, std::string_view line, const LineReader& reader) {
-  constexpr std::size_t end_of_place = 54;
+// The letters of an atom's name, without the digits before them.
+std::string letters_of_name(std::string_view name) {
+  std::string letters = lower_case(trimmed(name));
+  letters.erase(0, letters.find_first_not_of("0123456789'\" "));
+  return letters;
+}
+
+// The symbol in columns 77 and 78, or nothing. Older files have other things there, such as the end
+// of a word that names a segment: "MEMBRANE" is no radium.
+std::string symbol_in_columns(std::string_view line) {
+  const std::string_view field = columns(line, 77, 78);
+  const std::string_view symbol = trimmed(field);
+  if (!atomic_number(symbol)) return {};
+  const bool within_a_word = line.size() >= 76 && is_letter_of_pdb(line[75]) && field.front() != ' ';
+  if (within_a_word && !letters_of_name(columns(line, 13, 16)).starts_with(lower_case(symbol))) {
+    return {};
+  }
+  return proper_symbol(symbol);
+}
+
+std::uint32_t kind_of_atom(Atoms& atoms, std::string_view line) {
+  const std::string symbol = symbol_in_columns(line);
+  if (!symbol.empty()) return atoms.kind(symbol);
+  // CHARMM's residues have four letters, the last of which is in column 21.
+  return unnamed_kind(atoms, columns(line, 13, 16), columns(line, 18, 21));
+}
+
+// A coordinate is Real(8.3). What is too wide for its columns runs into the neighbouring ones, where
+// it may look like another number: so a number that is not written as the format has it must have
+// blanks around it.
+double coordinate(std::string_view line, std::size_t first, std::string_view what,
+                  const LineReader& reader) {
+  const std::size_t last = first + 7;
+  const std::string_view field = columns(line, first, last);
+  const double value = reader.number(field, what);
+  const bool as_specified = field[4] == '.' && is_digit(field[5]) && is_digit(field[6]) &&
+                            is_digit(field[7]);
+  const bool after_a_number = first > 31;
+  const bool begins = is_blank_column(line, first - 1) || (after_a_number && field[0] == ' ');
+  const bool is_alone = begins && is_blank_column(line, last + 1);
+  if (after_a_number ? !as_specified && !is_alone : !begins || (!as_specified && !is_alone)) {
+    reader.reject(fmt::format("{}: '{}' is not separated from the columns beside it; a number that "
+                              "is too wide for its columns cannot be read",
+                              what, quotable(trimmed(field))));
+  }
+  return value;
+}
+
+void add_pdb_atom(Atoms& atoms, std::string_view line, const LineReader& reader) {
+  if (line.substr(0, end_of_place).find('\t') != std::string_view::npos) {
+    reader.reject("the atom has tabs in it; expected fixed columns filled with blanks");
+  }
   if (line.size() < end_of_place) {
     reader.reject(fmt::format(
         "expected an atom with its place in columns 31 to 54, found {} columns", line.size()));
   }
-  atoms.add({reader.number(columns(line, 31, 38), "x in columns 31 to 38"),
-             reader.number(columns(line, 39, 46), "y in columns 39 to 46"),
-             reader.number(columns(line, 47, 54), "z in columns 47 to 54")},
-            atoms.kind(element_of(line)));
+  const std::array<double, 3> place{coordinate(line, 31, "x in columns 31 to 38", reader),
+                                    coordinate(line, 39, "y in columns 39 to 46", reader),
+                                    coordinate(line, 47, "z in columns 47 to 54", reader)};
+  atoms.add(place, kind_of_atom(atoms, line));
 }
+
+// Whether a line is an atom's. A serial number of six digits may begin in column 5 or 6. Throws for
+// a line that begins like an atom's and is none, which would be left out silently.
+bool is_atom(std::string_view line, const LineReader& reader) {
+  if (line.starts_with("HETATM")) return true;
+  if (line.starts_with("ATOM")) {
+    const std::string_view rest = columns(line, 5, 6);
+    if (rest.find_first_not_of(" 0123456789") == std::string_view::npos) return true;
+  }
+  const std::string_view text = trimmed(line);
+  const std::string word = lower_case(text.substr(0, 7));
+  for (const std::string_view name : {"atom", "hetatm"}) {
+    if (!word.starts_with(name)) continue;
+    if (text.size() > name.size() && is_letter_of_pdb(text[name.size()])) continue;
+    reader.reject(fmt::format("'{}' begins like an atom; expected ATOM or HETATM in capitals from "
+                              "column 1 on, followed by blanks or digits",
+                              quotable(text.substr(0, 12))));
+  }
+  return false;
+}
+
+// Where frames begin and end. Frames are models; where nobody writes MODEL, what END or ENDMDL
+// closes, as VMD writes them.
+class PdbFrames {
+ public:
+  explicit PdbFrames(const LineReader& reader) : reader_(reader) {}
+
+  // An atom comes; returns the number of its frame.
+  std::uint64_t atom() {
+    if (has_models_ && !in_model_) reader_.reject("expected MODEL before further atoms");
+    if (!in_model_ && (count_ == 0 || closed_)) ++count_;
+    closed_ = false;
+    return count_ - 1;
+  }
+
+  void record(std::string_view name, std::string_view line) {
+    if (name == "MODEL") {
+      begin_model();
+    } else if (name == "ENDMDL" || name == "END") {
+      in_model_ = false;
+      closed_ = true;
+    } else if (name == "HEADER") {
+      // The PDB's own have the entry's name there.
+      is_entry_ = !trimmed(columns(line, 63, 66)).empty();
+    }
+    if (name == "END") ended_ = true;
+  }
+
+  void finish() const {
+    if (in_model_) reader_.reject("the file ends here, where ENDMDL was expected");
+    const bool cut_off = (is_entry_ && !ended_) || (count_ > 1 && !closed_);
+    if (cut_off) reader_.reject("the file ends here, where END was expected");
+  }
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+
+ private:
+  void begin_model() {
+    if (in_model_) reader_.reject("expected ENDMDL before the next MODEL");
+    if (count_ > 0 && !has_models_) {
+      reader_.reject("expected no MODEL after atoms outside of models");
+    }
+    has_models_ = in_model_ = true;
+    ++count_;
+  }
+
+  const LineReader& reader_;
+  std::uint64_t count_ = 0;  // that have begun
+  bool has_models_ = false;
+  bool in_model_ = false;
+  bool closed_ = false;    // the last frame
+  bool ended_ = false;     // by END, at least once
+  bool is_entry_ = false;  // of the PDB
+};
 
 }  // namespace
 
 ParticleSet read_pdb(LineReader& reader, std::uint64_t frame, ColourKind colour) {
   Atoms atoms;
-  std::uint64_t frames = 0;  // that have begun
-  bool has_models = false;
-  bool in_model = false;
-  bool is_entry = false;     // of the PDB
-  bool has_heading = false;  // of a whole structure; those with models may leave it at their ends
-  bool ended = false;
+  PdbFrames frames(reader);
   while (const auto line = reader.next()) {
-    const std::string_view record = trimmed(columns(*line, 1, 6));
-    if (record == "ATOM" || record == "HETATM") {
-      if (has_models && !in_model) reader.reject("expected MODEL before further atoms");
-      // Where nobody writes models, as VMD, END is the end of a frame.
-      if (!in_model && (frames == 0 || ended)) ++frames;
-      ended = false;
-      if (frames - 1 == frame) add_atom(atoms, *line, reader);
-    } else if (record == "MODEL") {
-      if (in_model) reader.reject("expected ENDMDL before the next MODEL");
-      if (frames > 0 && !has_models)
-        reader.reject("expected no MODEL after atoms outside of models");
-      has_models = in_model = true;
-      ++frames;
-    } else if (record == "ENDMDL") {
-      if (!in_model) reader.reject("ENDMDL without a MODEL");
-      in_model = false;
-    } else if (record == "HEADER") {
-      is_entry = true;
-    } else if (record == "TITLE" || record == "CRYST1") {
-      has_heading = true;
-    } else if (record == "END") {
-      ended = true;
+    if (is_atom(*line, reader)) {
+      if (frames.atom() == frame) add_pdb_atom(atoms, *line, reader);
+    } else {
+      frames.record(trimmed(columns(*line, 1, 6)), *line);
     }
   }
-  if (in_model) reader.reject("the file ends here, where ENDMDL was expected");
-  const bool needs_end = is_entry || (!has_models && (has_heading || frames > 1));
-  if (needs_end && !ended) reader.reject("the file ends here, where END was expected");
-  if (frame > 0 && frame >= frames) {
+  frames.finish();
+  if (frame > 0 && frame >= frames.count()) {
     reader.reject(fmt::format("there is no frame {}; the file has {}", frame,
-                              std::max<std::uint64_t>(frames, 1)));
+                              std::max<std::uint64_t>(frames.count(), 1)));
   }
   if (atoms.places.empty()) reader.reject("expected ATOM or HETATM records, found none");
+  name_elements(atoms, true);
   return to_particles(std::move(atoms), colour, reader);
 }
 

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,115 +16,234 @@
 #include "scene/inflate.hpp"
 #include "scene/scalar_dispatch.hpp"
 #include "scene/text_lines.hpp"
+#include "scene/voxel_encodings.hpp"
 
 namespace triptych::scene {
 namespace {
 
-std::optional<std::uint64_t> byte_count(const Volume& volume) {
-  std::uint64_t bytes = bytes_of(volume.type);
-  for (const int n : volume.size) {
-    const auto factor = static_cast<std::uint64_t>(n);
-    if (bytes > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()) / factor) {
-      return std::nullopt;
+std::string stated(const Volume& volume, const RawVoxels& source) {
+  const std::string components =
+      source.layout.components == 1 ? "" : fmt::format("{} x ", source.layout.components);
+  return fmt::format("{} x {} x {} voxels of {}{}", volume.size[0], volume.size[1], volume.size[2],
+                     components, name_of(source.layout.type));
+}
+
+std::uint64_t size_of_file(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uint64_t size = std::filesystem::file_size(file, error);
+  if (error) throw core::IoError(file.string() + ": cannot be read");
+  return size;
+}
+
+// What a message calls the data of an encoding.
+std::string_view stream_name(const RawVoxels& source) {
+  switch (source.encoding) {
+    case RawEncoding::gzip:
+      return "the gzip stream in ";
+    case RawEncoding::zlib:
+      return "the zlib stream in ";
+    case RawEncoding::bzip2:
+      return "the bzip2 stream in ";
+    case RawEncoding::text:
+      return "the text in ";
+    case RawEncoding::hex:
+      return "the hexadecimal text in ";
+    case RawEncoding::plain:
+      break;
+  }
+  return source.packing == Packing::none ? "" : "the compressed stream in ";
+}
+
+[[noreturn]] void refuse_size(const Volume& volume, const RawVoxels& source, std::uint64_t needed,
+                              const std::filesystem::path& file, const std::string& held) {
+  throw core::InputError(source.sizes_place,
+                         fmt::format("{} need {} bytes of data, but {}{} holds {}",
+                                     stated(volume, source), needed, stream_name(source),
+                                     file.filename().string(), held));
+}
+
+bool is_compressed(const RawVoxels& source) {
+  return source.packing != Packing::none || source.encoding == RawEncoding::gzip ||
+         source.encoding == RawEncoding::zlib || source.encoding == RawEncoding::bzip2;
+}
+
+// The bytes of the voxels in one of the files, those to be skipped included.
+ByteSource open_data(const RawVoxels& source, const std::filesystem::path& file) {
+  const std::string name = file.string();
+  ByteSource bytes;
+  if (source.packing == Packing::none) {
+    bytes = file_bytes(file, source.start);
+  } else {
+    bytes = unpacked(file_bytes(file), source.packing, name);
+    skip_bytes(bytes, source.start);
+  }
+  switch (source.encoding) {
+    case RawEncoding::gzip:
+      return unpacked(std::move(bytes), Packing::gzip, name);
+    case RawEncoding::zlib: {
+      const auto inflater =
+          std::make_shared<Inflater>(std::move(bytes), name, Wrapper::gzip_or_zlib);
+      return [inflater](std::span<std::byte> out) { return inflater->read(out); };
     }
-    bytes *= factor;
+    case RawEncoding::bzip2:
+      return unpacked(std::move(bytes), Packing::bzip2, name);
+    case RawEncoding::text:
+      return text_values(std::move(bytes), source.layout.type, name);
+    case RawEncoding::hex:
+      return hex_bytes(std::move(bytes), name);
+    case RawEncoding::plain:
+      break;
   }
   return bytes;
 }
 
-std::string stated(const Volume& volume) {
-  return fmt::format("{} x {} x {} voxels of {}", volume.size[0], volume.size[1], volume.size[2],
-                     name_of(volume.type));
+// How many bytes lie before the voxels of a file that holds `share` bytes of them.
+std::uint64_t bytes_before(const RawVoxels& source, const std::filesystem::path& file,
+                           std::uint64_t share) {
+  if (source.skip != RawVoxels::at_end) return static_cast<std::uint64_t>(source.skip);
+  const std::uint64_t all =
+      skip_bytes(open_data(source, file), std::numeric_limits<std::uint64_t>::max());
+  return all - std::min(share, all);
 }
 
-class InputFile {
- public:
-  explicit InputFile(const std::filesystem::path& file)
-      : name_(file.string()), in_(file, std::ios::binary) {
-    std::error_code error;
-    size_ = std::filesystem::file_size(file, error);
-    if (!in_ || error) throw core::IoError(name_ + ": cannot be read");
+// Checks, before memory is taken, that a file is long enough for what is claimed of it.
+void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t needed,
+                 std::uint64_t share, const std::filesystem::path& file) {
+  const std::uint64_t size = size_of_file(file);
+  const std::uint64_t there =
+      source.packing == Packing::none ? size - std::min(source.start, size) : size;
+  const auto skip = static_cast<std::uint64_t>(std::max<std::int64_t>(source.skip, 0));
+  if (is_compressed(source)) {
+    // Deflate's densest code spends one bit on 129 bytes; more cannot come out of this file. Of
+    // bzip2's there is no such bound that helps.
+    constexpr std::uint64_t largest_ratio = 1032;
+    const bool deflated =
+        source.encoding != RawEncoding::bzip2 && source.packing != Packing::bzip2;
+    if (deflated && (share + skip) / largest_ratio > there) {
+      throw core::InputError(
+          source.sizes_place,
+          fmt::format("{} need {} bytes of data, more than the {} compressed bytes of {} can hold",
+                      stated(volume, source), needed, there, file.filename().string()));
+    }
+    if (needed > most_unpacked_bytes || skip > most_unpacked_bytes - needed) {
+      refuse_unpacked(file.string(), most_unpacked_bytes);
+    }
+    return;
   }
-  [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
-  void seek(std::uint64_t place) { in_.seekg(static_cast<std::streamoff>(place)); }
-  // Returns how many bytes were there.
-  std::size_t read(std::span<std::byte> bytes) {
-    in_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (in_.bad()) throw core::IoError(name_ + ": reading failed");
-    return static_cast<std::size_t>(in_.gcount());
+  // A value of a text has at least a letter, and a blank before the next one.
+  const bool text = source.encoding == RawEncoding::text;
+  const bool hex = source.encoding == RawEncoding::hex;
+  const std::uint64_t least = text  ? share / bytes_of(source.layout.type) * 2 - 1
+                              : hex ? share * 2
+                                    : share;
+  if (least > there || skip > there - least) {
+    const std::uint64_t held = there - std::min(skip, there);
+    refuse_size(volume, source, needed, file, fmt::format("{} (truncated)", held));
+  }
+}
+
+// The voxels' bytes of all files after one another.
+class Files {
+ public:
+  Files(const Volume& volume, const RawVoxels& source, std::uint64_t needed)
+      : volume_(volume), source_(source), needed_(needed) {
+    files_.push_back(source.file);
+    files_.insert(files_.end(), source.more_files.begin(), source.more_files.end());
+    share_ = needed / files_.size();
+    if (share_ * files_.size() != needed) {
+      throw core::InputError(source.sizes_place,
+                             fmt::format("{} need {} bytes of data, which {} files of equal size "
+                                         "cannot hold",
+                                         stated(volume, source), needed, files_.size()));
+    }
+    for (const auto& file : files_) check_claim(volume, source, needed, share_, file);
+    open();
+  }
+
+  std::size_t read(std::span<std::byte> out) {
+    std::size_t filled = 0;
+    while (filled < out.size()) {
+      if (left_ == 0) {
+        if (index_ + 1 == files_.size()) break;
+        check_surplus();
+        ++index_;
+        open();
+      }
+      const auto wanted =
+          static_cast<std::size_t>(std::min<std::uint64_t>(out.size() - filled, left_));
+      const std::size_t got = bytes_(out.subspan(filled, wanted));
+      filled += got;
+      left_ -= got;
+      if (got < wanted) refuse_short();
+    }
+    return filled;
+  }
+
+  // Of the file that was read last: nothing but blanks may be left of a text.
+  void check_surplus() const {
+    if (source_.more_may_follow) return;
+    std::vector<std::byte> surplus(source_.encoding == RawEncoding::text
+                                       ? bytes_of(source_.layout.type)
+                                       : std::size_t{1});
+    if (bytes_(surplus) == 0) return;
+    const bool plain = stream_name(source_).empty();
+    refuse_size(volume_, source_, needed_, files_[index_], plain ? "more (data after the end)" : "more");
   }
 
  private:
-  std::string name_;
-  std::ifstream in_;
-  std::uint64_t size_ = 0;
+  void open() {
+    const std::uint64_t before = bytes_before(source_, files_[index_], share_);
+    bytes_ = open_data(source_, files_[index_]);
+    skip_bytes(bytes_, before);
+    left_ = share_;
+  }
+
+  [[noreturn]] void refuse_short() const {
+    const std::uint64_t held = share_ - left_;
+    refuse_size(volume_, source_, files_.size() == 1 ? needed_ : share_, files_[index_],
+                fmt::format("{}{}", held, stream_name(source_).empty() ? " (truncated)" : ""));
+  }
+
+  const Volume& volume_;
+  const RawVoxels& source_;
+  std::uint64_t needed_;
+  std::uint64_t share_ = 0;
+  std::vector<std::filesystem::path> files_;
+  std::size_t index_ = 0;
+  std::uint64_t left_ = 0;
+  ByteSource bytes_;
 };
 
-void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed, InputFile& file) {
-  const std::uint64_t there = file.size() - std::min(source.start, file.size());
+// One plain file, whose voxels are its bytes: read at once.
+void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed) {
+  const std::uint64_t size = size_of_file(source.file);
+  const std::uint64_t there = size - std::min(source.start, size);
   const bool from_end = source.skip == RawVoxels::at_end;
   const std::uint64_t skipped = from_end ? there - std::min(needed, there)
                                          : std::min(static_cast<std::uint64_t>(source.skip), there);
   const std::uint64_t available = there - skipped;
-  if (available != needed) {
-    throw core::InputError(
-        source.sizes_place,
-        fmt::format("{} need {} bytes of data, but {} holds {}{}", stated(volume), needed,
-                    source.file.filename().string(), available,
-                    available > needed ? " (data after the end)" : " (truncated)"));
+  const bool enough = source.more_may_follow ? available >= needed : available == needed;
+  if (!enough) {
+    refuse_size(volume, source, needed, source.file,
+                fmt::format("{}{}", available,
+                            available > needed ? " (data after the end)" : " (truncated)"));
   }
-  file.seek(source.start + skipped);
+  const ByteSource bytes = file_bytes(source.file, source.start + skipped);
   volume.voxels.resize(needed);
-  if (file.read(volume.voxels) != needed) {
+  if (bytes(volume.voxels) != needed) {
     throw core::IoError(fmt::format("{}: became shorter while it was read", source.file.string()));
   }
 }
 
 // Room is set aside for all of them, so that none is copied, but taken only as they come: a claim
 // alone costs no memory.
-std::size_t inflate_into(VoxelBytes& voxels, std::uint64_t needed, Inflater& inflater) {
+void take_plain(VoxelBytes& voxels, std::uint64_t needed, Files& files) {
   constexpr std::uint64_t piece = std::uint64_t{16} << 20;
   voxels.reserve(needed);
-  for (;;) {
+  while (voxels.size() < needed) {
     const std::size_t before = voxels.size();
     voxels.resize(before + std::min(piece, needed - before));
-    const std::size_t got = inflater.read(std::span(voxels).subspan(before));
-    if (before + got < voxels.size() || voxels.size() == needed) return before + got;
-  }
-}
-
-void read_gzip(Volume& volume, const RawVoxels& source, std::uint64_t needed, InputFile& file) {
-  // Deflate's densest code spends one bit on 129 bytes; more cannot come out of this file.
-  constexpr std::uint64_t largest_ratio = 1032;
-  const std::uint64_t there = file.size() - std::min(source.start, file.size());
-  const auto skip = static_cast<std::uint64_t>(source.skip);
-  if ((needed + skip) / largest_ratio > there) {
-    throw core::InputError(
-        source.sizes_place,
-        fmt::format("{} need {} bytes of data, more than the {} compressed bytes "
-                    "of {} can hold",
-                    stated(volume), needed, there, source.file.filename().string()));
-  }
-  if (needed > most_unpacked_bytes || skip > most_unpacked_bytes - needed) {
-    refuse_unpacked(source.file.string(), most_unpacked_bytes);
-  }
-  file.seek(source.start);
-  Inflater inflater([&file](std::span<std::byte> bytes) { return file.read(bytes); },
-                    source.file.string());
-  inflater.skip(skip);
-  const std::size_t filled = inflate_into(volume.voxels, needed, inflater);
-  if (filled != needed) {
-    throw core::InputError(
-        source.sizes_place,
-        fmt::format("{} need {} bytes of data, but the gzip stream in {} holds {}", stated(volume),
-                    needed, source.file.filename().string(), filled));
-  }
-  std::byte surplus{};
-  if (inflater.read({&surplus, 1}) != 0) {
-    throw core::InputError(
-        source.sizes_place,
-        fmt::format("{} need {} bytes of data, but the gzip stream in {} holds more",
-                    stated(volume), needed, source.file.filename().string()));
+    static_cast<void>(files.read(std::span(voxels).subspan(before)));
   }
 }
 
@@ -151,23 +269,82 @@ void set_finite_range(Volume& volume) {
   });
 }
 
+void note_values(Volume& volume, const RawVoxels& source) {
+  const ValueLayout& layout = source.layout;
+  ReadFacts& facts = volume.facts;
+  facts.value_type = name_of(layout.type);
+  facts.components = layout.components;
+  if (layout.is_scaled()) {
+    facts.notes.push_back(fmt::format("values are {}·stored + {}", layout.slope,
+                                      layout.intercept));
+  }
+  if (layout.components == 1) return;
+  facts.notes.push_back(
+      source.component.magnitude
+          ? fmt::format("drawn is the magnitude of the {} values of each voxel", layout.components)
+          : fmt::format("drawn is component {} of the {} values of each voxel; the factor component "
+                        "chooses another one, or their magnitude",
+                        source.component.index, layout.components));
+}
+
 }  // namespace
 
-void read_voxels(Volume& volume, const RawVoxels& source) {
-  const auto needed = byte_count(volume);
+void read_voxels(Volume& volume, const RawVoxels& given) {
+  RawVoxels source = given;
+  ValueLayout& layout = source.layout;
+  // Numbers in a text come in the order of bytes that the machine has.
+  if (source.encoding == RawEncoding::text) {
+    layout.big_endian = std::endian::native == std::endian::big;
+  }
+  const auto needed = value_bytes(volume, layout);
   if (!needed) {
     throw core::InputError(source.sizes_place,
-                           stated(volume) + " are more bytes than a 64-bit number can count");
+                           stated(volume, source) + " are more bytes than a 64-bit number can count");
   }
-  InputFile file(source.file);
-  if (source.encoding == RawEncoding::gzip) {
-    read_gzip(volume, source, *needed, file);
+  check_component(source.component, layout.components, source.file);
+  const bool plain = is_plain(layout) && !source.component.magnitude;
+  const bool at_once = plain && source.encoding == RawEncoding::plain &&
+                       source.packing == Packing::none && source.more_files.empty();
+  if (plain) volume.type = *same_type(layout.type);
+  if (at_once) {
+    read_plain(volume, source, *needed);
   } else {
-    read_plain(volume, source, *needed, file);
+    Files files(volume, source, *needed);
+    if (plain) {
+      take_plain(volume.voxels, *needed, files);
+    } else {
+      static_cast<void>(take_values(volume, layout, source.component,
+                                    [&](std::span<std::byte> out) { return files.read(out); }));
+    }
+    files.check_surplus();
   }
-  if (source.big_endian != (std::endian::native == std::endian::big)) {
+  if (plain && layout.big_endian != (std::endian::native == std::endian::big)) {
     swap_bytes(volume.voxels, bytes_of(volume.type));
   }
+  note_values(volume, source);
+  set_finite_range(volume);
+}
+
+void read_stream(Volume& volume, const ValueLayout& layout, const Component& component,
+                 const ByteSource& values, const std::filesystem::path& file) {
+  const RawVoxels source{.file = file,
+                         .layout = layout,
+                         .component = component,
+                         .sizes_place = {.file = file.string()}};
+  const auto needed = value_bytes(volume, layout);
+  check_component(component, layout.components, file);
+  if (!needed || *needed > most_unpacked_bytes) {
+    throw core::InputError(
+        source.sizes_place,
+        fmt::format("{} are more than {} bytes, the most that is read of this format; convert larger "
+                    "ones to NRRD",
+                    stated(volume, source), most_unpacked_bytes));
+  }
+  const std::uint64_t held = take_values(volume, layout, component, values);
+  if (held < *needed) {
+    refuse_size(volume, source, *needed, file, fmt::format("{} (truncated)", held));
+  }
+  note_values(volume, source);
   set_finite_range(volume);
 }
 

@@ -1,36 +1,49 @@
 #pragma once
-// The voxels behind a header: bytes of a file, plain or gzip-compressed, brought into native order.
+// The voxels behind a header: values of a file, in one of several encodings, brought into a volume.
 
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
+#include "scene/compression.hpp"
 #include "scene/volume.hpp"
+#include "scene/voxel_values.hpp"
 
 namespace triptych::scene {
 
-enum class RawEncoding : std::uint8_t { plain, gzip };
+enum class RawEncoding : std::uint8_t { plain, gzip, zlib, bzip2, text, hex };
 
 struct RawVoxels {
   static constexpr std::int64_t at_end = -1;
 
   std::filesystem::path file;
+  // Further files that hold the voxels' continuation, each as many as the first one.
+  std::vector<std::filesystem::path> more_files = {};
+  Packing packing = Packing::none;  // of the file as a whole: `start` counts unpacked bytes
   std::uint64_t start = 0;  // where the data, skipped bytes included, begin in the file
-  // Bytes to leave out before the voxels, of the decompressed stream; at_end: the voxels are the
-  // last bytes of a plain file.
+  // Bytes to leave out before the voxels, of the decoded stream; at_end: the voxels are its last
+  // bytes.
   std::int64_t skip = 0;
   RawEncoding encoding = RawEncoding::plain;
-  bool big_endian = false;
-  core::FilePlace sizes_place;  // where the header states the sizes; named when the bytes disagree
+  ValueLayout layout = {};
+  Component component = {};
+  bool more_may_follow = false;  // behind the voxels; else it is an error
+  core::FilePlace sizes_place = {};  // where the header states the sizes; named when bytes disagree
 };
 
-// Fills volume.voxels, whose size and type are set, and its range from the finite voxels (0..0 when
-// there is none). One copy of the voxels is held. Of a plain file none is allocated before it is
-// known to be long enough; of a compressed one memory is used as the voxels come out of it. Throws
-// InputError when the data are shorter or longer than size and type say or the gzip stream is
-// broken, IoError when the file cannot be read.
+// Fills volume.voxels, whose size is set, its type, its facts, and its range from the finite voxels
+// (0..0 when there is none). One copy of the voxels is held. Of a plain file none is allocated
+// before it is known to be long enough; of a compressed one memory is used as the voxels come out of
+// it. Throws InputError when the data are shorter or longer than size and type say or a compressed
+// stream is broken, IoError when the file cannot be read.
 void read_voxels(Volume& volume, const RawVoxels& source);
+
+// As read_voxels, from values that are decoded already. More may follow them. No more than
+// most_unpacked_bytes are read.
+void read_stream(Volume& volume, const ValueLayout& layout, const Component& component,
+                 const ByteSource& values, const std::filesystem::path& file);
 
 // Parts of a header that all formats share; errors carry `place`.
 [[nodiscard]] std::array<int, 3> parse_sizes(std::string_view text, const core::FilePlace& place);

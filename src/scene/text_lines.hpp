@@ -16,6 +16,9 @@ namespace triptych::scene {
 // The parts between blanks and tabs.
 [[nodiscard]] std::vector<std::string_view> split_words(std::string_view text);
 
+// Without the byte order mark of UTF-8, which editors put before a text.
+[[nodiscard]] std::string_view without_mark(std::string_view text);
+
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 [[nodiscard]] std::string lower_case(std::string_view text);
 

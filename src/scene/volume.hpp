@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/read_facts.hpp"
 #include "scene/voxel_memory.hpp"
 
 namespace triptych::scene {
@@ -38,6 +39,7 @@ struct Volume {
   double range_hi = 1;
   Mapping mapping = Mapping::linear;
   bool clipped = false;  // some values lie beyond the range (set_window)
+  ReadFacts facts;       // of a file
 
   [[nodiscard]] std::size_t voxel_count() const noexcept;
   [[nodiscard]] double value(std::size_t index) const;  // as stored; may be NaN or infinite
@@ -89,11 +91,20 @@ struct VoxelGrid {
 // memory.
 [[nodiscard]] VoxelGrid encode(Volume&& volume, VoxelFormat format);
 
-// `data` as in a plan: "generate:NAME:SIZE" or "generate:NAME:NXxNYxNZ" (scene/generators.hpp), or
-// a file: .nrrd/.nhdr, .dat (with its .raw). A relative file is looked for as it is, then in each
-// of `folders`. Throws InputError with file and line, IoError when nothing is there.
+// Which value of a voxel is drawn where a file has several: the levels of the factor `component`.
+struct Component {
+  std::uint64_t index = 0;  // counted from 0
+  bool magnitude = false;   // the Euclidean length of all of them instead
+};
+[[nodiscard]] Component parse_component(std::string_view text);  // "2" or "magnitude"; InputError
+
+// `data` as in a plan: "generate:NAME:SIZE" or "generate:NAME:NXxNYxNZ" (scene/generators.hpp), a
+// file of one of the formats in scene/volume_formats.hpp, or "FILE:NXxNYxNZ:TYPE", voxels without a
+// header (scene/raw_spec.hpp). A relative file is looked for as it is, then in each of `folders`.
+// Throws InputError with file and line, IoError when nothing is there.
 [[nodiscard]] Volume load_volume(std::string_view data,
-                                 const std::vector<std::filesystem::path>& folders = {});
+                                 const std::vector<std::filesystem::path>& folders = {},
+                                 const Component& component = {});
 
 // Throws as load_volume does of a generated volume that cannot be made, without making it. Files
 // are left to load_volume.

@@ -1,14 +1,17 @@
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
-#include "scene/dat.hpp"
 #include "scene/find_file.hpp"
 #include "scene/generators.hpp"
-#include "scene/nrrd.hpp"
+#include "scene/raw_spec.hpp"
 #include "scene/text_lines.hpp"
 #include "scene/volume.hpp"
+#include "scene/volume_formats.hpp"
+#include "scene/voxel_values.hpp"
 
 namespace triptych::scene {
 namespace {
@@ -49,43 +52,68 @@ Generated parse_generated(std::string_view data) {
   return {rest.substr(0, colon), parse_size(rest.substr(colon + 1), data)};
 }
 
+struct VolumeFile {
+  std::optional<std::filesystem::path> file;
+  std::optional<RawSpec> raw;
+};
+
+// A file of that very name, else FILE:SIZE:TYPE.
+VolumeFile find_volume(std::string_view data, const std::vector<std::filesystem::path>& folders) {
+  if (auto file = find_file(data, folders)) return {.file = std::move(file), .raw = {}};
+  auto raw = parse_raw_spec(data);
+  if (!raw) return {};
+  auto file = find_file(raw->file, folders);
+  return {.file = std::move(file), .raw = std::move(raw)};
+}
+
 }  // namespace
 
-Volume load_volume(std::string_view data, const std::vector<std::filesystem::path>& folders) {
+Component parse_component(std::string_view text) {
+  if (text == "magnitude") return {.magnitude = true};
+  const auto index = parse_number<std::uint64_t>(text);
+  if (!index) {
+    throw core::InputError(fmt::format(
+        "component '{}': expected a number counted from 0, or magnitude", quotable(text)));
+  }
+  return {.index = *index};
+}
+
+Volume load_volume(std::string_view data, const std::vector<std::filesystem::path>& folders,
+                   const Component& component) {
   if (data.starts_with(generator_prefix)) {
     const auto [name, size] = parse_generated(data);
+    check_component(component, 1, std::filesystem::path(data));
     return generate_volume(name, size);
   }
-  const auto file = find_file(data, folders);
-  if (!file) {
+  const VolumeFile source = find_volume(data, folders);
+  if (!source.file) {
     std::string where;
     for (const auto& folder : folders) where += ", " + folder.string();
     throw core::IoError(fmt::format("{}: not found (looked here{})", data, where));
   }
-  const std::string kind = lower_case(file->extension().string());
   Volume volume;
-  if (kind == ".nrrd" || kind == ".nhdr") {
-    volume = read_nrrd(*file);
-  } else if (kind == ".dat") {
-    volume = read_dat(*file);
+  if (source.raw) {
+    volume = read_raw(*source.raw, *source.file, component);
   } else {
-    throw core::InputError({.file = file->string()},
-                           fmt::format("'{}' is no known kind of volume; expected .nrrd, .nhdr or "
-                                       ".dat",
-                                       kind));
+    const VolumeFormat& format = volume_format(*source.file);
+    volume = format.read(*source.file, component);
+    volume.facts.format = format.name;
   }
   volume.name = data;
   return volume;
 }
 
 void check_generated_volume(std::string_view data) {
-  if (!data.starts_with(generator_prefix)) return;
+  if (!data.starts_with(generator_prefix)) {
+    static_cast<void>(parse_raw_spec(data));
+    return;
+  }
   const auto [name, size] = parse_generated(data);
   check_volume_generator(name, size);
 }
 
 bool is_present(std::string_view data, const std::vector<std::filesystem::path>& folders) {
-  return data.starts_with(generator_prefix) || find_file(data, folders).has_value();
+  return data.starts_with(generator_prefix) || find_volume(data, folders).file.has_value();
 }
 
 }  // namespace triptych::scene

@@ -1,100 +1,208 @@
 #include "scene/xyz.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "scene/element_names.hpp"
 #include "scene/elements.hpp"
+#include "scene/xyz_comment.hpp"
 
 namespace triptych::scene {
 namespace {
 
-// A symbol, with or without a number after it ("C", "C12"), or an atomic number.
-std::string element_of(std::string_view word, const LineReader& reader) {
-  if (const auto number = parse_number<int>(word)) {
-    const auto symbol = symbol_of(*number);
-    if (!symbol) reader.reject(fmt::format("expected an element, found '{}'", quotable(word)));
-    return std::string(*symbol);
-  }
-  const std::string_view letters = word.substr(0, word.find_first_of("0123456789_-+."));
-  if (letters.empty())
-    reader.reject(fmt::format("expected an element, found '{}'", quotable(word)));
-  return proper_symbol(letters);
-}
-
-// Which words of a line say what.
-struct Columns {
+// Which words of a line are the element and the place.
+struct XyzColumns {
   std::size_t element = 0;
   std::size_t place = 1;
+  bool numbered = false;             // the element is an atomic number, as the file states
   std::optional<std::size_t> count;  // as stated; a plain file may have more than are of use
 };
 
-// The value of `Properties` among the comment's KEY=VALUE, in quotes or not.
-std::optional<std::string_view> properties_in(std::string_view comment) {
-  constexpr std::string_view key = "properties=";
-  constexpr std::string_view quotes = "\"'";
-  for (std::size_t i = 0; i < comment.size(); ++i) {
-    const char before = i == 0 ? ' ' : comment[i - 1];
-    const bool begins = before == ' ' || before == '\t';
-    if (begins && lower_case(comment.substr(i, key.size())) == key) {
-      const std::string_view value = comment.substr(i + key.size());
-      const bool quoted = quotes.find(value.substr(0, 1)) != std::string_view::npos;
-      if (value.empty() || !quoted) return value.substr(0, value.find_first_of(" \t"));
-      return value.substr(1, value.find(value.front(), 1) - 1);
-    }
-    // Past a value in quotes; an apostrophe within a word is none.
-    if (!(begins || before == '=') || quotes.find(comment[i]) == std::string_view::npos) continue;
-    const std::size_t end = comment.find(comment[i], i + 1);
-    if (end != std::string_view::npos) i = end;
-  }
-  return std::nullopt;
-}
-
-std::string_view take_word(std::string_view& list) {
+std::string_view take_part(std::string_view& list) {
   const std::size_t end = std::min(list.find(':'), list.size());
-  const std::string_view word = list.substr(0, end);
+  const std::string_view part = list.substr(0, end);
   list.remove_prefix(std::min(end + 1, list.size()));
-  return word;
+  return part;
 }
 
-// Of NAME:TYPE:COUNT:…, in the order of the columns.
-Columns stated_columns(std::string_view list, const LineReader& reader) {
+// Properties=NAME:TYPE:COUNT:…, in the order of the columns.
+XyzColumns stated_columns(std::string_view list, const LineReader& reader) {
   constexpr std::size_t most_columns = 10'000;
-  std::optional<std::size_t> element;
+  std::optional<std::size_t> species;
+  std::optional<std::size_t> number;
   std::optional<std::size_t> place;
   std::size_t count = 0;
   do {
-    const std::string_view name = take_word(list);
-    static_cast<void>(take_word(list));
-    const std::string_view word = take_word(list);
+    const std::string name = lower_case(take_part(list));
+    const std::string type = lower_case(take_part(list));
+    const std::string_view word = take_part(list);
     const auto columns = parse_number<std::size_t>(word);
     if (!columns || *columns == 0 || *columns > most_columns) {
       reader.reject(fmt::format("expected Properties=NAME:TYPE:COUNT:…, found the count '{}'",
                                 quotable(word)));
     }
-    if (name == "species" && *columns == 1) element = count;
+    if (type.size() != 1 || std::string_view("rils").find(type) == std::string_view::npos) {
+      reader.reject(fmt::format("expected Properties=NAME:TYPE:COUNT:… with the types R, I, L and S, "
+                                "found '{}'",
+                                quotable(type)));
+    }
+    if (name == "species" && *columns == 1) species = count;
+    if (name == "z" && *columns == 1) number = count;
     if (name == "pos" && *columns == 3) place = count;
     count += *columns;
   } while (!list.empty());
-  if (!element || !place) {
-    reader.reject("expected Properties with species (1 column) and pos (3)");
+  if ((!species && !number) || !place) {
+    reader.reject("expected Properties with species or Z (1 column) and pos (3)");
   }
-  return {.element = *element, .place = *place, .count = count};
+  return {.element = species ? *species : *number,
+          .place = *place,
+          .numbered = !species,
+          .count = count};
 }
 
-void add_atom(Atoms& atoms, const std::vector<std::string_view>& words, const Columns& columns,
-              const LineReader& reader) {
+XyzColumns columns_of(std::string_view text, const LineReader& reader) {
+  const XyzComment comment = parse_xyz_comment(text);
+  if (!comment.error.empty()) {
+    reader.reject(fmt::format("the comment has 'Properties=' but is no extended XYZ: {}",
+                              comment.error));
+  }
+  return comment.properties ? stated_columns(*comment.properties, reader) : XyzColumns{};
+}
+
+// As other programs write numbers: with Fortran's exponent (1.0D+00), or Mathematica's (8.4*^-6).
+double xyz_number(std::string_view word, std::string_view what, const LineReader& reader) {
+  const std::size_t mark = word.find_first_of("dD*");
+  if (mark == std::string_view::npos) return reader.number(word, what);
+  std::string plain(word);
+  if (word.substr(mark).starts_with("*^")) {
+    plain.replace(mark, 2, "e");
+  } else if (word[mark] != '*') {
+    plain[mark] = 'e';
+  }
+  // "1.0e+00": a sign after the exponent is fine, one before it is not ours to explain.
+  const auto value = parse_number<double>(plain);
+  return value ? *value : reader.number(word, what);
+}
+
+// Words of a line of which some may be quoted texts with blanks in them.
+void split_quoted_into(std::string_view line, std::vector<std::string_view>& words,
+                       const LineReader& reader) {
+  if (line.find('"') == std::string_view::npos) {
+    split_words_into(line, words);
+    return;
+  }
+  words.clear();
+  std::size_t at = 0;
+  while ((at = line.find_first_not_of(" \t", at)) != std::string_view::npos) {
+    const bool quoted = line[at] == '"';
+    const std::size_t begin = quoted ? at + 1 : at;
+    std::size_t end = begin;
+    while (end < line.size() && (quoted ? line[end] != '"' : line[end] != ' ' && line[end] != '\t')) {
+      end += line[end] == '\\' && quoted ? std::size_t{2} : std::size_t{1};
+    }
+    if (quoted && end >= line.size()) reader.reject("expected a closing quote");
+    words.push_back(line.substr(begin, end - begin));
+    at = end + (quoted ? 1 : 0);
+  }
+}
+
+void add_xyz_atom(Atoms& atoms, const std::vector<std::string_view>& words,
+                  const XyzColumns& columns, const LineReader& reader) {
   if (!columns.count && words.size() < 4) reader.reject("expected an element, x, y and z");
   if (columns.count && words.size() != *columns.count) {
     reader.reject(fmt::format("expected {} columns, as Properties says, found {}", *columns.count,
                               words.size()));
   }
-  atoms.add({reader.number(words[columns.place], "x"), reader.number(words[columns.place + 1], "y"),
-             reader.number(words[columns.place + 2], "z")},
-            atoms.kind(element_of(words[columns.element], reader)));
+  const std::string_view word = words[columns.element];
+  if (const auto number = parse_number<int>(word)) {
+    if (!symbol_of(*number)) {
+      reader.reject(fmt::format("expected an element, found '{}'", quotable(word)));
+    }
+  } else if (columns.numbered || word.find_first_of("0123456789_-+.") == 0) {
+    reader.reject(fmt::format("expected an element, found '{}'", quotable(word)));
+  }
+  atoms.add({xyz_number(words[columns.place], "x", reader),
+             xyz_number(words[columns.place + 1], "y", reader),
+             xyz_number(words[columns.place + 2], "z", reader)},
+            atoms.kind(word));
+}
+
+// The letters that a word begins with: "C" of "C12".
+std::string_view letters_of_word(std::string_view word) {
+  return word.substr(0, word.find_first_of("0123456789_-+."));
+}
+
+// "CB" or "HG": no element, but an atom's name in a protein. Then "CA" is one, too.
+bool is_atom_name(std::string_view word) {
+  const std::string_view letters = letters_of_word(word);
+  const bool upper = std::ranges::all_of(letters, [](char c) { return c >= 'A' && c <= 'Z'; });
+  return upper && letters.size() > 1 && !atomic_number(letters) &&
+         std::string_view("HCNOPS").find(letters.front()) != std::string_view::npos;
+}
+
+std::string symbol_of_number(std::string_view word) {
+  const auto number = parse_number<int>(word);
+  return number ? std::string(symbol_of(*number).value_or("")) : std::string();
+}
+
+void note_numbers(Atoms& atoms) {
+  std::vector<std::string> read_as;
+  for (const std::string& word : atoms.kind_names) {
+    if (const std::string symbol = symbol_of_number(word); !symbol.empty()) {
+      read_as.push_back(fmt::format("{} as {}", word, symbol));
+    }
+  }
+  if (read_as.empty()) return;
+  constexpr std::size_t enough = 6;
+  const bool all = read_as.size() <= enough;
+  if (!all) read_as.resize(enough);
+  atoms.notes.push_back(fmt::format(
+      "the first column holds numbers, which are read as atomic numbers: {}{}; if they are types, as "
+      "LAMMPS writes them, name the elements with dump_modify, or write a .lammpstrj, which keeps "
+      "types",
+      fmt::join(read_as, ", "), all ? "" : ", …"));
+}
+
+// From the file's words to elements.
+void name_words(Atoms& atoms, bool numbered) {
+  if (!numbered) note_numbers(atoms);
+  const bool names = std::ranges::any_of(atoms.kind_names, is_atom_name);
+  Atoms named;
+  std::vector<std::uint32_t> renamed;
+  for (const std::string& word : atoms.kind_names) {
+    const std::string_view letters = letters_of_word(word);
+    const bool is_name = letters.size() > 1 && letters[1] >= 'A' && letters[1] <= 'Z';
+    if (const std::string symbol = symbol_of_number(word); !symbol.empty()) {
+      renamed.push_back(named.kind(symbol));
+    } else if (names && is_name) {
+      renamed.push_back(unnamed_kind(named, word, ""));
+    } else {
+      renamed.push_back(named.kind(proper_symbol(letters)));
+    }
+  }
+  for (std::uint32_t& kind : atoms.kinds) kind = renamed[kind];
+  atoms.take_names(std::move(named));
+  name_elements(atoms);
+}
+
+// What follows a frame: nothing, or the count of the next one. The data set QM9 has three lines
+// there: frequencies, SMILES and InChI.
+void check_what_follows(LineReader& reader) {
+  if (reader.at_end()) return;
+  const std::string_view line = reader.require("a frame");
+  if (parse_number<std::uint64_t>(trimmed(line))) return;
+  const int number = reader.line();
+  const auto smiles = reader.next();
+  const auto inchi = reader.next();
+  if (smiles && inchi && inchi->starts_with("InChI=") && reader.at_end()) return;
+  reader.reject_at(number, fmt::format("expected the end or the next frame's number of atoms, found "
+                                       "'{}': the file has more lines than its number of atoms says",
+                                       quotable(trimmed(line))));
 }
 
 }  // namespace
@@ -113,20 +221,21 @@ ParticleSet read_xyz(LineReader& reader, std::uint64_t frame, ColourKind colour)
       reader.skip(count, atoms_wanted);
       continue;
     }
-    const auto properties = properties_in(comment);
-    const Columns columns = properties ? stated_columns(*properties, reader) : Columns{};
+    const XyzColumns columns = columns_of(comment, reader);
     Atoms atoms;
     atoms.places.reserve(reader.room(count, 8));
     for (std::uint64_t i = 0; i < count; ++i) {
-      split_words_into(reader.require(atoms_wanted), words);
-      add_atom(atoms, words, columns, reader);
+      const std::string_view line = reader.require(atoms_wanted);
+      if (columns.count) {
+        split_quoted_into(line, words, reader);
+      } else {
+        split_words_into(line, words);
+      }
+      add_xyz_atom(atoms, words, columns, reader);
     }
     if (atoms.places.empty()) reader.reject("expected atoms, found none");
-    // What follows must be another frame: else the count was too small.
-    if (!reader.at_end()) {
-      static_cast<void>(
-          reader.count(reader.require("a frame"), "the next frame's number of atoms"));
-    }
+    check_what_follows(reader);
+    name_words(atoms, columns.numbered);
     return to_particles(std::move(atoms), colour, reader);
   }
 }

@@ -2,6 +2,7 @@
 
 #include "measure/contract/factor.hpp"
 #include "scene/camera.hpp"
+#include "scene/format_advice.hpp"
 #include "scene/particles.hpp"
 #include "scene/transfer_function.hpp"
 #include "suites/particles/stress_cases.hpp"
@@ -24,9 +25,9 @@ const std::vector<Factor>& particle_factors() {
       measure::technique_factor("particles", "quad_instanced", "how the spheres are drawn"),
       text(
           "data", "generate:uniform:10000",
-          "a particle file (.pdb, .cif, .gro, .xyz, .lammpstrj, .dump, .data, .lmp, .mmpld, plain "
-          "or .gz; FILE@K: its K-th frame), generate:NAME:COUNT, or stress:CASE:VARIANT (a hostile "
-          "scene)"),
+          "a particle file (" + scene::particle_endings() +
+              ", plain or compressed; FILE@K: its K-th frame), generate:NAME:COUNT, or "
+              "stress:CASE:VARIANT (a hostile scene)"),
       choice("colour", {"rgba8", "rgba32", "intensity"}, "rgba8", Decides::the_picture,
              "the source of a particle's colour"),
       text("transfer_function", "haze",

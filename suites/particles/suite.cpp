@@ -12,6 +12,7 @@
 #include "core/json_text.hpp"
 #include "measure/contract/factor.hpp"
 #include "reference/spheres.hpp"
+#include "scene/data_summary.hpp"
 #include "scene/file_table.hpp"
 #include "scene/particle_generators.hpp"
 #include "suites/particles/factors.hpp"
@@ -68,6 +69,10 @@ class ParticleSuite final : public measure::SuiteWithTruth {
   std::string truth_key(const Configuration& configuration,
                         const std::map<std::string, double>& precision) override;
   nlohmann::json describe(const Configuration& configuration) override;
+  std::vector<std::string> describe_data(const Configuration& configuration) override {
+    load(configuration);
+    return scene::summary_of(*loaded_.particles);
+  }
   std::string data_hash(const Configuration& configuration) override {
     load(configuration);
     return loaded_.particles->hash;
@@ -132,6 +137,9 @@ void ParticleSuite::load(const Configuration& configuration) {
   } else {
     loaded_.particles = std::make_shared<const scene::ParticleSet>(scene::load_particles(
         data, colour, folders_, [&](double share) { tell({.what = data, .share = share}); }));
+  }
+  for (const std::string& note : loaded_.particles->facts.notes) {
+    tell({.what = data, .share = 1, .note = note});
   }
   tell({.what = data, .share = 1});
   loaded_.what = wanted;

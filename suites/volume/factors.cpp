@@ -2,6 +2,7 @@
 
 #include "measure/contract/factor.hpp"
 #include "scene/camera.hpp"
+#include "scene/format_advice.hpp"
 #include "scene/transfer_function.hpp"
 #include "scene/value_window.hpp"
 #include "scene/volume.hpp"
@@ -30,7 +31,9 @@ const std::vector<Factor>& volume_factors() {
   static const std::vector<Factor> factors{
       measure::technique_factor("volume", "raycast", "how the image is drawn"),
       text("data", "generate:mandelbulb:96",
-           "a volume file (.nrrd, .nhdr, .dat), generate:NAME:SIZE, generate:NAME:NXxNYxNZ, "
+           "a volume file (" + scene::volume_endings() +
+               ", plain or compressed; FILE:NXxNYxNZ:TYPE for voxels without a header), "
+               "generate:NAME:SIZE, generate:NAME:NXxNYxNZ, "
            "analytic:PROBLEM:SIZE (a scene with a closed form), or stress:CASE:VARIANT"),
       choice("voxel", {"auto", "u8", "u16", "f32", "f16"}, "auto", Decides::how_it_is_made,
              "how voxels are stored on the device; f16: half floats; auto: the device's fastest "
@@ -45,6 +48,10 @@ const std::vector<Factor>& volume_factors() {
       silent(choice("mapping", {"linear", "log"}, "linear", Decides::the_picture,
                     "how values are mapped to the window; log: by their logarithm, with values "
                     "below the smallest positive one mapped to 0")),
+      silent(text("component", "0",
+                  "which value is drawn if the data have several for each voxel, such as colours, "
+                  "vectors or time steps: a number counted from 0, or magnitude, the Euclidean length "
+                  "of all of them")),
       text("transfer_function", "haze",
            "haze, surfaces, a file with 256 RGBA entries, or own: that of the analytic problem or "
            "stress case (surfaces for all other data)"),
@@ -85,7 +92,10 @@ const std::vector<Factor>& volume_factors() {
 
 void check_value(const Factor& factor, std::string_view value,
                  const std::vector<std::filesystem::path>& folders) {
-  if (value == own_level && factor.name != "data" && factor.name != "window") return;
+  if (value == own_level && factor.name != "data" && factor.name != "window" &&
+      factor.name != "component") {
+    return;
+  }
   if (factor.name == "viewport") {
     static_cast<void>(measure::parse_viewport(value));
   } else if (factor.name == "camera") {
@@ -94,6 +104,8 @@ void check_value(const Factor& factor, std::string_view value,
     scene::check_generated_volume(value);
     static_cast<void>(analytic_data(value));
     static_cast<void>(stress_data(value));
+  } else if (factor.name == "component") {
+    static_cast<void>(scene::parse_component(value));
   } else if (factor.name == "window") {
     static_cast<void>(scene::parse_window(value));
   } else if (factor.name == "transfer_function") {

@@ -12,10 +12,12 @@
 #include "measure/contract/factor.hpp"
 #include "reference/open_counts.hpp"
 #include "reference/volume.hpp"
+#include "scene/data_summary.hpp"
 #include "scene/denormals.hpp"
 #include "scene/file_table.hpp"
 #include "scene/generators.hpp"
 #include "scene/value_window.hpp"
+#include "scene/voxel_values.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/factors.hpp"
 #include "suites/volume/frame_description.hpp"
@@ -59,6 +61,7 @@ class VolumeSuite final : public measure::SuiteWithTruth {
   std::string truth_key(const Configuration& configuration,
                         const std::map<std::string, double>& precision) override;
   nlohmann::json describe(const Configuration& configuration) override;
+  std::vector<std::string> describe_data(const Configuration& configuration) override;
   std::string data_hash(const Configuration& configuration) override;
   std::string limit_key(const Configuration& configuration) override;
   std::map<std::string, double> open_counts(
@@ -73,6 +76,7 @@ class VolumeSuite final : public measure::SuiteWithTruth {
     std::string data;
     std::string window;
     std::string mapping;
+    std::string component;
     std::optional<StressScene> stress;  // without its voxels
     scene::VoxelFormat native = scene::VoxelFormat::f32;
     bool fits_halves = false;
@@ -87,7 +91,7 @@ class VolumeSuite final : public measure::SuiteWithTruth {
     reference::ErrorModel model;
   };
 
-  scene::Volume read(const std::string& data, std::optional<StressScene>& stress) const;
+  scene::Volume read(const Configuration& configuration, std::optional<StressScene>& stress) const;
   const Loaded& load(const Configuration& configuration, const ChooseFormat& choose);
   const Loaded& load_as_it_is(const Configuration& configuration);
   scene::VolumeScene scene(const Configuration& configuration, const Loaded& loaded) const;
@@ -116,13 +120,17 @@ std::string VolumeSuite::missing_data(const Configuration& configuration) const 
       folders_.empty() ? "" : fmt::format(", nor in {}", folders_.front().string()));
 }
 
-scene::Volume VolumeSuite::read(const std::string& data, std::optional<StressScene>& stress) const {
+scene::Volume VolumeSuite::read(const Configuration& configuration,
+                                std::optional<StressScene>& stress) const {
+  const std::string& data = configuration.at("data");
+  const scene::Component component = scene::parse_component(configuration.at("component"));
+  if (analytic_data(data) || stress_data(data)) scene::check_component(component, 1, data);
   if (const auto known = stress_data(data)) {
     stress = stress_scene(*known);
     return std::move(stress->volume);
   }
   const auto analytic = analytic_data(data);
-  return analytic ? analytic_volume(*analytic) : scene::load_volume(data, folders_);
+  return analytic ? analytic_volume(*analytic) : scene::load_volume(data, folders_, component);
 }
 
 const VolumeSuite::Loaded& VolumeSuite::load(const Configuration& configuration,
@@ -130,14 +138,16 @@ const VolumeSuite::Loaded& VolumeSuite::load(const Configuration& configuration,
   const std::string& data = configuration.at("data");
   const std::string& window = configuration.at("window");
   const std::string& mapping = configuration.at("mapping");
+  const std::string& component = configuration.at("component");
   if (loaded_.grid && loaded_.data == data && loaded_.window == window &&
-      loaded_.mapping == mapping &&
+      loaded_.mapping == mapping && loaded_.component == component &&
       choose(loaded_.native, loaded_.grid->size) == loaded_.grid->format) {
     return loaded_;
   }
   loaded_ = {};  // frees the old data before the new data is loaded
   std::optional<StressScene> stress;
-  scene::Volume volume = read(data, stress);
+  scene::Volume volume = read(configuration, stress);
+  for (const std::string& note : volume.facts.notes) tell({.what = data, .share = 1, .note = note});
   scene::set_window(volume, scene::parse_window(window), scene::mapping(mapping));
   const scene::VoxelFormat native = scene::lossless_format(volume);
   const scene::VoxelFormat format = choose(native, volume.size);
@@ -146,6 +156,7 @@ const VolumeSuite::Loaded& VolumeSuite::load(const Configuration& configuration,
       .data = data,
       .window = window,
       .mapping = mapping,
+      .component = component,
       .stress = std::move(stress),
       .native = native,
       .fits_halves = fits_halves,
@@ -333,6 +344,13 @@ nlohmann::json VolumeSuite::describe(const Configuration& configuration) {
   const Loaded& loaded = load_as_it_is(configuration);
   return describe_frame(scene(configuration, loaded), levels_of(configuration, loaded.stress).ert(),
                         levels_of(configuration, loaded.stress).adapt());
+}
+
+std::vector<std::string> VolumeSuite::describe_data(const Configuration& configuration) {
+  std::optional<StressScene> stress;
+  scene::Volume volume = read(configuration, stress);
+  volume.name = configuration.at("data");
+  return scene::summary_of(volume);
 }
 
 std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& configuration) {

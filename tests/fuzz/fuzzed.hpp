@@ -8,8 +8,10 @@
 #include <fstream>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
@@ -30,15 +32,29 @@ struct Input {
   std::string_view content;
 };
 
-inline std::optional<Input> split(const std::uint8_t* data, std::size_t size,
-                                  std::span<const std::string_view> kinds) {
+template <typename Kinds>
+std::optional<Input> split(const std::uint8_t* data, std::size_t size, const Kinds& kinds) {
   const std::string_view text = text_of(data, size);
   const std::size_t end = text.find('\n');
   if (end == std::string_view::npos) return std::nullopt;
-  for (const std::string_view kind : kinds) {
+  for (const auto& kind : kinds) {
     if (text.substr(0, end) == kind) return Input{std::string(kind), text.substr(end + 1)};
   }
   return std::nullopt;
+}
+
+// The endings of a table of formats, without their dots, and those of compressed files.
+template <typename Format>
+std::vector<std::string> kinds_of(std::span<const Format> formats) {
+  std::vector<std::string> kinds;
+  for (const Format& format : formats) {
+    std::istringstream endings{std::string(format.endings)};
+    for (std::string ending; endings >> ending;) {
+      kinds.push_back(ending.substr(1));
+      kinds.push_back(ending.substr(1) + ".gz");
+    }
+  }
+  return kinds;
 }
 
 // A folder that lives as long as the process.

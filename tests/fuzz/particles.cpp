@@ -1,11 +1,11 @@
 #include "scene/particles.hpp"
 
 #include "fuzzed.hpp"
+#include "scene/particle_formats.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace triptych;
-  static constexpr std::array<std::string_view, 10> kinds{
-      "pdb", "cif", "gro", "xyz", "lammpstrj", "dump", "data", "lmp", "mmpld", "xyz.gz"};
+  static const std::vector<std::string> kinds = fuzz::kinds_of(scene::particle_formats());
   const auto input = fuzz::split(data, size, kinds);
   if (!input) return fuzz::rejected;
   const std::string file = fuzz::write("p." + input->kind, input->content).string();

@@ -11,6 +11,7 @@ class Pace {
       : tell_(std::move(tell)), now_(std::move(now)) {}
 
   void operator()(const Loading& loading) {
+    if (!loading.note.empty()) return tell_(loading);
     const auto now = now_();
     if (loading.what != last_.what || loading.share < last_.share) {
       rested_since_ = now;

@@ -11,6 +11,8 @@ namespace triptych::measure {
 struct Loading {
   std::string what;  // the value of the factor `data`
   double share = 0;  // share that is done, in [0, 1]
+  // A sentence about something in the data that had to be guessed or left out; usually empty.
+  std::string note = {};
 };
 
 using OnLoading = std::function<void(const Loading&)>;

@@ -123,6 +123,11 @@ class SuiteWithTruth : public Suite {
   // The data that another program needs to draw the same frame: "viewport", "camera" and the scene,
   // as in `frame.json` of `triptych render`.
   [[nodiscard]] virtual nlohmann::json describe(const Configuration& configuration) = 0;
+  // Lines that say what the data of a configuration are, for `render --describe`. Throws like
+  // Suite::work.
+  [[nodiscard]] virtual std::vector<std::string> describe_data(const Configuration& /*chosen*/) {
+    return {};
+  }
   // Two configurations with the same key share their reference image and bound.
   [[nodiscard]] virtual std::string truth_key(const Configuration& configuration,
                                               const std::map<std::string, double>& precision) = 0;

@@ -197,7 +197,9 @@ Message to_message(const Job& job) {
 }
 
 Message to_message(const Loading& loading) {
-  return {{{"type", "loading"}, {"what", loading.what}, {"share", loading.share}}, {}};
+  return {{{"type", "loading"}, {"what", loading.what}, {"share", loading.share},
+           {"note", loading.note}},
+          {}};
 }
 
 Message to_message(Answer answer) {
@@ -262,7 +264,9 @@ std::optional<Job> as_job(const Message& message) {
 std::optional<Loading> as_loading(const Message& message) {
   if (!is(message, "loading")) return std::nullopt;
   return reading("loading", [&] {
-    return Loading{.what = message.json.at("what"), .share = message.json.at("share")};
+    return Loading{.what = message.json.at("what"),
+                   .share = message.json.at("share"),
+                   .note = message.json.at("note")};
   });
 }
 

@@ -72,7 +72,7 @@ TEST(Dat, BrokenFilesNameTheirLine) {
   expect(start, ": has no line 'Format: …'");
   expect("", ": has no line 'Resolution: …'");
   expect("Resolution: 1 1 2\nFormat: UCHAR\n", ": has no line 'ObjectFileName: …'");
-  expect(start + "Format: UINT\n", ":3: unknown format 'UINT'; expected UCHAR");
+  expect(start + "Format: LONG\n", ":3: unknown format 'LONG'; expected UCHAR");
   expect(start + "Format UCHAR\n", ":3: expected 'Key: value'");
   expect(start + "Format: UCHAR\nSliceThicknes: 1 1 1\n", ":4: unknown key 'SliceThicknes'");
   expect(start + "Format: UCHAR\n\x1b[2J: 1\n", ":4: unknown key '\uFFFD[2J'; expected");

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
+#include "scene/element_names.hpp"
+
 namespace triptych::scene {
 namespace {
 
@@ -28,13 +32,46 @@ TEST(Elements, HaveBondisRadii) {
   EXPECT_EQ(van_der_waals_radius("?"), 2.0);
 }
 
-TEST(Elements, OfNames) {
-  EXPECT_EQ(element_from_name("CA", "ALA"), "C");
-  EXPECT_EQ(element_from_name("1HB", "ALA"), "H");
-  EXPECT_EQ(element_from_name("NA", "NA"), "Na");
-  EXPECT_EQ(element_from_name("CL", "CL-"), "Cl");
-  EXPECT_EQ(element_from_name("NA", "HEM"), "N");
-  EXPECT_EQ(element_from_name("*", ""), "*");
+struct NamedCase {
+  const char* atom;
+  const char* residue;
+  const char* symbol;
+  bool guessed;
+};
+
+TEST(Elements, FollowFromNamesAndResidues) {
+  const std::vector<NamedCase> cases{
+      {"CA", "ALA", "C", false},   {"1HB", "ALA", "H", false},  {"HG2", "ARG", "H", false},
+      {"NH1", "NARG", "N", false}, {"OXT", "CGLY", "O", false}, {"SE", "MSE", "Se", false},
+      {"SD", "MET", "S", false},   {"O5'", "DA5", "O", false},  {"P", "U", "P", false},
+      {"OW", "SOL", "O", false},   {"MW", "TIP4", "X", true},   {"NA", "HEM", "N", false},
+      {"FE", "HEM", "Fe", false},  {"MG", "CLA", "Mg", false},  {"CHA", "CLA", "C", false},
+      // Ions as elements, and as CHARMM, AMBER and GROMACS name them.
+      {"NA", "NA", "Na", false},   {"CL", "CL-", "Cl", false},  {"CA", "CA", "Ca", false},
+      {"CA", "CA2+", "Ca", false}, {"SOD", "SOD", "Na", false}, {"CLA", "CLA", "Cl", false},
+      {"POT", "POT", "K", false},  {"CAL", "CAL", "Ca", false}, {"Na+", "Na+", "Na", false},
+      {"ZN", "ZN2", "Zn", false},  {"SOD", "IONS", "Na", false}, {"NA", "SOD", "Na", false},
+      {"K", "K", "K", false},      {"CD", "CD", "Cd", false},   {"FE", "FE2", "Fe", false},
+      // Residues that nobody knows.
+      {"CL1", "LIG", "Cl", true},  {"BR", "LIG", "Br", true},   {"SI", "LIG", "Si", true},
+      {"CA", "LIG", "C", true},    {"C12", "LIG", "C", true},   {"ZN", "LIG", "Zn", true},
+      {"HO", "LIG", "H", true},    {"*", "LIG", "X", true},     {"", "", "X", true},
+  };
+  for (const auto& [atom, residue, symbol, guessed] : cases) {
+    const NamedElement element = element_of_name(atom, residue);
+    EXPECT_EQ(element.symbol, symbol) << atom << ' ' << residue;
+    EXPECT_EQ(element.guessed, guessed) << atom << ' ' << residue;
+  }
+}
+
+TEST(Elements, FollowFromColumnsWhereTheResidueIsUnknown) {
+  EXPECT_EQ(element_of_columns("CA  ", "LIG").symbol, "Ca");
+  EXPECT_EQ(element_of_columns(" CA ", "LIG").symbol, "C");
+  EXPECT_EQ(element_of_columns("HG11", "LIG").symbol, "H");
+  EXPECT_EQ(element_of_columns("CA  ", "ALA").symbol, "C") << "the residue decides";
+  EXPECT_EQ(element_of_columns(" SOD", "SOD").symbol, "Na");
+  EXPECT_FALSE(element_of_columns("HG  ", "LIG").guessed);
+  EXPECT_TRUE(element_of_columns("HG11", "LIG").guessed);
 }
 
 TEST(Elements, ColoursDifferAndAreColours) {

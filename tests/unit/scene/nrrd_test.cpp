@@ -145,6 +145,32 @@ TEST(Nrrd, ADataFilesNameMayHaveAPercentSign) {
   }
 }
 
+TEST(Nrrd, ReadsDataOfSeveralFiles) {
+  const TemporaryFolder folder;
+  folder.write("s09.raw", "xA");
+  folder.write("s10.raw", "xB");
+  for (const char* files : {"s%02d.raw 9 10 1", "s%02d.raw 9 10 1 2", "LIST\ns09.raw\ns10.raw",
+                            "LIST 2\ns09.raw\n\ns10.raw"}) {
+    const Volume volume = read_nrrd(
+        folder.write("a.nhdr", minimal + "byte skip: 1\ndata file: " + files + "\n"));
+    EXPECT_EQ(volume.value(0), 'A') << files;
+    EXPECT_EQ(volume.value(1), 'B') << files;
+  }
+  folder.write("s10.raw", "xBC");
+  EXPECT_THAT(
+      [&] {
+        (void)read_nrrd(folder.write(
+            "a.nhdr", minimal + "byte skip: 1\ndata file: s%02d.raw 9 10 1\n"));
+      },
+      ThrowsMessage<core::InputError>(HasSubstr("s10.raw holds more (data after the end)")));
+}
+
+TEST(Nrrd, KeysMayHaveColonsAndHeadersMayBeLong) {
+  EXPECT_EQ(read_text(minimal + "a:b:c:=\"x\"\n\nAB").value(1), 'B');
+  const std::string pair = "key:=" + std::string(std::size_t{3} << 20, 'x') + "\n";
+  EXPECT_EQ(read_text(minimal + pair + "\nAB").value(1), 'B');
+}
+
 TEST(Nrrd, SkipsLinesThenBytes) {
   EXPECT_EQ(read_text(minimal + "line skip: 2\nbyteskip: 3\n\none\ntwo\nxyzAB").value(0), 'A');
   EXPECT_EQ(read_text(minimal + "byte skip: -1\n\nany number of bytesAB").value(1), 'B');
@@ -209,7 +235,7 @@ TEST(Nrrd, BrokenHeadersNameTheirLine) {
       {"P5\n1 1\n", ":1: not an NRRD file"},
       {"NRRD0009\n", ":1: not an NRRD file"},
       {std::string("\0\1\2\3", 4), ":1: not an NRRD file"},
-      {with_line("type: int"), ":3: type 'int' is not supported; expected int8"},
+      {with_line("type: long"), ":3: type 'long' is not supported; expected int8"},
       {with_line("type: "), ":3: type '' is not supported"},
       {with_line("type: block"), ":3: type 'block' is not supported"},
       {with_line("dimension: 2"), ":3: dimension '2'; expected 3 axes"},
@@ -242,8 +268,8 @@ TEST(Nrrd, BrokenHeadersNameTheirLine) {
       {with_line("kinds: RGB-color domain domain"), ":3: kind 'RGB-color' of axis 0; expected"},
       {with_line("kinds: domain domain scalar"), ":3: kind 'scalar' of axis 2; expected domain"},
       {with_line("kinds: domain domain"), ":3: expected 3 kinds, got 2"},
-      {with_line("encoding: bzip2"), ":3: encoding 'bzip2' is not supported; expected raw or gzip"},
-      {with_line("encoding: txt"), ":3: encoding 'txt'"},
+      {with_line("encoding: xz"), ":3: encoding 'xz' is not supported; expected raw, gzip, bzip2"},
+      {with_line("dimension: 4"), ":5: expected 4 sizes, got 3"},
       {with_line("encodng: raw"), ":3: unknown NRRD field 'encodng'"},
       {with_line(std::string(99, 'e') + ": raw"),
        ":3: unknown NRRD field '" + std::string(40, 'e') + "…'"},
@@ -255,10 +281,12 @@ TEST(Nrrd, BrokenHeadersNameTheirLine) {
       {with_line("line skip: -1"), ":3: '-1'; expected a whole number from 0 on"},
       {with_line("line skip: 5"), ":3: a.nrrd has only 0 lines to skip"},
       {with_line("data file: nothing.raw"), ":3: the data file 'nothing.raw' is not there"},
-      {with_line("data file: LIST"), ":3: data spread over several files"},
-      {with_line("data file: LIST 2"), ":3: data spread over several files"},
-      {with_line("data file: slice%03d.raw 1 9 1"), ":3: data spread over several files"},
-      {with_line("data file: slice %03d.raw 1 9 -1 2"), ":3: data spread over several files"},
+      {with_line("data file: LIST"), ": the header has no field 'type'"},
+      {minimal + "data file: LIST\nnothing.raw\n", ":7: the data file 'nothing.raw' is not there"},
+      {minimal + "data file: LIST\n", ":6: expected the names of the data files after LIST"},
+      {with_line("data file: slice%03d.raw 1 9 1"), ":3: the data file 'slice001.raw' is not there"},
+      {with_line("data file: slice %03d.raw 1 9 -1 2"), ":3: the pattern names no file"},
+      {with_line("data file: slice%s.raw 1 9 1"), ":3: expected a pattern such as slice%03d.raw"},
       {"NRRD0004\ntype: uint8\ntype: uint8\n", ":3: field 'type' is given twice"},
       {minimal + "space directions: (1,0,0) (0,1,0) (0,0,1)\nspacings: 1 1 1\n\nAB",
        ":6: 'space directions' and 'spacings' exclude each other"},

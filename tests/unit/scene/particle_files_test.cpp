@@ -102,10 +102,11 @@ TEST(Pdb, RefusesBrokenFiles) {
   expect_refused("a.pdb", replaced(pdb, "END\n", ""), ":5:", "END was expected");
   expect_refused("a.pdb", "REMARK\n", ":1:", "found none");
   const std::string atom = "ATOM      1  CA  THR A   1       1.000   2.000   3.000\n";
-  for (const std::string head : {"TITLE     A PROTEIN\n", "CRYST1   52.000   58.600   61.900\n"}) {
-    expect_refused("a.pdb", head + atom, ":2:", "END was expected");
+  for (const std::string head :
+       {"TITLE     A PROTEIN\n", "CRYST1   52.000   58.600   61.900\n", "HEADER    VESTA_phase_1\n"}) {
+    // Complete files of several programs have no END; only the PDB's own entries must.
+    EXPECT_EQ(load("a.pdb", head + atom).count(), 1U);
     EXPECT_EQ(load("a.pdb", head + atom + "END\n").count(), 1U);
-    // Whoever writes models may leave it at their ends.
     EXPECT_EQ(load("a.pdb", head + "MODEL        1\n" + atom + "ENDMDL\n").count(), 1U);
   }
 }
@@ -155,10 +156,13 @@ TEST(Mmcif, RefusesALoopThatIsCutOff) {
   const std::string loop =
       "loop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
       "_atom_site.Cartn_z\nC 1 2 3\nN 4 5 6\n";
-  const std::string closing = "data_X\n# \n_entry.id X\n#\n" + loop;
-  expect_refused("a.cif", closing, ":11:", "the file ends here, where '#' was expected");
+  const std::string closing = "data_X\n# \n_entry.id X\n#\n_cell.a 1\n#\n_struct.b 1\n#\n" + loop;
+  expect_refused("a.cif", closing, ":15:", "the file ends here, where '#' was expected");
   EXPECT_EQ(load("a.cif", closing + "#\n").count(), 2U);
   EXPECT_EQ(load("a.cif", closing + "_entry.more 1\n").count(), 2U);
+  // Of few marks nothing follows but a warning.
+  const ParticleSet unsure = load("a.cif", "data_X\n#\n_entry.id X\n#\n" + loop);
+  EXPECT_THAT(unsure.facts.notes, ElementsAre(HasSubstr("if the file was cut off")));
   // Others only put it between parts, or nowhere.
   EXPECT_EQ(load("a.cif", "# made by hand\n#\ndata_X\n_entry.id X\n#\n" + loop).count(), 2U);
   EXPECT_EQ(load("a.cif", "data_X\n" + loop).count(), 2U);
@@ -242,9 +246,10 @@ TEST(Xyz, TakesColumnsFromProperties) {
   expect_refused("a.xyz", with("Properties=" + list + ":mass:R:1"),
                  ":3:", "expected 7 columns, as Properties says, found 6");
   expect_refused("a.xyz", with("Properties=id:I:1:pos:R:3"),
-                 ":2:", "expected Properties with species (1 column) and pos (3)");
+                 ":2:", "expected Properties with species or Z (1 column) and pos (3)");
   expect_refused("a.xyz", with("Properties=species:S:1:pos:R:2"), ":2:", "and pos (3)");
-  for (const char* broken : {"", "species:S", "species:S:1:pos:R:three", "species:S:0:pos:R:3"}) {
+  for (const char* broken : {"", "species:S", "species:S:1:pos:R:three", "species:S:0:pos:R:3",
+                             "species:X:1:pos:R:3"}) {
     expect_refused("a.xyz", with(std::string("Properties=") + broken),
                    ":2:", "expected Properties=NAME:TYPE:COUNT:…");
   }
@@ -252,6 +257,8 @@ TEST(Xyz, TakesColumnsFromProperties) {
 
 TEST(Xyz, RefusesBrokenFiles) {
   expect_refused("a.xyz", replaced(xyz, "3\n", "2\n"), ":5:", "the next frame's number of atoms");
+  expect_refused("a.xyz", "1\nProperties=species:S:1:pos:R:3 \"note\nC 0 0 0\n",
+                 ":2:", "a quote or bracket is not closed");
   expect_refused("a.xyz", replaced(xyz, "3\n", "4\n"),
                  ":5:", "the file ends here, where the last of 4 atoms was expected");
   expect_refused("a.xyz", replaced(xyz, "O1 1 2 3", "O1 1 2,0 3"),
@@ -296,7 +303,7 @@ TEST(ParticleFiles, RefuseWhatTheyCannotRead) {
   const std::string packed = gzipped(xyz);
   expect_refused("a.xyz.gz", packed.substr(0, packed.size() - 9), ": ", "broken gzip stream");
   expect_refused("a.xyz.gz", xyz, ": ", "broken gzip stream");
-  expect_refused("a.abc", xyz, ": ", "'.abc' is no known kind of particles; expected .pdb");
+  expect_refused("a.abc", xyz, ": ", "'.abc' is no known format of particles; expected .pdb");
   EXPECT_THAT([] { static_cast<void>(load_particles("generate:uniform", ColourKind::rgba8)); },
               ThrowsMessage<core::InputError>(HasSubstr("expected generate:NAME:COUNT")));
   EXPECT_THROW(static_cast<void>(load_particles("generate:uniform:1e3", ColourKind::rgba8)),

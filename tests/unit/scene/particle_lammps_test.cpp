@@ -116,7 +116,9 @@ TEST(LammpsData, ReadsEveryStyle) {
   check("Atoms # molecular", "2 9 2 1 2 7\n1 9 1 1 2 3\n");
   check("Atoms # bond", "2 9 2 1 2 7\n1 9 1 1 2 3\n");
   check("Atoms # full", "2 9 2 0.1 1 2 7 0 0 0\n1 9 1 0.1 1 2 3 0 0 0\n");
-  check("Atoms", "2 2 1 2 7 0 0 1\n1 1 1 2 3 -1 0 0\n");
+  check("Atoms", "2 2 1.0 2 7 0 0 1\n1 1 1 2 3.0 -1 0 0\n");
+  check("Atoms # electron", "2 2 0 1 0.5 1 2 7\n1 1 0 1 0.5 1 2 3\n");
+  check("Atoms # dipole", "2 2 0 1 2 7 0 0 1\n1 1 0 1 2 3 0 0 1 0 0 0\n");
   check("Atoms # sphere", "2 2 4 1 1 2 7\n1 1 4 1 1 2 3\n");
 }
 
@@ -127,7 +129,7 @@ TEST(LammpsData, RefusesBrokenFiles) {
   expect_refused("a.lmp", data("Atoms", rows, "3"), ":15:", "the last of 3 atoms was expected");
   expect_refused("a.lmp", data("Atoms", rows + "\n", "3"),
                  ":16:", "the section ends after 2 atoms, expected 3");
-  expect_refused("a.data", data("Atoms # dipole", rows), ":12:", "found 'dipole'");
+  expect_refused("a.data", data("Atoms # hybrid", rows), ":12:", "found 'hybrid'");
   expect_refused("a.data", data("Atoms # full", rows), ":14:", "expected 7 or");
   expect_refused("a.data", data("Atoms", "1 1 0.5 1 2 3\n2 1 0.5 1 2 3\n"),
                  ":14:", "expected the style of 6 columns in a comment");
@@ -135,6 +137,7 @@ TEST(LammpsData, RefusesBrokenFiles) {
   for (const std::string row : {"1 9 1 0.1 1 2 3", "1 9 1 0.1 1 2 3 0 0 0"}) {
     expect_refused("a.data", data("Atoms", row + "\n", "1"), ":14:", "in a comment, such as");
   }
+  expect_refused("a.data", data("Atoms", "1 1 1 2 3 0 0 0\n", "1"), ":14:", "8 whole numbers");
   // An electron has eight columns, its place last.
   const std::string electron = "1 1 0.5 1 1.0 1.5 2.5 3.5\n";
   expect_refused("a.data", data("Atoms", electron, "1"),
@@ -143,7 +146,7 @@ TEST(LammpsData, RefusesBrokenFiles) {
                  ":14:", "image flag in x: expected a whole number, found '1.5'");
   expect_refused("a.data", data("Atoms # full", "1 9 1 0.1 1 2 3 0 0 0.5\n", "1"),
                  ":14:", "image flag in z: expected a whole number, found '0.5'");
-  expect_refused("a.data", data("Atoms", "1 1 1 2 3 0 0 0\n2 1 1 2 3 0 x 0\n"),
+  expect_refused("a.data", data("Atoms", "1 1 1.5 2 3 0 0 0\n2 1 1 2 3 0 x 0\n"),
                  ":15:", "image flag in y: expected a whole number, found 'x'");
   expect_refused("a.data", data("Atoms", "1 1 1 2 7\n1 1 1 2 3\n"),
                  ":15:", "atom 1 is there twice");

@@ -1,0 +1,39 @@
+#pragma once
+// Files that are compressed as a whole, known by their first bytes whatever their names are.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "scene/inflate.hpp"
+
+namespace triptych::scene {
+
+enum class Packing : std::uint8_t { none, gzip, bzip2 };
+
+// By the first bytes of a file. Throws InputError for a compression that is not supported, with the
+// command that undoes it.
+[[nodiscard]] Packing packing_of(std::span<const std::byte> start, const std::string& file);
+[[nodiscard]] std::string_view name_of(Packing packing);
+
+// What `source` holds, unpacked. Throws InputError while it is read where the stream is broken.
+[[nodiscard]] ByteSource unpacked(ByteSource source, Packing packing, const std::string& file);
+
+// The bytes of a file from `start` on, as they are. Throws IoError.
+[[nodiscard]] ByteSource file_bytes(const std::filesystem::path& file, std::uint64_t start = 0);
+
+// The packing of a file, `none` where its format is to judge it.
+[[nodiscard]] Packing packing_of_file(const std::filesystem::path& file);
+
+// What a file holds, unpacked where it is compressed.
+[[nodiscard]] ByteSource content_bytes(const std::filesystem::path& file);
+
+// Up to `most` bytes of what a file holds, unpacked, from the first one on.
+[[nodiscard]] std::string content_start(const std::filesystem::path& file, std::size_t most);
+
+// Reads and drops so many bytes, or all where there are fewer; returns how many.
+std::uint64_t skip_bytes(const ByteSource& source, std::uint64_t count);
+
+}  // namespace triptych::scene

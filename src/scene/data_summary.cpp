@@ -1,0 +1,207 @@
+#include "scene/data_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "scene/scalar_dispatch.hpp"
+
+namespace triptych::scene {
+namespace {
+
+// A picture of letters, from nothing to much. A letter is about twice as high as it is wide.
+class SmallPicture {
+ public:
+  SmallPicture(double width, double height) {
+    constexpr double longest = 56;
+    const double scale = longest / std::max({width, height, std::numeric_limits<double>::min()});
+    columns_ = std::clamp(static_cast<std::size_t>(std::lround(width * scale)), std::size_t{1},
+                          std::size_t{56});
+    rows_ = std::clamp(static_cast<std::size_t>(std::lround(height * scale / 2)), std::size_t{1},
+                       std::size_t{28});
+    cells_.assign(columns_ * rows_, 0);
+  }
+
+  // The cell at shares x and y of the picture's width and height, y up.
+  [[nodiscard]] double& at(double x, double y) {
+    const auto place = [](double share, std::size_t count) {
+      const double cell = std::clamp(share, 0.0, 1.0) * static_cast<double>(count);
+      return std::min(static_cast<std::size_t>(cell), count - 1);
+    };
+    return cells_[(rows_ - 1 - place(y, rows_)) * columns_ + place(x, columns_)];
+  }
+
+  void append_to(std::vector<std::string>& lines) const {
+    constexpr std::string_view letters = " .:-=+*#%@";
+    const double most = *std::ranges::max_element(cells_);
+    for (std::size_t row = 0; row < rows_; ++row) {
+      std::string line = "    ";
+      for (std::size_t column = 0; column < columns_; ++column) {
+        const double share = most > 0 ? cells_[row * columns_ + column] / most : 0;
+        line += letters[static_cast<std::size_t>(std::lround(share * 9))];
+      }
+      line.erase(line.find_last_not_of(' ') + 1);
+      lines.push_back(std::move(line));
+    }
+  }
+
+ private:
+  std::size_t columns_ = 1;
+  std::size_t rows_ = 1;
+  std::vector<double> cells_;
+};
+
+void add_notes(std::vector<std::string>& lines, const ReadFacts& facts) {
+  for (const std::string& note : facts.notes) lines.push_back("note: " + note);
+}
+
+std::string unit_text(const ReadFacts& facts) {
+  return facts.unit.empty() ? " (the file states no unit)" : " " + facts.unit;
+}
+
+// Values counted in equal steps of their range: exact to a 65536th of it.
+struct Histogram {
+  std::vector<std::uint64_t> counts = std::vector<std::uint64_t>(65536);
+  std::uint64_t finite = 0;
+  std::uint64_t other = 0;
+};
+
+Histogram histogram_of(const Volume& volume) {
+  Histogram histogram;
+  const double lo = volume.range_lo;
+  const double steps = volume.range_hi > lo ? 65535 / (volume.range_hi - lo) : 0;
+  with_scalar_type(volume.type, [&](auto zero) {
+    using Scalar = decltype(zero);
+    for (std::size_t i = 0; i < volume.voxel_count(); ++i) {
+      const auto value = static_cast<double>(load_scalar<Scalar>(volume.voxels.data(), i));
+      if (!std::isfinite(value)) {
+        ++histogram.other;
+        continue;
+      }
+      ++histogram.finite;
+      const double step = std::clamp(std::round((value - lo) * steps), 0.0, 65535.0);
+      ++histogram.counts[static_cast<std::size_t>(step)];
+    }
+  });
+  return histogram;
+}
+
+double percentile_of(const Histogram& histogram, const Volume& volume, double percent) {
+  const double rank = std::max(std::ceil(percent / 100 * static_cast<double>(histogram.finite)), 1.0);
+  std::uint64_t below = 0;
+  std::size_t step = 0;
+  for (; step + 1 < histogram.counts.size(); ++step) {
+    below += histogram.counts[step];
+    if (static_cast<double>(below) >= rank) break;
+  }
+  return volume.range_lo + (volume.range_hi - volume.range_lo) * static_cast<double>(step) / 65535;
+}
+
+void append_picture(std::vector<std::string>& lines, const Volume& volume) {
+  const auto [nx, ny, nz] = volume.size;
+  SmallPicture picture(nx * volume.spacing[0], ny * volume.spacing[1]);
+  const double range = volume.range_hi - volume.range_lo;
+  if (!(range > 0)) return;
+  with_scalar_type(volume.type, [&](auto zero) {
+    using Scalar = decltype(zero);
+    std::size_t index = 0;
+    for (int k = 0; k < nz; ++k) {
+      for (int j = 0; j < ny; ++j) {
+        for (int i = 0; i < nx; ++i, ++index) {
+          const auto value = static_cast<double>(load_scalar<Scalar>(volume.voxels.data(), index));
+          if (!std::isfinite(value)) continue;
+          double& cell = picture.at((i + 0.5) / nx, (j + 0.5) / ny);
+          cell = std::max(cell, (value - volume.range_lo) / range);
+        }
+      }
+    }
+  });
+  lines.emplace_back("picture, the largest value along z, x to the right and y up:");
+  picture.append_to(lines);
+}
+
+void append_picture(std::vector<std::string>& lines, const ParticleSet& set, const Box& box) {
+  SmallPicture picture(box.hi.x - box.lo.x, box.hi.y - box.lo.y);
+  for (const auto& sphere : set.spheres) {
+    const auto share = [](double at, double lo, double hi) {
+      return hi > lo ? (at - lo) / (hi - lo) : 0.5;
+    };
+    picture.at(share(sphere[0], box.lo.x, box.hi.x), share(sphere[1], box.lo.y, box.hi.y)) += 1;
+  }
+  lines.emplace_back("picture, the number of centres along z, x to the right and y up:");
+  picture.append_to(lines);
+}
+
+}  // namespace
+
+std::vector<std::string> summary_of(const Volume& volume) {
+  const ReadFacts& facts = volume.facts;
+  const auto [nx, ny, nz] = volume.size;
+  const auto [sx, sy, sz] = volume.spacing;
+  const Histogram histogram = histogram_of(volume);
+  const std::string unit = unit_text(facts);
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("data: {}", volume.name));
+  lines.push_back(fmt::format("format: {}", facts.format.empty() ? "generated" : facts.format));
+  lines.push_back(fmt::format("voxels: {} x {} x {}, {} each of {}, kept as {}", nx, ny, nz,
+                              facts.components == 1 ? "one value"
+                                                    : fmt::format("{} values", facts.components),
+                              facts.value_type.empty() ? name_of(volume.type) : facts.value_type,
+                              name_of(volume.type)));
+  lines.push_back(fmt::format("spacing: {:.6g} x {:.6g} x {:.6g}{}", sx, sy, sz, unit));
+  lines.push_back(fmt::format("extent: {:.6g} x {:.6g} x {:.6g}{}", nx * sx, ny * sy, nz * sz, unit));
+  lines.push_back(fmt::format(
+      "orientation: {}", facts.orientation.empty()
+                             ? "not stated"
+                             : facts.orientation + " (where the axes x, y and z point)"));
+  lines.push_back(fmt::format("range: {:.9g} to {:.9g}{}", volume.range_lo, volume.range_hi,
+                              histogram.other == 0
+                                  ? ""
+                                  : fmt::format(", and {} values that are not finite",
+                                                histogram.other)));
+  std::string percentiles = "percentiles:";
+  for (const double percent : {1.0, 25.0, 50.0, 75.0, 99.0}) {
+    percentiles +=
+        fmt::format(" p{} {:.6g}", percent, percentile_of(histogram, volume, percent));
+  }
+  lines.push_back(percentiles);
+  append_picture(lines, volume);
+  add_notes(lines, facts);
+  return lines;
+}
+
+std::vector<std::string> summary_of(const ParticleSet& set) {
+  const ReadFacts& facts = set.facts;
+  const std::string unit = unit_text(facts);
+  const Box box = bounding_box(set);
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("data: {}", set.name));
+  lines.push_back(fmt::format("format: {}", facts.format.empty() ? "generated" : facts.format));
+  lines.push_back(fmt::format("particles: {}{}", set.count(),
+                              set.dropped == 0
+                                  ? ""
+                                  : fmt::format(", and {} dropped, whose place or radius cannot be "
+                                                "drawn",
+                                                set.dropped)));
+  if (!facts.kinds.empty()) {
+    std::string kinds = facts.elements ? "elements:" : "types:";
+    for (const auto& [name, count] : facts.kinds) kinds += fmt::format(" {} {}", name, count);
+    lines.push_back(kinds);
+  }
+  lines.push_back(fmt::format("extent: ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}){}",
+                              box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z, unit));
+  if (!set.spheres.empty()) {
+    const auto [least, most] = std::ranges::minmax(
+        set.spheres, {}, [](const std::array<float, 4>& sphere) { return sphere[3]; });
+    lines.push_back(fmt::format("radii: {:.6g} to {:.6g}{}", least[3], most[3], unit));
+  }
+  append_picture(lines, set, box);
+  add_notes(lines, facts);
+  return lines;
+}
+
+}  // namespace triptych::scene

@@ -1,0 +1,125 @@
+#include "scene/format_advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "scene/particle_formats.hpp"
+#include "scene/text_lines.hpp"
+#include "scene/volume_formats.hpp"
+
+namespace triptych::scene {
+namespace {
+
+// A format that is not read, the nearest one that is, and the command of a common program.
+struct Conversion {
+  std::string_view endings;
+  std::string_view what;
+  std::string_view to;
+  std::string_view command;
+};
+
+constexpr std::array<Conversion, 14> of_particles{{
+    {".xtc .trr .tng .tpr", "a GROMACS file", ".gro", "gmx trjconv -f IN.xtc -s RUN.tpr -o OUT.gro"},
+    {".dcd .psf .crd .prmtop .parm7 .inpcrd .rst7 .nc .ncdf .mdcrd",
+     "a file of CHARMM, NAMD or AMBER", ".pdb",
+     "python3 -c \"import MDAnalysis as m; m.Universe('TOPOLOGY','TRAJECTORY').atoms.write('OUT.pdb')\""},
+    {".mol2 .sdf .mol .mdl .smi .cml .cdx", "a molecule", ".xyz", "obabel IN -O OUT.xyz"},
+    {".pdbqt", "an AutoDock file", ".pdb", "obabel IN.pdbqt -O OUT.pdb"},
+    {".bcif .mmtf", "a binary structure of the PDB", ".cif",
+     "download the entry as mmCIF: https://files.rcsb.org/download/ID.cif"},
+    {".mtz .mrc", "no list of atoms", ".cif", "ask for the model that belongs to it"},
+    {".poscar .contcar .vasp", "a VASP structure", ".extxyz", "ase convert -i vasp IN OUT.extxyz"},
+    {".traj .db .cell .res .castep .xsf .in .gen .cfg .xml .json", "a structure for ASE", ".extxyz",
+     "ase convert IN OUT.extxyz"},
+    {".gsd", "a HOOMD-blue file", ".xyz",
+     "python3 -c \"import MDAnalysis as m; m.Universe('IN.gsd').atoms.write('OUT.xyz')\""},
+    {".restart", "a LAMMPS restart", ".data", "lmp -restart2data IN.restart OUT.data"},
+    {".cube .cub", "atoms and a volume in one", ".xyz", "obabel IN.cube -O OUT.xyz"},
+    {".ply .las .laz .pcd .pts", "a cloud of points without radii", ".xyz",
+     "write a line 'C x y z' for each point, after its number of points and an empty line"},
+    {".csv .txt .npy", "a table", ".xyz",
+     "write a line 'ELEMENT x y z' for each particle, after their number and an empty line"},
+    {".vtu .vtp .pvd", "a VTK mesh", ".xyz",
+     "in ParaView: File, Save Data, as CSV; then a line 'C x y z' for each point"},
+}};
+
+constexpr std::array<Conversion, 14> of_volumes{{
+    {".dcm .dicom .ima", "one DICOM slice", ".nii", "dcm2niix -o . FOLDER"},
+    {".mgz .mgh", "a FreeSurfer volume", ".nii.gz", "mri_convert IN.mgz OUT.nii.gz"},
+    {".mnc", "a MINC volume", ".nii", "mnc2nii IN.mnc OUT.nii"},
+    {".tif .tiff", "a TIFF stack", ".raw and its size",
+     "python3 -c \"import tifffile as t; a=t.imread('IN.tif'); print(a.shape[::-1], a.dtype); "
+     "a.tofile('OUT.raw')\"; then data=OUT.raw:XxYxZ:TYPE"},
+    {".mrc .map .ccp4 .rec .st", "a density map", "its size",
+     "by its size, behind a header of 1024 bytes: data=IN.mrc:XxYxZ:f32:skip=1024"},
+    {".npy .npz", "a NumPy array", ".raw and its size",
+     "python3 -c \"import numpy as n; a=n.load('IN.npy'); print(a.shape[::-1], a.dtype); "
+     "a.tofile('OUT.raw')\"; then data=OUT.raw:XxYxZ:TYPE"},
+    {".h5 .hdf5 .hdf .nc .nc4 .bp", "an HDF5 or netCDF file", ".raw and its size",
+     "h5dump -d DATASET -b LE -o OUT.raw IN.h5; then data=OUT.raw:XxYxZ:TYPE"},
+    {".vtu .vtp .vts .vtr .vtm .pvd .pvti", "a VTK file that is no single image", ".vti",
+     "in ParaView: Filters, Resample To Image; then File, Save Data, as .vti"},
+    {".czi .lif .ims .oib .nd2 .lsm .stk", "a microscope's file", ".nrrd",
+     "in Fiji: File, Import, Bio-Formats; then File, Save As, Nrrd"},
+    {".jpg .jpeg .png .bmp .jp2", "one slice", ".nrrd",
+     "in Fiji: File, Import, Image Sequence; then File, Save As, Nrrd"},
+    {".img", "the voxels of an Analyze or NIfTI pair", ".hdr", "name the .hdr file beside it"},
+    {".cube .cub .xplor .dx", "a density of a chemistry program", ".nrrd",
+     "in ChimeraX: open IN; save OUT.mrc; then data=OUT.mrc:XxYxZ:f32:skip=1024"},
+    {".pvm .vol .bov .raw .bin .img16 .yuv", "voxels whose size the name does not say",
+     "its size", "data=FILE:XxYxZ:TYPE, for instance head.raw:256x256x128:u8"},
+    {".fits .fit", "an astronomical image", ".raw and its size",
+     "python3 -c \"from astropy.io import fits; a=fits.getdata('IN.fits'); print(a.shape[::-1], "
+     "a.dtype); a.astype('<f4').tofile('OUT.raw')\"; then data=OUT.raw:XxYxZ:f32"},
+}};
+
+std::string advice(std::string_view ending, std::span<const Conversion> conversions,
+                   std::string_view endings) {
+  const auto known = std::ranges::find_if(
+      conversions, [&](const Conversion& each) { return has_ending(each.endings, ending); });
+  if (known == conversions.end()) {
+    return fmt::format("expected {}, plain or compressed with gzip or bzip2", endings);
+  }
+  return fmt::format("{} is {}; the nearest format that is read is {}: {} (read are {})", ending,
+                     known->what, known->to, known->command, endings);
+}
+
+template <typename Format>
+std::string all_endings(std::span<const Format> formats) {
+  std::string all;
+  for (const Format& format : formats) {
+    for (const std::string_view ending : split_words(format.endings)) {
+      all += all.empty() ? "" : " ";
+      all += ending;
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+bool has_ending(std::string_view endings, std::string_view ending) {
+  const auto words = split_words(endings);
+  return !ending.empty() && std::ranges::find(words, ending) != words.end();
+}
+
+std::string particle_endings() {
+  return all_endings(particle_formats());
+}
+
+std::string volume_endings() {
+  return all_endings(volume_formats());
+}
+
+std::string particle_advice(std::string_view ending) {
+  return advice(ending, of_particles, particle_endings());
+}
+
+std::string volume_advice(std::string_view ending) {
+  return advice(ending, of_volumes, volume_endings());
+}
+
+}  // namespace triptych::scene

@@ -1,0 +1,23 @@
+#pragma once
+// What headers of volumes have in common: directions of axes, and names of anatomical directions.
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace triptych::scene {
+
+using Vector3 = std::array<double, 3>;
+
+[[nodiscard]] double dot_product(const Vector3& a, const Vector3& b);
+[[nodiscard]] double length_of(const Vector3& a);
+
+// Which two axes are not perpendicular, as "axes 0 and 1"; empty where all are, to a thousandth.
+[[nodiscard]] std::string sheared_axes(const std::array<Vector3, 3>& axes);
+
+// Where each axis points mostly: "RAS" for an axis along +x, +y and +z of a space whose axes point
+// to R, A and S. `positive` names the space's own directions, "RAS" or "LPS".
+[[nodiscard]] std::string anatomical_letters(const std::array<Vector3, 3>& axes,
+                                             std::string_view positive);
+
+}  // namespace triptych::scene

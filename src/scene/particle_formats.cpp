@@ -1,0 +1,111 @@
+#include "scene/particle_formats.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.hpp"
+#include "scene/format_advice.hpp"
+#include "scene/gro.hpp"
+#include "scene/lammps.hpp"
+#include "scene/line_reader.hpp"
+#include "scene/mmcif.hpp"
+#include "scene/mmpld.hpp"
+#include "scene/pdb.hpp"
+#include "scene/pqr.hpp"
+#include "scene/text_lines.hpp"
+#include "scene/xyz.hpp"
+
+namespace triptych::scene {
+namespace {
+
+template <auto read_text>
+ParticleSet read_lines(const ParticleContent& content, std::uint64_t frame, ColourKind colour) {
+  LineReader lines({content.bytes.data(), content.bytes.size()}, content.file, content.progress);
+  return read_text(lines, frame, colour);
+}
+
+ParticleSet read_binary_mmpld(const ParticleContent& content, std::uint64_t frame,
+                              ColourKind colour) {
+  return read_mmpld(content.bytes, content.file, frame, colour, content.progress);
+}
+
+bool begins_as_pdb(std::string_view start) {
+  constexpr std::array<std::string_view, 5> records{"HEADER    ", "CRYST1", "ATOM      ", "HETATM ",
+                                                    "MODEL     "};
+  return std::ranges::any_of(records, [&](auto record) { return start.starts_with(record); });
+}
+
+bool begins_as_cif(std::string_view start) {
+  for (;;) {
+    start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n"), start.size()));
+    if (!start.starts_with('#')) break;
+    start.remove_prefix(std::min(start.find('\n'), start.size()));
+  }
+  return lower_case(start.substr(0, 5)) == "data_";
+}
+
+bool begins_as_dump(std::string_view start) {
+  return start.starts_with("ITEM: ");
+}
+
+bool begins_as_mmpld(std::string_view start) {
+  return start.starts_with("MMPLD");
+}
+
+bool never(std::string_view /*start*/) {
+  return false;
+}
+
+constexpr std::array<ParticleFormat, 8> formats{
+    {{"PDB", ".pdb .ent .pdb1 .pdb2 .pdb3 .pdb4 .pdb5 .brk", "Å", begins_as_pdb, true,
+      read_lines<read_pdb>},
+     {"mmCIF", ".cif .mmcif .pdbx", "Å", begins_as_cif, true, read_lines<read_mmcif>},
+     {"PQR", ".pqr", "Å", never, true, read_lines<read_pqr>},
+     {"GROMACS", ".gro", "nm", never, true, read_lines<read_gro>},
+     {"XYZ", ".xyz .extxyz .exyz", "Å", never, true, read_lines<read_xyz>},
+     {"LAMMPS dump", ".lammpstrj .dump .lammpsdump", "", begins_as_dump, true,
+      read_lines<read_lammps_dump>},
+     {"LAMMPS data", ".data .lmp .lammps .lmpdat", "", never, true, read_lines<read_lammps_data>},
+     {"MMPLD", ".mmpld", "", begins_as_mmpld, false, read_binary_mmpld}}};
+
+// The ending that names the format, without that of a compression.
+std::string ending_of(const std::filesystem::path& file) {
+  const std::string last = lower_case(file.extension().string());
+  const bool packed = last == ".gz" || last == ".bz2";
+  return packed ? lower_case(file.stem().extension().string()) : last;
+}
+
+// A PQR file has the records of a PDB file.
+bool begin_alike(const ParticleFormat& named, const ParticleFormat& begun) {
+  return named.name == "PQR" && begun.name == "PDB";
+}
+
+}  // namespace
+
+std::span<const ParticleFormat> particle_formats() {
+  return formats;
+}
+
+const ParticleFormat& particle_format(const std::string& file, std::string_view start) {
+  const std::string ending = ending_of(file);
+  const auto named = std::ranges::find_if(
+      formats, [&](const ParticleFormat& format) { return has_ending(format.endings, ending); });
+  const auto begun =
+      std::ranges::find_if(formats, [&](const ParticleFormat& format) { return format.begins(start); });
+  if (named == formats.end() && begun == formats.end()) {
+    throw core::InputError({.file = file}, fmt::format("'{}' is no known format of particles; {}",
+                                                       quotable(ending), particle_advice(ending)));
+  }
+  if (named == formats.end()) return *begun;
+  if (begun == formats.end() || begun == named || begin_alike(*named, *begun)) return *named;
+  // Names such as .lammps and .data stand for both of LAMMPS' formats.
+  if (begun->name == "LAMMPS dump" && named->name == "LAMMPS data") return *begun;
+  throw core::InputError(
+      {.file = file},
+      fmt::format("is named as {} ({}) but begins as {}; if that is what it is, rename it to {}",
+                  named->name, ending, begun->name, split_words(begun->endings).front()));
+}
+
+}  // namespace triptych::scene

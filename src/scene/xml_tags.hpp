@@ -1,0 +1,48 @@
+#pragma once
+// The tags of an XML file, one by one, with where each ends in the file: for formats that keep much
+// data between tags. Not a whole XML parser: entities in attributes are left as they are.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/inflate.hpp"
+
+namespace triptych::scene {
+
+struct XmlTag {
+  std::string name;  // "/NAME" of a closing tag
+  std::map<std::string, std::string> attributes;
+  bool empty = false;     // <NAME/>
+  std::uint64_t end = 0;  // of the byte after '>'
+
+  [[nodiscard]] std::string attribute(const std::string& key, const std::string& otherwise = {}) const {
+    const auto found = attributes.find(key);
+    return found == attributes.end() ? otherwise : found->second;
+  }
+};
+
+class XmlTags {
+ public:
+  XmlTags(ByteSource source, std::string file);
+
+  // The next tag, or nothing at the end. Comments, declarations and texts are skipped. Throws
+  // InputError for a tag that does not end or is too long.
+  [[nodiscard]] std::optional<XmlTag> next();
+
+ private:
+  [[nodiscard]] std::optional<char> letter();
+  [[nodiscard]] std::string until_end();
+  [[nodiscard]] XmlTag parse(std::string_view text) const;
+
+  ByteSource source_;
+  std::string file_;
+  std::vector<std::byte> buffer_;
+  std::size_t at_ = 0;
+  std::size_t size_ = 0;
+  std::uint64_t taken_ = 0;
+};
+
+}  // namespace triptych::scene
