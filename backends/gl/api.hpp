@@ -23,9 +23,15 @@ struct Api : GladGLContext {
   // From now on check() also reports the driver's error messages. Needs KHR_debug (GL 4.3).
   void collect_messages();
 
+  // From now on labels are given to the driver, where it takes them (KHR_debug).
+  void label_all() { labelled = PushDebugGroup != nullptr && ObjectLabel != nullptr; }
+
   // Throws core::DeviceLost or core::ApiError when any call since the last check failed; `call`
   // names the last of them, or the one that matters.
   void check(std::string_view call, core::CodePlace place = core::CodePlace::current()) const;
+
+  // Objects and commands are named for tools: KHR_debug is there, and asked for.
+  bool labelled = false;
 
   measure::MemoryLedger held;  // by textures, renderbuffers and buffers of this context
 
@@ -43,6 +49,25 @@ struct Api : GladGLContext {
   static void GLAD_API_PTR on_message(GLenum source, GLenum type, GLuint id, GLenum severity,
                                       GLsizei length, const GLchar* message, const void* user);
   std::unique_ptr<Messages> messages_;  // at an address that the driver keeps
+};
+
+// Names the calls that are made while it lives, for tools that show them. Does nothing where
+// nothing is labelled.
+class Label {
+ public:
+  Label(const Api& gl, std::string_view name) : gl_(gl.labelled ? &gl : nullptr) {
+    if (gl_ == nullptr) return;
+    gl_->PushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(name.size()),
+                        name.data());
+  }
+  Label(const Label&) = delete;
+  Label& operator=(const Label&) = delete;
+  ~Label() {
+    if (gl_ != nullptr) gl_->PopDebugGroup();
+  }
+
+ private:
+  const Api* gl_;
 };
 
 }  // namespace triptych::gl_backend

@@ -52,6 +52,10 @@ void CellDraws::draw(const Api& gl, GLenum mode) const {
   gl.MultiDrawArraysIndirect(mode, nullptr, count_, 0);
 }
 
+void CellDraws::poison(const Api& gl) const {
+  if (count_ > 0) refill_buffer(gl, commands_, 0);
+}
+
 std::vector<technique::Cell> thinned(std::span<const technique::Cell> cells, int stride) {
   std::vector<technique::Cell> fewer(cells.begin(), cells.end());
   const auto every = static_cast<std::uint32_t>(stride);

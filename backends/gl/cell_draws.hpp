@@ -17,6 +17,8 @@ class CellDraws {
   // Makes cells and commands bindings 6 and 7, and runs the culling program that is in use.
   void cull(const Api& gl) const;
   void draw(const Api& gl, GLenum mode) const;
+  // Makes every command draw nothing, so that a frame without culling shows nothing.
+  void poison(const Api& gl) const;
 
  private:
   GLsizei count_;

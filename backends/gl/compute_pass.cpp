@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "backends/gl/standalone.hpp"
 #include "technique/volume/extra_work.hpp"
 
 namespace triptych::gl_backend {
@@ -60,6 +61,10 @@ std::span<const Statistic> ComputePass::statistics() const {
   static constexpr std::array<Statistic, 1> told{
       {{GL_COMPUTE_SHADER_INVOCATIONS_ARB, "compute_invocations"}}};
   return told;
+}
+
+void ComputePass::dump(const measure::VolumeWork& work, const std::string& source) const {
+  dump_standalone(work, source, groups(drawn_columns_), groups(height_));
 }
 
 void ComputePass::bind(const Api& gl) {

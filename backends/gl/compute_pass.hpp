@@ -3,6 +3,7 @@
 #include <string>
 
 #include "backends/gl/pass.hpp"
+#include "backends/gl/volume_data.hpp"
 
 namespace triptych::gl_backend {
 
@@ -19,6 +20,8 @@ class ComputePass final : public Pass {
 
   [[nodiscard]] std::vector<Stage> stages(const Api& gl, const Constants& constants) const override;
   [[nodiscard]] std::span<const Statistic> statistics() const override;
+  void poison(const Api& gl) override { poison_buffer(gl, pixels_); }
+  void dump(const measure::VolumeWork& work, const std::string& source) const override;
   void bind(const Api& gl) override;
   void submit(const Api& gl, measure::Purpose purpose) override;
   [[nodiscard]] core::Image read(const Api& gl) const override;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <map>
@@ -26,20 +27,46 @@ constexpr std::array<std::string_view, 11> code_variables{"GALLIUM_DRIVER",
                                                           "MESA_LOADER_DRIVER_OVERRIDE",
                                                           "TRIPTYCH_GL_DEBUG"};
 
+// Drivers that hand everything to another one, by the word that their renderer string begins with.
+struct Layered {
+  std::string_view start;
+  std::string_view name;
+};
+constexpr std::array<Layered, 5> layered_drivers{{{"zink", "zink"},
+                                                  {"virgl", "virgl"},
+                                                  {"ANGLE", "angle"},
+                                                  {"D3D12", "d3d12"},
+                                                  {"gl4es", "gl4es"}}};
+
+const Layered* layered(std::string_view renderer) {
+  const auto* const found = std::ranges::find_if(
+      layered_drivers, [&](const Layered& each) { return renderer.starts_with(each.start); });
+  return found == layered_drivers.end() ? nullptr : found;
+}
+
+// "zink (llvmpipe (LLVM 15.0.6, 256 bits))", "virgl (…)" and "ANGLE (…)" name what they run on in
+// parentheses.
+std::string host_of(std::string_view renderer) {
+  const std::size_t begin = renderer.find('(');
+  const std::size_t end = renderer.rfind(')');
+  if (begin == std::string_view::npos || end == std::string_view::npos || end < begin) {
+    return "an unnamed driver";
+  }
+  return std::string(renderer.substr(begin + 1, end - begin - 1));
+}
+
 // A short name by what the vendor and renderer strings contain; else the renderer's first word.
 std::string driver_name(const std::string& vendor, const std::string& renderer) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> known{{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> known{{
       {"llvmpipe", "llvmpipe"},
       {"softpipe", "softpipe"},
-      {"zink", "zink"},
-      {"virgl", "virgl"},
       {"SVGA3D", "svga"},
       {"radeonsi", "radeonsi"},
       {"NVIDIA", "nvidia"},
       {"AMD", "amd"},
       {"Intel", "intel"},
   }};
-  // The renderer first: zink's names the GPU it runs on as well.
+  if (const Layered* found = layered(renderer)) return std::string(found->name);
   for (const std::string& text : {renderer, vendor}) {
     for (const auto& [part, name] : known) {
       if (text.find(part) != std::string::npos) return std::string(name);
@@ -61,6 +88,7 @@ std::string driver_version(const std::string& version, const std::string& render
   std::size_t begin = version.find(profile);
   begin = begin != std::string::npos ? begin + profile.size() : version.find(' ') + 1;
   std::string text = version.substr(begin);
+  if (layered(renderer) != nullptr) return text + " on " + host_of(renderer);
   const std::size_t llvm = renderer.find("LLVM ");
   if (llvm != std::string::npos) {
     text += fmt::format(" ({})", renderer.substr(llvm, renderer.find_first_of(",)", llvm) - llvm));
@@ -94,7 +122,11 @@ std::map<std::string, std::string> limits_of(const Api& gl) {
 }  // namespace
 
 bool is_software(const record::Device& info) {
-  return info.driver == "llvmpipe" || info.driver == "softpipe";
+  // What a layered driver runs on is part of its version.
+  for (const std::string_view name : {"llvmpipe", "softpipe", "LLVMPIPE", "SwiftShader"}) {
+    if (info.driver == name || info.driver_version.find(name) != std::string::npos) return true;
+  }
+  return false;
 }
 
 record::Device device_info(const Api& gl, std::string_view suffix) {

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <limits>
+
 #include "core/error.hpp"
 
 namespace triptych::gl_backend {
@@ -36,6 +39,12 @@ void check_framebuffer(const Api& gl) {
     throw core::ApiError("glCheckFramebufferStatus", fmt::format("{:#06x}", status));
   }
   gl.check("glCheckFramebufferStatus");
+}
+
+void poison_colour(const Api& gl) {
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  constexpr std::array values{none, none, none, none};
+  gl.ClearBufferfv(GL_COLOR, 0, values.data());
 }
 
 }  // namespace triptych::gl_backend

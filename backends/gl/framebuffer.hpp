@@ -9,4 +9,7 @@ namespace triptych::gl_backend {
 // Throws core::ApiError where the framebuffer that is bound is not complete.
 void check_framebuffer(const Api& gl);
 
+// Fills the first colour target of the framebuffer that is bound with NaN.
+void poison_colour(const Api& gl);
+
 }  // namespace triptych::gl_backend

@@ -45,6 +45,16 @@ void ParticleTarget::bind(const Api& gl) const {
   gl.DepthFunc(passes);
 }
 
+// A depth that no pixel of a frame keeps: the frame clears it, and what is drawn writes its own.
+void ParticleTarget::poison(const Api& gl) const {
+  bind(gl);
+  constexpr GLuint id = core::Image::no_particle - 1;
+  constexpr float depth = 0.75F;
+  poison_colour(gl);
+  gl.ClearBufferuiv(GL_COLOR, 1, &id);
+  gl.ClearBufferfv(GL_DEPTH, 0, &depth);
+}
+
 void ParticleTarget::clear(const Api& gl, const std::array<float, 4>& background) const {
   constexpr GLuint none = core::Image::no_particle;
   const float depth = fault_ == ParticleFault::reversed_depth ? 1.0F : 0.0F;

@@ -14,6 +14,8 @@ class ParticleTarget {
 
   // Makes it the current one, with the depth test that goes with it.
   void bind(const Api& gl) const;
+  // Overwrites every attachment: colour with NaN.
+  void poison(const Api& gl) const;
   // Background, no particle, and a depth that everything passes.
   void clear(const Api& gl, const std::array<float, 4>& background) const;
   // `near`: the scale of the depth buffer, Z = near/z.

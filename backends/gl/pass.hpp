@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "backends/gl/program.hpp"
@@ -26,6 +27,10 @@ class Pass {
                                                   const Constants& constants) const = 0;
   // Statistics of the stages it uses.
   [[nodiscard]] virtual std::span<const Statistic> statistics() const = 0;
+  // Overwrites the image with NaN.
+  virtual void poison(const Api& gl) = 0;
+  // Where a dump is asked for, a program of its own that draws the frame (standalone.hpp).
+  virtual void dump(const measure::VolumeWork& /*work*/, const std::string& /*source*/) const {}
   // Makes its target the current one; before the clock starts.
   virtual void bind(const Api& gl) = 0;
   // The calls that are timed: the picture and, but for counters, the injected extra work beside it.

@@ -26,6 +26,13 @@ class DrawingPrepared final : public measure::Prepared {
     }
   }
 
+  void poison() override {
+    const Current current(context_);
+    const Api& gl = context_.gl();
+    owned_->drawing->poison(gl);
+    gl.check("poison");
+  }
+
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override {
     const Current current(context_);
     const Api& gl = context_.gl();
@@ -35,6 +42,7 @@ class DrawingPrepared final : public measure::Prepared {
 
     measure::Frame frame;
     const auto draw = [&] {
+      const Label label(gl, "frame");
       const Elapsed elapsed = owned_->stopwatch.time([&] { drawing.submit(gl, purpose); });
       frame.wall_ns = elapsed.wall_ns;
       if (purpose == measure::Purpose::timing) frame.device_ns = elapsed.device_ns;

@@ -23,6 +23,8 @@ class Drawing {
 
   // Statistics of the stages it uses.
   [[nodiscard]] virtual std::span<const Statistic> statistics() const = 0;
+  // Overwrites everything that a frame leaves behind, as measure::Prepared::poison() has it.
+  virtual void poison(const Api& gl) = 0;
   // What a frame needs before its clock starts: state, and the counting build where it counts.
   virtual void bind(const Api& gl, measure::Purpose purpose) = 0;
   // The calls that are timed.

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <chrono>
 #include <vector>
 
 #include "core/error.hpp"
+#include "measure/contract/dump.hpp"
 #include "technique/sources.hpp"
 #include "triptych_backend_gl_embedded.hpp"
 
@@ -74,15 +76,35 @@ std::string_view stage_name(GLenum type) {
   }
 }
 
+// As glslang tells stages apart by files.
+std::string_view extension_of(GLenum type) {
+  switch (type) {
+    case GL_VERTEX_SHADER:
+      return "vert";
+    case GL_TESS_CONTROL_SHADER:
+      return "tesc";
+    case GL_TESS_EVALUATION_SHADER:
+      return "tese";
+    case GL_GEOMETRY_SHADER:
+      return "geom";
+    case GL_FRAGMENT_SHADER:
+      return "frag";
+    default:
+      return "comp";
+  }
+}
+
 // The log of a shader or program, read by the two functions that differ in name only.
 template <class GetSize, class GetLog>
 std::string log_of(GLuint name, GetSize get_size, GetLog get_log) {
   GLint size = 0;
   get_size(name, GL_INFO_LOG_LENGTH, &size);
-  std::string log(static_cast<std::size_t>(size > 0 ? size : 0), '\0');
+  if (size <= 0) return fmt::format("the driver has no log: GL_INFO_LOG_LENGTH is {}", size);
+  std::string log(static_cast<std::size_t>(size), '\0');
   GLsizei length = 0;
-  if (size > 0) get_log(name, size, &length, log.data());
-  log.resize(static_cast<std::size_t>(length));
+  get_log(name, size, &length, log.data());
+  // Some drivers return a length of -1, or none at all.
+  log.resize(length > 0 && length <= size ? static_cast<std::size_t>(length) : log.find('\0'));
   return log;
 }
 
@@ -132,6 +154,7 @@ Stage volume_stage(const Api& gl, GLenum type, const Constants& constants,
 }
 
 Program link(const Api& gl, std::span<const Stage> stages) {
+  const auto begin = std::chrono::steady_clock::now();
   Program program(gl, gl.CreateProgram());
   std::vector<Shader> shaders;
   for (const Stage& stage : stages) {
@@ -145,7 +168,22 @@ Program link(const Api& gl, std::span<const Stage> stages) {
     throw core::ApiError("glLinkProgram", "GL_FALSE",
                          log_of(program.get(), gl.GetProgramiv, gl.GetProgramInfoLog));
   }
+  if (gl.labelled) {
+    std::string name;
+    for (const Stage& stage : stages)
+      name += fmt::format("{}{}", name.empty() ? "" : ", ", stage_name(stage.type));
+    gl.ObjectLabel(GL_PROGRAM, program.get(), static_cast<GLsizei>(name.size()), name.data());
+  }
   gl.check("glLinkProgram");
+  if (measure::dump_folder()) {
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    for (const Stage& stage : stages) {
+      measure::write_dump("shader", extension_of(stage.type), stage.source,
+                          fmt::format("{}; its program of {} stages was compiled and linked in "
+                                      "{:.1f} ms",
+                                      stage_name(stage.type), stages.size(), took.count()));
+    }
+  }
   return program;
 }
 

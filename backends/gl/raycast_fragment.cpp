@@ -57,6 +57,11 @@ class FragmentPass final : public Pass {
     return told;
   }
 
+  void poison(const Api& gl) override {
+    target_.bind(gl);
+    poison_colour(gl);
+  }
+
   void bind(const Api& gl) override {
     gl.BindVertexArray(no_vertices_.get());
     target_.bind(gl);

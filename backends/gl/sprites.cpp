@@ -106,9 +106,18 @@ class SpriteDrawing final : public Drawing {
 
   [[nodiscard]] std::span<const Statistic> statistics() const override { return statistics_; }
 
+  void poison(const Api& gl) override {
+    target_.poison(gl);
+    if (options_.culling == Culling::none) return;
+    for (const CellDraws& each : draws_) each.poison(gl);
+  }
+
   void bind(const Api& gl, Purpose purpose) override {
     if (purpose == Purpose::counters) {
-      if (occlusion_) settle(gl);
+      if (occlusion_) {
+        settle(gl);
+        poison(gl);
+      }
       if (!counting_) {
         ParticleConstants constants = constants_;
         constants.count = true;
@@ -198,6 +207,7 @@ class SpriteDrawing final : public Drawing {
   void draw(const Api& gl, const Programs& programs, const std::vector<CellDraws>& draws,
             std::size_t pass) const {
     if (options_.culling != Culling::none) {
+      const Label label(gl, "cull cells");
       for (std::size_t i = 0; i < draws.size(); ++i) {
         gl.UseProgram(programs.draws[i].cull[pass].get());
         draws[i].cull(gl);
@@ -205,6 +215,7 @@ class SpriteDrawing final : public Drawing {
       // Commands are drawn next; what was seen is read by the next culling, maybe a frame later.
       gl.MemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     }
+    const Label label(gl, "draw sprites");
     for (std::size_t i = 0; i < draws.size(); ++i) {
       gl.UseProgram(programs.draws[i].sprites.get());
       draws[i].draw(gl, sprites_[i].mode);

@@ -216,6 +216,10 @@ void TileBuffers::clear_pixels(const Api& gl) const {
   copy(gl, no_particles_, pixels_, pixel_bytes(), pixel_bytes());
 }
 
+void TileBuffers::poison(const Api& gl) const {
+  for (const Buffer* each : {&camera_spheres_, &kept_, &entries_}) poison_buffer(gl, *each);
+}
+
 void TileBuffers::clear(const Api& gl) const {
   gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   copy(gl, zeros_, tile_states_, 0, tile_bytes());

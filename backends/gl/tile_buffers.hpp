@@ -34,6 +34,8 @@ class TileBuffers {
   // Bindings 6…20 of the shared sources.
   void bind(const Api& gl) const;
   void choose(const Api& gl, Cells cells) const;
+  // Overwrites what a frame writes anew before it reads it.
+  void poison(const Api& gl) const;
   // Empty tiles and lists, and pixels unless no round ever draws into them.
   void clear(const Api& gl) const;
   // No large spheres, no entries and no tiles drawn into.

@@ -93,6 +93,11 @@ class TilesDrawing final : public Drawing {
     return told;
   }
 
+  void poison(const Api& gl) override {
+    target_.poison(gl);
+    buffers_.poison(gl);
+  }
+
   void bind(const Api& gl, Purpose purpose) override {
     if (purpose == Purpose::counters) {
       if (!counting_) {
@@ -152,6 +157,7 @@ class TilesDrawing final : public Drawing {
   }
 
   static void run(const Api& gl, const Programs& programs, TilePass pass, GLuint groups) {
+    const Label label(gl, passes[pass]);
     gl.UseProgram(programs.of[pass].get());
     gl.DispatchCompute(groups, 1, 1);
     finish(gl);
@@ -159,6 +165,7 @@ class TilesDrawing final : public Drawing {
 
   static void run_on(const Api& gl, const Programs& programs, TilePass pass,
                      const technique::TileRound& round, GLuint groups) {
+    const Label label(gl, passes[pass]);
     const GLuint program = programs.of[pass].get();
     gl.UseProgram(program);
     gl.Uniform2ui(gl.GetUniformLocation(program, "round_cells"), round.first, round.cells);

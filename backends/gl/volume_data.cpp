@@ -1,10 +1,15 @@
 #include "backends/gl/volume_data.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "measure/contract/dump.hpp"
+#include "measure/contract/not_drawn.hpp"
 #include "technique/volume/brick_map.hpp"
 #include "technique/volume/packed_cells.hpp"
 #include "technique/volume/quadrature_table.hpp"
@@ -106,6 +111,9 @@ Texture volume_texture(const Api& gl, const scene::VoxelGrid& grid, bool linear)
 }
 
 Buffer constant_buffer(const Api& gl, std::span<const std::byte> bytes) {
+  if (measure::dump_folder()) {
+    measure::write_dump("buffer", "bin", bytes, fmt::format("a buffer of {} bytes", bytes.size()));
+  }
   Buffer buffer(gl);
   gl.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.get());
   gl.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes.size()), bytes.data(),
@@ -122,6 +130,23 @@ Buffer device_buffer(const Api& gl, std::size_t size) {
   gl.check("glBufferData");
   buffer.holds(gl.held.buffer(size));
   return buffer;
+}
+
+void poison_buffer(const Api& gl, const Buffer& buffer) {
+  refill_buffer(gl, buffer, measure::poison_word);
+}
+
+void refill_buffer(const Api& gl, const Buffer& buffer, GLuint word) {
+  gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  gl.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.get());
+  GLint64 size = 0;
+  gl.GetBufferParameteri64v(GL_COPY_WRITE_BUFFER, GL_BUFFER_SIZE, &size);
+  fill_buffer(gl, buffer, static_cast<std::size_t>(size),
+              [word](std::size_t, std::span<std::byte> out) {
+                for (std::size_t at = 0; at + sizeof word <= out.size(); at += sizeof word) {
+                  std::memcpy(out.data() + at, &word, sizeof word);
+                }
+              });
 }
 
 // Through a small part of it, so that the host never holds a second copy.

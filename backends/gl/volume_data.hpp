@@ -31,6 +31,11 @@ struct TexelFormat {
 [[nodiscard]] Buffer constant_buffer(const Api& gl, std::span<const std::byte> bytes);
 [[nodiscard]] Buffer device_buffer(const Api& gl, std::size_t size);
 
+// Fills the whole buffer with measure::poison_word.
+void poison_buffer(const Api& gl, const Buffer& buffer);
+// The same with any word.
+void refill_buffer(const Api& gl, const Buffer& buffer, GLuint word);
+
 // Writes the bytes of a buffer that begin at `begin`.
 using Fill = std::function<void(std::size_t begin, std::span<std::byte> out)>;
 void fill_buffer(const Api& gl, const Buffer& buffer, std::size_t size, const Fill& fill);

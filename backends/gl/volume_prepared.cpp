@@ -8,6 +8,7 @@
 
 #include "backends/gl/compute_pass.hpp"
 #include "backends/gl/prepared.hpp"
+#include "measure/contract/not_drawn.hpp"
 #include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
 #include "technique/volume/packed_cells.hpp"
@@ -41,6 +42,7 @@ record::Counts sum_counters(const Api& gl, const Buffer& counters, std::size_t p
   gl.GetBufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(counters_size(pixels)),
                       values.data());
   gl.check("glGetBufferSubData");
+  measure::check_counted(values);
   record::Counts counts{{"rays", pixels}};
   for (std::size_t c = 0; c < technique::raycast_counters.size(); ++c) {
     std::uint64_t& sum = counts[std::string(technique::raycast_counters[c])];
@@ -66,10 +68,16 @@ class VolumeDrawing final : public Drawing {
     std::vector<std::string> sources;
     for (const Stage& stage : stages) sources.push_back(stage.source);
     kernel_hash_ = hash_of(gl, sources);
+    if (data_.parts() == 0) pass_->dump(work, sources.front());
   }
 
   [[nodiscard]] std::span<const Statistic> statistics() const override {
     return pass_->statistics();
+  }
+
+  void poison(const Api& gl) override {
+    pass_->poison(gl);
+    if (counting_) poison_buffer(gl, counting_->counters);
   }
 
   void bind(const Api& gl, measure::Purpose purpose) override {

@@ -32,8 +32,8 @@
 //   }
 // Kinds of failure: crash (abort), exit (the process ends with code 0), hang (never returns),
 // device_lost, api_error, not_supported (thrown; at "supports": the reason given), wrong_image (the
-// picture is off by 0.25), nan_image, garbage (something is written where answers are). Places
-// ("at"): list, open, supports, prepare, frame, image. "frame"
+// picture is off by 0.25), nan_image, stale_image (every frame but the first leaves nothing), garbage
+// (something is written where answers are). Places ("at"): list, open, supports, prepare, frame, image. "frame"
 // counts a Prepared's frames from 0, at "prepare" the prepares of one work, and is any when left
 // out. With "once" it happens only where there is no such file, which it leaves. GLOBs, as
 // fnmatch(3) has them, match describe(work); at "open" they match the device id, at "list" the API.
@@ -61,6 +61,7 @@ enum class FailureKind : std::uint8_t {
   not_supported,
   wrong_image,
   nan_image,
+  stale_image,
   garbage
 };
 enum class Place : std::uint8_t { list, open, supports, prepare, frame, image };

@@ -66,6 +66,11 @@ class NullPrepared final : public measure::Prepared {
 
   ~NullPrepared() override { log_call(*script_, "destroy"); }
 
+  void poison() override {
+    log_call(*script_, "poison");
+    drawn_ = false;
+  }
+
   measure::Frame frame(measure::Purpose purpose) override {
     const char* const name = purpose == measure::Purpose::timing       ? "timing"
                              : purpose == measure::Purpose::statistics ? "statistics"
@@ -73,6 +78,7 @@ class NullPrepared final : public measure::Prepared {
     log_call(*script_, fmt::format("frame {}", name));
     const int number = frames_++;
     play_failure(*script_, Place::frame, subject_, number);
+    drawn_ = true;
     measure::Frame frame;
     frame.wall_ns = frame_ns(*script_, work_, device_factor_, subject_, number);
     if (script_->sleep) {
@@ -93,7 +99,10 @@ class NullPrepared final : public measure::Prepared {
     play_failure(*script_, Place::image, subject_);
     core::Image image = picture(*script_, work_, subject_);
     const std::optional<FailureKind> failure = image_failure(*script_, subject_);
-    if (failure == FailureKind::nan_image) {
+    const bool stale = failure == FailureKind::stale_image && frames_ > 1;
+    if (stale || !drawn_) {
+      std::ranges::fill(image.rgba, std::numeric_limits<float>::quiet_NaN());
+    } else if (failure == FailureKind::nan_image) {
       std::ranges::fill(image.rgba, std::numeric_limits<float>::quiet_NaN());
     } else if (failure == FailureKind::wrong_image) {
       for (float& channel : image.rgba) channel += 0.25F;
@@ -111,6 +120,7 @@ class NullPrepared final : public measure::Prepared {
   std::string subject_;
   double device_factor_;
   int frames_ = 0;
+  bool drawn_ = false;  // since the image was overwritten
 };
 
 class NullDevice final : public measure::Device {
@@ -137,8 +147,8 @@ class NullDevice final : public measure::Device {
   measure::VolumePath default_path(const measure::VolumeKind& volume) const override {
     // As elsewhere, samples and cells of one scene may take different ones.
     return {.voxel = volume.native,
-            .sampler = volume.filter_suffices ? technique::Sampler::manual
-                                              : technique::Sampler::packed};
+            .sampler =
+                volume.filter_suffices ? technique::Sampler::manual : technique::Sampler::packed};
   }
 
   double filter_weight_error(const measure::VolumePath& path) const override {

@@ -18,9 +18,9 @@ namespace {
 
 using core::Json;
 
-constexpr std::array<std::string_view, 9> kind_names{
+constexpr std::array<std::string_view, 10> kind_names{
     "crash",         "exit",        "hang",      "device_lost", "api_error",
-    "not_supported", "wrong_image", "nan_image", "garbage"};
+    "not_supported", "wrong_image", "nan_image", "stale_image", "garbage"};
 constexpr std::array<std::string_view, 6> place_names{"list",    "open",  "supports",
                                                       "prepare", "frame", "image"};
 
@@ -54,7 +54,8 @@ std::string text(const Json& value, std::string_view key) {
 }
 
 bool is_of_image(FailureKind kind) {
-  return kind == FailureKind::wrong_image || kind == FailureKind::nan_image;
+  return kind == FailureKind::wrong_image || kind == FailureKind::nan_image ||
+         kind == FailureKind::stale_image;
 }
 
 // Of several processes one makes the file.
@@ -176,6 +177,7 @@ void play(FailureKind kind) {
       break;
     case FailureKind::wrong_image:
     case FailureKind::nan_image:
+    case FailureKind::stale_image:
       break;  // of the picture: image_failure()
   }
 }

@@ -59,6 +59,18 @@ std::map<std::string, std::string> limits_of(const cl::Device& device) {
 #undef TRI_LIMIT
 }
 
+// Drivers that hand everything to another one, which decides what is computed as much as they do.
+bool is_layered(std::string_view driver) {
+  return driver == "rusticl" || driver == "clvk" || driver == "clon12";
+}
+
+// "22.3.6 on llvmpipe (LLVM 15.0.6, 256 bits)".
+std::string version_of(const cl::Device& device, const std::string& driver) {
+  std::string version = one_line(device.getInfo<CL_DRIVER_VERSION>());
+  if (is_layered(driver)) version += " on " + one_line(device.getInfo<CL_DEVICE_NAME>());
+  return version;
+}
+
 record::Device describe(const cl::Device& device, const std::string& driver) {
   return checked([&] {
     const bool cpu = (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
@@ -67,7 +79,7 @@ record::Device describe(const cl::Device& device, const std::string& driver) {
                           .name = one_line(device.getInfo<CL_DEVICE_NAME>()),
                           .vendor = one_line(device.getInfo<CL_DEVICE_VENDOR>()),
                           .driver = driver,
-                          .driver_version = one_line(device.getInfo<CL_DRIVER_VERSION>()),
+                          .driver_version = version_of(device, driver),
                           .api_version = one_line(device.getInfo<CL_DEVICE_VERSION>()),
                           .cpu_features = cpu ? measure::cpu_features() : std::string(),
                           .environment = environment(),
@@ -134,7 +146,9 @@ void add_platform(Search& search, const cl::Platform& platform, std::map<std::st
 }  // namespace
 
 std::string driver_of(std::string_view platform_name) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> known{{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> known{{
+      {"clvk", "clvk"},
+      {"OpenCLOn12", "clon12"},
       {"Portable Computing Language", "pocl"},
       {"rusticl", "rusticl"},
       {"Clover", "clover"},

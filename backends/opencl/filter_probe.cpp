@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "backends/opencl/launches.hpp"
 #include "backends/opencl/volume_data.hpp"
 #include "core/random.hpp"
 #include "scene/half.hpp"
@@ -95,14 +96,11 @@ void sample_on_device(const Session& session, Programs& programs, const scene::V
     const std::size_t bytes = places.size() * sizeof(Place);
     const cl::Buffer uniform(session.context, CL_MEM_READ_ONLY, sizeof parameters);
     const cl::Buffer buffer(session.context, CL_MEM_READ_WRITE, bytes);
-    session.queue.enqueueWriteBuffer(uniform, CL_TRUE, 0, sizeof parameters, &parameters);
-    session.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, places.data());
-    cl::Kernel kernel(program, "filter_probe");
-    kernel.setArg(0, uniform);
-    kernel.setArg(1, volume);
-    kernel.setArg(2, buffer);
-    session.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(places.size()));
-    session.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, places.data());
+    write_buffer(session, uniform, 0, sizeof parameters, &parameters);
+    write_buffer(session, buffer, 0, bytes, places.data());
+    run_checked(session, {make_launch(program, "filter_probe", cl::NDRange(places.size()),
+                                      cl::NullRange, uniform, volume, buffer)});
+    read_buffer(session, buffer, bytes, places.data());
   });
 }
 

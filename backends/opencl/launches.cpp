@@ -13,19 +13,40 @@ cl::Buffer upload_bytes(const Session& session, std::span<const std::byte> bytes
   const cl::Buffer buffer =
       make_buffer(session, CL_MEM_READ_ONLY, std::max(bytes.size(), smallest));
   if (!bytes.empty()) {
-    session.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes.size(), bytes.data());
+    write_buffer(session, buffer, 0, bytes.size(), bytes.data());
   }
   return buffer;
 }
 
 void run(const Session& session, const std::vector<Launch>& launches,
-         std::vector<cl::Event>& events) {
+         std::vector<cl::Event>& events, core::CodePlace place) {
   events.resize(launches.size());
-  for (std::size_t i = 0; i < launches.size(); ++i) {
-    session.queue.enqueueNDRangeKernel(launches[i].kernel, cl::NullRange, launches[i].global,
-                                       launches[i].local, nullptr, &events[i]);
+  std::size_t at = 0;
+  try {
+    for (; at < launches.size(); ++at) {
+      session.queue.enqueueNDRangeKernel(launches[at].kernel, cl::NullRange, launches[at].global,
+                                         launches[at].local, nullptr, &events[at]);
+    }
+    session.queue.finish();
+  } catch (const cl::Error& error) {
+    throw_api_error(error, place,
+                    at < launches.size() ? fmt::format("kernel {}", launches[at].name) : "");
   }
-  session.queue.finish();
+}
+
+void check_executed(const std::vector<Launch>& launches, const std::vector<cl::Event>& events,
+                    core::CodePlace place) {
+  for (std::size_t i = 0; i < launches.size(); ++i) {
+    check_executed(events[i], "clEnqueueNDRangeKernel", fmt::format("kernel {}", launches[i].name),
+                   place);
+  }
+}
+
+void run_checked(const Session& session, const std::vector<Launch>& launches,
+                 core::CodePlace place) {
+  std::vector<cl::Event> events;
+  run(session, launches, events, place);
+  check_executed(launches, events, place);
 }
 
 std::optional<double> device_ns(const std::vector<cl::Event>& events) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "measure/contract/dump.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
@@ -107,24 +108,95 @@ void enter(cl::Memory& object, measure::MemoryLedger::Entry entry) {
 
 }  // namespace
 
-cl::Buffer make_buffer(const Session& session, cl_mem_flags flags, std::size_t bytes) {
-  cl::Buffer buffer(session.context, flags, bytes);
-  enter(buffer, session.held.buffer(bytes));
-  return buffer;
+cl::Buffer make_buffer(const Session& session, cl_mem_flags flags, std::size_t bytes,
+                       core::CodePlace place) {
+  try {
+    cl::Buffer buffer(session.context, flags, bytes);
+    enter(buffer, session.held.buffer(bytes));
+    return buffer;
+  } catch (const cl::Error& error) {
+    throw_api_error(error, place, fmt::format("for {} bytes", bytes));
+  }
 }
 
 cl::Image3D make_image(const Session& session, const cl::ImageFormat& format,
-                       const std::array<std::size_t, 3>& size) {
-  cl::Image3D image(session.context, CL_MEM_READ_ONLY, format, size[0], size[1], size[2]);
-  enter(image, session.held.image(image.getImageInfo<CL_IMAGE_ELEMENT_SIZE>() * size[0] * size[1] *
-                                  size[2]));
-  return image;
+                       const std::array<std::size_t, 3>& size, core::CodePlace place) {
+  try {
+    cl::Image3D image(session.context, CL_MEM_READ_ONLY, format, size[0], size[1], size[2]);
+    enter(image, session.held.image(image.getImageInfo<CL_IMAGE_ELEMENT_SIZE>() * size[0] *
+                                    size[1] * size[2]));
+    return image;
+  } catch (const cl::Error& error) {
+    throw_api_error(error, place, fmt::format("for {}x{}x{} texels", size[0], size[1], size[2]));
+  }
 }
 
-void throw_api_error(const cl::Error& error, core::CodePlace place) {
+void throw_api_error(const cl::Error& error, core::CodePlace place, const std::string& detail) {
   const std::string call = error.what();
-  if (means_lost(error.err())) throw core::DeviceLost(call, code_name(error.err()), {}, place);
-  throw core::ApiError(call, code_name(error.err()), {}, place);
+  if (means_lost(error.err())) throw core::DeviceLost(call, code_name(error.err()), detail, place);
+  throw core::ApiError(call, code_name(error.err()), detail, place);
+}
+
+void check_executed(const cl::Event& event, const std::string& call, const std::string& detail,
+                    core::CodePlace place) {
+  const auto status =
+      checked([&] { return event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(); }, place);
+  if (status == CL_COMPLETE) return;
+  if (status < 0) {
+    const std::string ended = "the command was enqueued, then ended abnormally";
+    throw_api_error(cl::Error(status, call.c_str()), place,
+                    detail.empty() ? ended : fmt::format("{}: {}", detail, ended));
+  }
+  throw core::ApiError(
+      call, fmt::format("execution status {}", status),
+      fmt::format("{}{}the command is not complete although the queue was waited for", detail,
+                  detail.empty() ? "" : ": "),
+      place);
+}
+
+void write_buffer(const Session& session, const cl::Buffer& to, std::size_t offset,
+                  std::size_t bytes, const void* from, core::CodePlace place) {
+  if (measure::dump_folder())
+    measure::write_dump("buffer", "bin", std::span(static_cast<const std::byte*>(from), bytes),
+                        fmt::format("bytes {} to {} of a buffer", offset, offset + bytes));
+  cl::Event event;
+  checked(
+      [&] { session.queue.enqueueWriteBuffer(to, CL_TRUE, offset, bytes, from, nullptr, &event); },
+      place);
+  check_executed(event, "clEnqueueWriteBuffer", {}, place);
+}
+
+void read_buffer(const Session& session, const cl::Buffer& from, std::size_t bytes, void* to,
+                 core::CodePlace place) {
+  cl::Event event;
+  checked([&] { session.queue.enqueueReadBuffer(from, CL_TRUE, 0, bytes, to, nullptr, &event); },
+          place);
+  check_executed(event, "clEnqueueReadBuffer", {}, place);
+}
+
+void write_image(const Session& session, const cl::Image& to,
+                 const std::array<cl::size_type, 3>& origin,
+                 const std::array<cl::size_type, 3>& region, const void* from,
+                 core::CodePlace place) {
+  cl::Event event;
+  checked(
+      [&] {
+        session.queue.enqueueWriteImage(to, CL_TRUE, origin, region, 0, 0, from, nullptr, &event);
+      },
+      place);
+  check_executed(event, "clEnqueueWriteImage", {}, place);
+}
+
+void fill_buffer(const Session& session, const cl::Buffer& to, cl_uint word, std::size_t bytes,
+                 core::CodePlace place) {
+  cl::Event event;
+  checked(
+      [&] {
+        session.queue.enqueueFillBuffer(to, word, 0, bytes, nullptr, &event);
+        session.queue.finish();
+      },
+      place);
+  check_executed(event, "clEnqueueFillBuffer", {}, place);
 }
 
 }  // namespace triptych::opencl_backend

@@ -22,7 +22,7 @@ cl::Buffer upload_property(const Session& session, const technique::Arrangement&
   for (std::size_t begin = 0; begin < size; begin += memory.size()) {
     const std::span piece = std::span(memory).first(std::min(memory.size(), size - begin));
     arrangement.copy(property, begin, piece);
-    session.queue.enqueueWriteBuffer(buffer, CL_TRUE, begin, piece.size(), piece.data());
+    write_buffer(session, buffer, begin, piece.size(), piece.data());
   }
   return buffer;
 }
@@ -33,9 +33,7 @@ void look_from(const Session& session, const ParticleData& data,
                const measure::ParticleWork& work) {
   const technique::ParticleParameters parameters =
       technique::particle_parameters(work.scene, work.options, data.count, data.cell_count);
-  checked([&] {
-    session.queue.enqueueWriteBuffer(data.parameters, CL_TRUE, 0, sizeof parameters, &parameters);
-  });
+  write_buffer(session, data.parameters, 0, sizeof parameters, &parameters);
 }
 
 ParticleData upload(const Session& session, const measure::ParticleWork& work) {

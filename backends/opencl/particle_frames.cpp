@@ -44,7 +44,7 @@ void ParticleFrames::draw_before(const ParticlePrograms& programs,
                                  const measure::ParticleWork& work) {
   look_from(session_, stages_.data(), work.before());
   const Pass unseen = stages_.make_pass(programs, 1);
-  run(session_, stages_.picture(programs, unseen), events_);
+  run_checked(session_, stages_.picture(programs, unseen));
   look_from(session_, stages_.data(), work);
 }
 
@@ -54,9 +54,11 @@ measure::Frame ParticleFrames::frame(measure::Purpose purpose) {
     if (counts) prepare_counting();
     measure::Frame frame;
     const auto begin = std::chrono::steady_clock::now();
-    run(session_, counts ? counting_ : timed_, events_);
+    const std::vector<Launch>& launches = counts ? counting_ : timed_;
+    run(session_, launches, events_);
     const auto end = std::chrono::steady_clock::now();
     frame.wall_ns = std::chrono::duration<double, std::nano>(end - begin).count();
+    check_executed(launches, events_);
     if (purpose == measure::Purpose::timing) frame.device_ns = device_ns(events_);
     if (counts) frame.counts = read_counters();
     return frame;  // OpenCL has no pipeline statistics: they stay absent
@@ -72,17 +74,15 @@ void ParticleFrames::prepare_counting() {
     counting_ = stages_.picture(particle_programs(programs_, constants), picture_);
   }
   stages_.forget_hidden();
-  run(session_, timed_, events_);
-  session_.queue.enqueueFillBuffer(
-      stages_.counters(), cl_uint{0}, 0,
-      particle_counter_stride * stages_.counter_rows() * sizeof(cl_uint));
-  session_.queue.finish();
+  run_checked(session_, timed_);
+  poison();
+  fill_buffer(session_, stages_.counters(), 0,
+              particle_counter_stride * stages_.counter_rows() * sizeof(cl_uint));
 }
 
 record::Counts ParticleFrames::read_counters() {
   std::vector<cl_uint> rows(particle_counter_stride * stages_.counter_rows());
-  session_.queue.enqueueReadBuffer(stages_.counters(), CL_TRUE, 0, rows.size() * sizeof(cl_uint),
-                                   rows.data());
+  read_buffer(session_, stages_.counters(), rows.size() * sizeof(cl_uint), rows.data());
   record::Counts counts;
   for (std::size_t at = 0; at < rows.size(); ++at) {
     const std::size_t which = at % particle_counter_stride;
@@ -99,14 +99,12 @@ core::Image ParticleFrames::image() {
   core::Image image(width_, height_);
   image.ids.resize(image.pixel_count());
   image.depth.resize(image.pixel_count());
-  checked([&] {
-    const auto read = [&](const cl::Buffer& from, auto& to) {
-      session_.queue.enqueueReadBuffer(from, CL_TRUE, 0, to.size() * sizeof to[0], to.data());
-    };
-    read(stages_.image(), image.rgba);
-    read(stages_.ids(), image.ids);
-    read(picture_.depths, image.depth);
-  });
+  const auto read = [&](const cl::Buffer& from, auto& to) {
+    read_buffer(session_, from, to.size() * sizeof to[0], to.data());
+  };
+  read(stages_.image(), image.rgba);
+  read(stages_.ids(), image.ids);
+  read(picture_.depths, image.depth);
   for (float& z : image.depth) {
     z = z > 0 ? static_cast<float>(near_ / static_cast<double>(z))
               : std::numeric_limits<float>::infinity();

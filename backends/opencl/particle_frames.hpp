@@ -19,6 +19,7 @@ class ParticleFrames final : public measure::Prepared {
   ParticleFrames(const Session& session, Programs& programs, const measure::ParticleWork& work,
                  Sprite sprite);
 
+  void poison() override { stages_.poison(picture_); }
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
   [[nodiscard]] core::Image image() override;
   [[nodiscard]] std::string kernel_hash() const override { return particle_hash(constants_); }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "measure/contract/not_drawn.hpp"
 
 namespace triptych::opencl_backend {
 namespace {
@@ -63,11 +64,7 @@ cl::NDRange ParticleStages::cell_range() const {
 }
 
 void ParticleStages::forget_hidden() const {
-  checked([&] {
-    session_.queue.enqueueFillBuffer(shown_, cl_uint{1}, 0,
-                                     std::max<std::size_t>(data_.cell_count, 1) * sizeof(cl_uint));
-    session_.queue.finish();
-  });
+  fill_buffer(session_, shown_, 1, std::max<std::size_t>(data_.cell_count, 1) * sizeof(cl_uint));
 }
 
 Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride) {
@@ -83,11 +80,9 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
   whole.stride = 1;
   std::vector<Launch> launches{cull(programs)};
   add_binning(programs, whole, drawn_first, launches);
-  std::vector<cl::Event> events;
-  run(session_, launches, events);
+  run_checked(session_, launches);
   std::vector<cl_uint> totals(table_.bins);
-  session_.queue.enqueueReadBuffer(pass.totals, CL_TRUE, 0, table_.bins * sizeof totals[0],
-                                   totals.data());
+  read_buffer(session_, pass.totals, table_.bins * sizeof totals[0], totals.data());
   const std::uint64_t entries = std::reduce(totals.begin(), totals.end(), std::uint64_t{0});
   const std::uint64_t bytes = entries * sizeof(cl_uint);
   const auto most = session_.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
@@ -97,6 +92,19 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
   }
   pass.entries = make_buffer(entries);
   return pass;
+}
+
+void ParticleStages::poison(const Pass& pass) const {
+  const auto fill = [&](const cl::Buffer& buffer, cl_uint word) {
+    fill_buffer(session_, buffer, word, checked([&] { return buffer.getInfo<CL_MEM_SIZE>(); }));
+  };
+  for (const cl::Buffer* each : {&image_, &ids_, &pass.depths, &camera_}) {
+    fill(*each, measure::poison_word);
+  }
+  // Numbers that kernels count or index by: with none of them nothing is drawn.
+  for (const cl::Buffer* each : {&pass.list, &pass.begins, &pass.totals, &rectangles_}) {
+    fill(*each, 0);
+  }
 }
 
 Launch ParticleStages::cull(const ParticlePrograms& programs) const {

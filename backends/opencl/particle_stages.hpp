@@ -44,6 +44,8 @@ class ParticleStages {
                                             const Pass& pass) const;
   // Those that draw the cells of a pass once more.
   [[nodiscard]] std::vector<Launch> again(const ParticlePrograms& programs, const Pass& pass) const;
+  // Overwrites what the frames of a pass write: the image, and what kernels hand to each other.
+  void poison(const Pass& pass) const;
   // No cell was ever found hidden.
   void forget_hidden() const;
 

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "core/error.hpp"
 #include "core/hash.hpp"
+#include "measure/contract/dump.hpp"
 #include "technique/sources.hpp"
 #include "triptych_backend_opencl_embedded.hpp"
 
@@ -49,6 +52,7 @@ std::string program_source(const std::vector<std::string_view>& files) {
 
 cl::Program build(const Session& session, const std::string& source, const std::string& options) {
   const cl::Program program = checked([&] { return cl::Program(session.context, source); });
+  const auto begin = std::chrono::steady_clock::now();
   try {
     program.build(session.device, options.c_str());
   } catch (const cl::Error& error) {
@@ -57,6 +61,10 @@ cl::Program build(const Session& session, const std::string& source, const std::
     throw core::ApiError("clBuildProgram", code_name(error.err()),
                          fmt::format("with {}:\n{}", options, log));
   }
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+  if (measure::dump_folder())
+    measure::write_dump("program", "cl", source,
+                        fmt::format("built in {:.1f} ms with {}", took.count(), options));
   return program;
 }
 

@@ -74,7 +74,7 @@ cl::Image3D upload_image(const Session& session, const scene::VoxelGrid& grid) {
   for (std::size_t k = 0; k < size[2]; ++k) {
     const std::span voxels(grid.data.data() + k * slice, slice);
     const auto write = [&](const std::byte* data) {
-      session.queue.enqueueWriteImage(image, CL_TRUE, {0, 0, k}, {size[0], size[1], 1}, 0, 0, data);
+      write_image(session, image, {0, 0, k}, {size[0], size[1], 1}, data);
     };
     if (format->image_channel_order == CL_RGBA) {
       write(as_rgba(voxels, scene::bytes_of(grid.format)).data());
@@ -115,9 +115,25 @@ void write_layers(const Session& session, const cl::Buffer& buffer, const scene:
   std::vector<std::byte> slice(layers.bytes);
   for (int k = 0; k < cells + layers.more; ++k) {
     copy_bordered_slice(grid, first + k, slice);
-    session.queue.enqueueWriteBuffer(buffer, CL_TRUE, to_size(k) * slice.size(), slice.size(),
-                                     slice.data());
+    write_buffer(session, buffer, to_size(k) * slice.size(), slice.size(), slice.data());
   }
+}
+
+std::vector<std::byte> uploaded_voxels(const Session& session, const scene::VoxelGrid& grid,
+                                       technique::Sampler sampler) {
+  if (sampler != technique::Sampler::manual) {
+    const auto format = image_format(session, grid.format);
+    const bool rgba = format && format->image_channel_order == CL_RGBA;
+    if (rgba) return as_rgba(grid.data, scene::bytes_of(grid.format));
+    return {grid.data.begin(), grid.data.end()};
+  }
+  std::vector<std::byte> bytes;
+  std::vector<std::byte> slice(bordered_layers(grid).bytes);
+  for (int k = 0; k < grid.size[2] + 2; ++k) {
+    copy_bordered_slice(grid, k, slice);
+    bytes.insert(bytes.end(), slice.begin(), slice.end());
+  }
+  return bytes;
 }
 
 double stored_maximum(scene::VoxelFormat voxel, technique::Sampler sampler) {

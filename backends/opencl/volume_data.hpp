@@ -29,6 +29,10 @@ void write_layers(const Session& session, const cl::Buffer& buffer, const scene:
 // The stored number that reaches the kernel as 1 (technique::raycast_parameters).
 [[nodiscard]] double stored_maximum(scene::VoxelFormat voxel, technique::Sampler sampler);
 
+// The bytes that upload() gives to the device.
+[[nodiscard]] std::vector<std::byte> uploaded_voxels(const Session& session,
+                                                     const scene::VoxelGrid& grid,
+                                                     technique::Sampler sampler);
 // A cl::Buffer for Sampler::manual, a cl::Image3D for Sampler::hardware; uploaded on return.
 [[nodiscard]] cl::Memory upload(const Session& session, const scene::VoxelGrid& grid,
                                 technique::Sampler sampler);

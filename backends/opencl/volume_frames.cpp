@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "backends/opencl/standalone.hpp"
+#include "measure/contract/not_drawn.hpp"
 #include "technique/volume/brick_map.hpp"
 #include "technique/volume/bricks.hpp"
 #include "technique/volume/extra_work.hpp"
@@ -57,6 +59,7 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
   const std::string source = program_source(source_files(constants));
   hash_ = Programs::hash(source, constants.options());
   const cl::Program timed = programs.get(source, constants.options());
+  const Constants timed_constants = constants;
   constants.count = true;
   const cl::Program counting = programs.get(source, constants.options());
   const VolumeCache::Entry& volume =
@@ -65,6 +68,7 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
                   technique::most_held(cut.parts));
   const std::vector<std::int32_t> map =
       technique::brick_map(volume.ranges, work.scene, work.options.skip, work.options.adapt);
+  if (cut.parts.empty()) dump_standalone(session, work, source, timed_constants, map);
   checked([&] {
     volume_ = volume.volume;
     upload_surroundings(work, constants, map);
@@ -107,6 +111,12 @@ Launch VolumeFrames::launch(const cl::Program& program, int columns) const {
   return made;
 }
 
+void VolumeFrames::poison() {
+  fill_buffer(session_, image_, measure::poison_word,
+              checked([&] { return image_.getInfo<CL_MEM_SIZE>(); }));
+  fill_buffer(session_, counters_, measure::poison_word, counts_.size() * sizeof(std::uint32_t));
+}
+
 measure::Frame VolumeFrames::frame(measure::Purpose purpose) {
   return checked([&] {
     const bool counts = purpose == measure::Purpose::counters;
@@ -120,6 +130,11 @@ measure::Frame VolumeFrames::frame(measure::Purpose purpose) {
     }
     const auto end = std::chrono::steady_clock::now();
     frame.wall_ns = std::chrono::duration<double, std::nano>(end - begin).count();
+    if (parts_) {
+      for (const cl::Event& each : events_) check_executed(each, "a command of a volume in parts");
+    } else {
+      check_executed(launches, events_);
+    }
     if (purpose == measure::Purpose::timing) frame.device_ns = device_ns(events_);
     if (counts) frame.counts = read_counters();
     return frame;  // OpenCL has no pipeline statistics: they stay absent
@@ -127,8 +142,8 @@ measure::Frame VolumeFrames::frame(measure::Purpose purpose) {
 }
 
 record::Counts VolumeFrames::read_counters() {
-  session_.queue.enqueueReadBuffer(counters_, CL_TRUE, 0, counts_.size() * sizeof(std::uint32_t),
-                                   counts_.data());
+  read_buffer(session_, counters_, counts_.size() * sizeof(std::uint32_t), counts_.data());
+  measure::check_counted(counts_);
   std::array<std::uint64_t, technique::raycast_counters.size()> sums{};
   for (std::size_t at = 0; at < counts_.size(); at += technique::raycast_counter_stride) {
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += counts_[at + i];
@@ -143,10 +158,7 @@ record::Counts VolumeFrames::read_counters() {
 
 core::Image VolumeFrames::image() {
   core::Image image(width_, height_);
-  checked([&] {
-    session_.queue.enqueueReadBuffer(image_, CL_TRUE, 0, image.rgba.size() * sizeof(float),
-                                     image.rgba.data());
-  });
+  read_buffer(session_, image_, image.rgba.size() * sizeof(float), image.rgba.data());
   return image;
 }
 

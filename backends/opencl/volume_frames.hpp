@@ -25,6 +25,7 @@ class VolumeFrames final : public measure::Prepared {
   VolumeFrames(const Session& session, Programs& programs, VolumeCache& volumes,
                const measure::VolumeWork& work, Constants constants);
 
+  void poison() override;
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
   [[nodiscard]] core::Image image() override;
   [[nodiscard]] std::string kernel_hash() const override { return hash_; }

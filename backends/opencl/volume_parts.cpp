@@ -31,16 +31,17 @@ VolumeParts::VolumeParts(const Session& session, const measure::VolumeWork& work
       moved_(session.held.moved(technique::moved_bytes(passes_, bordered_layers(*grid_)))) {}
 
 void VolumeParts::run(const Launch& launch, std::vector<cl::Event>& events) const {
-  events.assign(2, {});
-  for (const technique::PartPass& pass : passes_) {
+  events.assign(1 + passes_.size(), {});
+  for (std::size_t i = 0; i < passes_.size(); ++i) {
+    const technique::PartPass& pass = passes_[i];
     session_.queue.enqueueWriteBuffer(parameters_, CL_TRUE, place_, sizeof pass.parameters,
                                       &pass.parameters, nullptr,
-                                      pass.parameters.pass == 0 ? &events.front() : nullptr);
+                                      i == 0 ? &events.front() : nullptr);
     if (pass.read) {
       write_layers(session_, voxels_, *grid_, pass.part.first_held, pass.part.held());
     }
     session_.queue.enqueueNDRangeKernel(launch.kernel, cl::NullRange, launch.global, launch.local,
-                                        nullptr, &events.back());
+                                        nullptr, &events[1 + i]);
   }
   session_.queue.finish();
 }

@@ -29,7 +29,8 @@ class VolumeParts {
               std::span<const technique::Part> parts, std::span<const std::int32_t> map,
               const cl::Buffer& voxels, const cl::Buffer& parameters);
 
-  // As opencl_backend::run does of one launch. `events`: of the frame's first and last command.
+  // As opencl_backend::run does of one launch. `events`: of the frame's first command and of each
+  // launch.
   void run(const Launch& launch, std::vector<cl::Event>& events) const;
 
  private:

@@ -38,7 +38,8 @@ CellCulling::CellCulling(const Gpu& gpu, const Layout& layout, std::uint32_t cel
     : gpu_(gpu),
       cells_(cells),
       draws_(gpu, std::max(cells, 1U) * sizeof(vk::DrawIndirectCommand),
-             vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eIndirectBuffer,
+             vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eIndirectBuffer |
+                 vk::BufferUsageFlagBits::eTransferDst,
              Place::device) {
   for (const CullPass pass : passes_of(culling)) {
     for (const bool counting : {false, true}) {
@@ -49,12 +50,21 @@ CellCulling::CellCulling(const Gpu& gpu, const Layout& layout, std::uint32_t cel
   }
 }
 
+// Commands that draw nothing: other numbers would have the device draw without end.
+void CellCulling::poison() const {
+  if (builds_.empty()) return;
+  run_once(gpu_, [&](const vk::raii::CommandBuffer& commands) {
+    commands.fillBuffer(draws_.get(), 0, VK_WHOLE_SIZE, 0);
+  });
+}
+
 void CellCulling::bind(vk::DescriptorSet set) const {
   bind_buffer(gpu_, set, commands_binding, vk::DescriptorType::eStorageBuffer, draws_);
 }
 
 void CellCulling::record(const vk::raii::CommandBuffer& commands, CullPass pass,
                          bool counting) const {
+  const Label label(gpu_, commands, "cull cells");
   const auto build = std::ranges::find_if(
       builds_, [&](const Build& each) { return each.pass == pass && each.counting == counting; });
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, build->pipeline);

@@ -26,6 +26,7 @@ class CellCulling {
 
   // The set must be bound for compute.
   void record(const vk::raii::CommandBuffer& commands, CullPass pass, bool counting) const;
+  void poison() const;
   // Draws every stride-th cell of those left, in order.
   void draw(const vk::raii::CommandBuffer& commands, std::uint32_t stride) const;
 

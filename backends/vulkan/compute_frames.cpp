@@ -4,6 +4,7 @@
 #include <span>
 
 #include "backends/vulkan/errors.hpp"
+#include "backends/vulkan/standalone.hpp"
 #include "technique/volume/extra_work.hpp"
 
 namespace triptych::vulkan_backend {
@@ -43,6 +44,9 @@ ComputeFrames::ComputeFrames(const Gpu& gpu, const Instance& instance,
       frames_(gpu, vk::QueryPipelineStatisticFlagBits::eComputeShaderInvocations,
               [this](const vk::raii::CommandBuffer& commands) { record_timed(commands); }) {
   mark_unwritten(gpu, output_);
+  if (resources_.parts() == 0) {
+    dump_standalone(work, timed_code_, constants, tiles(drawn_columns_), tiles(height_));
+  }
   instance_.check_validation();
 }
 
@@ -53,6 +57,7 @@ void ComputeFrames::record_timed(const vk::raii::CommandBuffer& commands) const 
 
 void ComputeFrames::dispatch(const vk::raii::CommandBuffer& commands, Pass pass,
                              int columns) const {
+  const Label label(gpu_, commands, "raycast: one work group for 8x8 pixels");
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *resources_.layout().pipeline, 0,
                               resources_.set(pass), {});
   commands.dispatch(tiles(columns), tiles(height_), 1);
@@ -64,6 +69,13 @@ void ComputeFrames::prepare_counters() {
   frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, counting_pipeline_);
     dispatch(commands, Pass::counting, width_);
+  });
+}
+
+void ComputeFrames::poison() {
+  translated([&] {
+    mark_unwritten(gpu_, output_);
+    resources_.poison_counters();
   });
 }
 

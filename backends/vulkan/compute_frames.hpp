@@ -13,6 +13,7 @@ class ComputeFrames final : public measure::Prepared {
   ComputeFrames(const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work,
                 const Constants& constants);
 
+  void poison() override;
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
   [[nodiscard]] core::Image image() override;
   [[nodiscard]] std::string kernel_hash() const override;

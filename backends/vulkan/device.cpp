@@ -46,7 +46,7 @@ constexpr double exact_filter = 1e-5;
 Device::Device(std::unique_ptr<const Instance> instance, Candidate candidate)
     : instance_(std::move(instance)),
       info_(std::move(candidate.info)),
-      gpu_(open_gpu(candidate.physical)),
+      gpu_(open_gpu(candidate.physical, instance_->labels())),
       filter_errors_{probe_filter(gpu_, scene::VoxelFormat::u8),
                      probe_filter(gpu_, scene::VoxelFormat::u16),
                      probe_filter(gpu_, scene::VoxelFormat::f32),

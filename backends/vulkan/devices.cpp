@@ -49,7 +49,7 @@ std::string slug(std::string_view text) {
 
 std::string short_name(vk::DriverId driver, std::string_view driver_name) {
   using enum vk::DriverId;
-  static constexpr std::array<std::pair<vk::DriverId, std::string_view>, 12> names{{
+  static constexpr std::array<std::pair<vk::DriverId, std::string_view>, 14> names{{
       {eMesaLlvmpipe, "lavapipe"},
       {eGoogleSwiftshader, "swiftshader"},
       {eNvidiaProprietary, "nvidia"},
@@ -62,10 +62,29 @@ std::string short_name(vk::DriverId driver, std::string_view driver_name) {
       {eMesaTurnip, "turnip"},
       {eMesaV3Dv, "v3dv"},
       {eMoltenvk, "moltenvk"},
+      {eMesaVenus, "venus"},
+      {eMesaDozen, "dozen"},
   }};
   const auto* found =
       std::ranges::find(names, driver, &std::pair<vk::DriverId, std::string_view>::first);
   return found != names.end() ? std::string(found->second) : slug(driver_name);
+}
+
+// Drivers that hand everything to another one, which decides what is drawn as much as they do.
+bool is_layered(vk::DriverId driver) {
+  using enum vk::DriverId;
+  return driver == eMesaVenus || driver == eMesaDozen || driver == eMoltenvk;
+}
+
+// "Virtio-GPU Venus (llvmpipe (LLVM 15.0.6, 256 bits))" and "Microsoft Direct3D12 (NVIDIA …)" name
+// what they run on in parentheses; MoltenVK names nothing else.
+std::string host_of(std::string_view device_name) {
+  const std::size_t begin = device_name.find('(');
+  const std::size_t end = device_name.rfind(')');
+  if (begin == std::string_view::npos || end == std::string_view::npos || end < begin) {
+    return std::string(device_name);
+  }
+  return std::string(device_name.substr(begin + 1, end - begin - 1));
 }
 
 std::string vendor_name(std::uint32_t id) {
@@ -151,6 +170,7 @@ Candidate candidate(vk::raii::PhysicalDevice device) {
     info.id = "vulkan:" + short_name(driver.driverID, info.driver);
     const std::string_view version = driver.driverInfo.data();
     if (!version.empty()) info.driver_version = version.substr(0, version.find('\n'));
+    if (is_layered(driver.driverID)) info.driver_version += " on " + host_of(info.name);
   }
   return {std::move(device), std::move(info), {}};
 }

@@ -93,24 +93,29 @@ vk::raii::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout,
   const vk::PipelineColorBlendStateCreateInfo blend{
       .attachmentCount = static_cast<std::uint32_t>(targets.size()),
       .pAttachments = targets.data()};
+  const auto begin = std::chrono::steady_clock::now();
   const vk::DynamicState scissor = vk::DynamicState::eScissor;
   const vk::PipelineDynamicStateCreateInfo dynamic{.dynamicStateCount = 1,
                                                    .pDynamicStates = &scissor};
-  return {gpu.device, nullptr,
-          vk::GraphicsPipelineCreateInfo{
-              .stageCount = static_cast<std::uint32_t>(stages.infos().size()),
-              .pStages = stages.infos().data(),
-              .pVertexInputState = &vertices,
-              .pInputAssemblyState = &assembly,
-              .pTessellationState = tessellates ? &patches : nullptr,
-              .pViewportState = &viewports,
-              .pRasterizationState = &fill,
-              .pMultisampleState = &one_sample,
-              .pDepthStencilState = state.depth ? &depth : nullptr,
-              .pColorBlendState = &blend,
-              .pDynamicState = &dynamic,
-              .layout = *layout.pipeline,
-              .renderPass = *pass}};
+  vk::raii::Pipeline pipeline(gpu.device, nullptr,
+                              vk::GraphicsPipelineCreateInfo{
+                                  .stageCount = static_cast<std::uint32_t>(stages.infos().size()),
+                                  .pStages = stages.infos().data(),
+                                  .pVertexInputState = &vertices,
+                                  .pInputAssemblyState = &assembly,
+                                  .pTessellationState = tessellates ? &patches : nullptr,
+                                  .pViewportState = &viewports,
+                                  .pRasterizationState = &fill,
+                                  .pMultisampleState = &one_sample,
+                                  .pDepthStencilState = state.depth ? &depth : nullptr,
+                                  .pColorBlendState = &blend,
+                                  .pDynamicState = &dynamic,
+                                  .layout = *layout.pipeline,
+                                  .renderPass = *pass});
+  for (const DrawStage& each : state.stages) {
+    dump_shader(each.stage, each.code, constants, begin);
+  }
+  return pipeline;
 }
 
 }  // namespace

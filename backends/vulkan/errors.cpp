@@ -7,15 +7,15 @@
 
 namespace triptych::vulkan_backend {
 
-void rethrow(const vk::SystemError& error, core::CodePlace place) {
+void rethrow(const vk::SystemError& error, core::CodePlace place, const std::string& detail) {
   // Vulkan-Hpp words its errors "vk::Queue::submit: ErrorDeviceLost".
   const std::string_view text = error.what();
   const std::string call(text.substr(0, text.find(": ")));
   const auto result = static_cast<vk::Result>(error.code().value());
   if (result == vk::Result::eErrorDeviceLost) {
-    throw core::DeviceLost(call, vk::to_string(result), {}, place);
+    throw core::DeviceLost(call, vk::to_string(result), detail, place);
   }
-  throw core::ApiError(call, vk::to_string(result), {}, place);
+  throw core::ApiError(call, vk::to_string(result), detail, place);
 }
 
 }  // namespace triptych::vulkan_backend

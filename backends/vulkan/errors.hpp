@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <utility>
 
 #include "backends/vulkan/vulkan.hpp"
@@ -7,7 +8,8 @@
 namespace triptych::vulkan_backend {
 
 // Throws core::DeviceLost or core::ApiError with the call and the code of `error`.
-[[noreturn]] void rethrow(const vk::SystemError& error, core::CodePlace place);
+[[noreturn]] void rethrow(const vk::SystemError& error, core::CodePlace place,
+                          const std::string& detail = {});
 
 // Runs `work` and turns Vulkan's errors into ours: what every entry of the contract is wrapped in.
 template <class Work>

@@ -4,8 +4,11 @@
 
 #include <array>
 #include <limits>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "backends/vulkan/errors.hpp"
 #include "core/error.hpp"
 
 namespace triptych::vulkan_backend {
@@ -26,7 +29,7 @@ std::uint32_t choose_family(const std::vector<vk::QueueFamilyProperties>& famili
 
 }  // namespace
 
-Gpu open_gpu(const vk::raii::PhysicalDevice& physical) {
+Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled) {
   const vk::PhysicalDeviceProperties properties = physical.getProperties();
   const auto families = physical.getQueueFamilyProperties();
   const std::uint32_t family = choose_family(families, properties.deviceName.data());
@@ -41,6 +44,11 @@ Gpu open_gpu(const vk::raii::PhysicalDevice& physical) {
       .vertexPipelineStoresAndAtomics = offered.vertexPipelineStoresAndAtomics,
       .fragmentStoresAndAtomics = offered.fragmentStoresAndAtomics,
       .shaderFloat64 = offered.shaderFloat64};
+  const auto most_allocated =
+      physical
+          .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>()
+          .get<vk::PhysicalDeviceMaintenance3Properties>()
+          .maxMemoryAllocationSize;
   constexpr float priority = 1.0F;
   const vk::DeviceQueueCreateInfo queue{
       .queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};
@@ -55,11 +63,32 @@ Gpu open_gpu(const vk::raii::PhysicalDevice& physical) {
              .features = features,
              .family = family,
              .draws = bool(families[family].queueFlags & vk::QueueFlagBits::eGraphics),
+             .labelled = labelled,
              .timestamp_bits = families[family].timestampValidBits,
+             .most_allocated = most_allocated,
              .device = std::move(device),
              .queue = std::move(work),
              .commands = std::move(commands),
              .pipelines = std::make_unique<Pipelines>()};
+}
+
+Label::Label(const Gpu& gpu, const vk::raii::CommandBuffer& commands, const char* name)
+    : commands_(gpu.labelled ? &commands : nullptr) {
+  if (commands_ != nullptr) commands_->beginDebugUtilsLabelEXT({.pLabelName = name});
+}
+
+Label::~Label() {
+  if (commands_ != nullptr) commands_->endDebugUtilsLabelEXT();
+}
+
+void name_object(const Gpu& gpu, vk::ObjectType type, std::uint64_t handle, const char* what,
+                 core::CodePlace place) {
+  if (!gpu.labelled) return;
+  const std::string_view file = place.file_name();
+  const std::string name =
+      fmt::format("{} of {}:{}", what, file.substr(file.rfind('/') + 1), place.line());
+  gpu.device.setDebugUtilsObjectNameEXT(
+      {.objectType = type, .objectHandle = handle, .pObjectName = name.c_str()});
 }
 
 vk::raii::CommandBuffer make_commands(const Gpu& gpu) {
@@ -71,10 +100,16 @@ vk::raii::CommandBuffer make_commands(const Gpu& gpu) {
 }
 
 void submit_and_wait(const Gpu& gpu, const vk::raii::CommandBuffer& commands,
-                     const vk::raii::Fence& fence) {
-  gpu.queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &*commands}, *fence);
-  constexpr std::uint64_t for_ever = std::numeric_limits<std::uint64_t>::max();
-  while (gpu.device.waitForFences(*fence, VK_TRUE, for_ever) == vk::Result::eTimeout) {
+                     const vk::raii::Fence& fence, core::CodePlace place) {
+  ++gpu.submissions;
+  try {
+    gpu.queue.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &*commands},
+                     *fence);
+    constexpr std::uint64_t for_ever = std::numeric_limits<std::uint64_t>::max();
+    while (gpu.device.waitForFences(*fence, VK_TRUE, for_ever) == vk::Result::eTimeout) {
+    }
+  } catch (const vk::SystemError& error) {
+    rethrow(error, place, fmt::format("submission {} of this process", gpu.submissions));
   }
 }
 
@@ -86,15 +121,18 @@ void barrier(const vk::raii::CommandBuffer& commands) {
                            vk::PipelineStageFlagBits::eAllCommands, {}, all, {}, {});
 }
 
-void run_once(const Gpu& gpu, const Recording& record) {
+void run_once(const Gpu& gpu, const Recording& record, core::CodePlace place) {
   const vk::raii::CommandBuffer commands = make_commands(gpu);
   const vk::raii::Fence fence(gpu.device, vk::FenceCreateInfo{});
   commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-  barrier(commands);
-  record(commands);
-  barrier(commands);
+  {
+    const Label label(gpu, commands, "outside of a frame: upload, overwrite or read back");
+    barrier(commands);
+    record(commands);
+    barrier(commands);
+  }
   commands.end();
-  submit_and_wait(gpu, commands, fence);
+  submit_and_wait(gpu, commands, fence, place);
 }
 
 }  // namespace triptych::vulkan_backend

@@ -6,6 +6,7 @@
 
 #include "backends/vulkan/pipelines.hpp"
 #include "backends/vulkan/vulkan.hpp"
+#include "core/code_place.hpp"
 #include "measure/contract/memory_ledger.hpp"
 
 namespace triptych::vulkan_backend {
@@ -18,12 +19,16 @@ struct Gpu {
   vk::PhysicalDeviceFeatures features;  // those enabled
   std::uint32_t family = 0;
   bool draws = false;                // the queue takes draw calls
+  bool labelled = false;             // objects and commands are named for tools
   std::uint32_t timestamp_bits = 0;  // 0: the queue has no clock
+  std::uint64_t most_allocated = 0;  // at once: maxMemoryAllocationSize
   vk::raii::Device device;
   vk::raii::Queue queue;
   vk::raii::CommandPool commands;
   std::unique_ptr<Pipelines> pipelines;
   measure::MemoryLedger held = {};  // by buffers and images
+  // Submissions so far: a device that is lost says after how many.
+  mutable std::uint64_t submissions = 0;
 
   [[nodiscard]] bool is_cpu() const {
     return properties.deviceType == vk::PhysicalDeviceType::eCpu;
@@ -31,7 +36,26 @@ struct Gpu {
 };
 
 // Throws core::NotSupported when the device has no queue for compute work, vk::SystemError.
-[[nodiscard]] Gpu open_gpu(const vk::raii::PhysicalDevice& physical);
+// `labelled`: its instance has VK_EXT_debug_utils, and names are wanted.
+[[nodiscard]] Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled = false);
+
+// Names the commands that are recorded while it lives, for tools that show them. Does nothing where
+// nothing is labelled.
+class Label {
+ public:
+  Label(const Gpu& gpu, const vk::raii::CommandBuffer& commands, const char* name);
+  Label(const Label&) = delete;
+  Label& operator=(const Label&) = delete;
+  ~Label();
+
+ private:
+  const vk::raii::CommandBuffer* commands_;  // null where nothing is labelled
+};
+
+// Names an object of the device for such tools, by what it is and where the code stands that made
+// it: "buffer of compute_frames.cpp:38".
+void name_object(const Gpu& gpu, vk::ObjectType type, std::uint64_t handle, const char* what,
+                 core::CodePlace place);
 
 using Recording = std::function<void(const vk::raii::CommandBuffer&)>;
 
@@ -40,12 +64,14 @@ using Recording = std::function<void(const vk::raii::CommandBuffer&)>;
 
 // Submits and waits for a fence; the wait sleeps.
 void submit_and_wait(const Gpu& gpu, const vk::raii::CommandBuffer& commands,
-                     const vk::raii::Fence& fence);
+                     const vk::raii::Fence& fence,
+                     core::CodePlace place = core::CodePlace::current());
 
 // Orders everything recorded after it behind all work submitted before, memory included.
 void barrier(const vk::raii::CommandBuffer& commands);
 
 // Records between two barriers, submits once, waits.
-void run_once(const Gpu& gpu, const Recording& record);
+void run_once(const Gpu& gpu, const Recording& record,
+              core::CodePlace place = core::CodePlace::current());
 
 }  // namespace triptych::vulkan_backend

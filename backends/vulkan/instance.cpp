@@ -1,5 +1,6 @@
 #include "backends/vulkan/instance.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <string_view>
@@ -27,7 +28,17 @@ vk::raii::Context load() {
   }
 }
 
-vk::raii::Instance make_instance(const vk::raii::Context& context) {
+bool labels_wanted(const vk::raii::Context& context) {
+  const char* value = std::getenv("TRIPTYCH_LABELS");
+  if (value == nullptr || std::string_view(value) != "1") return false;
+  const auto extensions =
+      translated([&] { return context.enumerateInstanceExtensionProperties(); });
+  return std::ranges::any_of(extensions, [](const vk::ExtensionProperties& each) {
+    return std::string_view(each.extensionName.data()) == VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  });
+}
+
+vk::raii::Instance make_instance(const vk::raii::Context& context, bool labels) {
   const vk::ApplicationInfo application{.pApplicationName = "triptych",
                                         .apiVersion = VK_API_VERSION_1_1};
   constexpr std::array<const char*, 1> layers{validation_layer};
@@ -37,6 +48,7 @@ vk::raii::Instance make_instance(const vk::raii::Context& context) {
   const vk::ValidationFeaturesEXT features{.enabledValidationFeatureCount = 1,
                                            .pEnabledValidationFeatures = &hazards};
   vk::InstanceCreateInfo info{.pApplicationInfo = &application};
+  if (labels) info.setEnabledExtensionCount(1).setPpEnabledExtensionNames(extensions.data());
   if (validation_wanted()) {
     info.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions).setPNext(&features);
   }
@@ -54,7 +66,11 @@ VKAPI_ATTR VkBool32 VKAPI_CALL Instance::keep_message(Severity /*severity*/, Typ
   return VK_FALSE;
 }
 
-Instance::Instance() : context_(load()), instance_(make_instance(context_)), messenger_(nullptr) {
+Instance::Instance()
+    : context_(load()),
+      labels_(labels_wanted(context_)),
+      instance_(make_instance(context_, labels_)),
+      messenger_(nullptr) {
   if (!validation_wanted()) return;
   messenger_ = translated([&] {
     return vk::raii::DebugUtilsMessengerEXT(

@@ -17,6 +17,9 @@ class Instance {
   [[nodiscard]] const vk::raii::Instance& get() const noexcept { return instance_; }
   [[nodiscard]] std::vector<vk::raii::PhysicalDevice> physical_devices() const;
 
+  // Whether objects and commands can be named, and are to be (TRIPTYCH_LABELS).
+  [[nodiscard]] bool labels() const noexcept { return labels_; }
+
   // Throws core::ApiError with the first message of the validation layer since the last call.
   void check_validation() const;
 
@@ -33,6 +36,7 @@ class Instance {
 
   std::unique_ptr<Report> report_ = std::make_unique<Report>();
   vk::raii::Context context_;
+  bool labels_;
   vk::raii::Instance instance_;
   vk::raii::DebugUtilsMessengerEXT messenger_;
 };

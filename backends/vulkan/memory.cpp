@@ -1,10 +1,15 @@
 #include "backends/vulkan/memory.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
 
+#include "backends/vulkan/errors.hpp"
 #include "core/error.hpp"
+#include "measure/contract/dump.hpp"
+#include "measure/contract/not_drawn.hpp"
 
 namespace triptych::vulkan_backend {
 namespace {
@@ -12,7 +17,12 @@ namespace {
 constexpr std::size_t staging_goal = std::size_t{16} << 20;
 constexpr std::size_t smallest_buffer = 16;
 
-std::uint32_t memory_type(const Gpu& gpu, std::uint32_t allowed, Place place) {
+vk::DeviceSize heap_size(const Gpu& gpu, std::uint32_t type) {
+  return gpu.memory.memoryHeaps[gpu.memory.memoryTypes[type].heapIndex].size;
+}
+
+// Never of a heap that is too small, as one of 0 bytes is, whatever it is marked as.
+std::uint32_t memory_type(const Gpu& gpu, const vk::MemoryRequirements& needed, Place place) {
   using enum vk::MemoryPropertyFlagBits;
   const vk::MemoryPropertyFlags host = eHostVisible | eHostCoherent;
   // In order of preference; the last of each is guaranteed by the specification.
@@ -20,22 +30,42 @@ std::uint32_t memory_type(const Gpu& gpu, std::uint32_t allowed, Place place) {
   if (place == Place::device) wishes = {eDeviceLocal, {}};
   if (place == Place::upload) wishes = {host, host};
   if (place == Place::read_back) wishes = {host | eHostCached, host};
+  vk::DeviceSize largest = 0;
   for (const vk::MemoryPropertyFlags wish : wishes) {
     for (std::uint32_t type = 0; type < gpu.memory.memoryTypeCount; ++type) {
+      const bool allowed = (needed.memoryTypeBits >> type & 1U) != 0;
       const bool fits = (gpu.memory.memoryTypes[type].propertyFlags & wish) == wish;
-      if ((allowed >> type & 1U) != 0 && fits) return type;
+      if (!allowed || !fits) continue;
+      if (heap_size(gpu, type) >= needed.size) return type;
+      largest = std::max(largest, heap_size(gpu, type));
     }
   }
-  throw core::NotSupported("the device has no memory type for this resource");
+  throw core::NotSupported(fmt::format(
+      "needs {} bytes of device memory; the largest heap that this resource may be in has {}",
+      needed.size, largest));
 }
 
-vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& needed, Place place) {
-  return {gpu.device, vk::MemoryAllocateInfo{
-                          .allocationSize = needed.size,
-                          .memoryTypeIndex = memory_type(gpu, needed.memoryTypeBits, place)}};
+vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& needed, Place place,
+                                core::CodePlace code_place) {
+  const std::uint32_t type = memory_type(gpu, needed, place);
+  try {
+    return {gpu.device,
+            vk::MemoryAllocateInfo{.allocationSize = needed.size, .memoryTypeIndex = type}};
+  } catch (const vk::SystemError& error) {
+    // Larger ones may succeed, but a device need not give them.
+    if (needed.size > gpu.most_allocated) {
+      throw core::NotSupported(
+          fmt::format("needs {} bytes in one piece, which the device refused; "
+                      "maxMemoryAllocationSize = {}",
+                      needed.size, gpu.most_allocated));
+    }
+    rethrow(error, code_place,
+            fmt::format("for {} bytes of memory type {} in a heap of {} bytes", needed.size, type,
+                        heap_size(gpu, type)));
+  }
 }
 
-constexpr std::uint32_t unwritten = 0xFFFFFFFF;
+constexpr std::uint32_t unwritten = measure::poison_word;
 
 // For `size` bytes from the device.
 Buffer read_back_buffer(const Gpu& gpu, std::size_t size) {
@@ -69,33 +99,47 @@ void change_layout(const vk::raii::CommandBuffer& commands, const Image& image,
                            vk::PipelineStageFlagBits::eAllCommands, {}, {}, {}, barrier);
 }
 
-Buffer::Buffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, Place place)
+Buffer::Buffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, Place place,
+               core::CodePlace code_place)
     : size_(size),
       memory_(nullptr),
-      buffer_(gpu.device, vk::BufferCreateInfo{.size = size, .usage = usage}) {
+      buffer_(translated(
+          [&] {
+            return vk::raii::Buffer(gpu.device, vk::BufferCreateInfo{.size = size, .usage = usage});
+          },
+          code_place)) {
   const vk::MemoryRequirements needed = buffer_.getMemoryRequirements();
-  memory_ = allocate(gpu, needed, place);
+  memory_ = allocate(gpu, needed, place, code_place);
   held_ = gpu.held.buffer(needed.size);
+  name_object(gpu, vk::ObjectType::eBuffer,
+              reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(*buffer_)), "buffer",
+              code_place);
   buffer_.bindMemory(*memory_, 0);
   if (place == Place::device) return;
   mapped_ = {static_cast<std::byte*>(memory_.mapMemory(0, size)), static_cast<std::size_t>(size)};
 }
 
 Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D extent,
-             vk::ImageUsageFlags usage, vk::ImageAspectFlagBits aspect)
+             vk::ImageUsageFlags usage, vk::ImageAspectFlagBits aspect, core::CodePlace code_place)
     : extent_(extent),
       aspect_(aspect),
       memory_(nullptr),
-      image_(gpu.device, vk::ImageCreateInfo{.imageType = type,
-                                             .format = format,
-                                             .extent = extent,
-                                             .mipLevels = 1,
-                                             .arrayLayers = 1,
-                                             .usage = usage}),
+      image_(translated(
+          [&] {
+            return vk::raii::Image(gpu.device, vk::ImageCreateInfo{.imageType = type,
+                                                                   .format = format,
+                                                                   .extent = extent,
+                                                                   .mipLevels = 1,
+                                                                   .arrayLayers = 1,
+                                                                   .usage = usage});
+          },
+          code_place)),
       view_(nullptr) {
   const vk::MemoryRequirements needed = image_.getMemoryRequirements();
-  memory_ = allocate(gpu, needed, Place::device);
+  memory_ = allocate(gpu, needed, Place::device, code_place);
   held_ = gpu.held.image(needed.size);
+  name_object(gpu, vk::ObjectType::eImage,
+              reinterpret_cast<std::uint64_t>(static_cast<VkImage>(*image_)), "image", code_place);
   image_.bindMemory(*memory_, 0);
   // The three image types and their plain view types have the same numbers.
   view_ = {gpu.device, vk::ImageViewCreateInfo{.image = *image_,
@@ -119,6 +163,10 @@ void upload(const Gpu& gpu, const Buffer& to, std::size_t size, const Fill& fill
   for (std::size_t begin = 0; begin < size; begin += memory.size()) {
     const std::span<std::byte> part = memory.first(std::min(memory.size(), size - begin));
     fill(begin, part);
+    if (measure::dump_folder())
+      measure::write_dump(
+          "buffer", "bin", part,
+          fmt::format("bytes {} to {} of a buffer of {} bytes", begin, begin + part.size(), size));
     run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
       commands.copyBuffer(staging.get(), to.get(),
                           vk::BufferCopy{.dstOffset = begin, .size = part.size()});
@@ -146,6 +194,10 @@ void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texel
   for (std::size_t z = 0; z < extent.depth; z += slices) {
     const std::size_t count = std::min(slices, extent.depth - z);
     std::ranges::copy(texels.subspan(z * slice, count * slice), staging.mapped().begin());
+    if (measure::dump_folder())
+      measure::write_dump("image", "bin", texels.subspan(z * slice, count * slice),
+                          fmt::format("slices {} to {} of an image of {}x{}x{} texels", z,
+                                      z + count, extent.width, extent.height, extent.depth));
     run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
       using enum vk::ImageLayout;
       if (z == 0) change_layout(commands, image, eUndefined, eTransferDstOptimal);
@@ -165,6 +217,8 @@ void upload(const Gpu& gpu, const Image& image, std::span<const std::byte> texel
 void upload(const Gpu& gpu, const Buffer& to, std::span<const std::byte> bytes) {
   const Buffer staging(gpu, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc, Place::upload);
   std::ranges::copy(bytes, staging.mapped().begin());
+  if (measure::dump_folder())
+    measure::write_dump("buffer", "bin", bytes, fmt::format("the first {} bytes", bytes.size()));
   run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
     commands.copyBuffer(staging.get(), to.get(), vk::BufferCopy{.size = bytes.size()});
   });

@@ -19,7 +19,9 @@ enum class Place : std::uint8_t {
 // A VkBuffer with its VkDeviceMemory.
 class Buffer {
  public:
-  Buffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, Place place);
+  // Throws core::NotSupported where the device has no room for it, core::ApiError.
+  Buffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, Place place,
+         core::CodePlace code_place = core::CodePlace::current());
 
   [[nodiscard]] vk::Buffer get() const noexcept { return *buffer_; }
   [[nodiscard]] vk::DeviceSize size() const noexcept { return size_; }
@@ -38,8 +40,8 @@ class Buffer {
 class Image {
  public:
   Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D extent,
-        vk::ImageUsageFlags usage,
-        vk::ImageAspectFlagBits aspect = vk::ImageAspectFlagBits::eColor);
+        vk::ImageUsageFlags usage, vk::ImageAspectFlagBits aspect = vk::ImageAspectFlagBits::eColor,
+        core::CodePlace code_place = core::CodePlace::current());
 
   [[nodiscard]] vk::Image get() const noexcept { return *image_; }
   [[nodiscard]] vk::ImageView view() const noexcept { return *view_; }

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "measure/contract/not_drawn.hpp"
 #include "technique/particles/margins.hpp"
 #include "technique/particles/particle_counts.hpp"
 #include "technique/particles/particle_parameters.hpp"
@@ -136,6 +137,10 @@ void ParticleData::look_from(const measure::ParticleWork& work) const {
   upload(gpu_, parameters_, std::as_bytes(std::span(&parameters, 1)));
 }
 
+void ParticleData::poison_counters() const {
+  mark_unwritten(gpu_, counters_);
+}
+
 void ParticleData::clear_counters(const vk::raii::CommandBuffer& commands) const {
   commands.fillBuffer(counters_.get(), 0, VK_WHOLE_SIZE, 0);
   barrier(commands);
@@ -145,6 +150,7 @@ record::Counts ParticleData::counts(technique::Work work, technique::Culling cul
                                     const core::Image& picture) const {
   std::vector<std::uint32_t> sums(technique::particle_counter_bytes / sizeof(std::uint32_t));
   download(gpu_, counters_, std::as_writable_bytes(std::span(sums)));
+  measure::check_counted(sums);
   return technique::particle_counts(
       {.work = work, .culling = culling, .cells = cells_, .particles = particles_}, sums, picture);
 }

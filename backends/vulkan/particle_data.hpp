@@ -69,6 +69,7 @@ class ParticleData {
   // Frames from now on are seen from this scene's camera.
   void look_from(const measure::ParticleWork& work) const;
 
+  void poison_counters() const;
   void clear_counters(const vk::raii::CommandBuffer& commands) const;
   // What a counting frame told; the device has finished it.
   [[nodiscard]] record::Counts counts(technique::Work work, technique::Culling culling,

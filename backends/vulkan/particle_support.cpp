@@ -85,6 +85,10 @@ std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed) {
     const vk::MemoryHeap& each = gpu.memory.memoryHeaps[heap];
     if (each.flags & vk::MemoryHeapFlagBits::eDeviceLocal) largest = std::max(largest, each.size);
   }
+  // Where the heaps that are marked as the device's are empty, the others serve.
+  for (std::uint32_t heap = 0; heap < gpu.memory.memoryHeapCount && largest == 0; ++heap) {
+    largest = gpu.memory.memoryHeaps[heap].size;
+  }
   if (needed <= largest) return std::nullopt;
   return fmt::format("needs {} bytes of device memory; the largest heap has {}", needed, largest);
 }

@@ -124,6 +124,24 @@ void ParticleTarget::begin(const vk::raii::CommandBuffer& commands, bool continu
   commands.setScissor(0, everything);
 }
 
+// A depth that no pixel of a frame keeps: the frame clears it, and what is drawn writes its own.
+void ParticleTarget::poison(const Gpu& gpu) const {
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  const std::array<vk::ClearValue, 3> values{
+      vk::ClearColorValue(std::array{none, none, none, none}),
+      vk::ClearColorValue(std::array<std::uint32_t, 4>{core::Image::no_particle - 1, 0, 0, 0}),
+      vk::ClearDepthStencilValue{.depth = 0.75F}};
+  run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
+    commands.beginRenderPass({.renderPass = *clearing_,
+                              .framebuffer = *framebuffer_,
+                              .renderArea = {.extent = {extent().width, extent().height}},
+                              .clearValueCount = static_cast<std::uint32_t>(values.size()),
+                              .pClearValues = values.data()},
+                             vk::SubpassContents::eInline);
+    commands.endRenderPass();
+  });
+}
+
 core::Image ParticleTarget::read(const Gpu& gpu) const {
   core::Image image(static_cast<int>(extent().width), static_cast<int>(extent().height));
   image.depth.resize(image.pixel_count());

@@ -30,6 +30,8 @@ class ParticleTarget {
   // Leaves all three ready to be copied from. A continued pass keeps what is there.
   void begin(const vk::raii::CommandBuffer& commands, bool continued) const;
 
+  // Overwrites every attachment: colour with NaN.
+  void poison(const Gpu& gpu) const;
   [[nodiscard]] core::Image read(const Gpu& gpu) const;
 
   static constexpr std::uint32_t colour_targets = 2;

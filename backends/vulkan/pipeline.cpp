@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/hash.hpp"
+#include "measure/contract/dump.hpp"
 #include "triptych_backend_vulkan_embedded.hpp"
 
 namespace triptych::vulkan_backend {
@@ -38,13 +39,28 @@ vk::Pipeline compute_pipeline(const Gpu& gpu, const Layout& layout, std::string_
   return gpu.pipelines->get(key, [&]() -> vk::raii::Pipeline {
     const vk::SpecializationInfo specialization = constants.info();
     const vk::raii::ShaderModule module = make_shader(gpu, code);
-    return {gpu.device, nullptr,
-            vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
-                                                    .module = *module,
-                                                    .pName = "main",
-                                                    .pSpecializationInfo = &specialization},
-                                          .layout = *layout.pipeline}};
+    const auto begin = std::chrono::steady_clock::now();
+    vk::raii::Pipeline pipeline(
+        gpu.device, nullptr,
+        vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
+                                                .module = *module,
+                                                .pName = "main",
+                                                .pSpecializationInfo = &specialization},
+                                      .layout = *layout.pipeline});
+    dump_shader(vk::ShaderStageFlagBits::eCompute, code, constants, begin);
+    return pipeline;
   });
+}
+
+void dump_shader(vk::ShaderStageFlagBits stage, std::string_view code,
+                 const Specialization& constants, std::chrono::steady_clock::time_point begin) {
+  if (!measure::dump_folder()) return;
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+  measure::write_dump(
+      vk::to_string(stage), "spv", code,
+      fmt::format("entry point main, specialization constants 0 to {}: {}; the pipeline was "
+                  "compiled in {:.1f} ms",
+                  constants.words().size() - 1, fmt::join(constants.words(), " "), took.count()));
 }
 
 std::string code_hash(std::string_view code, const Constants& constants) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <chrono>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -64,6 +65,11 @@ static_assert(sizeof(Constants) == 9 * 4);
                                                    const Constants& constants) {
   return compute_pipeline(gpu, layout, code, Specialization(constants));
 }
+
+// Where device code is to be dumped: the SPIR-V of one stage with its constants, and how long
+// making its pipeline took since `begin`.
+void dump_shader(vk::ShaderStageFlagBits stage, std::string_view code,
+                 const Specialization& constants, std::chrono::steady_clock::time_point begin);
 
 // Content hash of the SPIR-V and the constants.
 [[nodiscard]] std::string code_hash(std::string_view code, const Constants& constants);

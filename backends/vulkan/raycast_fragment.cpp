@@ -34,6 +34,7 @@ class FragmentFrames final : public measure::Prepared {
  public:
   FragmentFrames(const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work);
 
+  void poison() override;
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
   [[nodiscard]] core::Image image() override;
   [[nodiscard]] std::string kernel_hash() const override {
@@ -87,6 +88,7 @@ FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
 
 void FragmentFrames::draw(const vk::raii::CommandBuffer& commands, vk::Pipeline pipeline,
                           Pass pass) const {
+  const Label label(gpu_, commands, "raycast_fragment: one triangle over the image");
   const vk::Extent3D extent = target_.extent();
   const vk::Rect2D everything{.extent = {extent.width, extent.height}};
   commands.beginRenderPass(
@@ -116,6 +118,13 @@ void FragmentFrames::prepare_counters() {
                                      counting_code_, constants_);
   frames_.record_counters([this](const vk::raii::CommandBuffer& commands) {
     draw(commands, counting_pipeline_, Pass::counting);
+  });
+}
+
+void FragmentFrames::poison() {
+  translated([&] {
+    mark_unwritten(gpu_, target_format, framebuffer_, target_.extent());
+    resources_.poison_counters();
   });
 }
 

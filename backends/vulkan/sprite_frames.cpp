@@ -131,6 +131,7 @@ void SpriteFrames::record(const vk::raii::CommandBuffer& commands, const Draws& 
   } else if (options_.culling == Culling::frustum) {
     culling_.record(commands, CullPass::view, counting);
   }
+  const Label label(gpu_, commands, "draw sprites");
   target_.begin(commands, false);
   if (data_.particles() > 0) draw(commands, draws, counting);
   commands.endRenderPass();
@@ -139,6 +140,7 @@ void SpriteFrames::record(const vk::raii::CommandBuffer& commands, const Draws& 
 
 void SpriteFrames::draw_newly_seen(const vk::raii::CommandBuffer& commands, const Draws& draws,
                                    bool counting) const {
+  const Label label(gpu_, commands, "draw what came into sight");
   occlusion_->find_farthest(commands, target_.depth());
   culling_.record(commands, CullPass::seen_now, counting);
   target_.begin(commands, true);
@@ -200,6 +202,14 @@ void SpriteFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
   }
 }
 
+void SpriteFrames::poison() {
+  translated([&] {
+    target_.poison(gpu_);
+    data_.poison_counters();
+    culling_.poison();
+  });
+}
+
 measure::Frame SpriteFrames::frame(measure::Purpose purpose) {
   return translated([&] {
     const bool counting = purpose == measure::Purpose::counters;
@@ -209,7 +219,10 @@ measure::Frame SpriteFrames::frame(measure::Purpose purpose) {
         record(commands, counting_draws_, true);
       });
     }
-    if (counting && occlusion_) settle();
+    if (counting && occlusion_) {
+      settle();
+      poison();
+    }
     measure::Frame frame = frames_.submit(purpose);
     if (counting) {
       frame.counts = data_.counts(technique::Work::draw, options_.culling, target_.read(gpu_));

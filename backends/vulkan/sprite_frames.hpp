@@ -52,6 +52,7 @@ class SpriteFrames final : public measure::Prepared {
   SpriteFrames(const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work,
                const technique::Arrangement& arrangement, SpriteTechnique technique);
 
+  void poison() override;
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
   [[nodiscard]] core::Image image() override;
   [[nodiscard]] std::string kernel_hash() const override;

@@ -121,6 +121,10 @@ void TileBuffers::clear_pixels(const vk::raii::CommandBuffer& commands) const {
   commands.fillBuffer(pixels_.get(), plane_, plane_, none);
 }
 
+void TileBuffers::poison() const {
+  for (const Buffer* each : {&camera_spheres_, &kept_, &entries_}) mark_unwritten(gpu_, *each);
+}
+
 void TileBuffers::clear(const vk::raii::CommandBuffer& commands) const {
   commands.fillBuffer(tiles_.get(), 0, VK_WHOLE_SIZE, 0);
   if (small_) clear_pixels(commands);

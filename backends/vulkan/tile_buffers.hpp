@@ -36,6 +36,8 @@ class TileBuffers {
               const technique::TileRounds& rounds);
 
   void bind(vk::DescriptorSet set) const;
+  // Overwrites what a frame writes anew before it reads it.
+  void poison() const;
   // Empty tiles, and pixels unless no round ever draws into them.
   void clear(const vk::raii::CommandBuffer& commands) const;
   // No large spheres, no entries and no tiles drawn into.

@@ -38,6 +38,7 @@ class TilesFrames final : public measure::Prepared {
   TilesFrames(const Gpu& gpu, const Instance& instance, const measure::ParticleWork& work,
               const technique::Arrangement& arrangement);
 
+  void poison() override;
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
   [[nodiscard]] core::Image image() override;
   [[nodiscard]] std::string kernel_hash() const override { return tiles_hash(constants_); }
@@ -144,6 +145,7 @@ void TilesFrames::push(const vk::raii::CommandBuffer& commands, std::uint32_t fi
 // Cells of the round `again` are binned twice: injected work that changes nothing.
 void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                       const technique::TileRound& round, std::uint32_t again) const {
+  const Label label(gpu_, commands, "tiles: cull cells and bin their spheres");
   push(commands, round.first, round.cells);
   run(commands, pipelines[TilePass::cells], groups_for(round.cells, tile_group_size));
   barrier(commands);
@@ -155,6 +157,7 @@ void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelin
 // Draws the round's large spheres, unless the last pass does, and notes what is hidden.
 void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                           const technique::TileRound& round) const {
+  const Label label(gpu_, commands, "tiles: list, fill and resolve");
   run(commands, pipelines[TilePass::place], tile_groups_);
   barrier(commands);
   if (round.entries > 0) {
@@ -169,6 +172,7 @@ void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePip
 
 void TilesFrames::show(const vk::raii::CommandBuffer& commands,
                        const TilePipelines& pipelines) const {
+  const Label label(gpu_, commands, "tiles: show");
   if (rounds_.small) {
     run(commands, pipelines[TilePass::index], technique::list_groups(data_.particles()));
     barrier(commands);
@@ -203,6 +207,14 @@ void TilesFrames::record(const vk::raii::CommandBuffer& commands, const TilePipe
     }
   }
   show(commands, pipelines);
+}
+
+void TilesFrames::poison() {
+  translated([&] {
+    target_.poison(gpu_);
+    data_.poison_counters();
+    buffers_.poison();
+  });
 }
 
 measure::Frame TilesFrames::frame(measure::Purpose purpose) {

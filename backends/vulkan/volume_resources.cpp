@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "measure/contract/not_drawn.hpp"
 #include "technique/volume/long_rays.hpp"
 #include "technique/volume/opacity_form.hpp"
 #include "technique/volume/packed_cells.hpp"
@@ -217,15 +218,20 @@ void VolumeResources::bind_counters() {
                         vk::BufferUsageFlagBits::eTransferSrc |
                         vk::BufferUsageFlagBits::eTransferDst,
                     Place::device);
-  mark_unwritten(gpu_, *counters_);
+  poison_counters();
   bind_buffer(gpu_, set(Pass::counting), counters_binding, vk::DescriptorType::eStorageBuffer,
               *counters_);
+}
+
+void VolumeResources::poison_counters() const {
+  if (counters_) mark_unwritten(gpu_, *counters_);
 }
 
 record::Counts VolumeResources::read_counters() const {
   constexpr std::size_t stride = technique::raycast_counter_stride;
   std::vector<std::uint32_t> values(pixels_ * stride);
   download(gpu_, counters_.value(), std::as_writable_bytes(std::span(values)));
+  measure::check_counted(values);
   std::array<std::uint64_t, technique::raycast_counters.size()> sums{};
   for (std::size_t pixel = 0; pixel < pixels_; ++pixel) {
     for (std::size_t k = 0; k < sums.size(); ++k) sums.at(k) += values[pixel * stride + k];

@@ -54,7 +54,9 @@ class VolumeResources {
   // Of a volume that the device does not hold whole; none else.
   [[nodiscard]] int parts() const { return parts_ ? parts_->count() : 0; }
   void move_part(int n);
-  // Sums the counters over all pixels; adds "rays".
+  // Overwrites the counters where there are any.
+  void poison_counters() const;
+  // Sums the counters over all pixels; adds "rays". Throws measure::NotDrawn.
   [[nodiscard]] record::Counts read_counters() const;
 
  private:

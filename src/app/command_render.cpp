@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "core/temporary_folder.hpp"
 #include "measure/request/error_request.hpp"
 #include "measure/request/fastest.hpp"
+#include "measure/run/in_process.hpp"
 #include "measure/run/runner.hpp"
 #include "measure/worker/own_program.hpp"
 #include "report/frame_folder.hpp"
@@ -29,6 +32,8 @@ struct RenderArguments {
   int limit_s = standard_limit_s;
   bool truth = false;
   bool describe = false;
+  bool in_process = false;
+  std::string dump;  // a folder; empty: none
 };
 
 // Writes the truth and the difference beside the picture, and says whether it is right.
@@ -123,11 +128,57 @@ void require_option(const std::string& value, std::string_view name) {
   if (value.empty()) throw core::InputError(fmt::format("{} is required", name));
 }
 
-core::ExitCode render(const RenderArguments& arguments) {
+// Tools see the names of objects and passes, and what drivers are given is written to the folder.
+void prepare_process(const RenderArguments& arguments) {
+  ::setenv("TRIPTYCH_LABELS", "1", 1);
+  if (arguments.dump.empty()) return;
+  core::require_writable(arguments.dump);
+  fs::remove(fs::path(arguments.dump) / "what-was-given.txt");
+  ::setenv("TRIPTYCH_DUMP", fs::absolute(arguments.dump).c_str(), 1);
+}
+
+core::ExitCode keep(const RenderArguments& arguments, const measure::Suite& suite,
+                    const record::Record& record, const record::Device& device,
+                    const core::Image& image,
+                    const std::function<judge::TruthPair(const record::Record&)>& truth) {
+  const fs::path out(arguments.frame.out);
+  report::write_picture(out, "image", image);
+  const core::Json frame = report::frame_json(suite.describe(record.factors), record, device);
+  core::write_text(out / "frame.json", core::json_text(frame, 2) + "\n");
+  put("{}\n", (out / "image.exr").string());
+  if (!arguments.truth) return core::ExitCode::pass;
+  return hold_against_truth(image, truth(record), out);
+}
+
+core::ExitCode render_in_process(const RenderArguments& arguments) {
+  if (arguments.error) {
+    throw core::InputError("--error draws several configurations: leave it out with --in-process");
+  }
+  prepare_process(arguments);
   const Registry registry = make_registry();
-  if (arguments.describe) return describe_data(registry, arguments.frame);
+  const auto [suite, plan, device] = choose_frame(registry, arguments.frame);
+  if (!plan.automatic.empty()) {
+    throw core::InputError("auto draws several configurations: name the technique");
+  }
+  const fs::path out(arguments.frame.out);
+  report::remove_frame(out);
+  const auto faults = measure::parse_faults(arguments.frame.faults);
+  const measure::FrameInProcess drawn =
+      measure::draw_in_process(registry.backend(device.substr(0, device.find(':'))), device, suite,
+                               plan, faults, (fs::absolute(out) / "capture").string());
+  const core::TemporaryFolder folder;
+  record::Store store(folder.path() / "render.sqlite", record::Store::Mode::append);
+  measure::Truths truths(registry.find_suite(), store);
+  return keep(arguments, suite, drawn.record, drawn.device, drawn.image,
+              [&](const record::Record& record) { return truths.of(record); });
+}
+
+core::ExitCode render(const RenderArguments& arguments) {
+  if (arguments.describe) return describe_data(make_registry(), arguments.frame);
   require_option(arguments.frame.device, "--device");
   require_option(arguments.frame.out, "--out");
+  if (arguments.in_process || !arguments.dump.empty()) return render_in_process(arguments);
+  const Registry registry = make_registry();
   const auto [suite, plan, device] = choose_frame(registry, arguments.frame);
   const fs::path out(arguments.frame.out);
   report::remove_frame(out);
@@ -141,13 +192,8 @@ core::ExitCode render(const RenderArguments& arguments) {
   record::require_measured(record);
   if (record.image.empty()) throw core::InputError(record.technique + " does not draw an image");
   const core::Image image = store.picture(record.image);
-  report::write_picture(out, "image", image);
-  const core::Json frame =
-      report::frame_json(suite.describe(record.factors), record, store.devices(run).at(0).device);
-  core::write_text(out / "frame.json", core::json_text(frame, 2) + "\n");
-  put("{}\n", (out / "image.exr").string());
-  if (!arguments.truth) return core::ExitCode::pass;
-  return hold_against_truth(image, truths.of(record), out);
+  return keep(arguments, suite, record, store.devices(run).at(0).device, image,
+              [&](const record::Record& of) { return truths.of(of); });
 }
 
 }  // namespace
@@ -163,6 +209,13 @@ void add_render_command(Commands& commands) {
                      "step, quadrature, ert, adapt and skip whose error against the scene's limit "
                      "image is at most E");
   add_limit_option(command, arguments.limit_s, "the frame");
+  command.add_flag("--in-process", arguments.in_process,
+                   "Draw one frame in this process, with nothing before it: for debuggers and for "
+                   "RenderDoc, apitrace, gfxreconstruct, whose capture holds this frame alone. "
+                   "Objects and passes are named");
+  command.add_option("--dump", arguments.dump,
+                     "Folder for what the driver was given: device code, options, parameters, "
+                     "buffers. Implies --in-process");
   command.add_flag("--truth", arguments.truth,
                    "Compare with the reference image: write truth.exr, truth.png and "
                    "difference.png, and exit with code 1 if the image is wrong");

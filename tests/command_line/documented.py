@@ -27,7 +27,8 @@ ELSEWHERE = {
     "ci/drivers/fetch": "needs a network", "ci/bench": "takes hours", "ci/cluster/submit": "cluster tests",
     "ci/dashboard": "command_line.dashboard", "ci/ratios": "command_line.ratios", "ci/publish": "analysis.publish", "analysis/analyze": "analysis.end_to_end",
     "apt-get": "examples_test",
-    "ctest": "CI", "cmake": "CI", "git": "the triptych command in it is run", "cat": "", "exit": "", "export": "",
+    "ctest": "CI", "cmake": "CI", "git": "the triptych command in it is run", "cc": "layer.FramePrograms", "gdb": "interactive", "renderdoccmd": "the triptych command in it is run",
+    "apitrace": "the triptych command in it is run", "cat": "", "exit": "", "export": "",
 }
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 LANGUAGES = ("", "sh", "text")  # text: output of a program, which may print a command to paste

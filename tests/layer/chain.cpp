@@ -64,9 +64,9 @@ Info* loader_info(const void* next, VkStructureType type) {
   return nullptr;
 }
 
-std::array<std::span<const Hook>, 6> every_hook() {
-  return {description_hooks(), memory_hooks(),      queue_hooks(),
-          refusal_hooks(),     state_fault_hooks(), command_fault_hooks()};
+std::array<std::span<const Hook>, 8> every_hook() {
+  return {description_hooks(), memory_hooks(),        queue_hooks(),       refusal_hooks(),
+          state_fault_hooks(), command_fault_hooks(), query_fault_hooks(), submission_hooks()};
 }
 
 std::map<std::string_view, PFN_vkVoidFunction> taken_of(VkInstance instance,
@@ -146,6 +146,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical,
 
 VKAPI_ATTR void VKAPI_CALL destroy_device(VkDevice device, const VkAllocationCallbacks* allocator) {
   const void* key = key_of(device);
+  end_device();
   next<PFN_vkDestroyDevice>(device, "vkDestroyDevice")(device, allocator);
   remove_link(key);
 }
@@ -160,6 +161,10 @@ PFN_vkVoidFunction instance_command(VkInstance instance, const char* name);
 PFN_vkVoidFunction device_command(VkDevice device, const char* name);
 
 PFN_vkVoidFunction own(std::string_view name) {
+  const std::string_view wanted = known_limit(change().name) ? std::string_view() : change().name;
+  for (const Hook& each : submission_hooks()) {
+    if (each.change == wanted && each.command == name) return each.function;
+  }
   const std::array always{hook("", "vkGetInstanceProcAddr", &instance_command),
                           hook("", "vkGetDeviceProcAddr", &device_command),
                           hook("", "vkCreateInstance", &create_instance),
@@ -170,7 +175,6 @@ PFN_vkVoidFunction own(std::string_view name) {
   for (const Hook& each : always) {
     if (each.command == name) return each.function;
   }
-  const std::string_view wanted = known_limit(change().name) ? std::string_view() : change().name;
   for (const std::span<const Hook> hooks : every_hook()) {
     for (const Hook& each : hooks) {
       const bool of_all = each.command == "vkGetPhysicalDeviceProperties2";

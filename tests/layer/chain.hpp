@@ -41,5 +41,10 @@ VkResult refuse(std::string_view what);
 [[nodiscard]] std::span<const Hook> refusal_hooks();
 [[nodiscard]] std::span<const Hook> state_fault_hooks();
 [[nodiscard]] std::span<const Hook> command_fault_hooks();
+[[nodiscard]] std::span<const Hook> query_fault_hooks();
+[[nodiscard]] std::span<const Hook> submission_hooks();
+
+// What faults do when a device ends.
+void end_device();
 
 }  // namespace triptych::layer

@@ -1,9 +1,7 @@
-// Faults of a driver that takes commands wrongly: draws, dispatches, copies, clears and queries.
+// Faults of a driver that takes commands wrongly: draws, dispatches, copies and clears.
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <map>
-#include <mutex>
 #include <vector>
 
 #include "tests/layer/chain.hpp"
@@ -107,44 +105,6 @@ VKAPI_ATTR void VKAPI_CALL volume_slice(VkCommandBuffer commands, VkBuffer buffe
       commands, buffer, image, layout, count, changed.data());
 }
 
-std::mutex mutex;
-std::map<VkQueryPool, VkQueryType> types;
-
-VKAPI_ATTR VkResult VKAPI_CALL create_queries(VkDevice device, const VkQueryPoolCreateInfo* info,
-                                              const VkAllocationCallbacks* allocator,
-                                              VkQueryPool* pool) {
-  const VkResult result =
-      next<PFN_vkCreateQueryPool>(device, "vkCreateQueryPool")(device, info, allocator, pool);
-  const std::lock_guard lock(mutex);
-  types[*pool] = info->queryType;
-  return result;
-}
-
-// Results of 64 bits of one type of query, changed by `Spoil`.
-template <VkQueryType type, auto Spoil>
-VKAPI_ATTR VkResult VKAPI_CALL query_results(VkDevice device, VkQueryPool pool, std::uint32_t first,
-                                             std::uint32_t count, std::size_t size, void* data,
-                                             VkDeviceSize stride, VkQueryResultFlags flags) {
-  const VkResult result = next<PFN_vkGetQueryPoolResults>(device, "vkGetQueryPoolResults")(
-      device, pool, first, count, size, data, stride, flags);
-  const std::lock_guard lock(mutex);
-  if (types[pool] == type) {
-    Spoil(std::span(static_cast<std::uint64_t*>(data), size / sizeof(std::uint64_t)));
-  }
-  return result;
-}
-
-void stuck(std::span<std::uint64_t> values) {
-  std::ranges::fill(values, values.front());
-}
-
-void twice(std::span<std::uint64_t> values) {
-  for (std::uint64_t& each : values) each *= 2;
-}
-
-constexpr VkQueryType timestamps = VK_QUERY_TYPE_TIMESTAMP;
-constexpr VkQueryType statistics = VK_QUERY_TYPE_PIPELINE_STATISTICS;
-
 }  // namespace
 
 std::span<const Hook> command_fault_hooks() {
@@ -158,11 +118,7 @@ std::span<const Hook> command_fault_hooks() {
       hook("clear_depth", "vkCmdBeginRenderPass", &begin_pass<&clear_depth>),
       hook("short_copy", "vkCmdCopyBuffer", &short_copy),
       hook("image_row", "vkCmdCopyImageToBuffer", &image_row),
-      hook("volume_slice", "vkCmdCopyBufferToImage", &volume_slice),
-      hook("stuck_clock", "vkCreateQueryPool", &create_queries),
-      hook("stuck_clock", "vkGetQueryPoolResults", &query_results<timestamps, &stuck>),
-      hook("double_statistics", "vkCreateQueryPool", &create_queries),
-      hook("double_statistics", "vkGetQueryPoolResults", &query_results<statistics, &twice>)};
+      hook("volume_slice", "vkCmdCopyBufferToImage", &volume_slice)};
   return hooks;
 }
 

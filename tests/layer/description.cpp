@@ -46,14 +46,15 @@ constexpr std::array<Named<VkBool32 Features::*>, 9> features_named{{
 }};
 
 // Lowered by a rule of their own, here or in memory.cpp and queues.cpp.
-constexpr std::array<std::string_view, 13> others{
+constexpr std::array<std::string_view, 15> others{
     "maxComputeWorkGroupSize", "maxComputeWorkGroupCount",
     "maxFramebufferWidth",     "pointSizeRange",
     "pointSizeGranularity",    "timestampComputeAndGraphics",
     "timestampValidBits",      "graphicsQueue",
     "computeFamilyFirst",      "linearFilter",
     "hostVisibleDeviceLocal",  "floatDepth",
-    "memoryHeapSize"};
+    "memoryHeapSize",          "emptyHeap",
+    "maxMemoryAllocationSize"};
 
 template <class Table>
 auto find(const Table& table) {
@@ -85,6 +86,11 @@ VKAPI_ATTR void VKAPI_CALL properties2(VkPhysicalDevice physical,
   lower(properties->properties.limits);
   for (auto* each = static_cast<VkBaseOutStructure*>(properties->pNext); each != nullptr;
        each = each->pNext) {
+    if (asked("maxMemoryAllocationSize") &&
+        each->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES) {
+      reinterpret_cast<VkPhysicalDeviceMaintenance3Properties*>(each)->maxMemoryAllocationSize =
+          asked_number();
+    }
     if (each->sType != VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES) continue;
     rename(*reinterpret_cast<VkPhysicalDeviceDriverProperties*>(each));
   }

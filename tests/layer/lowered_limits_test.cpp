@@ -65,6 +65,9 @@ const std::vector<Lowered>& lowered() {
       {"hostVisibleDeviceLocal", volume},
       {"hostVisibleDeviceLocal", particles},
       {"memoryHeapSize=150000", volume, 2, "the largest heap has 150000"},
+      {"emptyHeap", volume},
+      {"emptyHeap", particles},
+      {"maxMemoryAllocationSize=100000", volume, 2, "maxMemoryAllocationSize = 100000"},
   };
   return all;
 }

@@ -25,6 +25,15 @@ VKAPI_ATTR void VKAPI_CALL memory_properties(VkPhysicalDevice physical,
   next<PFN_vkGetPhysicalDeviceMemoryProperties>(physical, "vkGetPhysicalDeviceMemoryProperties")(
       physical, memory);
   if (asked("memoryHeapSize")) memory->memoryHeaps[0].size = asked_number();
+  if (asked("emptyHeap")) {
+    // A heap of no bytes in front, as drivers of cards without memory of their own list it.
+    memory->memoryHeapCount = memory->memoryTypeCount = 2;
+    memory->memoryHeaps[1] = memory->memoryHeaps[0];
+    memory->memoryHeaps[1].flags = 0;
+    memory->memoryHeaps[0] = {.size = 0, .flags = VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+    memory->memoryTypes[1] = {memory->memoryTypes[0].propertyFlags, 1};
+    memory->memoryTypes[0] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
+  }
   if (!apart()) return;
   memory->memoryHeapCount = types;
   memory->memoryHeaps[on_host] = {.size = memory->memoryHeaps[0].size, .flags = 0};
@@ -39,7 +48,14 @@ VKAPI_ATTR void VKAPI_CALL buffer_needs(VkDevice device, VkBuffer buffer,
                                         VkMemoryRequirements* needs) {
   next<PFN_vkGetBufferMemoryRequirements>(device, "vkGetBufferMemoryRequirements")(device, buffer,
                                                                                    needs);
-  if (apart()) needs->memoryTypeBits = 1U << on_device | 1U << on_host;
+  if (apart() || asked("emptyHeap")) needs->memoryTypeBits = 1U << on_device | 1U << on_host;
+}
+
+VKAPI_ATTR void VKAPI_CALL image_needs(VkDevice device, VkImage image,
+                                       VkMemoryRequirements* needs) {
+  next<PFN_vkGetImageMemoryRequirements>(device, "vkGetImageMemoryRequirements")(device, image,
+                                                                                 needs);
+  if (asked("emptyHeap")) needs->memoryTypeBits = 1U << on_device | 1U << on_host;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateInfo* info,
@@ -48,8 +64,14 @@ VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateI
   if (asked("memoryHeapSize") && info->allocationSize > asked_number()) {
     return refuse("vkAllocateMemory: more than the heap has");
   }
+  if (asked("maxMemoryAllocationSize") && info->allocationSize > asked_number()) {
+    return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  }
+  if (asked("emptyHeap") && info->memoryTypeIndex == 0) {
+    return refuse("vkAllocateMemory from a heap of 0 bytes");
+  }
   VkMemoryAllocateInfo below = *info;
-  if (apart()) below.memoryTypeIndex = 0;
+  if (apart() || asked("emptyHeap")) below.memoryTypeIndex = 0;
   const VkResult result =
       next<PFN_vkAllocateMemory>(device, "vkAllocateMemory")(device, &below, allocator, memory);
   if (result == VK_SUCCESS && apart()) {
@@ -77,6 +99,7 @@ VKAPI_ATTR VkResult VKAPI_CALL map(VkDevice device, VkDeviceMemory memory, VkDev
 std::span<const Hook> memory_hooks() {
   static const std::array hooks{hook("", "vkGetPhysicalDeviceMemoryProperties", &memory_properties),
                                 hook("", "vkGetBufferMemoryRequirements", &buffer_needs),
+                                hook("", "vkGetImageMemoryRequirements", &image_needs),
                                 hook("", "vkAllocateMemory", &allocate),
                                 hook("", "vkMapMemory", &map)};
   return hooks;

@@ -72,7 +72,12 @@ class Prepared {
   Prepared& operator=(const Prepared&) = delete;
   virtual ~Prepared() = default;
 
-  // Draws one frame and waits for it without spinning. Throws ApiError, DeviceLost.
+  // Overwrites everything that a frame leaves behind (image, ids, depth, counters) with values that
+  // no frame leaves: until the next frame is drawn, image() reads NaN in every channel. A frame
+  // that leaves the values of an earlier one is found by this. Never called within what is timed or
+  // counted.
+  virtual void poison() = 0;
+  // Draws one frame and waits for it without spinning. Throws ApiError, DeviceLost, NotDrawn.
   [[nodiscard]] virtual Frame frame(Purpose purpose) = 0;
   // The picture of the last frame, read back.
   [[nodiscard]] virtual core::Image image() = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "measure/protocol/frame_proof.hpp"
 #include "measure/protocol/protocol.hpp"
 
 namespace triptych::measure {
@@ -14,6 +15,9 @@ namespace {
 constexpr int most_frames = 8;
 constexpr int least_frames = 3;
 constexpr double budget_ns = 0.5e9;  // of all calibration frames; a slow device takes the fewest
+
+// The ratio of a clock that has none.
+constexpr double never_written = -1;
 
 record::ClockTrust without_time(technique::Work kind, std::string verdict) {
   record::ClockTrust trust;
@@ -105,9 +109,18 @@ record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind) {
   const int frames = frames_within_budget(prepared.frame(Purpose::timing).wall_ns);
   std::vector<double> ratios;
   std::vector<double> wall_ns;
+  FrameProof proof(prepared);
   for (int i = 0; i < frames; ++i) {
-    const Frame frame = prepared.frame(Purpose::timing);
+    const Frame frame = proof.draw(Purpose::timing);
+    proof.check("a frame of the clock's calibration");
     if (!frame.device_ns) return without_time(work_kind, "not trusted: the device tells no time");
+    if (std::isnan(*frame.device_ns)) {
+      record::ClockTrust trust =
+          without_time(work_kind, "not trusted: the driver never wrote a time stamp");
+      trust.offered = true;
+      trust.ratio = trust.ratio_low = trust.ratio_high = never_written;
+      return trust;
+    }
     if (!(frame.wall_ns > 0) || !std::isfinite(*frame.device_ns)) {
       return without_time(work_kind,
                           fmt::format("not trusted: {} ns of device time in {} ns of wall time",
@@ -141,6 +154,33 @@ record::ClockTrust calibrate_clock(Device& device, Suite& suite, technique::Work
     // The wall clock still serves; each configuration will show what else is wrong.
     return without_time(kind, fmt::format("not calibrated: {}", error.what()));
   }
+}
+
+// Two limits tell ticks of another length from a clock that leaves work out. The first is beyond
+// the wall time. The second is a constant share of it: launches and waits vary from frame to frame
+// by more than a twentieth, and a clock that leaves out the work itself reads less than a fiftieth
+// (lavapipe around dispatches, 0.0003).
+std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust) {
+  using enum record::DeviceFaultKind;
+  constexpr double steady = 1.05;
+  constexpr double least_share = 0.02;
+  if (trust.trusted || !trust.offered) return std::nullopt;
+  record::DeviceFault fault{
+      .kind = clock_rate_wrong, .subject = trust.work, .detail = trust.verdict};
+  if (trust.ratio == never_written) {
+    fault.kind = clock_not_written;
+    return fault;
+  }
+  if (trust.ratio_high == 0) {
+    fault.kind = clock_reads_zero;
+    return fault;
+  }
+  const bool too_long = trust.ratio_low > ClockLimits::most_ratio;
+  const bool constant = trust.ratio_low > least_share &&
+                        trust.ratio_high < ClockLimits::least_ratio &&
+                        trust.ratio_high < steady * trust.ratio_low;
+  if (!too_long && !constant) return std::nullopt;
+  return fault;
 }
 
 bool plausible(const std::vector<double>& device_ns, const std::vector<double>& wall_ns) {

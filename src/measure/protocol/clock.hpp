@@ -2,6 +2,8 @@
 // Decides whether a device's clock is trustworthy. See calibrate() in
 // measure/protocol/protocol.hpp.
 
+#include <optional>
+
 #include "measure/contract/backend.hpp"
 #include "measure/contract/suite.hpp"
 #include "record/record.hpp"
@@ -33,6 +35,11 @@ struct ClockLimits {
 // verdict says so. Throws DeviceLost.
 [[nodiscard]] record::ClockTrust calibrate_clock(Device& device, Suite& suite,
                                                  technique::Work kind);
+
+// What is wrong with the clock beyond launches and waits that it may leave out: it was never
+// written, reads 0, or its ticks are not as long as the device says. Nothing for a clock that is
+// trusted, or whose error has no such cause.
+[[nodiscard]] std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust);
 
 // Whether the device times of one configuration's frames are possible at all: present for each
 // frame, above 0, not longer than the frame's wall time allows, and not missing most of it. Needed

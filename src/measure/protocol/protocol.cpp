@@ -15,6 +15,7 @@
 #include "measure/protocol/benchmark_loop.hpp"
 #include "measure/protocol/clock.hpp"
 #include "measure/protocol/count_to_fill.hpp"
+#include "measure/protocol/frame_proof.hpp"
 #include "measure/system/stopwatch.hpp"
 #include "record/benchmark_entries.hpp"
 
@@ -53,15 +54,17 @@ bool is_trusted(technique::Work kind, const std::vector<record::ClockTrust>& clo
 // The timed frames. A device that told no time for one of them told none: a list with holes would
 // pair the wrong values. The benchmark's real time is the wall time, device time a key beside it:
 // whether that is to be believed is known only when all frames are there.
-core::Json time_into(record::Record& record, Prepared& prepared, int frames,
-                     const std::string& name, double& work_ns) {
+core::Json time_into(record::Record& record, FrameProof& proof, int frames, const std::string& name,
+                     double& work_ns) {
   std::vector<std::optional<double>> device_ns;
   record.wall_ns.reserve(static_cast<std::size_t>(frames));
   device_ns.reserve(static_cast<std::size_t>(frames));
   BenchmarkResult result = time_frames(name, frames, [&] {
+    proof.start();
     const Stopwatch stopwatch;
-    const Frame frame = prepared.frame(Purpose::timing);
+    const Frame frame = proof.prepared().frame(Purpose::timing);
     work_ns += stopwatch.ns();
+    proof.check(fmt::format("timed frame {} of {}", record.wall_ns.size() + 1, frames));
     const bool told = frame.device_ns && std::isfinite(*frame.device_ns);
     record.wall_ns.push_back(frame.wall_ns);
     device_ns.push_back(told ? frame.device_ns : std::nullopt);
@@ -106,20 +109,36 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
   const Stopwatch whole;
   Measurement result;
   record::Record& record = result.record;
-  const Stopwatch drawing;
-  static_cast<void>(prepared.frame(Purpose::timing));
-  double work_ns = drawing.ns();
-  result.image = prepared.image();
+  FrameProof proof(prepared, protocol.image_is_judged);
+  double work_ns = 0;
+  const auto draw = [&](Purpose purpose) {
+    proof.start();
+    const Stopwatch drawing;
+    Frame frame = prepared.frame(purpose);
+    work_ns += drawing.ns();
+    return frame;
+  };
+  // Frames after a jump of the camera draw what the frame before did not show, in another order.
+  const auto check = [&](std::string_view what) {
+    if (protocol.camera_jumps) {
+      proof.check_drawn(what);
+    } else {
+      proof.check(what);
+    }
+  };
+  static_cast<void>(draw(Purpose::timing));
+  result.image = proof.check("the first frame");
   if (protocol.statistics) {
-    const Stopwatch querying;
-    record.statistics = prepared.frame(Purpose::statistics).counts;
-    work_ns += querying.ns();
+    record.statistics = draw(Purpose::statistics).counts;
+    check("the frame of the statistics");
   }
   if (protocol.counters) {
-    const Stopwatch counting;
-    record.counters = prepared.frame(Purpose::counters).counts;
-    work_ns += counting.ns();
+    record.counters = draw(Purpose::counters).counts;
+    proof.check_drawn("the frame of the counters");
   }
+  // The same commands once more: a driver that executes them only once has been right so far.
+  static_cast<void>(draw(Purpose::timing));
+  check("the second frame");
   record.image = image_hash(result.image);
   record.kernel_hash = prepared.kernel_hash();
   record.outcome = record::Outcome::measured;
@@ -132,16 +151,23 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
 Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
                                const InstructionCounter& counter) {
   constexpr int frames_before = 2;
-  for (int i = 0; i < frames_before; ++i) static_cast<void>(prepared.frame(Purpose::timing));
+  FrameProof proof(prepared, protocol.image_is_judged);
+  for (int i = 0; i < frames_before; ++i) static_cast<void>(proof.draw(Purpose::timing));
+  proof.check("the second frame");
+  proof.start();
   counter.wait_until_quiet();
   Measurement result;
   record::Record& record = result.record;
   static_cast<void>(counter.counting(record.cost, [&] { return prepared.frame(Purpose::timing); }));
+  proof.check("the frame whose instructions are counted");
   if (protocol.picture) {
-    result.image = prepared.image();
+    result.image = proof.take_image();
     record.image = image_hash(result.image);
   }
-  if (protocol.counters) record.counters = prepared.frame(Purpose::counters).counts;
+  if (protocol.counters) {
+    record.counters = proof.draw(Purpose::counters).counts;
+    proof.check_drawn("the frame of the counters");
+  }
   record.kernel_hash = prepared.kernel_hash();
   record.outcome = record::Outcome::measured;
   return result;
@@ -169,24 +195,34 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   record.loop_frames =
       count_to_fill(protocol.least_loop_ns, warm.fastest_ns, protocol.most_loop_frames);
 
-  core::Json entries = time_into(record, prepared, protocol.timed_frames, name, work_ns);
+  FrameProof proof(prepared, protocol.image_is_judged);
+  core::Json entries = time_into(record, proof, protocol.timed_frames, name, work_ns);
   record.device_clock_trusted =
       is_trusted(work_kind, clocks) && plausible(record.device_ns, record.wall_ns);
-  result.image = prepared.image();
+  result.image = proof.take_image();
 
   if (protocol.statistics) {
+    proof.start();
     record.statistics = counted([&] { return prepared.frame(Purpose::statistics); }).counts;
+    proof.check("the frame of the statistics");
   }
   if (protocol.counters) {
+    proof.start();
     record.counters = counted([&] { return prepared.frame(Purpose::counters); }).counts;
+    proof.check_drawn("the frame of the counters");
   }
-  const auto draw = [&] { static_cast<void>(prepared.frame(Purpose::timing)); };
+  std::vector<double> loop_wall_ns;
+  loop_wall_ns.reserve(static_cast<std::size_t>(record.loop_frames));
+  const auto draw = [&] { loop_wall_ns.push_back(prepared.frame(Purpose::timing).wall_ns); };
+  proof.start();
   BenchmarkResult loop = time_loop(name + "/loop", record.loop_frames, draw);
   record.loop_wall_ns = loop.total_ns;
   work_ns += loop.total_ns;
   if (meters != nullptr && protocol.has_loop()) {
     record.energy = counted([&] { return meters->of_a_frame(draw); });
   }
+  proof.check("the wall-clock loop");
+  check_loop(loop_wall_ns, record.wall_ns);
 
   for (core::Json& entry : loop.entries) entries.push_back(std::move(entry));
   add_counts(entries, record.counters);

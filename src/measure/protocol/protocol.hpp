@@ -35,6 +35,11 @@ struct Protocol {
   // Else a configuration that does the very work of one before (measure/contract/equivalents.hpp)
   // takes over what that one told.
   bool measure_every = false;
+  // The worker's own, never sent to it: the frame before the first is drawn from elsewhere, so that
+  // the first frames may differ where surfaces tie.
+  bool camera_jumps = false;
+  // Likewise: the image is one that is compared with a reference image.
+  bool image_is_judged = true;
 
   [[nodiscard]] bool has_loop() const noexcept { return timed && least_loop_ns > 0; }
 };

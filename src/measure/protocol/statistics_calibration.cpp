@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "measure/contract/not_drawn.hpp"
 #include "scene/generators.hpp"
 #include "scene/particles.hpp"
 
@@ -180,13 +181,24 @@ std::string counted_by_us(const std::vector<CalibrationReading>& readings) {
     const bool same = std::ranges::all_of(readings, [&](const CalibrationReading& each) {
       return find_count(each.ours, name) == each.first;
     });
-    if (same) return name;
+    // A statistic that is always 0 counts nothing, though a counter of ours may be 0, too.
+    const bool any = std::ranges::any_of(
+        readings, [](const CalibrationReading& each) { return each.first.value_or(0) > 0; });
+    if (same && any) return name;
   }
   return {};
 }
 
 double multiple(const CalibrationReading& reading) {
   return static_cast<double>(reading.first.value_or(0)) / static_cast<double>(reading.expected);
+}
+
+bool all_zero(const Readings& readings) {
+  return std::ranges::all_of(readings, [](const auto& entry) {
+    return std::ranges::all_of(entry.second, [](const CalibrationReading& each) {
+      return each.expected > 0 && each.first.value_or(1) == 0 && each.again.value_or(1) == 0;
+    });
+  });
 }
 
 record::StatisticWorth differences(const std::vector<CalibrationReading>& readings) {
@@ -241,7 +253,8 @@ record::StatisticWorth calibration_verdict(const std::vector<CalibrationReading>
           .detail = fmt::format("{}; {}", low.scene, high.scene)};
 }
 
-Calibration calibrate_statistics(Device& device, technique::Work kind) {
+Calibration calibrate_statistics(Device& device, technique::Work kind,
+                                 std::vector<record::DeviceFault>* faults) {
   Readings readings;
   Calibration unknown;
   for (const CalibrationScene& scene : calibration_scenes(kind)) {
@@ -253,6 +266,12 @@ Calibration calibrate_statistics(Device& device, technique::Work kind) {
     } catch (const core::NotSupported&) {
       continue;
     } catch (const core::Error& error) {
+      const bool not_ready = dynamic_cast<const StatisticsNotReady*>(&error) != nullptr;
+      if (not_ready && faults != nullptr && unknown.empty()) {
+        faults->push_back({.kind = record::DeviceFaultKind::statistics_not_ready,
+                           .subject = std::string(technique::name_of(kind)),
+                           .detail = error.what()});
+      }
       // The configurations to come will show what else is wrong.
       for (const auto& [name, value] : scene.expected) {
         unknown.emplace(name, record::StatisticWorth{
@@ -264,7 +283,12 @@ Calibration calibrate_statistics(Device& device, technique::Work kind) {
     if (readings.empty() && unknown.empty()) break;
   }
   Calibration calibration;
-  if (readings.empty()) return calibration;
+  if (readings.empty()) return unknown;
+  if (faults != nullptr && all_zero(readings)) {
+    faults->push_back({.kind = record::DeviceFaultKind::statistics_all_zero,
+                       .subject = std::string(technique::name_of(kind)),
+                       .detail = fmt::format("every one of {} statistics", readings.size())});
+  }
   for (const auto& [name, each] : readings) calibration[name] = calibration_verdict(each);
   // What failed in one scene is not vouched for by the others.
   for (const auto& [name, reason] : unknown) calibration[name] = reason;

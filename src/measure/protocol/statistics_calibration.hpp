@@ -45,8 +45,9 @@ struct CalibrationReading {
 
 // Statistic → verdict, for every statistic of the scenes that the device can draw. Empty for a
 // device that tells no statistics of any of them (OpenCL). An error of the API while a scene is
-// drawn makes the statistics of that scene `unknown`. Throws DeviceLost.
+// drawn makes the statistics of that scene `unknown`. Statistics that are all 0 or never become
+// available are added to `faults`. Throws DeviceLost.
 [[nodiscard]] std::map<std::string, record::StatisticWorth> calibrate_statistics(
-    Device& device, technique::Work kind);
+    Device& device, technique::Work kind, std::vector<record::DeviceFault>* faults = nullptr);
 
 }  // namespace triptych::measure

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -79,7 +80,10 @@ Done DeviceRun::pass_by(const Configuration& configuration, const std::string& k
 }
 
 void DeviceRun::finish() {
-  slot_.finish();
+  std::optional<record::DeviceFault> fault = slot_.finish();
+  if (!fault || !known_) return;
+  known_->faults.push_back(std::move(*fault));
+  context_.store.add_device(context_.run, *known_, clocks_);
 }
 
 // A resumed run goes on with the clocks it began with: records of one run rest on one verdict.
@@ -126,6 +130,29 @@ void DeviceRun::sign(const Job& job, const std::string& key, record::Record& rec
   if (record.factors.empty()) record.factors = job.configuration;
 }
 
+// A driver may keep what it compiled, some MB for a configuration at first; what grows by more for
+// most configurations is never freed. Peaks: what is freed does not raise them again.
+void DeviceRun::watch_memory(std::uint64_t peak_bytes) {
+  constexpr std::size_t least_configurations = 8;
+  constexpr std::uint64_t most_growth = std::uint64_t{16} << 20U;
+  if (!peaks_.empty() && peak_bytes < peaks_.back()) peaks_.clear();  // another worker's
+  peaks_.push_back(peak_bytes);
+  const bool known = std::ranges::any_of(known_->faults, [](const record::DeviceFault& each) {
+    return each.kind == record::DeviceFaultKind::memory_grows;
+  });
+  if (known || peaks_.size() <= least_configurations) return;
+  std::vector<std::uint64_t> growth;
+  for (std::size_t i = 1; i < peaks_.size(); ++i) growth.push_back(peaks_[i] - peaks_[i - 1]);
+  std::ranges::nth_element(growth, growth.begin() + static_cast<std::ptrdiff_t>(growth.size() / 2));
+  const std::uint64_t median = growth[growth.size() / 2];
+  if (median <= most_growth) return;
+  known_->faults.push_back(
+      {.kind = record::DeviceFaultKind::memory_grows,
+       .detail = fmt::format("by {} MiB for the median of {} configurations, to {} MiB",
+                             median >> 20U, growth.size(), peak_bytes >> 20U)});
+  context_.store.add_device(context_.run, *known_, clocks_);
+}
+
 bool DeviceRun::ensure_worker() {
   return slot_.open(
       [this] {
@@ -153,6 +180,7 @@ Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
   if (const auto* lost = std::get_if<Ended>(&reply)) return {ended(lost->outcome, lost->reason)};
   Answer& answer = std::get<Answer>(reply);
   if (answer.record.outcome == record::Outcome::lost) slot_.vacate();
+  watch_memory(answer.record.peak_memory_bytes);
   Done done{.record = std::move(answer.record),
             .exr = std::move(answer.exr),
             .work_ns = answer.worker_ns - answer.record.overhead_ns};

@@ -78,6 +78,8 @@ class DeviceRun {
   [[nodiscard]] std::variant<Answer, Ended> exchange(const Message& message,
                                                      const OnLoading& on_loading);
 
+  // Notes a worker whose memory grows from configuration to configuration.
+  void watch_memory(std::uint64_t peak_bytes);
   void only_counted(record::Record& record) const;
   // Of a plan that counts, why nothing can be counted here; else nothing.
   [[nodiscard]] std::optional<record::Reason> no_emulator() const;
@@ -88,6 +90,7 @@ class DeviceRun {
   WorkerSlot slot_;
   std::optional<record::Device> known_;
   std::vector<record::ClockTrust> clocks_;
+  std::vector<std::uint64_t> peaks_;  // of the worker's memory, configuration by configuration
 };
 
 }  // namespace triptych::measure

@@ -174,9 +174,12 @@ std::optional<Message> MessageBuffer::next() {
 }
 
 Message to_message(const Start& start) {
-  return {
-      {{"type", "start"}, {"suite", start.suite}, {"kinds", start.kinds}, {"clocks", start.clocks}},
-      {}};
+  return {{{"type", "start"},
+           {"suite", start.suite},
+           {"kinds", start.kinds},
+           {"clocks", start.clocks},
+           {"statistics", start.statistics}},
+          {}};
 }
 
 Message to_message(const Hello& hello) {
@@ -233,7 +236,8 @@ std::optional<Start> as_start(const Message& message) {
   return reading("start", [&] {
     return Start{.suite = message.json.at("suite"),
                  .kinds = message.json.at("kinds"),
-                 .clocks = message.json.at("clocks").get<std::vector<record::ClockTrust>>()};
+                 .clocks = message.json.at("clocks").get<std::vector<record::ClockTrust>>(),
+                 .statistics = message.json.at("statistics").get<bool>()};
   });
 }
 

@@ -55,7 +55,8 @@ struct Start {
   std::string suite;
   std::vector<std::string> kinds;  // technique::name_of
   std::vector<record::ClockTrust>
-      clocks;  // a worker that replaces another need not calibrate again
+      clocks;              // a worker that replaces another need not calibrate again
+  bool statistics = true;  // else the driver crashed when they were read: nobody asks for them
 };
 
 struct Hello {

@@ -16,10 +16,14 @@
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "measure/contract/equivalents.hpp"
+#include "measure/contract/not_drawn.hpp"
 #include "measure/protocol/clock.hpp"
+#include "measure/protocol/frame_proof.hpp"
 #include "measure/protocol/injected_fault.hpp"
 #include "measure/protocol/protocol.hpp"
 #include "measure/protocol/statistics_calibration.hpp"
+#include "measure/system/crash_trace.hpp"
+#include "measure/system/host_arithmetic.hpp"
 #include "measure/system/stopwatch.hpp"
 #include "measure/worker/wire.hpp"
 
@@ -45,22 +49,15 @@ technique::Work kind_named(std::string_view name) {
   throw core::InputError(fmt::format("unknown kind of work '{}'", name));
 }
 
-// What is known of the data and of the path it takes, for judging the image.
-void describe_work(const Work& work, const Device& device, record::Record& record) {
-  if (const auto* volume = std::get_if<VolumeWork>(&work.scene)) {
-    record.data_hash = volume->scene.grid->hash;
-    record.precision["filter_weight_error"] = device.filter_weight_error(
-        {.voxel = volume->scene.grid->format, .sampler = volume->options.sampler});
-  } else if (const auto* particles = std::get_if<ParticleWork>(&work.scene)) {
-    record.data_hash = particles->scene.particles->hash;
-    if (const auto rasterizer = device.rasterizer()) {
-      record.precision["sub_pixel_bits"] = rasterizer->sub_pixel_bits;
-      if (work.technique == "point") {
-        record.precision["point_margin"] = rasterizer->point_margin;
-        record.precision["largest_point"] = rasterizer->largest_point;
-      }
-    }
+// With what only the work says.
+Protocol protocol_for(const Job& job, const Work& work, bool has_statistics) {
+  Protocol protocol = job.protocol;
+  protocol.statistics = protocol.statistics && has_statistics;
+  protocol.image_is_judged = technique::technique(work.technique).picture;
+  if (const auto* particles = std::get_if<ParticleWork>(&work.scene)) {
+    protocol.camera_jumps = particles->camera_before.has_value();
   }
+  return protocol;
 }
 
 // The input is broken, which is not the device's fault: the configuration is skipped.
@@ -98,6 +95,8 @@ void outcome_of(const Act& act, const std::string& data, const OnFailure& on_fai
     on_failure(Outcome::lost, api_reason(Cause::device_lost, error));
   } catch (const core::ApiError& error) {
     on_failure(Outcome::failed, api_reason(Cause::api_error, error));
+  } catch (const NotDrawn& error) {
+    on_failure(Outcome::failed, {.cause = Cause::not_drawn, .detail = error.what()});
   } catch (const std::bad_alloc&) {
     on_failure(Outcome::failed, out_of_memory(data));
   } catch (const std::exception& error) {
@@ -118,12 +117,20 @@ class Worker {
   [[nodiscard]] const std::vector<record::ClockTrust>& clocks() const { return clocks_; }
 
   // Of a kind with a known clock the supervisor knows the calibration too.
-  void calibrate_for(const std::vector<std::string>& kinds) {
+  // `statistics`: they are read, too.
+  void calibrate_for(const std::vector<std::string>& kinds, bool statistics) {
+    has_statistics_ = statistics;
     for (const std::string& kind : kinds) {
       if (std::ranges::find(clocks_, kind, &record::ClockTrust::work) != clocks_.end()) continue;
       clocks_.push_back(calibrate_clock(*device_, suite_, kind_named(kind)));
-      info_.statistics_calibration.merge(calibrate_statistics(*device_, kind_named(kind)));
+      if (auto fault = clock_fault(clocks_.back())) info_.faults.push_back(std::move(*fault));
+      if (!has_statistics_) continue;
+      const std::size_t known = info_.faults.size();
+      info_.statistics_calibration.merge(
+          calibrate_statistics(*device_, kind_named(kind), &info_.faults));
+      has_statistics_ = info_.faults.size() == known;
     }
+    changed_arithmetic_ = restore_arithmetic();
   }
 
   [[nodiscard]] Answer answer(const Job& job) {
@@ -134,6 +141,9 @@ class Worker {
                [&](record::Outcome outcome, record::Reason reason) {
                  conclude(answer, outcome, std::move(reason));
                });
+    blame_arithmetic([&](record::Reason reason) {
+      conclude(answer, record::Outcome::failed, std::move(reason));
+    });
     answer.record.peak_memory_bytes = peak_memory_bytes();
     answer.worker_ns = whole.ns();
     answer.record.overhead_ns =
@@ -146,6 +156,7 @@ class Worker {
       held_.reset();
       Configuration configuration = hold.configuration;
       held_ = device_->prepare(supported_work(configuration, hold.faults));
+      proof_.emplace(*held_);
     });
   }
 
@@ -153,7 +164,8 @@ class Worker {
     return batch([&](Batch& batch) {
       if (!held_) throw core::InputError("frames are asked for, but no configuration is held");
       for (int i = 0; i < frames.count; ++i) {
-        const Frame frame = held_->frame(Purpose::timing);
+        const Frame frame = proof_->draw(Purpose::timing);
+        proof_->check(fmt::format("frame {} of {}", i + 1, frames.count));
         batch.wall_ns.push_back(frame.wall_ns);
         if (frame.device_ns) batch.device_ns.push_back(*frame.device_ns);
       }
@@ -181,6 +193,18 @@ class Worker {
           }
         });
     return batch;
+  }
+
+  // A driver that changed the arithmetic of this process has failed in the configuration during
+  // which it did: data that are generated later would not be those that were accepted.
+  template <typename OnFailure>
+  void blame_arithmetic(const OnFailure& on_failure) {
+    std::string changed = restore_arithmetic();
+    if (changed.empty()) changed = std::exchange(changed_arithmetic_, {});
+    if (changed.empty()) return;
+    on_failure(
+        record::Reason{.cause = record::Cause::error,
+                       .detail = "the driver changed the arithmetic of the host: " + changed});
   }
 
   // Of a configuration that was not measured nothing may look as if it had been.
@@ -239,9 +263,9 @@ class Worker {
 
     if (job.protocol.has_loop() && !meters_) meters_.emplace();
     const Stopwatch measuring;
-    Measurement measured =
-        measure(*prepared, job.protocol, technique::technique(work.technique).work, clocks_,
-                job.name, meters_ ? &*meters_ : nullptr);
+    Measurement measured = measure(*prepared, protocol_for(job, work, has_statistics_),
+                                   technique::technique(work.technique).work, clocks_, job.name,
+                                   meters_ ? &*meters_ : nullptr);
     measuring_ns_ = measuring.ns();
     answer.record = std::move(measured.record);
     answer.record.memory = device_->memory();
@@ -270,7 +294,8 @@ class Worker {
     record::Counts prepare_cost;
     const Stopwatch measuring;
     const auto prepared = counter_->counting(prepare_cost, [&] { return device_->prepare(work); });
-    Measurement measured = count_instructions(*prepared, job.protocol, *counter_);
+    Measurement measured =
+        count_instructions(*prepared, protocol_for(job, work, has_statistics_), *counter_);
     measuring_ns_ = measuring.ns();
     answer.record = std::move(measured.record);
     if (job.protocol.picture) keep_picture(work, measured.image, answer);
@@ -287,9 +312,12 @@ class Worker {
   std::optional<InstructionCounter> counter_;
   std::optional<EnergyMeters> meters_;  // found where a loop asks for them: they load a library
   std::unique_ptr<Prepared> held_;
+  std::optional<FrameProof> proof_;  // of the one that is held
   Equivalents equivalents_;
-  std::string data_;         // of the configuration that is being worked on
-  double measuring_ns_ = 0;  // of the last job: what measure() accounts for itself
+  bool has_statistics_ = true;      // the driver reports statistics without a fault
+  std::string changed_arithmetic_;  // by the driver while the device was opened and calibrated
+  std::string data_;                // of the configuration that is being worked on
+  double measuring_ns_ = 0;         // of the last job: what measure() accounts for itself
 };
 
 // A worker without a supervisor would hold the device for nobody, even from within a driver's call.
@@ -336,7 +364,7 @@ int serve(const Backend& backend, std::string_view device_id, const FindSuite& f
   suite.tell_of_loading(
       paced([answer_fd](const Loading& loading) { send(answer_fd, to_message(loading)); }));
   Worker worker(backend.open(device_id), suite, start->clocks);
-  worker.calibrate_for(start->kinds);
+  worker.calibrate_for(start->kinds, start->statistics);
   send(answer_fd, to_message(Hello{.device = worker.info(), .clocks = worker.clocks()}));
 
   while (const auto message = receive(request_fd)) {
@@ -348,9 +376,27 @@ int serve(const Backend& backend, std::string_view device_id, const FindSuite& f
 
 }  // namespace
 
+void describe_work(const Work& work, const Device& device, record::Record& record) {
+  if (const auto* volume = std::get_if<VolumeWork>(&work.scene)) {
+    record.data_hash = volume->scene.grid->hash;
+    record.precision["filter_weight_error"] = device.filter_weight_error(
+        {.voxel = volume->scene.grid->format, .sampler = volume->options.sampler});
+  } else if (const auto* particles = std::get_if<ParticleWork>(&work.scene)) {
+    record.data_hash = particles->scene.particles->hash;
+    if (const auto rasterizer = device.rasterizer()) {
+      record.precision["sub_pixel_bits"] = rasterizer->sub_pixel_bits;
+      if (work.technique == "point") {
+        record.precision["point_margin"] = rasterizer->point_margin;
+        record.precision["largest_point"] = rasterizer->largest_point;
+      }
+    }
+  }
+}
+
 int serve_worker(const Backend& backend, std::string_view device_id, const FindSuite& find_suite,
                  int request_fd, int answer_fd) {
   die_with_parent();
+  write_stack_of_crashes();
   keep_to_ourselves(request_fd);
   keep_to_ourselves(answer_fd);
   Refused refused;

@@ -5,6 +5,7 @@
 #include "measure/contract/backend.hpp"
 #include "measure/contract/suite.hpp"
 #include "measure/plan/plan.hpp"
+#include "record/record.hpp"
 
 namespace triptych::measure {
 
@@ -12,5 +13,8 @@ namespace triptych::measure {
 // Returns the process's exit code.
 [[nodiscard]] int serve_worker(const Backend& backend, std::string_view device_id,
                                const FindSuite& find_suite, int request_fd, int answer_fd);
+
+// What is known of the data and of the path it takes, for judging the image.
+void describe_work(const Work& work, const Device& device, record::Record& record);
 
 }  // namespace triptych::measure

@@ -105,12 +105,41 @@ std::variant<Hello, Refused> WorkerLink::greet(const Start& start,
   return *hello;
 }
 
-void WorkerLink::finish() {
+std::optional<record::DeviceFault> WorkerLink::finish() {
   constexpr std::chrono::seconds patience{5};
+  constexpr std::chrono::milliseconds step{20};
+  log_.clear();
   process_.close_requests();
-  if (process_.wait(patience)) return;
-  process_.kill();
-  static_cast<void>(process_.wait(patience));
+  const Deadline deadline = std::chrono::steady_clock::now() + patience;
+  std::optional<Exit> exit;
+  do {
+    exit = process_.wait(step);
+    read_log();  // who waits for room in a full pipe does not end
+  } while (!exit && std::chrono::steady_clock::now() < deadline);
+  if (!exit) {
+    ask_for_stack();
+    process_.kill();
+    static_cast<void>(process_.wait(patience));
+    return record::DeviceFault{
+        .kind = record::DeviceFaultKind::teardown_hang,
+        .detail = fmt::format("it did not end within {} s", patience.count()),
+        .last_words = last_words()};
+  }
+  if (is_ordered(*exit) || (exit->signal == 0 && exit->code == 0)) return std::nullopt;
+  return record::DeviceFault{.kind = record::DeviceFaultKind::teardown_crash,
+                             .detail = describe(*exit),
+                             .last_words = last_words()};
+}
+
+void WorkerLink::ask_for_stack() {
+  constexpr std::chrono::milliseconds patience{300};
+  if (::kill(process_.pid(), SIGUSR2) != 0) return;
+  const Deadline deadline = std::chrono::steady_clock::now() + patience;
+  while (std::chrono::steady_clock::now() < deadline && log_open_) {
+    pollfd event{process_.log_fd(), POLLIN, 0};
+    if (::poll(&event, 1, static_cast<int>(patience.count())) <= 0) return;
+    read_log();
+  }
 }
 
 void WorkerLink::read_answer() {
@@ -178,6 +207,7 @@ WorkerLink::Died WorkerLink::bury() {
 }
 
 record::Reason WorkerLink::bury_for(record::Reason reason) {
+  if (reason.cause == record::Cause::timeout) ask_for_stack();
   process_.kill();
   static_cast<void>(reap());
   reason.last_words = last_words();
@@ -200,7 +230,7 @@ void WorkerLink::await_own_end() {
 }
 
 std::string WorkerLink::last_words() const {
-  constexpr std::size_t lines = 5;
+  constexpr std::size_t lines = 12;  // some of a stack
   return log_.last_lines(lines);
 }
 

@@ -12,6 +12,7 @@
 #include "measure/system/interrupt.hpp"
 #include "measure/system/process.hpp"
 #include "measure/worker/wire.hpp"
+#include "record/record.hpp"
 
 namespace triptych::measure {
 
@@ -55,8 +56,8 @@ class WorkerLink {
                                                    std::chrono::milliseconds limit);
 
   // Lets an idle worker leave by itself, so that drivers can write their caches; kills it when it
-  // does not within a few seconds.
-  void finish();
+  // does not within a few seconds. A driver that crashes or hangs meanwhile is returned as a fault.
+  std::optional<record::DeviceFault> finish();
 
  private:
   using Deadline = std::chrono::steady_clock::time_point;
@@ -73,6 +74,8 @@ class WorkerLink {
   // Waits until it is gone; how it ended.
   [[nodiscard]] std::optional<Exit> reap();
   void await_own_end();
+  // Of a process that hangs: asks it for the stack of its thread, which comes as log.
+  void ask_for_stack();
   [[nodiscard]] std::string last_words() const;
 
   Process process_;

@@ -1,5 +1,7 @@
 #include "measure/worker/worker_slot.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "core/error.hpp"
@@ -7,20 +9,48 @@
 
 namespace triptych::measure {
 
+namespace {
+
+record::DeviceFault statistics_crash(const record::Reason& reason) {
+  const auto signal = reason.number("signal");
+  return {.kind = record::DeviceFaultKind::statistics_crash,
+          .detail = signal ? fmt::format("signal {:.0f}", *signal)
+                           : std::string(record::name_of(reason.cause)),
+          .last_words = reason.last_words};
+}
+
+}  // namespace
+
 bool WorkerSlot::open(const std::function<Start()>& start,
                       const std::function<void(const Hello&)>& greeted) {
   constexpr int most_attempts = 2;
   for (int attempt = 0; !occupied() && !why_closed_.is_one(); ++attempt) {
-    Refused refused = try_to_open(start(), greeted);
+    Start asked = start();
+    asked.statistics = !statistics_fault_;
+    const bool calibrates = !asked.kinds.empty() && asked.statistics;
+    Refused refused = try_to_open(asked, [&](Hello hello) {
+      if (statistics_fault_) hello.device.faults.push_back(*statistics_fault_);
+      greeted(hello);
+    });
+    if (!refused.is_one()) continue;
+    // What a driver is worst at is pipeline statistics: without them it may do all else. Where it
+    // does not, they are not to blame.
     const bool last = refused.unsupported() || attempt + 1 >= most_attempts;
-    if (refused.is_one() && last) why_closed_ = std::move(refused);
+    if (last) {
+      statistics_fault_.reset();
+      why_closed_ = std::move(refused);
+    } else if (calibrates) {
+      statistics_fault_ = statistics_crash(refused.reason);
+    }
   }
   return occupied();
 }
 
-void WorkerSlot::finish() {
-  if (worker_) worker_->finish();
+std::optional<record::DeviceFault> WorkerSlot::finish() {
+  std::optional<record::DeviceFault> fault;
+  if (worker_) fault = worker_->finish();
   worker_.reset();
+  return fault;
 }
 
 Refused WorkerSlot::try_to_open(const Start& start,

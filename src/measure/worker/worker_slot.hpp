@@ -37,7 +37,8 @@ class WorkerSlot {
   [[nodiscard]] WorkerLink& worker() const { return *worker_; }
   [[nodiscard]] bool occupied() const noexcept { return worker_ != nullptr; }
 
-  void finish();                               // lets the worker leave in peace
+  // Lets the worker leave in peace; a driver's fault while it does.
+  std::optional<record::DeviceFault> finish();
   void vacate() noexcept { worker_.reset(); }  // it is gone, or goes now
 
   // Spent on devices' opening, over all workers.
@@ -52,6 +53,7 @@ class WorkerSlot {
   InterruptGuard& interrupts_;
   std::unique_ptr<WorkerLink> worker_;
   Refused why_closed_;
+  std::optional<record::DeviceFault> statistics_fault_;  // the driver crashes when they are read
   double opening_ns_ = 0;
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 // A prepared technique that returns scripted times at once and writes down what it was asked.
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,27 +19,37 @@ class ScriptedPrepared final : public Prepared {
   using Script = std::function<Frame(int n)>;
   explicit ScriptedPrepared(Script script) : script_(std::move(script)) {}
 
+  void poison() override { image_ = filled(std::numeric_limits<float>::quiet_NaN()); }
   Frame frame(Purpose purpose) override {
     calls.emplace_back(purpose == Purpose::timing       ? "timing"
                        : purpose == Purpose::statistics ? "statistics"
                                                         : "counters");
     Frame frame = script_(frames_++);
+    if (draws(frames_)) image_ = filled(picture(frames_));
     if (purpose == Purpose::statistics) frame.counts = {{"compute_invocations", 64}};
     if (purpose == Purpose::counters) frame.counts = {{"samples", 512}, {"rays_hit", 64}};
     return frame;
   }
   core::Image image() override {
     calls.emplace_back("image");
-    core::Image image(2, 1);
-    image.rgba[0] = static_cast<float>(frames_);
-    return image;
+    return image_;
   }
   std::string kernel_hash() const override { return "kernel"; }
 
-  std::vector<std::string> calls;
+  std::vector<std::string> calls;  // but for poison(), of which frame_proof_test.cpp knows
+  // Whether the n-th frame, n from 1, leaves an image, and the value of its pixels.
+  std::function<bool(int n)> draws = [](int) { return true; };
+  std::function<float(int n)> picture = [](int) { return 1.0F; };
 
  private:
+  static core::Image filled(float value) {
+    core::Image image(2, 1);
+    std::ranges::fill(image.rgba, value);
+    return image;
+  }
+
   Script script_;
+  core::Image image_ = filled(0);
   int frames_ = 0;
 };
 

@@ -79,6 +79,7 @@ class CountingPrepared final : public Prepared {
     }
     return frame;
   }
+  void poison() override {}
   core::Image image() override { return {}; }
   std::string kernel_hash() const override { return "kernel"; }
 

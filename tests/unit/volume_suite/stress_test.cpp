@@ -149,6 +149,19 @@ TEST(Stress, FaintSamplesAddUpToTheirClosedForm) {
   EXPECT_NEAR(samples, 3.9 / scene.step_voxels, 0.05 / scene.step_voxels);
 }
 
+// Their bounds alone would let a third of the samples be missing.
+TEST(Stress, ScenesOfManySamplesExpectEverySample) {
+  for (const std::string data : {"stress:faint", "stress:march:1e5", "stress:march:1e6"}) {
+    const StressScene scene = stress_scene(*stress_data(data));
+    ASSERT_EQ(scene.expectations.size(), 1U) << data;
+    const auto& rule = std::get<record::CountAtMost>(scene.expectations.front().rule);
+    EXPECT_EQ(rule.counter, "rays_hit");
+    EXPECT_EQ(rule.of, "samples");
+    const double least = 1 / rule.factor;
+    EXPECT_NEAR(least, 3.875 / scene.step_voxels, 3) << data;
+  }
+}
+
 // A picture of nothing would be right on every device.
 TEST(Stress, EveryCaseShowsSomething) {
   for (const std::string& data : all_data()) {

@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+
+#include "backends/gl/api.hpp"
+#include "measure/contract/backend.hpp"
+
+namespace triptych::gl_backend {
+
+// Where a dump is asked for, writes frame.c into it: a program that draws this frame by a compute
+// shader and prints one of its pixels.
+void dump_standalone(const measure::VolumeWork& work, const std::string& source, GLuint groups_x,
+                     GLuint groups_y);
+
+}  // namespace triptych::gl_backend

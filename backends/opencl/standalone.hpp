@@ -1,0 +1,16 @@
+#pragma once
+#include <span>
+#include <string>
+
+#include "backends/opencl/programs.hpp"
+#include "measure/contract/backend.hpp"
+
+namespace triptych::opencl_backend {
+
+// Where a dump is asked for, writes frame.c into it: a program that draws this frame by technique
+// raycast (or speed_of_light) and prints one of its pixels.
+void dump_standalone(const Session& session, const measure::VolumeWork& work,
+                     const std::string& source, const Constants& constants,
+                     std::span<const std::int32_t> map);
+
+}  // namespace triptych::opencl_backend

@@ -1,0 +1,15 @@
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+#include "backends/vulkan/pipeline.hpp"
+#include "measure/contract/backend.hpp"
+
+namespace triptych::vulkan_backend {
+
+// Where a dump is asked for, writes frame.c into it: a program that draws this frame by technique
+// raycast (or speed_of_light) and prints one of its pixels. `groups`: work groups of the dispatch.
+void dump_standalone(const measure::VolumeWork& work, std::string_view code,
+                     const Constants& constants, std::uint32_t groups_x, std::uint32_t groups_y);
+
+}  // namespace triptych::vulkan_backend

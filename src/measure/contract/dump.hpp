@@ -1,0 +1,25 @@
+#pragma once
+// What drivers are given, as files: `render --dump FOLDER`. Backends call write_dump() where device
+// code is compiled and where buffers are uploaded.
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace triptych::measure {
+
+// Of the environment variable TRIPTYCH_DUMP; nothing where nothing is to be written.
+[[nodiscard]] std::optional<std::filesystem::path> dump_folder();
+
+// Writes a file into the folder and appends `about` as one line to what-was-given.txt in it, which
+// lists everything in the order of the calls. `name` without an extension, to which a content hash
+// is added: equal contents are one file. Does nothing without a folder. Returns the file's name.
+std::string write_dump(std::string_view name, std::string_view extension,
+                       std::span<const std::byte> content, const std::string& about);
+std::string write_dump(std::string_view name, std::string_view extension, std::string_view content,
+                       const std::string& about);
+
+}  // namespace triptych::measure

@@ -1,0 +1,73 @@
+#include "measure/contract/standalone.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+namespace triptych::measure {
+namespace {
+
+// Shader sources are written as few lines of C: a string literal for so many of their characters.
+constexpr std::size_t characters_of_a_line = 4000;
+
+std::string escaped(char c) {
+  switch (c) {
+    case '\n':
+      return "\\n";
+    case '\t':
+      return "\\t";
+    case '"':
+      return "\\\"";
+    case '\\':
+      return "\\\\";
+    case '?':
+      return "\\?";  // no trigraph
+    default:
+      return std::string(1, c);
+  }
+}
+
+}  // namespace
+
+std::string c_words(std::string_view name, std::span<const std::byte> bytes) {
+  const std::size_t count =
+      std::max<std::size_t>(1, (bytes.size() + sizeof(std::uint32_t) - 1) / sizeof(std::uint32_t));
+  const std::size_t words_of_a_line = std::max<std::size_t>(400, (count + 4) / 5);
+  std::string text = fmt::format("static const uint32_t {}[{}] = {{\n", name, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = i * sizeof(std::uint32_t);
+    std::uint32_t word = 0;
+    if (at < bytes.size()) {
+      std::memcpy(&word, bytes.data() + at, std::min(sizeof word, bytes.size() - at));
+    }
+    text += fmt::format("{:#x},", word);
+    if ((i + 1) % words_of_a_line == 0) text += '\n';
+  }
+  return text + "};\n";
+}
+
+std::string c_text(std::string_view name, std::string_view text) {
+  std::string result = fmt::format("static const char {}[] =\n", name);
+  for (std::size_t at = 0; at < text.size(); at += characters_of_a_line) {
+    result += '"';
+    for (const char c : text.substr(at, characters_of_a_line)) result += escaped(c);
+    result += "\"\n";
+  }
+  return result + ";\n";
+}
+
+std::string fill_template(std::string_view text, const std::map<std::string, std::string>& values) {
+  std::string result;
+  for (;;) {
+    const std::size_t begin = text.find('@');
+    const std::size_t end = begin == std::string_view::npos ? begin : text.find('@', begin + 1);
+    if (end == std::string_view::npos) return result.append(text);
+    result.append(text.substr(0, begin));
+    result += values.at(std::string(text.substr(begin + 1, end - begin - 1)));
+    text.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace triptych::measure

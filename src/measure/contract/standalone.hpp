@@ -1,0 +1,23 @@
+#pragma once
+// Parts of the C program that draws one frame and prints one of its pixels: `render --dump`. Each
+// backend has a template for its API.
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace triptych::measure {
+
+// "static const uint32_t NAME[N] = {…};", in few long lines; zeros fill the last word.
+[[nodiscard]] std::string c_words(std::string_view name, std::span<const std::byte> bytes);
+
+// "static const char NAME[] = …;", a text as a string literal per line of it.
+[[nodiscard]] std::string c_text(std::string_view name, std::string_view text);
+
+// The template with each "@NAME@" replaced. Throws std::out_of_range for a name without a value.
+[[nodiscard]] std::string fill_template(std::string_view text,
+                                        const std::map<std::string, std::string>& values);
+
+}  // namespace triptych::measure

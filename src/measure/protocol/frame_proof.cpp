@@ -1,0 +1,108 @@
+#include "measure/protocol/frame_proof.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "measure/contract/not_drawn.hpp"
+
+namespace triptych::measure {
+namespace {
+
+// By bits, so that a NaN equals itself.
+template <class Value>
+std::size_t pixels_that_differ(const std::vector<Value>& one, const std::vector<Value>& other,
+                               std::size_t per_pixel) {
+  if (one.size() != other.size()) return std::max(one.size(), other.size()) / per_pixel;
+  if (std::memcmp(one.data(), other.data(), one.size() * sizeof(Value)) == 0) return 0;
+  std::size_t count = 0;
+  for (std::size_t at = 0; at + per_pixel <= one.size(); at += per_pixel) {
+    count += std::memcmp(&one[at], &other[at], per_pixel * sizeof(Value)) != 0 ? 1 : 0;
+  }
+  return count;
+}
+
+std::size_t pixels_that_differ(const core::Image& one, const core::Image& other) {
+  return std::max({pixels_that_differ(one.rgba, other.rgba, 4),
+                   pixels_that_differ(one.depth, other.depth, 1),
+                   pixels_that_differ(one.ids, other.ids, 1)});
+}
+
+std::size_t pixels_without_value(const core::Image& image) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; at + 4 <= image.rgba.size(); at += 4) {
+    const std::span pixel = std::span(image.rgba).subspan(at, 4);
+    count += std::ranges::all_of(pixel, [](float each) { return std::isnan(each); }) ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+void FrameProof::start() {
+  prepared_.poison();
+  if (started_) return;
+  started_ = true;
+  const core::Image before = prepared_.image();
+  const std::size_t kept = before.pixel_count() - pixels_without_value(before);
+  if (kept > 0) {
+    throw NotDrawn(fmt::format(
+        "the image could not be overwritten before the first frame: {} of {} pixels kept a value "
+        "although the driver reported the commands that fill it as finished",
+        kept, before.pixel_count()));
+  }
+}
+
+void FrameProof::read(std::string_view what) {
+  last_ = prepared_.image();
+  without_value_ = pixels_without_value(last_);
+  const std::size_t pixels = last_.pixel_count();
+  if (!first_) {
+    if (!image_is_judged_ && pixels > 0 && without_value_ == pixels) {
+      throw NotDrawn(fmt::format("{} was not drawn: none of {} pixels got a value", what, pixels));
+    }
+    first_ = last_;
+    first_without_value_ = without_value_;
+    return;
+  }
+  if (without_value_ > first_without_value_) {
+    throw NotDrawn(fmt::format(
+        "{} was not drawn: the driver reported it as finished, but {} of {} pixels still hold what "
+        "they were filled with before it ({} in the first frame)",
+        what, without_value_, pixels, first_without_value_));
+  }
+}
+
+const core::Image& FrameProof::check(std::string_view what) {
+  read(what);
+  const std::size_t differing = pixels_that_differ(*first_, last_);
+  if (differing > 0) {
+    throw NotDrawn(
+        fmt::format("{} differs from the first frame of the same scene in {} of {} pixels", what,
+                    differing, last_.pixel_count()));
+  }
+  return last_;
+}
+
+void FrameProof::check_drawn(std::string_view what) {
+  read(what);
+}
+
+void check_loop(const std::vector<double>& loop_wall_ns,
+                const std::vector<double>& proven_wall_ns) {
+  constexpr double least_judged_ns = 2e6;
+  constexpr double least_share = 0.1;
+  if (proven_wall_ns.empty() || loop_wall_ns.empty()) return;
+  const double proven = std::ranges::min(proven_wall_ns);
+  const double fastest = std::ranges::min(loop_wall_ns);
+  if (proven < least_judged_ns || fastest >= least_share * proven) return;
+  throw NotDrawn(fmt::format(
+      "a frame of the wall-clock loop was not drawn: it took {:.3g} ms, and the fastest "
+      "of {} frames that were checked {:.3g} ms",
+      fastest * 1e-6, proven_wall_ns.size(), proven * 1e-6));
+}
+
+}  // namespace triptych::measure

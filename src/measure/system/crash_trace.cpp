@@ -1,0 +1,69 @@
+#include "measure/system/crash_trace.hpp"
+
+#include <execinfo.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstddef>
+#include <cstring>
+#include <string_view>
+
+namespace triptych::measure {
+namespace {
+
+constexpr std::array error_signals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
+
+// A stack that has overflowed leaves no room for a handler.
+constexpr std::size_t handler_stack_bytes = std::size_t{64} << 10U;
+
+void say(std::string_view text) {
+  // Nobody is left to be told where this fails.
+  static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
+}
+
+// Only functions that a signal handler may call. backtrace() loads a library when it is first
+// called, hence a call before any signal.
+void write_stack() {
+  constexpr int most_frames = 24;
+  constexpr int own_frames = 3;  // this function, the handler and the kernel's trampoline
+  std::array<void*, most_frames> frames{};
+  const int count = ::backtrace(frames.data(), most_frames);
+  if (count <= own_frames) return;
+  say("stack of the thread, innermost frame first:\n");
+  ::backtrace_symbols_fd(frames.data() + own_frames, count - own_frames, STDERR_FILENO);
+}
+
+void on_error(int signal) {
+  write_stack();
+  // The default action was restored before the handler ran: this ends the process by the signal.
+  std::raise(signal);
+}
+
+void on_question(int /*signal*/) {
+  write_stack();
+}
+
+void set_handler(int signal, void (*handler)(int), int flags) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = flags;
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+void write_stack_of_crashes() {
+  static std::array<std::byte, handler_stack_bytes> stack;
+  const stack_t alternate{.ss_sp = stack.data(), .ss_flags = 0, .ss_size = stack.size()};
+  ::sigaltstack(&alternate, nullptr);
+  std::array<void*, 1> frame{};
+  ::backtrace(frame.data(), 1);
+  for (const int signal : error_signals) {
+    set_handler(signal, &on_error, static_cast<int>(SA_RESETHAND | SA_ONSTACK | SA_NODEFER));
+  }
+  set_handler(SIGUSR2, &on_question, SA_ONSTACK | SA_RESTART);
+}
+
+}  // namespace triptych::measure

@@ -1,0 +1,81 @@
+// What calibrating and closing a device shows is a finding of that device, and the rest goes on.
+#include <gmock/gmock.h>
+
+#include <regex>
+#include <vector>
+
+#include "tests/layer/layered.hpp"
+
+namespace triptych::layer {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// One configuration by each kind of work.
+constexpr const char* few = "--set data=generate:mandelbulb:32";
+
+struct Fault {
+  const char* change;
+  const char* told;
+};
+
+const std::vector<Fault>& faults() {
+  static const std::vector<Fault> all{
+      {"zero_clock", "the device's clock reads 0"},
+      {"untouched_clock", "never writes the time stamps"},
+      {"zero_statistics", "all pipeline statistics are 0"},
+      {"crashing_statistics", "the driver crashes when pipeline statistics are read"},
+      {"unready_statistics", "pipeline statistics do not become available"},
+      {"crash_with_device", "the driver crashes while the device is closed"},
+      {"hang_with_device", "the driver hangs while the device is closed"},
+      {"crash_at_exit", "the driver crashes while the device is closed"},
+  };
+  return all;
+}
+
+class DeviceFaults : public LayerTest {
+ protected:
+  [[nodiscard]] test::Result judged() const {
+    return layered.run("", fmt::format("gate '{}/volume.yaml' --store timed.sqlite --baselines "
+                                       "none --check image",
+                                       TRIPTYCH_LAYER_PLANS));
+  }
+  static std::string unwrapped(const std::string& screen) {
+    return std::regex_replace(screen, std::regex("\\s+"), " ");
+  }
+};
+
+TEST_F(DeviceFaults, AreFindingsByNameAndTheRestIsMeasured) {
+  for (const Fault& each : faults()) {
+    SCOPED_TRACE(each.change);
+    EXPECT_THAT(layered.time(each.change, "volume", few).output, HasSubstr(" 0 failed"));
+    const test::Result result = judged();
+    EXPECT_EQ(result.code, 1) << result.output;
+    EXPECT_THAT(unwrapped(result.output), HasSubstr(each.told));
+  }
+}
+
+TEST_F(DeviceFaults, NoneIsFoundWithoutAFault) {
+  EXPECT_EQ(layered.time("", "volume", few).code, 0);
+  EXPECT_THAT(unwrapped(judged().output), Not(HasSubstr("the device's clock")));
+}
+
+TEST_F(DeviceFaults, ADeviceThatIsLostSaysAfterHowManySubmissions) {
+  const test::Result drawn = layered.draw("lost_after=40", "volume");
+  EXPECT_THAT(unwrapped(drawn.output), HasSubstr("submission 41 of this process"));
+}
+
+TEST_F(DeviceFaults, AChangedRoundingModeIsTheDriversFault) {
+  const test::Result drawn = layered.draw("rounding", "volume");
+  EXPECT_THAT(unwrapped(drawn.output), HasSubstr("changed the arithmetic of the host"));
+  EXPECT_THAT(unwrapped(drawn.output), HasSubstr("rounds upward"));
+}
+
+TEST_F(DeviceFaults, ACrashLeavesItsStack) {
+  static_cast<void>(layered.time("crashing_statistics", "volume", few));
+  EXPECT_THAT(unwrapped(judged().output), HasSubstr("stack of the thread"));
+}
+
+}  // namespace
+}  // namespace triptych::layer

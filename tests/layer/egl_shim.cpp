@@ -1,0 +1,131 @@
+// Faults of an OpenGL driver, as TRIPTYCH_SHIM says: an EGL library in front of the system's, found
+// by LD_LIBRARY_PATH, that hands out functions of its own.
+#include <EGL/egl.h>
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <map>
+#include <string_view>
+
+// Parts of the GL headers, which would declare more than this library is about.
+using GLenum = unsigned int;
+using GLuint = unsigned int;
+using GLint = int;
+using GLsizei = int;
+constexpr GLenum gl_current_program = 0x8B8D;
+constexpr GLenum gl_compile_status = 0x8B81;
+
+namespace {
+
+bool asked(std::string_view fault) {
+  const char* set = std::getenv("TRIPTYCH_SHIM");
+  return set != nullptr && fault == set;
+}
+
+void* system_library() {
+  static void* const library = dlopen(TRIPTYCH_SYSTEM_EGL, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  if (library == nullptr) std::abort();
+  return library;
+}
+
+template <class Function>
+Function* system_function(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(system_library(), name));
+}
+
+template <class Function>
+Function* gl_function(const char* name) {
+  return reinterpret_cast<Function*>(
+      system_function<decltype(eglGetProcAddress)>("eglGetProcAddress")(name));
+}
+
+// Every program works the first time that it is used.
+bool repeated() {
+  static std::map<GLint, int> uses;
+  GLint program = 0;
+  gl_function<void(GLenum, GLint*)>("glGetIntegerv")(gl_current_program, &program);
+  return ++uses[program] > 1;
+}
+
+void dispatch_once(GLuint x, GLuint y, GLuint z) {
+  if (!repeated()) gl_function<void(GLuint, GLuint, GLuint)>("glDispatchCompute")(x, y, z);
+}
+
+void draw_once(GLenum mode, GLint first, GLsizei count) {
+  if (!repeated()) gl_function<void(GLenum, GLint, GLsizei)>("glDrawArrays")(mode, first, count);
+}
+
+void draw_indirect_once(GLenum mode, const void* indirect, GLsizei count, GLsizei stride) {
+  if (repeated()) return;
+  gl_function<void(GLenum, const void*, GLsizei, GLsizei)>("glMultiDrawArraysIndirect")(
+      mode, indirect, count, stride);
+}
+
+void draw_instanced_once(GLenum mode, GLint first, GLsizei count, GLsizei instances) {
+  if (repeated()) return;
+  gl_function<void(GLenum, GLint, GLsizei, GLsizei)>("glDrawArraysInstanced")(mode, first, count,
+                                                                              instances);
+}
+
+void no_shader(GLuint shader, GLenum name, GLint* value) {
+  gl_function<void(GLuint, GLenum, GLint*)>("glGetShaderiv")(shader, name, value);
+  constexpr GLenum gl_info_log_length = 0x8B84;
+  if (name == gl_compile_status) *value = 0;
+  if (name == gl_info_log_length) *value = 8;
+}
+
+void log_of_no_length(GLuint, GLsizei, GLsizei* length, char* log) {
+  constexpr std::string_view said = "no luck";
+  log[said.copy(log, said.size())] = '\0';
+  *length = -1;
+}
+
+using Any = void (*)();
+
+Any fault_for(std::string_view name) {
+  if (asked("once_only")) {
+    if (name == "glDispatchCompute") return reinterpret_cast<Any>(&dispatch_once);
+    if (name == "glDrawArrays") return reinterpret_cast<Any>(&draw_once);
+    if (name == "glMultiDrawArraysIndirect") return reinterpret_cast<Any>(&draw_indirect_once);
+    if (name == "glDrawArraysInstanced") return reinterpret_cast<Any>(&draw_instanced_once);
+  }
+  if (asked("negative_log")) {
+    if (name == "glGetShaderiv") return reinterpret_cast<Any>(&no_shader);
+    if (name == "glGetShaderInfoLog") return reinterpret_cast<Any>(&log_of_no_length);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+extern "C" {
+
+EGLAPI __eglMustCastToProperFunctionPointerType EGLAPIENTRY eglGetProcAddress(const char* name) {
+  if (const Any fault = fault_for(name)) return fault;
+  return system_function<decltype(eglGetProcAddress)>("eglGetProcAddress")(name);
+}
+EGLAPI EGLint EGLAPIENTRY eglGetError() {
+  return system_function<decltype(eglGetError)>("eglGetError")();
+}
+EGLAPI const char* EGLAPIENTRY eglQueryString(EGLDisplay display, EGLint name) {
+  return system_function<decltype(eglQueryString)>("eglQueryString")(display, name);
+}
+EGLAPI EGLBoolean EGLAPIENTRY eglInitialize(EGLDisplay display, EGLint* major, EGLint* minor) {
+  return system_function<decltype(eglInitialize)>("eglInitialize")(display, major, minor);
+}
+EGLAPI EGLBoolean EGLAPIENTRY eglBindAPI(EGLenum api) {
+  return system_function<decltype(eglBindAPI)>("eglBindAPI")(api);
+}
+EGLAPI EGLContext EGLAPIENTRY eglCreateContext(EGLDisplay display, EGLConfig config,
+                                               EGLContext shared, const EGLint* attributes) {
+  return system_function<decltype(eglCreateContext)>("eglCreateContext")(display, config, shared,
+                                                                         attributes);
+}
+EGLAPI EGLBoolean EGLAPIENTRY eglDestroyContext(EGLDisplay display, EGLContext context) {
+  return system_function<decltype(eglDestroyContext)>("eglDestroyContext")(display, context);
+}
+EGLAPI EGLBoolean EGLAPIENTRY eglMakeCurrent(EGLDisplay display, EGLSurface draw, EGLSurface read,
+                                             EGLContext context) {
+  return system_function<decltype(eglMakeCurrent)>("eglMakeCurrent")(display, draw, read, context);
+}
+}

@@ -1,0 +1,70 @@
+// Faults of an OpenCL driver, as TRIPTYCH_SHIM says; preloaded (LD_PRELOAD), so that the program
+// calls these functions instead of the loader's.
+#ifndef CL_TARGET_OPENCL_VERSION
+#define CL_TARGET_OPENCL_VERSION 120
+#endif
+#include <CL/cl.h>
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string_view>
+
+namespace {
+
+bool asked(std::string_view fault) {
+  const char* set = std::getenv("TRIPTYCH_SHIM");
+  return set != nullptr && fault == set;
+}
+
+template <class Function>
+Function* real(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+std::mutex mutex;
+std::map<cl_kernel, int> launches;
+std::set<cl_event> abnormal;  // never taken out: a handle that is reused is of a launch, too
+
+// Whether this launch of a kernel is one that the fault is about: all but the kernel's first.
+bool repeated(cl_kernel kernel) {
+  const std::lock_guard lock(mutex);
+  return ++launches[kernel] > 1;
+}
+
+}  // namespace
+
+extern "C" CL_API_ENTRY cl_int CL_API_CALL
+clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
+                       const size_t* offset, const size_t* global, const size_t* local,
+                       cl_uint waits, const cl_event* wait_list, cl_event* event) {
+  const bool faulty = asked("once_only") || asked("abnormal_end") || asked("refused_launch");
+  if (faulty && repeated(kernel)) {
+    if (asked("refused_launch")) return CL_OUT_OF_RESOURCES;
+    const cl_int code = real<decltype(clEnqueueMarkerWithWaitList)>("clEnqueueMarkerWithWaitList")(
+        queue, waits, wait_list, event);
+    if (asked("abnormal_end") && event != nullptr) {
+      const std::lock_guard lock(mutex);
+      abnormal.insert(*event);
+    }
+    return code;
+  }
+  return real<decltype(clEnqueueNDRangeKernel)>("clEnqueueNDRangeKernel")(
+      queue, kernel, dimensions, offset, global, local, waits, wait_list, event);
+}
+
+extern "C" CL_API_ENTRY cl_int CL_API_CALL clGetEventInfo(cl_event event, cl_event_info name,
+                                                          size_t size, void* value,
+                                                          size_t* size_out) {
+  if (name == CL_EVENT_COMMAND_EXECUTION_STATUS && value != nullptr && asked("abnormal_end")) {
+    const std::lock_guard lock(mutex);
+    if (abnormal.contains(event)) {
+      *static_cast<cl_int*>(value) = CL_INVALID_MEM_OBJECT;
+      if (size_out != nullptr) *size_out = sizeof(cl_int);
+      return CL_SUCCESS;
+    }
+  }
+  return real<decltype(clGetEventInfo)>("clGetEventInfo")(event, name, size, value, size_out);
+}

@@ -1,0 +1,102 @@
+// Drivers of OpenCL and OpenGL that are wrong.
+#include <gmock/gmock.h>
+
+#include "support/command.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace triptych::layer {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class Shims : public testing::Test {
+ protected:
+  [[nodiscard]] test::Result draw(const std::string& environment, std::string_view device,
+                                  std::string_view plan, const std::string& more = {}) const {
+    return test::run_command(fmt::format(
+        "cd '{}' && rm -f shim.sqlite && TRIPTYCH_DATA= {} '{}' run '{}/{}.yaml' --device {} "
+        "--untimed --store shim.sqlite {}",
+        folder_.path().string(), environment, TRIPTYCH_PROGRAM, TRIPTYCH_LAYER_PLANS, plan, device,
+        more));
+  }
+  [[nodiscard]] test::Result opencl(std::string_view fault, std::string_view plan) const {
+    return draw(fmt::format("LD_PRELOAD='{}' TRIPTYCH_SHIM={}", TRIPTYCH_OPENCL_SHIM, fault),
+                "opencl:pocl", plan);
+  }
+  static bool lacks_device(const test::Result& result) {
+    return result.output.find("no device matches") != std::string::npos;
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Shims, OpenclWithoutAFaultIsMeasured) {
+  const test::Result drawn = opencl("none", "volume");
+  if (lacks_device(drawn)) GTEST_SKIP() << "needs PoCL";
+  EXPECT_THAT(drawn.output, HasSubstr(" 0 failed"));
+}
+
+TEST_F(Shims, OpenclKernelsThatRunOnlyOnceAreFound) {
+  for (const char* plan : {"volume", "particles"}) {
+    const test::Result drawn = opencl("once_only", plan);
+    if (lacks_device(drawn)) GTEST_SKIP() << "needs PoCL";
+    EXPECT_THAT(drawn.output, HasSubstr(" 0 measured"));
+  }
+}
+
+TEST_F(Shims, OpenclKernelsThatEndAbnormallyAreNamed) {
+  for (const char* plan : {"volume", "particles"}) {
+    const test::Result drawn = opencl("abnormal_end", plan);
+    if (lacks_device(drawn)) GTEST_SKIP() << "needs PoCL";
+    EXPECT_THAT(drawn.output, HasSubstr(" 0 measured"));
+    EXPECT_THAT(drawn.output, HasSubstr("clEnqueueNDRangeKernel returned CL_INVALID_MEM_OBJECT"));
+    EXPECT_THAT(drawn.output, HasSubstr("ended abnormally"));
+    EXPECT_THAT(drawn.output, Not(HasSubstr("backend.cpp")));
+  }
+}
+
+TEST_F(Shims, OpenclLaunchesThatAreRefusedNameTheKernelAndThePlace) {
+  const test::Result drawn = opencl("refused_launch", "volume");
+  if (lacks_device(drawn)) GTEST_SKIP() << "needs PoCL";
+  EXPECT_THAT(drawn.output, HasSubstr("clEnqueueNDRangeKernel returned CL_OUT_OF_RESOURCES"));
+  EXPECT_THAT(drawn.output, HasSubstr("kernel raycast"));
+  EXPECT_THAT(drawn.output, HasSubstr("volume_frames.cpp"));
+}
+
+#ifdef TRIPTYCH_EGL_SHIM_FOLDER
+class GlShims : public Shims {
+ protected:
+  [[nodiscard]] test::Result gl(std::string_view fault, std::string_view plan) const {
+    return draw(
+        fmt::format("LD_LIBRARY_PATH='{}' TRIPTYCH_SHIM={}", TRIPTYCH_EGL_SHIM_FOLDER, fault),
+        "gl:llvmpipe-egl", plan);
+  }
+};
+
+TEST_F(GlShims, WithoutAFaultAllIsMeasured) {
+  const test::Result drawn = gl("none", "volume");
+  if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
+  EXPECT_THAT(drawn.output, HasSubstr(" 0 failed"));
+}
+
+TEST_F(GlShims, CommandsThatAreExecutedOnlyOnceAreFound) {
+  for (const char* plan : {"volume", "particles"}) {
+    const test::Result drawn = gl("once_only", plan);
+    if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
+    EXPECT_THAT(drawn.output, HasSubstr(" 0 measured")) << plan;
+  }
+}
+
+TEST_F(GlShims, AnInfoLogOfANegativeLengthIsRead) {
+  const test::Result drawn = gl("negative_log", "volume");
+  if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
+  EXPECT_THAT(drawn.output, HasSubstr("glCompileShader returned GL_FALSE"));
+  EXPECT_THAT(drawn.output, HasSubstr("no luck"));
+  EXPECT_THAT(drawn.output, Not(HasSubstr("basic_string")));
+}
+#endif
+
+}  // namespace
+}  // namespace triptych::layer

@@ -1,0 +1,128 @@
+// Faults of a driver that loses submissions, ends badly or changes its process.
+#include <array>
+#include <atomic>
+#include <cfenv>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "tests/layer/chain.hpp"
+#include "tests/layer/change.hpp"
+
+namespace triptych::layer {
+namespace {
+
+std::mutex mutex;
+std::set<VkCommandBuffer> executed;  // since they were recorded
+std::atomic<int> submissions = 0;
+
+VKAPI_ATTR VkResult VKAPI_CALL begin_commands(VkCommandBuffer commands,
+                                              const VkCommandBufferBeginInfo* info) {
+  {
+    const std::lock_guard lock(mutex);
+    executed.erase(commands);
+  }
+  return next<PFN_vkBeginCommandBuffer>(commands, "vkBeginCommandBuffer")(commands, info);
+}
+
+// `once_only`: recorded commands are executed the first time they are submitted. `lost_frames=n`:
+// every n-th submission is left out.
+bool is_left_out(VkCommandBuffer commands, int number) {
+  if (asked("once_only")) {
+    const std::lock_guard lock(mutex);
+    return !executed.insert(commands).second;
+  }
+  return asked("lost_frames") && number % static_cast<int>(asked_number()) == 0;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count,
+                                      const VkSubmitInfo* submits, VkFence fence) {
+  const int number = ++submissions;
+  if (asked("lost_after") && number > static_cast<int>(asked_number())) {
+    return VK_ERROR_DEVICE_LOST;
+  }
+  std::vector<VkSubmitInfo> changed(submits, submits + count);
+  for (VkSubmitInfo& each : changed) {
+    if (each.commandBufferCount == 1 && is_left_out(each.pCommandBuffers[0], number)) {
+      each.commandBufferCount = 0;
+    }
+  }
+  return next<PFN_vkQueueSubmit>(queue, "vkQueueSubmit")(queue, count, changed.data(), fence);
+}
+
+[[noreturn]] void crash() {
+  std::fprintf(stderr, "layer: crashing as TRIPTYCH_LAYER=%s says\n", change().name.c_str());
+  std::signal(SIGSEGV, SIG_DFL);
+  std::raise(SIGSEGV);
+  std::abort();
+}
+
+[[noreturn]] void hang() {
+  std::fprintf(stderr, "layer: hanging as TRIPTYCH_LAYER=%s says\n", change().name.c_str());
+  for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+VKAPI_ATTR void VKAPI_CALL destroy_pipeline(VkDevice, VkPipeline, const VkAllocationCallbacks*) {
+  crash();
+}
+
+// At the end of the process, when the library is unloaded.
+struct AtExit {
+  ~AtExit() {
+    if (asked("crash_at_exit") && submissions > 0) crash();
+  }
+};
+const AtExit at_exit;
+
+// Memory of the host that is never freed, for every pipeline.
+void leak() {
+  constexpr std::size_t bytes = std::size_t{24} << 20U;
+  void* lost = std::malloc(bytes);
+  if (lost != nullptr) std::memset(lost, 1, bytes);
+}
+
+template <auto Spoil>
+VKAPI_ATTR VkResult VKAPI_CALL compute_pipelines(VkDevice device, VkPipelineCache cache,
+                                                 std::uint32_t count,
+                                                 const VkComputePipelineCreateInfo* infos,
+                                                 const VkAllocationCallbacks* allocator,
+                                                 VkPipeline* pipelines) {
+  Spoil();
+  return next<PFN_vkCreateComputePipelines>(device, "vkCreateComputePipelines")(
+      device, cache, count, infos, allocator, pipelines);
+}
+
+void round_upward() {
+  std::fesetround(FE_UPWARD);
+}
+
+constexpr const char* submits = "vkQueueSubmit";
+
+}  // namespace
+
+void end_device() {
+  if (asked("crash_with_device")) crash();
+  if (asked("hang_with_device")) hang();
+}
+
+std::span<const Hook> submission_hooks() {
+  static const std::array hooks{
+      hook("once_only", submits, &submit),
+      hook("once_only", "vkBeginCommandBuffer", &begin_commands),
+      hook("lost_frames", submits, &submit),
+      hook("lost_after", submits, &submit),
+      hook("crash_at_exit", submits, &submit),
+      hook("crash_with_pipeline", "vkDestroyPipeline", &destroy_pipeline),
+      hook("crash_with_device", submits, &submit),
+      hook("hang_with_device", submits, &submit),
+      hook("leak", "vkCreateComputePipelines", &compute_pipelines<&leak>),
+      hook("rounding", "vkCreateComputePipelines", &compute_pipelines<&round_upward>)};
+  return hooks;
+}
+
+}  // namespace triptych::layer

@@ -1,0 +1,108 @@
+// Drivers that report frames as finished that they did not draw.
+#include "measure/protocol/frame_proof.hpp"
+
+#include <gmock/gmock.h>
+
+#include "measure/contract/not_drawn.hpp"
+#include "measure/protocol/clock.hpp"
+#include "measure/protocol/protocol.hpp"
+#include "tests/unit/measure_run/scripted_prepared.hpp"
+
+namespace triptych::measure {
+namespace {
+
+constexpr double ms = 1e6;
+constexpr int warm_up = 4;
+constexpr int timed = 8;
+
+void measure_all(Prepared& prepared, const Protocol& protocol = {}) {
+  static_cast<void>(measure(prepared, protocol, technique::Work::compute, {}, "test"));
+}
+
+TEST(FrameProof, AcceptsFramesThatRepeat) {
+  ScriptedPrepared prepared = steady(50 * ms);
+  EXPECT_NO_THROW(measure_all(prepared));
+  EXPECT_NO_THROW(measure_all(prepared, {.timed = false}));
+}
+
+TEST(FrameProof, FindsCommandsThatAreExecutedOnlyOnce) {
+  for (const Protocol& protocol : {Protocol{}, Protocol{.timed = false}}) {
+    ScriptedPrepared prepared = steady(50 * ms);
+    prepared.draws = [](int n) { return n == 1; };
+    EXPECT_THROW(measure_all(prepared, protocol), NotDrawn) << protocol.timed;
+  }
+}
+
+TEST(FrameProof, FindsEachTimedFrameThatIsNotDrawn) {
+  for (int missing = 2; missing <= timed; ++missing) {
+    ScriptedPrepared prepared = steady(50 * ms);
+    prepared.draws = [=](int n) { return n != warm_up + missing; };
+    EXPECT_THROW(measure_all(prepared), NotDrawn) << missing;
+  }
+}
+
+TEST(FrameProof, FindsFramesOfStatisticsCountersAndTheLoopThatAreNotDrawn) {
+  for (int after = 1; after <= 3; ++after) {
+    ScriptedPrepared prepared = steady(50 * ms);
+    prepared.draws = [=](int n) { return n < warm_up + timed + after; };
+    EXPECT_THROW(measure_all(prepared), NotDrawn) << after;
+  }
+}
+
+TEST(FrameProof, FindsAFrameThatDrawsSomethingElse) {
+  ScriptedPrepared prepared = steady(50 * ms);
+  prepared.picture = [](int n) { return n == warm_up + timed ? 0.5F : 1.0F; };
+  EXPECT_THROW(measure_all(prepared), NotDrawn);
+}
+
+TEST(FrameProof, FindsALoopOfFramesThatTookNoTime) {
+  ScriptedPrepared prepared(
+      [](int n) { return frame_of(n == warm_up + timed + 3 ? 0.02 * ms : 6 * ms); });
+  EXPECT_THROW(measure_all(prepared), NotDrawn);
+  EXPECT_NO_THROW(check_loop({0.9 * ms}, {6 * ms}));
+  EXPECT_NO_THROW(check_loop({0.02 * ms}, {1.9 * ms}));
+}
+
+TEST(FrameProof, LetsFramesAfterAJumpDifferButNotBeMissing) {
+  const Protocol jumping{.timed = false, .camera_jumps = true};
+  ScriptedPrepared differing = steady(50 * ms);
+  differing.picture = [](int n) { return static_cast<float>(n); };
+  EXPECT_NO_THROW(measure_all(differing, jumping));
+  ScriptedPrepared missing = steady(50 * ms);
+  missing.draws = [](int n) { return n == 1; };
+  EXPECT_THROW(measure_all(missing, jumping), NotDrawn);
+}
+
+TEST(FrameProof, LeavesAnImageThatIsNeverDrawnToTheCheckOfImages) {
+  ScriptedPrepared prepared = steady(50 * ms);
+  prepared.draws = [](int) { return false; };
+  EXPECT_NO_THROW(measure_all(prepared));
+  EXPECT_THROW(measure_all(prepared, {.image_is_judged = false}), NotDrawn);
+}
+
+TEST(FrameProof, FindsAnImageThatCannotBeOverwritten) {
+  class Kept final : public Prepared {
+   public:
+    void poison() override {}
+    Frame frame(Purpose) override { return frame_of(50 * ms); }
+    core::Image image() override { return core::Image(2, 1); }
+    std::string kernel_hash() const override { return "kernel"; }
+  };
+  Kept prepared;
+  EXPECT_THROW(measure_all(prepared), NotDrawn);
+}
+
+TEST(FrameProof, TrustsNoClockByFramesThatAreNotDrawn) {
+  ScriptedPrepared prepared = steady(50 * ms, 49 * ms);
+  prepared.draws = [](int n) { return n < 3; };
+  EXPECT_THROW(static_cast<void>(calibrate(prepared, technique::Work::compute)), NotDrawn);
+}
+
+TEST(FrameProof, CountersThatNothingWroteAreNotCounts) {
+  EXPECT_THROW(check_counted(std::vector<std::uint32_t>(3, poison_word)), NotDrawn);
+  EXPECT_NO_THROW(check_counted(std::vector<std::uint32_t>{poison_word, 0}));
+  EXPECT_NO_THROW(check_counted({}));
+}
+
+}  // namespace
+}  // namespace triptych::measure
